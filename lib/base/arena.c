@@ -1,0 +1,167 @@
+// arena.c: see arena.h.
+#include "base/arena.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#if defined(__SANITIZE_ADDRESS__)
+#define ARENA_ASAN 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ARENA_ASAN 1
+#endif
+#endif
+#ifdef ARENA_ASAN
+#include <sanitizer/asan_interface.h>
+#define POISON(address, size) ASAN_POISON_MEMORY_REGION(address, size)
+#define UNPOISON(address, size) ASAN_UNPOISON_MEMORY_REGION(address, size)
+#else
+#define POISON(address, size) ((void)(address), (void)(size))
+#define UNPOISON(address, size) ((void)(address), (void)(size))
+#endif
+
+// The stress build starts from blocks that hold next to nothing, so that every path crosses a block boundary.
+#ifdef PETRI_STRESS
+enum { FIRST_BLOCK = 64, LARGEST_BLOCK = 1024 };
+#else
+enum { FIRST_BLOCK = 16 << 10, LARGEST_BLOCK = 4 << 20 };
+#endif
+enum { ALIGNMENT = 16 };
+
+struct ArenaBlock {
+    ArenaBlock *next;
+    size_t capacity;
+    size_t fill;
+    size_t padding; // keeps `bytes` aligned to 16
+    unsigned char bytes[];
+};
+
+_Static_assert(offsetof(ArenaBlock, bytes) % ALIGNMENT == 0, "block payload must be aligned");
+
+void arena_init(Arena *arena, const char *name, size_t budget) {
+    *arena = (Arena){.budget = budget, .name = name};
+}
+
+void arena_free(Arena *arena) {
+    for (ArenaBlock *block = arena->first, *next; block; block = next) {
+        next = block->next;
+        UNPOISON(block->bytes, block->capacity);
+        free(block);
+    }
+    arena->first = arena->current = NULL;
+    arena->used = 0;
+}
+
+static void block_truncate(ArenaBlock *block, size_t fill) {
+#ifndef NDEBUG
+    if (block->fill > fill)
+        memset(block->bytes + fill, 0xdb, block->fill - fill);
+#endif
+    POISON(block->bytes + fill, block->capacity - fill);
+    block->fill = fill;
+}
+
+void arena_rewind(Arena *arena, ArenaMark mark) {
+    ArenaBlock *block = mark.block ? mark.block->next : arena->first;
+    ArenaBlock *end = arena->current ? arena->current->next : NULL; // later blocks are empty already
+    for (; block != end && arena->current != mark.block; block = block->next)
+        block_truncate(block, 0);
+    if (mark.block)
+        block_truncate(mark.block, mark.fill);
+    arena->current = mark.block ? mark.block : arena->first;
+    arena->used = mark.used;
+}
+
+void arena_reset(Arena *arena) {
+    arena_rewind(arena, (ArenaMark){0});
+}
+
+ArenaMark arena_mark(const Arena *arena) {
+    return (ArenaMark){arena->current, arena->current ? arena->current->fill : 0, arena->used};
+}
+
+_Noreturn void arena_exhausted(Arena *arena) {
+    if (arena->escape)
+        longjmp(*arena->escape, 1);
+    fprintf(stderr, "petri: out of memory (%s)\n", arena->name);
+    abort();
+}
+
+// Makes `current` a block with room for `size` bytes: the next kept one that is large enough, or a new one after it.
+static void arena_next_block(Arena *arena, size_t size) {
+    ArenaBlock *last = arena->current;
+    for (ArenaBlock *block = last ? last->next : arena->first; block; block = block->next) {
+        last = block;
+        if (block->capacity - block->fill >= size) {
+            arena->current = block;
+            return;
+        }
+    }
+    size_t capacity = last ? last->capacity * 2 : FIRST_BLOCK;
+    if (capacity > LARGEST_BLOCK)
+        capacity = LARGEST_BLOCK;
+    if (capacity < size)
+        capacity = size;
+    ArenaBlock *block = malloc(sizeof(ArenaBlock) + capacity);
+    if (!block)
+        arena_exhausted(arena);
+    *block = (ArenaBlock){.capacity = capacity};
+    POISON(block->bytes, capacity);
+    if (last)
+        last->next = block;
+    else
+        arena->first = block;
+    arena->current = block;
+}
+
+void *arena_alloc(Arena *arena, size_t size) {
+    if (size > arena->budget || arena->used > arena->budget - size)
+        arena_exhausted(arena);
+    size_t rounded = (size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    ArenaBlock *block = arena->current;
+    if (!block || block->capacity - block->fill < rounded) {
+        arena_next_block(arena, rounded);
+        block = arena->current;
+    }
+    void *bytes = block->bytes + block->fill;
+    UNPOISON(bytes, size);
+    block->fill += rounded;
+    arena->used += rounded;
+    if (arena->used > arena->high_water)
+        arena->high_water = arena->used;
+    return bytes;
+}
+
+void *arena_alloc_array(Arena *arena, size_t count, size_t size) {
+    if (size && count > SIZE_MAX / size)
+        arena_exhausted(arena);
+    return arena_alloc(arena, count * size);
+}
+
+void *arena_copy(Arena *arena, const void *bytes, size_t size) {
+    void *copy = arena_alloc(arena, size);
+    if (size)
+        memcpy(copy, bytes, size);
+    return copy;
+}
+
+void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) {
+    size_t old_rounded = (old_size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    size_t new_rounded = (new_size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    ArenaBlock *block = arena->current;
+    if (block && old_rounded <= block->fill && (unsigned char *)bytes == block->bytes + block->fill - old_rounded &&
+        block->capacity - block->fill >= new_rounded - old_rounded && new_size <= arena->budget &&
+        arena->used <= arena->budget - (new_rounded - old_rounded)) {
+        UNPOISON(bytes, new_size);
+        block->fill += new_rounded - old_rounded;
+        arena->used += new_rounded - old_rounded;
+        if (arena->used > arena->high_water)
+            arena->high_water = arena->used;
+        return bytes;
+    }
+    void *larger = arena_alloc(arena, new_size);
+    if (old_size)
+        memcpy(larger, bytes, old_size);
+    return larger;
+}

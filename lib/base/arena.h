@@ -1,0 +1,60 @@
+// arena.h: bump allocation with one lifetime.
+//
+// A frame, a program and a session are regions: what they allocate is dropped as a whole. Nobody frees a single
+// value. An allocation never returns NULL: when the budget or the machine's memory is used up, control leaves through
+// the arena's escape (a jump to the frame or load boundary), where the host turns it into one diagnostic. An arena
+// without an escape aborts, so every arena that a script can fill has one while the script runs.
+#ifndef PETRI_BASE_ARENA_H
+#define PETRI_BASE_ARENA_H
+
+#include <setjmp.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct ArenaBlock ArenaBlock;
+
+typedef struct Arena {
+    ArenaBlock *first;   // chain of blocks, oldest first; kept over a reset
+    ArenaBlock *current; // the block that is being filled
+    size_t used;         // bytes handed out since the last reset, block remainders included
+    size_t high_water;   // most that `used` has ever been
+    size_t budget;       // bytes allowed between two resets
+    jmp_buf *escape;     // where to go when memory is used up, or NULL to abort
+    const char *name;    // for messages
+} Arena;
+
+typedef struct ArenaMark {
+    ArenaBlock *block;
+    size_t fill;
+    size_t used;
+} ArenaMark;
+
+// Prepares an empty arena that may hand out `budget` bytes between resets. `name` must outlive it.
+void arena_init(Arena *arena, const char *name, size_t budget);
+
+// Returns all blocks to the system.
+void arena_free(Arena *arena);
+
+// Drops everything allocated since the last reset but keeps the blocks. Debug and sanitizer builds poison the bytes.
+void arena_reset(Arena *arena);
+
+// `size` bytes, aligned to 16, not cleared. Size 0 gives a valid pointer that must not be read.
+void *arena_alloc(Arena *arena, size_t size);
+
+// The same for `count` elements of `size` bytes each; an overflowing product counts as used-up memory.
+void *arena_alloc_array(Arena *arena, size_t count, size_t size);
+
+// A copy of `size` bytes.
+void *arena_copy(Arena *arena, const void *bytes, size_t size);
+
+// Extends the most recent allocation in place if it is `bytes` and there is room, else returns a larger copy.
+void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
+
+// What arena_alloc does when nothing is left; for other allocations that belong to the arena's region.
+_Noreturn void arena_exhausted(Arena *arena);
+
+ArenaMark arena_mark(const Arena *arena);
+// Drops what was allocated since the mark. Pointers into it dangle from here on.
+void arena_rewind(Arena *arena, ArenaMark mark);
+
+#endif

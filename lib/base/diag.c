@@ -1,0 +1,122 @@
+// diag.c: see diag.h.
+#include "base/diag.h"
+
+DiagSink diag_sink_new(Arena *arena, uint32_t limit) {
+    return (DiagSink){.arena = arena, .limit = limit};
+}
+
+void diag_sink_free(DiagSink *sink) {
+    index_free(&sink->index);
+    *sink = (DiagSink){.arena = sink->arena, .limit = sink->limit};
+}
+
+static bool diag_same(const void *owner, uint32_t entry, const void *key) {
+    const Diag *a = &((const DiagSink *)owner)->items[entry], *b = key;
+    return a->source == b->source && a->span.start == b->span.start && str_equal(a->text, b->text);
+}
+
+bool diag_report(DiagSink *sink, const Diag *diag) {
+    uint64_t hash = hash_bytes(diag->span.start, diag->text.bytes, diag->text.len);
+    if (index_find(&sink->index, hash, diag_same, sink, diag) != INDEX_NONE)
+        return false;
+    if (sink->count >= sink->limit) {
+        sink->dropped++;
+        return false;
+    }
+    if (sink->count == sink->capacity) {
+        uint32_t capacity = sink->capacity ? sink->capacity * 2 : 8;
+        sink->items = arena_grow(sink->arena, sink->items, sink->capacity * sizeof *sink->items,
+                                 capacity * sizeof *sink->items);
+        sink->capacity = capacity;
+    }
+    if (!index_add(&sink->index, hash, sink->count))
+        return false;
+    Diag *kept = &sink->items[sink->count++];
+    *kept = *diag;
+    kept->text = str_copy(sink->arena, diag->text);
+    kept->hint = str_copy(sink->arena, diag->hint);
+    sink->error_count += diag->level == DIAG_ERROR;
+    return true;
+}
+
+static const char *const level_names[] = {"error", "warning", "note"};
+static const char *const level_colours[] = {"\033[1;31m", "\033[1;35m", "\033[1;36m"};
+
+// The part of a long line around the column, so that a line of ten megabytes prints as one of a hundred characters.
+static Str excerpt(Str line, uint32_t *column) {
+    enum { WIDEST = 160, LEAD = 60 };
+    if (utf8_length(line) <= WIDEST)
+        return line;
+    uint32_t skip = *column > LEAD ? *column - LEAD : 0;
+    size_t start = 0, end;
+    for (uint32_t i = 0; i < skip && start < line.len; i++)
+        utf8_next(line, &start);
+    end = start;
+    for (int i = 0; i < WIDEST && end < line.len; i++)
+        utf8_next(line, &end);
+    *column -= skip;
+    return (Str){line.bytes + start, end - start};
+}
+
+static void format_caret_line(Text *out, Str line, uint32_t column, size_t width) {
+    size_t at = 0;
+    // Tabs stay tabs, so that the caret stands under its column however wide the terminal shows them.
+    for (uint32_t i = 1; i < column; i++)
+        text_add_char(out, at < line.len && utf8_next(line, &at) == '\t' ? '\t' : ' ');
+    text_add_char(out, '^');
+    size_t most = at < line.len ? utf8_length((Str){line.bytes + at, line.len - at}) : 0;
+    for (size_t i = 1; i < width && i < most; i++)
+        text_add_char(out, '~');
+    text_add_char(out, '\n');
+}
+
+// Control characters and ill-formed bytes must not reach a terminal.
+static void add_printable(Text *out, Str line) {
+    for (size_t at = 0; at < line.len;) {
+        int32_t c = utf8_next(line, &at);
+        if (c == '\t' || (c >= 0x20 && c != 0x7f && !(c >= 0x80 && c < 0xa0)))
+            text_add_code_point(out, (uint32_t)c);
+        else
+            text_add_char(out, '?');
+    }
+    text_add_char(out, '\n');
+}
+
+void diag_format(Text *out, const Diag *diag, bool colour) {
+    const char *bold = colour ? "\033[1m" : "", *plain = colour ? "\033[0m" : "";
+    const char *tint = colour ? level_colours[diag->level] : "";
+    SourcePlace place = {0};
+    if (diag->source) {
+        place = source_locate(diag->source, diag->span.start);
+        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, (int)diag->source->name.len, diag->source->name.bytes, place.line,
+                        place.column, plain);
+    }
+    text_add_format(out, "%s%s:%s %.*s", tint, level_names[diag->level], plain, (int)diag->text.len, diag->text.bytes);
+    if (diag->code)
+        text_add_format(out, " [%s]", diag->code);
+    text_add_char(out, '\n');
+    if (diag->source) {
+        uint32_t column = place.column;
+        Str line = excerpt(place.text, &column);
+        size_t len = diag->span.end > diag->span.start ? diag->span.end - diag->span.start : 1;
+        size_t left = diag->source->text.len - diag->span.start;
+        size_t width = utf8_length((Str){diag->source->text.bytes + diag->span.start, len < left ? len : left});
+        text_add_c(out, "    ");
+        add_printable(out, line);
+        text_add_format(out, "    %s", tint);
+        format_caret_line(out, line, column, width);
+        text_add_c(out, plain);
+    }
+    if (diag->hint.len)
+        text_add_format(out, "    %.*s\n", (int)diag->hint.len, diag->hint.bytes);
+}
+
+Str diag_one_line(Arena *arena, const Diag *diag) {
+    Text out = text_new(arena);
+    text_add(&out, diag->text);
+    if (diag->source) {
+        SourcePlace place = source_locate(diag->source, diag->span.start);
+        text_add_format(&out, " (%.*s:%u)", (int)diag->source->name.len, diag->source->name.bytes, place.line);
+    }
+    return text_str(&out);
+}

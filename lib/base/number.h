@@ -1,0 +1,17 @@
+// number.h: reading and printing doubles, whatever the host's locale.
+#ifndef PETRI_BASE_NUMBER_H
+#define PETRI_BASE_NUMBER_H
+
+#include "base/str.h"
+
+enum { NUMBER_TEXT = 40 }; // room for any formatted number
+
+// The shortest decimal that reads back as the same double (spec language.md L18.1); returns its length.
+size_t number_format(double x, char text[NUMBER_TEXT]);
+// Nine significant digits as C's "%.9g", but every nan is "nan" (L6.2); returns its length.
+size_t number_format_short(double x, char text[NUMBER_TEXT]);
+// Reads decimal digits with optional sign, point and exponent, correctly rounded; underscores are skipped. The caller
+// has checked the form.
+double number_parse(Str digits);
+
+#endif

@@ -1,0 +1,75 @@
+// source.c: see source.h.
+#include "base/source.h"
+
+#include <string.h>
+
+// CR LF and lone CR become LF; a missing last LF and a NUL sentinel are added.
+static Str normalise_lines(Arena *arena, Str text) {
+    char *bytes = arena_alloc(arena, text.len + 2);
+    size_t len = 0;
+    for (size_t i = 0; i < text.len; i++) {
+        if (text.bytes[i] != '\r') {
+            bytes[len++] = text.bytes[i];
+        } else {
+            bytes[len++] = '\n';
+            if (i + 1 < text.len && text.bytes[i + 1] == '\n')
+                i++;
+        }
+    }
+    if (len == 0 || bytes[len - 1] != '\n')
+        bytes[len++] = '\n';
+    bytes[len] = 0;
+    return (Str){bytes, len};
+}
+
+const Source *source_new(Arena *arena, Str name, Str path, Str text) {
+    Source *source = arena_alloc(arena, sizeof *source);
+    Str normal = normalise_lines(arena, text);
+    uint32_t count = 0;
+    for (size_t i = 0; i < normal.len; i++)
+        count += normal.bytes[i] == '\n';
+    uint32_t *starts = arena_alloc_array(arena, count, sizeof *starts);
+    uint32_t line = 0;
+    starts[line++] = 0;
+    for (size_t i = 0; i + 1 < normal.len; i++)
+        if (normal.bytes[i] == '\n')
+            starts[line++] = (uint32_t)i + 1;
+    name = str_copy(arena, name);
+    *source = (Source){.name = name,
+                       .path = str_copy(arena, path),
+                       .directory = path_directory(name),
+                       .text = normal,
+                       .line_starts = starts,
+                       .line_count = count};
+    return source;
+}
+
+SourcePlace source_locate(const Source *source, uint32_t offset) {
+    if (offset >= source->text.len)
+        offset = (uint32_t)source->text.len - 1;
+    uint32_t low = 0, high = source->line_count;
+    while (high - low > 1) {
+        uint32_t middle = low + (high - low) / 2;
+        if (source->line_starts[middle] <= offset)
+            low = middle;
+        else
+            high = middle;
+    }
+    uint32_t start = source->line_starts[low];
+    const char *line = source->text.bytes + start;
+    size_t len = (size_t)((const char *)memchr(line, '\n', source->text.len - start) - line);
+    return (SourcePlace){low + 1, (uint32_t)utf8_length((Str){line, offset - start}) + 1, {line, len}};
+}
+
+Str path_directory(Str path) {
+    while (path.len && path.bytes[path.len - 1] != '/')
+        path.len--;
+    return path;
+}
+
+Str path_join(Arena *arena, Str directory, Str path) {
+    if (directory.len == 0 || (path.len && path.bytes[0] == '/'))
+        return path;
+    const char *slash = directory.bytes[directory.len - 1] == '/' ? "" : "/";
+    return str_format(arena, "%.*s%s%.*s", (int)directory.len, directory.bytes, slash, (int)path.len, path.bytes);
+}

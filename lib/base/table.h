@@ -1,0 +1,44 @@
+// table.h: the index of an insertion-ordered hash table.
+//
+// The owner keeps its entries in an array of its own, in order of insertion; the index maps hashes to positions in that
+// array. So entries stay dense and ordered, and one index serves tables of symbols, state keys and diagnostics.
+#ifndef PETRI_BASE_TABLE_H
+#define PETRI_BASE_TABLE_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct IndexSlot {
+    uint32_t hash; // upper half of the 64-bit hash
+    uint32_t entry; // position + 1; 0 is empty, INDEX_DELETED a removed one
+} IndexSlot;
+
+typedef struct Index {
+    IndexSlot *slots; // heap; NULL while empty
+    uint32_t mask;
+    uint32_t used; // slots in use, deleted ones included
+    uint32_t live;
+} Index;
+
+#define INDEX_NONE UINT32_C(0xfffffff0) // no entry has this position
+
+// Does entry number `entry` have the key that is looked for?
+typedef bool IndexMatch(const void *owner, uint32_t entry, const void *key);
+
+void index_free(Index *index);
+void index_clear(Index *index);
+// Position of the entry with this key, or INDEX_NONE.
+uint32_t index_find(const Index *index, uint64_t hash, IndexMatch *match, const void *owner, const void *key);
+// Adds a position; the key must not be there. False if memory is used up (then nothing has changed).
+bool index_add(Index *index, uint64_t hash, uint32_t entry);
+// Removes the entry at a position.
+void index_remove(Index *index, uint64_t hash, uint32_t entry);
+// The entry now at position `from` has moved to `to`.
+void index_move(Index *index, uint64_t hash, uint32_t from, uint32_t to);
+
+// A well-mixed 64-bit hash of bytes (FNV-1a finished by the SplitMix64 mixer).
+uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len);
+uint64_t hash_mix(uint64_t x);
+
+#endif

@@ -1,0 +1,123 @@
+// builtin.c: the table of built-ins, the matching of arguments with parameters, and the constants; see builtin.h.
+#include "builtin/builtin.h"
+
+#include "builtin/family.h"
+
+#include <math.h>
+#include <string.h>
+
+const Builtin builtin_table[] = {
+#define BUILTIN(name, function, parameters, required, fixed, variadic, named, pure, help)                              \
+    {name, function, parameters, required, fixed, variadic, named, pure, help},
+#include "builtin/builtin_list.h"
+#undef BUILTIN
+};
+const uint32_t builtin_count = sizeof builtin_table / sizeof builtin_table[0];
+
+// No row has more parameters before "...", which a test checks.
+enum { MOST_FIXED = 8 };
+
+const Builtin *builtin_find(Str name) {
+    uint32_t low = 0, high = builtin_count;
+    while (low < high) {
+        uint32_t middle = low + (high - low) / 2;
+        int order = str_compare(str_from(builtin_table[middle].name), name);
+        if (order == 0)
+            return &builtin_table[middle];
+        if (order < 0)
+            low = middle + 1;
+        else
+            high = middle;
+    }
+    return NULL;
+}
+
+void builtin_fault(BuiltinContext *context, const char *name, const char *text) {
+    if (context->fault)
+        context->fault(context->host, str_format(context->arena, "%s: %s", name, text));
+}
+
+// The name of parameter i, which must exist, from the text "xs, ys=0".
+static Str parameter_name(const Builtin *builtin, uint32_t i) {
+    const char *at = builtin->parameters;
+    while (i-- > 0)
+        at = strchr(at, ',') + 2;
+    return (Str){at, strcspn(at, ",=")};
+}
+
+// The position of a named parameter, or `fixed`.
+static uint32_t parameter_find(const Builtin *builtin, Str name) {
+    uint32_t i = 0;
+    while (i < builtin->fixed && !str_equal(parameter_name(builtin, i), name))
+        i++;
+    return i;
+}
+
+static Value bad_count(BuiltinContext *context, const Builtin *builtin, uint32_t count) {
+    const char *text = str_to_c(context->arena, str_format(context->arena, "%s arguments: %u given to %s(%s)",
+                                                           count < builtin->required ? "too few" : "too many", count,
+                                                           builtin->name, builtin->parameters));
+    builtin_fault(context, builtin->name, text);
+    return VALUE_NULL;
+}
+
+static Value bad_name(BuiltinContext *context, const Builtin *builtin, const char *what, Str name) {
+    int len = name.len < 100 ? (int)name.len : 100;
+    Str text = str_format(context->arena, "%s '%.*s' for %s(%s)", what, len, name.bytes, builtin->name,
+                          builtin->parameters);
+    builtin_fault(context, builtin->name, str_to_c(context->arena, text));
+    return VALUE_NULL;
+}
+
+// The call when not every parameter has its argument by position.
+static Value call_matched(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
+                          const Symbol *const *names, const Value *named, uint32_t named_count) {
+    Value all[MOST_FIXED];
+    for (uint32_t i = 0; i < builtin->fixed; i++)
+        all[i] = i < count ? args[i] : (Value){.kind = VALUE_ABSENT};
+    for (uint32_t k = 0; k < named_count; k++) {
+        uint32_t i = builtin->named ? parameter_find(builtin, names[k]->name) : builtin->fixed;
+        if (i == builtin->fixed)
+            return bad_name(context, builtin, "unknown argument", names[k]->name);
+        if (!is_absent(all[i]))
+            return bad_name(context, builtin, "repeated argument", names[k]->name);
+        all[i] = named[k];
+    }
+    for (uint32_t i = 0; i < builtin->required; i++)
+        if (is_absent(all[i]))
+            return named_count ? bad_name(context, builtin, "missing argument", parameter_name(builtin, i))
+                               : bad_count(context, builtin, count);
+    return builtin->call(context, all, builtin->fixed);
+}
+
+Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
+                   const Symbol *const *names, const Value *named, uint32_t named_count) {
+    if (count > builtin->fixed && !builtin->variadic)
+        return bad_count(context, builtin, count);
+    if (count >= builtin->fixed && named_count == 0)
+        return builtin->call(context, args, count);
+    return call_matched(context, builtin, args, count, names, named, named_count);
+}
+
+bool builtin_constant(Str name, Value *value) {
+    const struct {
+        const char *name;
+        Value value;
+    } constants[] = {
+        {"false", value_number(0)},
+        {"inf", value_number(INFINITY)},
+        {"nan", value_number(NAN)},
+        {"null", VALUE_NULL},
+        {"pi", value_number(BUILTIN_PI)},
+        {"tau", value_number(BUILTIN_TAU)},
+        {"true", value_number(1)},
+        {"\u03c0", value_number(BUILTIN_PI)},
+        {"\U0001d70f", value_number(BUILTIN_TAU)},
+    };
+    for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
+        if (str_equal(name, str_from(constants[i].name))) {
+            *value = constants[i].value;
+            return true;
+        }
+    return false;
+}

@@ -1,0 +1,195 @@
+// csv.c: rows of comma-separated files (spec builtins.md B13.5).
+//
+// The cache keeps the file and where its rows start; the fields of a row are taken apart when it is asked for, so a
+// large table costs a frame only the rows that it uses.
+#include "builtin/family.h"
+#include "builtin/files.h"
+
+#include "base/number.h"
+
+#include <math.h>
+#include <string.h>
+#include <strings.h>
+
+typedef struct CsvFile {
+    Str contents;
+    const uint32_t *row_starts;
+    uint32_t row_count;
+} CsvFile;
+
+// --- fields
+
+// Scans the field at *at, puts its text to `out` unless that is NULL, and moves *at behind the separator that ends it;
+// *last tells whether that was a line end or the end of the file. Returns the length of the text, which is at most that
+// of the field.
+static size_t scan_field(Str in, size_t *at, char *out, bool *last) {
+    size_t i = *at, len = 0;
+    if (i < in.len && in.bytes[i] == '"') {
+        i++;
+        while (i < in.len) {
+            char c = in.bytes[i++];
+            if (c == '"' && (i == in.len || in.bytes[i] != '"'))
+                break;
+            i += c == '"'; // the second of two quotes
+            if (out)
+                out[len] = c;
+            len++;
+        }
+    }
+    for (; i < in.len && in.bytes[i] != ',' && in.bytes[i] != '\n' && in.bytes[i] != '\r'; i++) {
+        if (out)
+            out[len] = in.bytes[i];
+        len++;
+    }
+    *last = i == in.len || in.bytes[i] != ',';
+    if (i + 1 < in.len && in.bytes[i] == '\r' && in.bytes[i + 1] == '\n')
+        i++;
+    *at = i < in.len ? i + 1 : i;
+    return len;
+}
+
+// The number of fields of the row at `at` without the empty ones at its end; *end is where the next row starts.
+static size_t scan_row(Str in, size_t at, size_t *end) {
+    size_t fields = 0, kept = 0;
+    for (bool last = false; !last;) {
+        size_t len = scan_field(in, &at, NULL, &last);
+        fields++;
+        kept = len ? fields : kept;
+    }
+    *end = at;
+    return kept;
+}
+
+// --- numbers
+
+// Length of an unsigned decimal number at the start of the text, or 0: digits with single underscores between them,
+// at most one point with a digit on at least one side, optional exponent.
+static size_t scan_decimal(Str text) {
+    size_t whole = builtin_scan_digits(text), at = whole, part = 0;
+    if (at < text.len && text.bytes[at] == '.') {
+        at++;
+        part = builtin_scan_digits((Str){text.bytes + at, text.len - at});
+        at += part;
+    }
+    if (whole + part == 0)
+        return 0;
+    if (at < text.len && (text.bytes[at] == 'e' || text.bytes[at] == 'E')) {
+        size_t exponent = at + 1;
+        exponent += exponent < text.len && (text.bytes[exponent] == '+' || text.bytes[exponent] == '-');
+        size_t digits = builtin_scan_digits((Str){text.bytes + exponent, text.len - exponent});
+        at = digits ? exponent + digits : at;
+    }
+    return at;
+}
+
+static bool is_word(Str text, const char *word) {
+    return text.len == strlen(word) && strncasecmp(text.bytes, word, text.len) == 0;
+}
+
+// The digits without underscores, in place of a copy.
+static double parse_decimal(Arena *arena, Str text) {
+    char *digits = arena_alloc(arena, text.len);
+    size_t len = 0;
+    for (size_t i = 0; i < text.len; i++)
+        if (text.bytes[i] != '_')
+            digits[len++] = text.bytes[i];
+    return number_parse((Str){digits, len});
+}
+
+// Is the field a number, apart from white space around it?
+static bool read_number(Arena *arena, Str field, double *x) {
+    Str text = str_trim(field);
+    bool negative = text.len && text.bytes[0] == '-';
+    if (text.len && (text.bytes[0] == '-' || text.bytes[0] == '+')) {
+        text.bytes++;
+        text.len--;
+    }
+    if (text.len == 0)
+        return false;
+    if (is_word(text, "inf") || is_word(text, "infinity"))
+        *x = INFINITY;
+    else if (is_word(text, "nan"))
+        *x = NAN;
+    else if (scan_decimal(text) == text.len)
+        *x = parse_decimal(arena, text);
+    else
+        return false;
+    *x = negative ? -*x : *x;
+    return true;
+}
+
+// --- files and rows
+
+static const void *parse_csv(Arena *arena, char *bytes, size_t len, const char **problem) {
+    if (!file_is_text(bytes, len, problem))
+        return NULL;
+    CsvFile *file = arena_alloc(arena, sizeof *file);
+    *file = (CsvFile){.contents = {bytes, len}};
+    for (size_t at = 0; at < len; file->row_count++)
+        scan_row(file->contents, at, &at);
+    uint32_t *starts = arena_alloc_array(arena, file->row_count, sizeof *starts);
+    uint32_t row = 0;
+    for (size_t at = 0; at < len; row++) {
+        starts[row] = (uint32_t)at; // a file has at most 2^30 bytes
+        scan_row(file->contents, at, &at);
+    }
+    file->row_starts = starts;
+    return file;
+}
+
+static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t row) {
+    Arena *arena = context->arena;
+    size_t at = file->row_starts[row], end;
+    size_t fields = scan_row(file->contents, at, &end);
+    if (fields > VALUE_MAX_LEN)
+        return builtin_too_long(context, "csv");
+    if (fields == 0)
+        return VALUE_NULL;
+    char *text = arena_alloc(arena, end - at); // of all fields of the row
+    String *strings = arena_alloc_array(arena, fields, sizeof *strings);
+    Item *items = arena_alloc_array(arena, fields, sizeof *items);
+    bool mixed = false, last = false;
+    for (size_t i = 0; i < fields; i++) {
+        Str field = {text, scan_field(file->contents, &at, text, &last)};
+        text += field.len;
+        items[i].type = ITEM_NUMBER;
+        if (read_number(arena, field, &items[i].as.number))
+            continue;
+        strings[i].text = field;
+        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
+        mixed = true;
+    }
+    if (mixed)
+        return (Value){.len = (uint32_t)fields, .kind = VALUE_MIXED, .as.items = items};
+    double *numbers = arena_alloc_array(arena, fields, sizeof *numbers);
+    for (size_t i = 0; i < fields; i++)
+        numbers[i] = items[i].as.number;
+    return value_numbers_view(numbers, (uint32_t)fields);
+}
+
+// A row number: a number, floored, or one string that reads as an integer. Symbols are numbers below 0 and so no rows.
+static bool read_row_number(Arena *arena, Value v, double *row) {
+    if (is_scalar(v)) {
+        *row = floor(v.as.number);
+    } else {
+        if (v.len != 1 || v.as.items[0].type != ITEM_STRING)
+            return false;
+        Str text = str_trim(v.as.items[0].as.string->text), digits = text;
+        if (digits.len && (digits.bytes[0] == '-' || digits.bytes[0] == '+'))
+            digits = (Str){digits.bytes + 1, digits.len - 1};
+        if (digits.len == 0 || builtin_scan_digits(digits) != digits.len || !read_number(arena, text, row))
+            return false;
+    }
+    return *row >= 0;
+}
+
+Value builtin_csv(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    double row;
+    if (!read_row_number(context->arena, args[1], &row))
+        return VALUE_NULL;
+    const CsvFile *file = file_cache_get(context, "csv", parse_csv, args[0]);
+    if (!file || row >= file->row_count)
+        return VALUE_NULL;
+    return row_value(context, file, (uint32_t)row);
+}

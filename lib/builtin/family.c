@@ -1,0 +1,64 @@
+// family.c: see family.h.
+#include "builtin/family.h"
+
+Value builtin_too_long(BuiltinContext *context, const char *name) {
+    builtin_fault(context, name, "result is too long");
+    return VALUE_NULL;
+}
+
+Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len) {
+    if (len <= 1)
+        return value_numbers_view(numbers, len);
+    return value_numbers_view(arena_copy(arena, numbers, len * sizeof *numbers), len);
+}
+
+Value builtin_each(Arena *arena, Value x, double (*f)(double)) {
+    if (!value_is_numeric(x))
+        return VALUE_NULL;
+    if (x.len == 1)
+        return value_number(f(x.as.number));
+    double *result = arena_alloc_array(arena, x.len, sizeof *result);
+    for (uint32_t i = 0; i < x.len; i++)
+        result[i] = f(x.as.numbers[i]);
+    return value_numbers_view(result, x.len);
+}
+
+Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count)) {
+    uint32_t len = 0;
+    for (uint32_t k = 0; k < count; k++) {
+        if (!value_is_numeric(args[k]))
+            return VALUE_NULL;
+        len = args[k].len > len ? args[k].len : len;
+    }
+    if (len == 0)
+        return VALUE_NULL;
+    // Nearly every call has two or three arguments: those need no memory beyond their result.
+    enum { FEW = 8 };
+    double few_parts[FEW];
+    uint32_t few_at[FEW] = {0};
+    double *result = len > 1 ? arena_alloc_array(arena, len, sizeof *result) : NULL, single = 0;
+    double *parts = count <= FEW ? few_parts : arena_alloc_array(arena, count, sizeof *parts);
+    uint32_t *at = count <= FEW ? few_at : arena_alloc_array(arena, count, sizeof *at);
+    for (uint32_t k = 0; k < count; k++)
+        at[k] = 0;
+    for (uint32_t i = 0; i < len; i++) {
+        for (uint32_t k = 0; k < count; k++) {
+            parts[k] = value_numbers(&args[k])[at[k]];
+            at[k] = at[k] + 1 == args[k].len ? 0 : at[k] + 1;
+        }
+        *(result ? &result[i] : &single) = f(parts, count);
+    }
+    return result ? value_numbers_view(result, len) : value_number(single);
+}
+
+static bool is_digit(char c) {
+    return c >= '0' && c <= '9';
+}
+
+size_t builtin_scan_digits(Str text) {
+    size_t at = 0;
+    while (at < text.len && (is_digit(text.bytes[at]) || (text.bytes[at] == '_' && at > 0 && text.bytes[at - 1] != '_' &&
+                                                          at + 1 < text.len && is_digit(text.bytes[at + 1]))))
+        at++;
+    return at;
+}

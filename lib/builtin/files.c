@@ -1,0 +1,306 @@
+// files.c: the file cache, read and read_bytes (spec builtins.md B13.1, B13.3, B13.4); see files.h.
+#include "builtin/files.h"
+
+#include "base/source.h"
+#include "base/table.h"
+#include "builtin/family.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum {
+    LONGEST_NAME = 4096,
+    LARGEST_FILE = 1 << 30,
+    MOST_ENTRIES = 16384, // a script that makes up names must not fill the memory
+};
+static const size_t MOST_BYTES = (size_t)2 << 30; // kept over all entries
+
+// What tells a file from an earlier state of it.
+typedef struct Stamp {
+    int error; // of stat, or 0
+    dev_t device;
+    ino_t inode;
+    off_t size;
+    struct timespec modified;
+    struct timespec changed; // also tells of permissions
+} Stamp;
+
+typedef struct FileEntry {
+    Str path;
+    FileParse *parse;
+    Stamp stamp;
+    bool tried;         // `stamp` and `parsed` are of a finished attempt
+    const void *parsed; // in `arena`, or NULL
+    Arena arena;
+} FileEntry;
+
+struct FileCache {
+    Arena arena; // entries and paths, and the cache itself
+    ArenaMark empty;
+    FileEntry **entries;
+    uint32_t count;
+    uint32_t capacity;
+    Index index;
+};
+
+FileCache *file_cache_new(void) {
+    Arena arena;
+    arena_init(&arena, "files", SIZE_MAX);
+    FileCache *cache = arena_alloc(&arena, sizeof *cache);
+    *cache = (FileCache){.arena = arena};
+    cache->empty = arena_mark(&cache->arena);
+    return cache;
+}
+
+static void cache_clear(FileCache *cache) {
+    for (uint32_t i = 0; i < cache->count; i++)
+        arena_free(&cache->entries[i]->arena);
+    cache->entries = NULL;
+    cache->count = cache->capacity = 0;
+    index_clear(&cache->index);
+    arena_rewind(&cache->arena, cache->empty);
+}
+
+void file_cache_free(FileCache *cache) {
+    if (!cache)
+        return;
+    cache_clear(cache);
+    index_free(&cache->index);
+    Arena arena = cache->arena; // the cache dies with its arena
+    arena_free(&arena);
+}
+
+// --- reading
+
+static Stamp stamp_take(const char *path) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return (Stamp){.error = errno};
+    return (Stamp){0, info.st_dev, info.st_ino, info.st_size, info.st_mtim, info.st_ctim};
+}
+
+static bool same_time(struct timespec a, struct timespec b) {
+    return a.tv_sec == b.tv_sec && a.tv_nsec == b.tv_nsec;
+}
+
+static bool stamp_equal(const Stamp *a, const Stamp *b) {
+    return a->error == b->error && a->device == b->device && a->inode == b->inode && a->size == b->size &&
+           same_time(a->modified, b->modified) && same_time(a->changed, b->changed);
+}
+
+static const char *describe(int error) {
+    switch (error) {
+    case ENOENT:
+    case ENOTDIR:
+        return "there is no such file";
+    case EACCES:
+    case EPERM:
+        return "permission denied";
+    case ELOOP:
+        return "too many symbolic links";
+    case ENAMETOOLONG:
+        return "the name is too long";
+    default:
+        return "it cannot be opened";
+    }
+}
+
+// Reads up to `size` bytes; a file that has grown meanwhile has another stamp and is read again at the next call.
+static bool read_bytes(const char *path, char *bytes, size_t size, size_t *len, const char **problem) {
+    // A pipe put in the file's place must not block.
+    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    struct stat info;
+    if (file < 0 || fstat(file, &info) != 0) {
+        *problem = describe(errno);
+        if (file >= 0)
+            close(file);
+        return false;
+    }
+    bool good = S_ISREG(info.st_mode);
+    *problem = good ? NULL : S_ISDIR(info.st_mode) ? "it is a directory" : "it is not a regular file";
+    for (*len = 0; good && *len < size;) {
+        ssize_t got = read(file, bytes + *len, size - *len);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            *problem = "it cannot be read";
+            good = false;
+        }
+        if (got <= 0)
+            break;
+        *len += (size_t)got;
+    }
+    close(file);
+    return good;
+}
+
+// The memory is taken before the file is opened: an allocation may not return (base/arena.h).
+static const void *load(FileEntry *entry, const char *path, const char **problem) {
+    if (entry->stamp.error) {
+        *problem = describe(entry->stamp.error);
+        return NULL;
+    }
+    if (entry->stamp.size > LARGEST_FILE) {
+        *problem = "it is larger than 1 GiB";
+        return NULL;
+    }
+    size_t size = (size_t)entry->stamp.size, len;
+    char *bytes = arena_alloc(&entry->arena, size);
+    if (!read_bytes(path, bytes, size, &len, problem))
+        return NULL;
+    return entry->parse(&entry->arena, bytes, len, problem);
+}
+
+// --- entries
+
+typedef struct EntryKey {
+    Str path;
+    FileParse *parse;
+} EntryKey;
+
+static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
+    const FileEntry *found = ((const FileCache *)owner)->entries[entry];
+    const EntryKey *wanted = key;
+    return found->parse == wanted->parse && str_equal(found->path, wanted->path);
+}
+
+static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
+    if (cache->count == MOST_ENTRIES)
+        cache_clear(cache);
+    if (cache->count == cache->capacity) {
+        uint32_t capacity = cache->capacity ? cache->capacity * 2 : 16;
+        cache->entries = arena_grow(&cache->arena, cache->entries, cache->capacity * sizeof *cache->entries,
+                                    capacity * sizeof *cache->entries);
+        cache->capacity = capacity;
+    }
+    FileEntry *entry = arena_alloc(&cache->arena, sizeof *entry);
+    *entry = (FileEntry){.path = str_copy(&cache->arena, key->path), .parse = key->parse};
+    arena_init(&entry->arena, "file", SIZE_MAX);
+    if (!index_add(&cache->index, hash, cache->count))
+        arena_exhausted(&cache->arena);
+    cache->entries[cache->count++] = entry;
+    return entry;
+}
+
+static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
+    EntryKey key = {path, parse};
+    uint64_t hash = hash_bytes(0, path.bytes, path.len);
+    uint32_t found = index_find(&cache->index, hash, entry_matches, cache, &key);
+    return found != INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
+}
+
+// Frees the contents of the other entries if all together have become too large. They are read again when needed.
+static void shed(FileCache *cache, const FileEntry *kept) {
+    size_t used = 0;
+    for (uint32_t i = 0; i < cache->count; i++)
+        used += cache->entries[i]->arena.used;
+    if (used + (size_t)kept->stamp.size <= MOST_BYTES)
+        return;
+    for (uint32_t i = 0; i < cache->count; i++)
+        if (cache->entries[i] != kept && cache->entries[i]->parsed) {
+            arena_free(&cache->entries[i]->arena);
+            cache->entries[i]->parsed = NULL;
+            cache->entries[i]->tried = false;
+        }
+}
+
+static void warn(BuiltinContext *context, const char *function, Str name, const char *problem) {
+    int len = name.len < 200 ? (int)name.len : 200;
+    Str text = str_format(context->arena, "cannot read '%.*s': %s", len, name.bytes, problem);
+    builtin_fault(context, function, str_to_c(context->arena, text));
+}
+
+const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name) {
+    FileCache *cache = context->files;
+    Str text = value_text(context->arena, context->symbols, name);
+    bool nameable = text.len <= LONGEST_NAME && context->directory.len <= LONGEST_NAME &&
+                    (text.len == 0 || !memchr(text.bytes, 0, text.len));
+    if (!cache || !nameable) {
+        warn(context, function, text, cache ? "not a file name" : "files are not available here");
+        return NULL;
+    }
+    // While entries are made, running out of memory ends where it does for everything else in this call.
+    cache->arena.escape = context->arena->escape;
+    Str path = path_join(context->arena, context->directory, text);
+    const char *c_path = str_to_c(context->arena, path);
+    FileEntry *entry = entry_get(cache, path, parse);
+    Stamp stamp = stamp_take(c_path);
+    if (entry->tried && stamp_equal(&entry->stamp, &stamp))
+        return entry->parsed;
+    arena_free(&entry->arena);
+    entry->arena.escape = context->arena->escape;
+    entry->tried = false;
+    entry->stamp = stamp;
+    entry->parsed = NULL;
+    shed(cache, entry);
+    const char *problem = NULL;
+    entry->parsed = load(entry, c_path, &problem);
+    entry->tried = true;
+    if (!entry->parsed) {
+        arena_free(&entry->arena);
+        warn(context, function, text, problem);
+    }
+    return entry->parsed;
+}
+
+// --- parsers
+
+bool file_is_text(const char *bytes, size_t len, const char **problem) {
+    bool good = utf8_find_error((Str){bytes, len}) == len;
+    if (!good)
+        *problem = "it is not UTF-8 text";
+    return good;
+}
+
+size_t file_normalise_lines(char *bytes, size_t len) {
+    size_t kept = 0;
+    for (size_t i = 0; i < len; i++) {
+        bool line_feed_follows = i + 1 < len && bytes[i + 1] == '\n';
+        if (bytes[i] != '\r')
+            bytes[kept++] = bytes[i];
+        else if (!line_feed_follows)
+            bytes[kept++] = '\n';
+    }
+    return kept;
+}
+
+static const Str *contents_new(Arena *arena, const char *bytes, size_t len) {
+    Str contents = {bytes, len};
+    return arena_copy(arena, &contents, sizeof contents);
+}
+
+static const void *parse_text(Arena *arena, char *bytes, size_t len, const char **problem) {
+    if (!file_is_text(bytes, len, problem))
+        return NULL;
+    return contents_new(arena, bytes, file_normalise_lines(bytes, len));
+}
+
+static const void *parse_bytes(Arena *arena, char *bytes, size_t len, const char **problem) {
+    (void)problem;
+    return contents_new(arena, bytes, len);
+}
+
+Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    if (value_text(context->arena, context->symbols, args[0]).len == 0)
+        return VALUE_NULL;
+    const Str *text = file_cache_get(context, "read", parse_text, args[0]);
+    return text ? value_string(context->arena, *text) : VALUE_NULL;
+}
+
+Value builtin_read_bytes(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    const Str *contents = file_cache_get(context, "read_bytes", parse_bytes, args[0]);
+    if (!contents || contents->len == 0)
+        return VALUE_NULL;
+    if (contents->len > VALUE_MAX_LEN)
+        return builtin_too_long(context, "read_bytes");
+    const unsigned char *bytes = (const unsigned char *)contents->bytes;
+    double *result = arena_alloc_array(context->arena, contents->len, sizeof *result);
+    for (size_t i = 0; i < contents->len; i++)
+        result[i] = bytes[i];
+    return value_numbers_view(result, (uint32_t)contents->len);
+}

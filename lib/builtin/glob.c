@@ -1,0 +1,272 @@
+// glob.c: paths that match a pattern (spec builtins.md B13.2).
+#include "builtin/family.h"
+
+#include "base/source.h"
+
+#include <dirent.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+
+#ifndef PATH_MAX
+#define PATH_MAX 4096
+#endif
+
+// --- one component
+
+// Does the set that starts behind a "[" at *at contain the character? Moves *at behind its "]"; if there is none, the
+// bracket stands for itself: -1. A "]" that comes first belongs to the set.
+static int match_set(Str pattern, size_t *at, int32_t c) {
+    size_t i = *at;
+    bool negated = i < pattern.len && pattern.bytes[i] == '!', found = false;
+    i += negated;
+    for (bool first = true;; first = false) {
+        if (i >= pattern.len)
+            return -1;
+        int32_t low = utf8_next(pattern, &i), high = low;
+        if (low == ']' && !first)
+            break;
+        if (i + 1 < pattern.len && pattern.bytes[i] == '-' && pattern.bytes[i + 1] != ']') {
+            i++;
+            high = utf8_next(pattern, &i);
+        }
+        found = found || (low <= c && c <= high);
+    }
+    *at = i;
+    return found != negated;
+}
+
+// One character of the pattern that is not "*" against the next one of the name; both move on.
+static bool match_one(Str pattern, size_t *at, Str name, size_t *from) {
+    int32_t c = utf8_next(name, from);
+    int32_t p = utf8_next(pattern, at);
+    if (p == '?')
+        return true;
+    if (p == '[') {
+        int answer = match_set(pattern, at, c);
+        if (answer >= 0)
+            return answer;
+    }
+    return p == c;
+}
+
+// `*` any run of characters, `?` one, `[…]` sets. Only the last star need ever take one character more.
+static bool match_name(Str pattern, Str name) {
+    size_t at = 0, from = 0, star = SIZE_MAX, star_from = 0;
+    while (from < name.len || at < pattern.len) {
+        if (at < pattern.len && pattern.bytes[at] == '*') {
+            star = ++at;
+            star_from = from;
+            continue;
+        }
+        if (at < pattern.len && from < name.len && match_one(pattern, &at, name, &from))
+            continue;
+        if (star == SIZE_MAX || star_from >= name.len)
+            return false;
+        utf8_next(name, &star_from);
+        at = star;
+        from = star_from;
+    }
+    return true;
+}
+
+// --- the walk
+
+enum { MOST_LISTINGS = 1 << 18, MOST_FOUND = 1 << 20 };
+
+typedef struct Glob {
+    Arena *arena;
+    Str *parts;
+    uint32_t part_count;
+    bool only_directories;
+    Str *found;
+    uint32_t found_count;
+    uint32_t found_capacity;
+    uint32_t listings;
+    bool too_much;
+} Glob;
+
+static bool is_deep(Str part) {
+    return str_equal(part, STR("**"));
+}
+
+// Splits a pattern at slashes. Empty parts, "." and a "**" after another one change nothing and are dropped.
+static void glob_parse(Glob *glob, Str pattern) {
+    glob->parts = arena_alloc_array(glob->arena, pattern.len, sizeof *glob->parts);
+    glob->only_directories = pattern.bytes[pattern.len - 1] == '/';
+    for (size_t at = 0; at < pattern.len;) {
+        const char *slash = memchr(pattern.bytes + at, '/', pattern.len - at);
+        size_t end = slash ? (size_t)(slash - pattern.bytes) : pattern.len;
+        Str part = {pattern.bytes + at, end - at};
+        bool repeated = glob->part_count && is_deep(part) && is_deep(glob->parts[glob->part_count - 1]);
+        if (part.len && !str_equal(part, STR(".")) && !repeated)
+            glob->parts[glob->part_count++] = part;
+        at = end + 1;
+    }
+}
+
+static void glob_found(Glob *glob, Str path) {
+    if (glob->found_count == MOST_FOUND) {
+        glob->too_much = true;
+        return;
+    }
+    if (glob->found_count == glob->found_capacity) {
+        uint32_t capacity = glob->found_capacity ? glob->found_capacity * 2 : 16;
+        glob->found = arena_grow(glob->arena, glob->found, glob->found_capacity * sizeof *glob->found,
+                                 capacity * sizeof *glob->found);
+        glob->found_capacity = capacity;
+    }
+    glob->found[glob->found_count++] = path;
+}
+
+// Adds up the names of a directory, or copies as many as there is room for. Nothing is allocated while it is open.
+static void scan_directory(const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
+    size_t most_count = *count, most_size = *size;
+    *count = *size = 0;
+    DIR *directory = opendir(path);
+    if (!directory)
+        return;
+    for (const struct dirent *entry; (entry = readdir(directory));) {
+        Str name = str_from(entry->d_name);
+        if (str_equal(name, STR(".")) || str_equal(name, STR("..")) || utf8_find_error(name) < name.len)
+            continue;
+        if (names) {
+            if (*count == most_count || *size + name.len > most_size)
+                break;
+            memcpy(bytes + *size, name.bytes, name.len);
+            names[*count] = (Str){bytes + *size, name.len};
+        }
+        ++*count;
+        *size += name.len;
+    }
+    closedir(directory);
+}
+
+static size_t list_directory(Glob *glob, const char *path, Str **names) {
+    if (glob->listings++ == MOST_LISTINGS)
+        glob->too_much = true;
+    if (glob->too_much)
+        return 0;
+    size_t count = 0, size = 0;
+    scan_directory(path, NULL, NULL, &count, &size);
+    *names = arena_alloc_array(glob->arena, count, sizeof **names);
+    char *bytes = arena_alloc(glob->arena, size);
+    scan_directory(path, *names, bytes, &count, &size);
+    return count;
+}
+
+static bool is_directory(const char *path, bool follow_links) {
+    struct stat info;
+    return (follow_links ? stat(path, &info) : lstat(path, &info)) == 0 && S_ISDIR(info.st_mode);
+}
+
+static bool is_there(const char *path) {
+    struct stat info;
+    return lstat(path, &info) == 0;
+}
+
+static void walk(Glob *glob, Str path, uint32_t k);
+
+// A path that matches the parts up to k: a result, or a directory to go on in.
+static void reach(Glob *glob, Str path, uint32_t k) {
+    const char *c_path = str_to_c(glob->arena, path);
+    bool last = k + 1 == glob->part_count;
+    if (last && !glob->only_directories ? is_there(c_path) : is_directory(c_path, true)) {
+        if (last)
+            glob_found(glob, path);
+        else
+            walk(glob, path, k + 1);
+    }
+}
+
+// "**" at part k: this directory, and then the same in each directory in it, but not through symbolic links.
+static void walk_deep(Glob *glob, Str path, uint32_t k) {
+    bool last = k + 1 == glob->part_count;
+    if (last)
+        glob_found(glob, path);
+    else
+        walk(glob, path, k + 1);
+    Str *names;
+    size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
+    for (size_t i = 0; i < count && !glob->too_much; i++) {
+        Str below = path_join(glob->arena, path, names[i]);
+        if (is_directory(str_to_c(glob->arena, below), false))
+            walk(glob, below, k);
+        else if (last && !glob->only_directories)
+            glob_found(glob, below);
+    }
+}
+
+// Everything below the directory `path` that matches the parts from k on. Paths have a greatest length, so the depth has
+// too.
+static void walk(Glob *glob, Str path, uint32_t k) {
+    if (path.len >= PATH_MAX || glob->too_much)
+        return;
+    Str part = glob->parts[k];
+    if (is_deep(part)) {
+        walk_deep(glob, path, k);
+    } else if (!memchr(part.bytes, '*', part.len) && !memchr(part.bytes, '?', part.len) &&
+               !memchr(part.bytes, '[', part.len)) {
+        reach(glob, path_join(glob->arena, path, part), k);
+    } else {
+        Str *names;
+        size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
+        for (size_t i = 0; i < count && !glob->too_much; i++)
+            if (match_name(part, names[i]))
+                reach(glob, path_join(glob->arena, path, names[i]), k);
+    }
+}
+
+// --- results
+
+// The matches as absolute paths without symbolic links, sorted. The same match may have been reached in several ways
+// ("**"), but two matches may well be one file.
+static Value glob_value(Glob *glob) {
+    Arena *arena = glob->arena;
+    const Str *found = builtin_sort_texts(arena, glob->found, glob->found_count);
+    Str *paths = arena_alloc_array(arena, glob->found_count, sizeof *paths);
+    uint32_t count = 0;
+    char resolved[PATH_MAX];
+    for (uint32_t i = 0; i < glob->found_count; i++) {
+        bool again = i > 0 && str_equal(found[i], found[i - 1]);
+        if (again || !realpath(str_to_c(arena, found[i]), resolved))
+            continue;
+        Str path = str_from(resolved);
+        if (utf8_find_error(path) == path.len)
+            paths[count++] = str_copy(arena, path);
+    }
+    if (count == 0)
+        return VALUE_NULL;
+    paths = builtin_sort_texts(arena, paths, count);
+    String *strings = arena_alloc_array(arena, count, sizeof *strings);
+    Item *items = arena_alloc_array(arena, count, sizeof *items);
+    for (uint32_t i = 0; i < count; i++) {
+        strings[i].text = paths[i];
+        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
+    }
+    return (Value){.len = count, .kind = VALUE_MIXED, .as.items = items};
+}
+
+Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    Str pattern = value_text(context->arena, context->symbols, args[0]);
+    if (pattern.len == 0 || pattern.bytes[0] == '/') {
+        builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
+        return VALUE_NULL;
+    }
+    if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
+        return VALUE_NULL;
+    Glob glob = {.arena = context->arena};
+    glob_parse(&glob, pattern);
+    Str start = context->directory.len ? context->directory : STR(".");
+    if (glob.part_count)
+        walk(&glob, start, 0);
+    else
+        glob_found(&glob, start);
+    if (glob.too_much) {
+        builtin_fault(context, "glob", "too many directories or matches");
+        return VALUE_NULL;
+    }
+    return glob.found_count ? glob_value(&glob) : VALUE_NULL;
+}

@@ -1,0 +1,25 @@
+// others.c: debug output, and what petri has no pictures or fonts for (spec builtins.md B14).
+#include "builtin/family.h"
+
+#include "value/format.h"
+
+Value builtin_debug(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    if (context->log) {
+        Text text = text_new(context->arena);
+        format_debug(&text, context->symbols, args[0]);
+        context->log(context->host, text_str(&text));
+    }
+    return args[0];
+}
+
+Value builtin_sample(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)context, (void)count;
+    return value_or(args[2], VALUE_NULL);
+}
+
+Value builtin_measure_text(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)args, (void)count;
+    builtin_fault(context, "measure_text", "there are no fonts to measure with");
+    return VALUE_NULL;
+}

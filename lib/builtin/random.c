@@ -1,0 +1,54 @@
+// random.c: pseudo-random streams and shuffling (spec builtins.md B9.1, B9.7).
+#include "builtin/family.h"
+
+#include "value/seed.h"
+
+Value builtin_uniform(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)context, (void)count;
+    return value_stream(STREAM_UNIFORM, value_seed_hash(value_or(args[0], VALUE_NULL)));
+}
+
+Value builtin_beta(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)context, (void)count;
+    return value_stream(STREAM_BETA, value_seed_hash(value_or(args[0], VALUE_NULL)));
+}
+
+Value builtin_normal(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)context, (void)count;
+    return value_stream(STREAM_NORMAL, value_seed_hash(value_or(args[0], VALUE_NULL)));
+}
+
+// The place that element i of `len` is exchanged with: i + floor(item_i * (len - i)), at most len - 1.
+static uint32_t shuffle_partner(Value source, uint32_t i, uint32_t len) {
+    uint32_t step = (uint32_t)(value_stream_item(source, i) * (len - i));
+    return step < len - i ? i + step : len - 1;
+}
+
+Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    Value source = args[0], xs = args[1];
+    if (source.kind != VALUE_STREAM || source.stream == STREAM_NORMAL) {
+        builtin_fault(context, "shuffle", "the source must be a uniform or beta stream");
+        return VALUE_NULL;
+    }
+    if (xs.len <= 1)
+        return xs.len ? xs : VALUE_NULL;
+    if (xs.kind == VALUE_NUMBERS) {
+        double *numbers = arena_copy(context->arena, xs.as.numbers, xs.len * sizeof *numbers);
+        for (uint32_t i = 0; i + 1 < xs.len; i++) {
+            uint32_t j = shuffle_partner(source, i, xs.len);
+            double moved = numbers[i];
+            numbers[i] = numbers[j];
+            numbers[j] = moved;
+        }
+        return value_numbers_view(numbers, xs.len);
+    }
+    Item *items = arena_copy(context->arena, xs.as.items, xs.len * sizeof *items);
+    for (uint32_t i = 0; i + 1 < xs.len; i++) {
+        uint32_t j = shuffle_partner(source, i, xs.len);
+        Item moved = items[i];
+        items[i] = items[j];
+        items[j] = moved;
+    }
+    return (Value){.len = xs.len, .kind = VALUE_MIXED, .as.items = items};
+}

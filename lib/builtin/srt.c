@@ -1,0 +1,144 @@
+// srt.c: subtitle files (spec builtins.md B13.6).
+#include "builtin/family.h"
+#include "builtin/files.h"
+
+#include "base/number.h"
+
+#include <string.h>
+
+typedef struct Subtitle {
+    double start, end; // seconds
+    Str text;          // the lines, joined by LF
+    uint32_t line_count;
+} Subtitle;
+
+typedef struct SrtFile {
+    const Subtitle *subtitles;
+    uint32_t count;
+} SrtFile;
+
+// Moves the part before a separator out of *text, and the separator too. False if there is none: then *part is all.
+static bool take_part(Str *text, Str separator, Str *part) {
+    size_t at = 0;
+    while (at + separator.len <= text->len && memcmp(text->bytes + at, separator.bytes, separator.len) != 0)
+        at++;
+    bool found = at + separator.len <= text->len;
+    *part = (Str){text->bytes, found ? at : text->len};
+    size_t used = part->len + (found ? separator.len : 0);
+    *text = (Str){text->bytes + used, text->len - used};
+    return found;
+}
+
+static bool is_integer(Str text) {
+    text = str_trim(text);
+    if (text.len && (text.bytes[0] == '-' || text.bytes[0] == '+'))
+        text = (Str){text.bytes + 1, text.len - 1};
+    return text.len > 0 && builtin_scan_digits(text) == text.len;
+}
+
+static bool read_digits(Str text, double *x) {
+    for (size_t i = 0; i < text.len; i++)
+        if (text.bytes[i] < '0' || text.bytes[i] > '9')
+            return false;
+    *x = text.len ? number_parse(text) : 0;
+    return text.len > 0;
+}
+
+// [[hh:]mm:]ss[,mmm]: mmm/1000, then plus seconds, plus 60*minutes, plus 3600*hours.
+static bool read_time(Str text, double *time) {
+    Str rest = str_trim(text), clock, part;
+    double milliseconds = 0, parts[3];
+    if (take_part(&rest, STR(","), &clock) && !read_digits(rest, &milliseconds))
+        return false;
+    int count = 0;
+    for (bool more = true; more; count++) {
+        if (count == 3)
+            return false;
+        more = take_part(&clock, STR(":"), &part);
+        if (!read_digits(part, &parts[count]))
+            return false;
+    }
+    *time = milliseconds / 1000;
+    static const double unit[3] = {1, 60, 3600};
+    for (int i = 0; i < count; i++)
+        *time = *time + unit[i] * parts[count - 1 - i];
+    return true;
+}
+
+static uint32_t count_lines(Str text) {
+    if (text.len == 0)
+        return 0;
+    uint32_t lines = 1;
+    for (size_t i = 0; i < text.len; i++)
+        lines += text.bytes[i] == '\n';
+    return lines;
+}
+
+static bool read_section(Str section, Subtitle *subtitle) {
+    Str number, times, start;
+    if (section.len && section.bytes[section.len - 1] == '\n') // ends the last line of the file
+        section.len--;
+    if (!take_part(&section, STR("\n"), &number) || !is_integer(number))
+        return false;
+    take_part(&section, STR("\n"), &times);
+    if (!take_part(&times, STR("-->"), &start) || !read_time(start, &subtitle->start) ||
+        !read_time(times, &subtitle->end))
+        return false;
+    subtitle->text = section;
+    subtitle->line_count = count_lines(section);
+    return true;
+}
+
+static const void *parse_srt(Arena *arena, char *bytes, size_t len, const char **problem) {
+    if (!file_is_text(bytes, len, problem))
+        return NULL;
+    Str all = {bytes, file_normalise_lines(bytes, len)}, rest = all, section;
+    uint32_t count = 1;
+    while (take_part(&rest, STR("\n\n"), &section))
+        count++;
+    SrtFile *file = arena_alloc(arena, sizeof *file);
+    Subtitle *subtitles = arena_alloc_array(arena, count, sizeof *subtitles);
+    rest = all;
+    for (uint32_t i = 0; i < count; i++) {
+        take_part(&rest, STR("\n\n"), &section);
+        if (!read_section(section, &subtitles[i])) {
+            *problem = "it is not a subtitle file";
+            return NULL;
+        }
+    }
+    *file = (SrtFile){subtitles, count};
+    return file;
+}
+
+static bool is_shown(const Subtitle *subtitle, double time) {
+    return subtitle->start <= time && time < subtitle->end;
+}
+
+Value builtin_srt(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    if (!is_scalar(args[1]))
+        return VALUE_NULL;
+    const SrtFile *file = file_cache_get(context, "srt", parse_srt, args[0]);
+    if (!file)
+        return VALUE_NULL;
+    double time = args[1].as.number;
+    uint64_t len = 0;
+    for (uint32_t i = 0; i < file->count; i++)
+        len += is_shown(&file->subtitles[i], time) ? file->subtitles[i].line_count : 0;
+    if (len == 0)
+        return VALUE_NULL;
+    if (len > VALUE_MAX_LEN)
+        return builtin_too_long(context, "srt");
+    String *strings = arena_alloc_array(context->arena, len, sizeof *strings);
+    Item *items = arena_alloc_array(context->arena, len, sizeof *items);
+    uint32_t line = 0;
+    for (uint32_t i = 0; i < file->count; i++) {
+        Str text = file->subtitles[i].text, part;
+        for (uint32_t k = 0; is_shown(&file->subtitles[i], time) && k < file->subtitles[i].line_count; k++, line++) {
+            take_part(&text, STR("\n"), &part);
+            strings[line].text = str_copy(context->arena, part);
+            items[line] = (Item){ITEM_STRING, .as.string = &strings[line]};
+        }
+    }
+    return (Value){.len = (uint32_t)len, .kind = VALUE_MIXED, .as.items = items};
+}

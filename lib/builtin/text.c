@@ -1,0 +1,106 @@
+// text.c: characters and strings (spec builtins.md B12).
+#include "builtin/family.h"
+
+#include <math.h>
+#include <string.h>
+
+Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    if (!value_is_numeric(args[0]))
+        return VALUE_NULL;
+    const double *x = value_numbers(&args[0]);
+    Text text = text_new(context->arena);
+    for (uint32_t i = 0; i < args[0].len; i++) {
+        double code_point = floor(x[i]);
+        // Surrogates are not characters: UTF-8 cannot hold them (E7).
+        if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff)) {
+            builtin_fault(context, "chr", "not a code point");
+            return VALUE_NULL;
+        }
+        text_add_code_point(&text, (uint32_t)code_point);
+    }
+    return value_string(context->arena, text_str(&text));
+}
+
+Value builtin_ord(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    Str text = value_text(context->arena, context->symbols, args[0]);
+    size_t len = utf8_length(text);
+    if (len > VALUE_MAX_LEN)
+        return builtin_too_long(context, "ord");
+    if (len == 0)
+        return VALUE_NULL;
+    double *result = arena_alloc_array(context->arena, len, sizeof *result);
+    size_t at = 0;
+    for (size_t i = 0; i < len; i++)
+        result[i] = utf8_next(text, &at);
+    return value_numbers_view(result, (uint32_t)len);
+}
+
+// The next occurrence of a non-empty separator at or after `at`, or text.len.
+static size_t find_separator(Str text, Str separator, size_t at) {
+    while (separator.len <= text.len - at) {
+        const char *first = memchr(text.bytes + at, separator.bytes[0], text.len - at - separator.len + 1);
+        if (!first)
+            break;
+        if (memcmp(first, separator.bytes, separator.len) == 0)
+            return (size_t)(first - text.bytes);
+        at = (size_t)(first - text.bytes) + 1;
+    }
+    return text.len;
+}
+
+// Number of pieces without the empty ones at the end.
+static size_t count_pieces(Str text, Str separator) {
+    size_t pieces = 0, kept = 0;
+    for (size_t at = 0; at <= text.len; pieces++) {
+        size_t end = find_separator(text, separator, at);
+        if (end > at)
+            kept = pieces + 1;
+        at = end < text.len ? end + separator.len : text.len + 1;
+    }
+    return kept;
+}
+
+// The pieces are slices of the text, which lives as long as the value that it was taken from.
+static Value split_text(Arena *arena, Str text, Str separator, uint32_t len) {
+    String *strings = arena_alloc_array(arena, len, sizeof *strings);
+    Item *items = arena_alloc_array(arena, len, sizeof *items);
+    size_t at = 0;
+    for (uint32_t i = 0; i < len; i++) {
+        size_t end = find_separator(text, separator, at);
+        strings[i].text = (Str){text.bytes + at, end - at};
+        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
+        at = end + separator.len;
+    }
+    return (Value){.len = len, .kind = VALUE_MIXED, .as.items = items};
+}
+
+Value builtin_split(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    if (args[0].len == 0 || (!is_absent(args[1]) && args[1].len == 0))
+        return VALUE_NULL;
+    Str text = value_text(context->arena, context->symbols, args[0]);
+    Str separator = is_absent(args[1]) ? STR("\n") : value_text(context->arena, context->symbols, args[1]);
+    if (separator.len == 0) {
+        builtin_fault(context, "split", "the separator is empty");
+        return VALUE_NULL;
+    }
+    size_t pieces = count_pieces(text, separator);
+    if (pieces == 0) {
+        builtin_fault(context, "split", "nothing between separators");
+        return VALUE_NULL;
+    }
+    if (pieces > VALUE_MAX_LEN)
+        return builtin_too_long(context, "split");
+    return split_text(context->arena, text, separator, (uint32_t)pieces);
+}
+
+Value builtin_concat(BuiltinContext *context, const Value *args, uint32_t count) {
+    (void)count;
+    if (args[0].len == 0)
+        return VALUE_NULL;
+    if (args[0].len == 1 && args[0].kind == VALUE_MIXED && args[0].as.items[0].type == ITEM_STRING)
+        return args[0];
+    return value_string(context->arena, value_text(context->arena, context->symbols, args[0]));
+}

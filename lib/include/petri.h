@@ -1,0 +1,138 @@
+// petri.h: the public interface of libpetri, an engine for Flitter scripts with `!physics` particle systems.
+//
+// A PetriSession owns everything: the loaded script, the state dictionary, the particle systems. Load a script, then
+// step it; each step evaluates the script for one frame and lets its systems write the state dictionary.
+//
+// Rules that hold everywhere:
+// - A session is used by one thread at a time; different sessions are independent.
+// - A parameter struct need only live until the call returns. Text is UTF-8; a length of PETRI_Z means NUL-terminated.
+// - A function that can fail returns a PetriStatus. Nothing is half done: a script that cannot be loaded leaves the
+//   one that is running, and a frame that hits a limit leaves the state as it was.
+// - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
+//   the library prints, exits or changes the process's locale, signals or working directory.
+#ifndef PETRI_H
+#define PETRI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+#define PETRI_Z SIZE_MAX
+
+typedef struct PetriSession PetriSession;
+
+typedef enum PetriStatus {
+    PETRI_OK,
+    PETRI_INVALID, // the script cannot be loaded, a definition cannot be read; diagnostics tell why
+    PETRI_LIMIT,   // a limit was reached: the frame was given up and changed nothing
+    PETRI_MEMORY,  // memory is used up
+} PetriStatus;
+
+typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
+
+// One diagnostic. Texts are valid during the callback only.
+typedef struct PetriDiagnostic {
+    PetriLevel level;
+    const char *file; // NULL without a place
+    uint32_t line;    // from 1
+    uint32_t column;  // in characters, from 1
+    const char *text;
+    const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
+    const char *rendered; // `FILE:LINE:COLUMN: level: text`, source line and carets; ends in a newline
+} PetriDiagnostic;
+
+typedef struct PetriOptions {
+    double fps;      // target frame rate; a script's `%pragma fps` wins. Default 60
+    bool realtime;   // follow the wall clock: petri_step waits until the frame is due. Default false: lockstep
+    double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
+    bool colour;     // colour `rendered` with ANSI escapes
+    // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is enough.
+    size_t stack_bytes;
+    size_t memory_bytes; // for the values of one frame. Default 2 GiB
+    int threads;         // worker threads, 0: as many as processors. Results never depend on it
+    void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
+    void *host;
+    uint32_t cookie; // set by petri_default_options; catches options that were not initialised
+} PetriOptions;
+
+PetriOptions petri_default_options(void);
+
+// A session without a script, or NULL if memory is used up.
+PetriSession *petri_open(const PetriOptions *options);
+// Frees the session and sets the handle to NULL. A handle that is NULL already is fine.
+void petri_close(PetriSession **session);
+
+// Defines a name for the scripts loaded from now on (`-D`): "name=value", where value is `;`-separated numbers with
+// suffixes, time codes, `:symbols` or strings. PETRI_INVALID without a name or an equals sign.
+PetriStatus petri_define(PetriSession *session, const char *definition);
+
+// Loads a script from a file; frames count from 0 again, the state dictionary is kept. `file` is also what messages
+// call it and what relative file names in it start from.
+PetriStatus petri_load(PetriSession *session, const char *file);
+// The same from text; `name` stands for the file.
+PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
+// Parses and compiles a file for its diagnostics only.
+PetriStatus petri_check(PetriSession *session, const char *file);
+
+// Evaluates the next frame (0 first) and updates its systems.
+PetriStatus petri_step(PetriSession *session);
+
+// The frame that petri_step made last.
+typedef struct PetriFrame {
+    int64_t number; // -1 before the first
+    double time;
+    double beat;
+    double fps;
+    double tempo;
+    uint64_t physics_steps;    // simulation steps of all systems in this frame
+    double evaluation_seconds; // time spent on the script
+    double physics_seconds;    // time spent on the systems
+} PetriFrame;
+
+PetriFrame petri_frame(const PetriSession *session);
+
+// What a frame's text holds (spec cli.md 3.3), in this order.
+enum {
+    PETRI_PRINT_TREE = 1,
+    PETRI_PRINT_STATE = 2,
+    PETRI_PRINT_LOG = 4,
+    PETRI_PRINT_ERROR = 8,
+};
+
+// Takes a piece of text; false stops the writing.
+typedef bool PetriWrite(void *host, const char *text, size_t length);
+
+// Writes `@FRAME time=T beat=B` and the sections asked for. PETRI_INVALID if the writer said stop.
+PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host);
+// Only the log lines of the frame, each `> text`.
+PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host);
+
+typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
+// Writes the loaded script's syntax tree or compiled code.
+PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host);
+
+// How many diagnostics were given since the session was opened, by level.
+uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level);
+
+// One built-in function, for help. `index` counts from 0; false beyond the last. Texts live as long as the library.
+typedef struct PetriBuiltin {
+    const char *name;
+    const char *parameters;
+    const char *help;
+} PetriBuiltin;
+bool petri_builtin(size_t index, PetriBuiltin *builtin);
+
+// A number as `--runtime` takes it: seconds with suffix or a time code. False if it is none.
+bool petri_read_number(const char *text, double *x);
+
+const char *petri_version(void);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

@@ -1,0 +1,125 @@
+// barrier.c: soft and hard boundaries (4.4).
+#include "physics/internal.h"
+
+// start + Σ (p_k − position_k) · normal_k
+static double height_above(const Columns *columns, size_t i, const PhysForce *barrier, double start) {
+    size_t n = columns->dimensions, count = columns->count;
+    double sum = start;
+    for (size_t k = 0; k < n; k++)
+        sum += (columns->position[k * count + i] - phys_at(barrier->vector, k)) * phys_at(barrier->vector2, k);
+    return sum;
+}
+
+// Σ v_k · normal_k
+static double velocity_along(const Columns *columns, size_t i, const PhysForce *barrier) {
+    size_t n = columns->dimensions, count = columns->count;
+    double sum = 0;
+    for (size_t k = 0; k < n; k++)
+        sum += columns->velocity[k * count + i] * phys_at(barrier->vector2, k);
+    return sum;
+}
+
+// With s = Σ (p_k − position_k) · normal_k:
+//   min > 0 and 0 ≤ s < min:  + normal_k · ((min − s)^power · strength)
+//   else s > max:             − normal_k · ((s − max)^power · strength)
+static void constrain(const Columns *columns, size_t i, const Force *force) {
+    const PhysForce *barrier = &force->given;
+    double s = height_above(columns, i, barrier, 0), coefficient;
+    if (barrier->has_minimum && barrier->minimum > 0 && 0 <= s && s < barrier->minimum)
+        coefficient = phys_power(barrier->minimum - s, barrier->power) * force->strength;
+    else if (barrier->has_maximum && s > barrier->maximum)
+        coefficient = -(phys_power(s - barrier->maximum, barrier->power) * force->strength);
+    else
+        return;
+    size_t n = columns->dimensions, count = columns->count;
+    for (size_t k = 0; k < n; k++)
+        columns->force[k * count + i] += phys_at(barrier->vector2, k) * coefficient;
+}
+
+void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces) {
+    for (const Force *force = forces.begin; force < forces.end; force++) {
+        if (!force->given.has_minimum && !force->given.has_maximum)
+            continue;
+        for (size_t i = group->first, end = i + group->count; i < end; i++)
+            if (!columns->anchor[i])
+                constrain(columns, i, force);
+    }
+}
+
+// p_k = p_k − x · normal_k
+static void put_on_surface(const Columns *columns, size_t i, const PhysForce *barrier, double x) {
+    size_t n = columns->dimensions, count = columns->count;
+    for (size_t k = 0; k < n; k++)
+        columns->position[k * count + i] -= x * phys_at(barrier->vector2, k);
+}
+
+// p_k = p_k − τ · v_k;  v_k = (v_k − τ · a_k) · restitution
+static void back_to_contact(const Columns *columns, size_t i, double tau, double restitution) {
+    size_t n = columns->dimensions, count = columns->count;
+    const double *acceleration = phys_acceleration(columns);
+    for (size_t k = 0; k < n; k++) {
+        double *v = &columns->velocity[k * count + i];
+        columns->position[k * count + i] -= tau * *v;
+        *v = (*v - tau * acceleration[k]) * restitution;
+    }
+}
+
+// v_k = v_k − (2 · w) · normal_k
+static void reflect(const Columns *columns, size_t i, const PhysForce *barrier, double w) {
+    size_t n = columns->dimensions, count = columns->count;
+    for (size_t k = 0; k < n; k++)
+        columns->velocity[k * count + i] -= 2 * w * phys_at(barrier->vector2, k);
+}
+
+// b = Σ a_k · normal_k
+static double acceleration_along(const Columns *columns, const PhysForce *barrier) {
+    const double *acceleration = phys_acceleration(columns);
+    double sum = 0;
+    for (size_t k = 0; k < columns->dimensions; k++)
+        sum += acceleration[k] * phys_at(barrier->vector2, k);
+    return sum;
+}
+
+//   x = Σ (p_k − position_k)·normal_k accumulated from −r;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
+//   if x ≥ 0: done
+//   if not w < 0: put on the surface; done                     already leaving
+//   τ = x / w;  outside = τ > delta;  if outside: τ = delta    time since contact, at most the whole step
+//   back to the contact
+//   w' = Σ v_k·normal_k
+//   if outside: x' as x above; if x' < 0: put on the surface
+//   if w' < 0: reflect
+//   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the top of the bounce
+//   if τ > 0: motion again with τ for delta and the same force; else a = 0
+void phys_bounce(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
+    const PhysForce *barrier = &force->given;
+    double x = height_above(columns, i, barrier, -columns->radius[i]);
+    if (x >= 0)
+        return;
+    double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
+    if (!(w < 0)) {
+        put_on_surface(columns, i, barrier, x);
+        return;
+    }
+    double tau = x / w;
+    bool outside = tau > delta;
+    if (outside)
+        tau = delta;
+    back_to_contact(columns, i, tau, barrier->restitution);
+    w = velocity_along(columns, i, barrier);
+    if (outside) {
+        x = height_above(columns, i, barrier, -columns->radius[i]);
+        if (x < 0)
+            put_on_surface(columns, i, barrier, x);
+    }
+    if (w < 0)
+        reflect(columns, i, barrier, w);
+    if (b < 0 && w / b < tau)
+        tau = w / b > 0 ? w / b : 0;
+    if (tau > 0) {
+        phys_move(columns, i, tau, speed_of_light);
+        return;
+    }
+    double *acceleration = phys_acceleration(columns);
+    for (size_t k = 0; k < columns->dimensions; k++)
+        acceleration[k] = 0;
+}

@@ -1,0 +1,53 @@
+// buffer.c: arrays that grow and are kept from frame to frame.
+#include "physics/internal.h"
+
+#include <string.h>
+
+// An arena whose first block has at least `size` bytes, or false.
+static bool arena_with_block(Arena *arena, uint64_t size, void **bytes) {
+    jmp_buf escape;
+    arena_init(arena, "physics", SIZE_MAX);
+    arena->escape = &escape;
+    if (setjmp(escape))
+        return false; // the block is the arena's only one, so there is nothing to free
+    *bytes = arena_alloc(arena, size);
+    arena->escape = NULL;
+    return true;
+}
+
+bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size) {
+    if (system->failed)
+        return false;
+    uint64_t others = system->bytes - buffer->capacity;
+    if (size && count > (PHYS_MAX_BYTES - others) / size) {
+        system->failed = true;
+        return false;
+    }
+    uint64_t needed = count * size;
+    if (needed <= buffer->capacity)
+        return true;
+    if (!kept) // the old block first, so that both need not fit into memory
+        phys_buffer_free(buffer);
+    // Twice as much as before keeps the cost of growing by single elements linear.
+    uint64_t capacity = buffer->capacity > needed / 2 ? buffer->capacity * 2 : needed;
+    if (capacity > PHYS_MAX_BYTES - others)
+        capacity = needed;
+    Buffer larger = {.capacity = capacity};
+    if (!arena_with_block(&larger.arena, capacity, &larger.bytes)) {
+        system->bytes = others + buffer->capacity;
+        system->failed = true;
+        return false;
+    }
+    if (kept)
+        memcpy(larger.bytes, buffer->bytes, kept);
+    phys_buffer_free(buffer);
+    *buffer = larger;
+    system->bytes = others + capacity;
+    return true;
+}
+
+void phys_buffer_free(Buffer *buffer) {
+    arena_free(&buffer->arena);
+    buffer->bytes = NULL;
+    buffer->capacity = 0;
+}

@@ -1,0 +1,98 @@
+// groups.c: brings particles and forces into the order in which a step walks through them.
+#include "physics/internal.h"
+
+static Stage stage_of(PhysForceKind kind) {
+    switch (kind) {
+    case PHYS_COLLISION:
+    case PHYS_GRAVITY:
+    case PHYS_ELECTROSTATIC:
+    case PHYS_ADHESION:
+        return STAGE_PAIR;
+    case PHYS_DISTANCE:
+        return STAGE_LINK;
+    case PHYS_BARRIER:
+        return STAGE_BARRIER;
+    default:
+        return STAGE_SINGLE;
+    }
+}
+
+static size_t slot_of(const ForceRecord *record) {
+    return (size_t)record->group * STAGE_COUNT + stage_of(record->given.kind);
+}
+
+// A stable counting sort by group. Group numbers ascend in pre-order, so this is the storage order. `first` counts down
+// from the end of each range to its beginning.
+static void arrange_particles(PhysSystem *system) {
+    Group *groups = system->groups.bytes;
+    const ParticleRecord *particles = system->particles.bytes;
+    for (uint32_t g = 0; g < system->group_count; g++)
+        groups[g].count = 0;
+    for (uint32_t i = 0; i < system->particle_count; i++)
+        groups[particles[i].group].count++;
+    uint32_t end = 0;
+    for (uint32_t g = 0; g < system->group_count; g++)
+        groups[g].first = end += groups[g].count;
+    for (uint32_t i = system->particle_count; i-- > 0;) {
+        uint32_t column = --groups[particles[i].group].first;
+        system->order[column] = i;
+        system->place[i] = column;
+    }
+}
+
+static Force arranged_force(const PhysSystem *system, const ForceRecord *record) {
+    const double *vectors = system->vectors.bytes;
+    Force force = {.given = record->given};
+    force.given.vector = record->vector ? vectors + record->vector - 1 : NULL;
+    force.given.vector2 = record->vector2 ? vectors + record->vector2 - 1 : NULL;
+    if (force.given.kind != PHYS_DISTANCE)
+        return force;
+    bool valid = force.given.from < system->particle_count && force.given.to < system->particle_count;
+    // A particle linked with itself has the distance 0: the kernel skips it without a look at the columns.
+    force.given.from = valid ? system->place[force.given.from] : 0;
+    force.given.to = valid ? system->place[force.given.to] : 0;
+    return force;
+}
+
+// The same sort for forces, by group and stage.
+static void arrange_forces(PhysSystem *system) {
+    const ForceRecord *records = system->force_records.bytes;
+    Force *forces = system->forces.bytes;
+    size_t slots = (size_t)system->group_count * STAGE_COUNT;
+    for (size_t s = 0; s <= slots; s++)
+        system->starts[s] = 0;
+    for (uint32_t i = 0; i < system->force_count; i++)
+        system->starts[slot_of(&records[i])]++;
+    for (size_t s = 1; s <= slots; s++)
+        system->starts[s] += system->starts[s - 1];
+    for (uint32_t i = system->force_count; i-- > 0;)
+        forces[--system->starts[slot_of(&records[i])]] = arranged_force(system, &records[i]);
+}
+
+// Short cuts past enclosing groups that have nothing to say, which make deep nesting cheap.
+static void link_groups(PhysSystem *system) {
+    Group *groups = system->groups.bytes;
+    for (uint32_t g = 0; g < system->group_count; g++) {
+        Group *group = &groups[g];
+        const Group *parent = g ? &groups[group->parent] : NULL;
+        group->populated = group->count ? g : parent ? parent->populated : NO_GROUP;
+        for (int stage = 0; stage < STAGE_COUNT; stage++) {
+            const uint32_t *start = system->starts + (size_t)g * STAGE_COUNT + stage;
+            group->nearest[stage] = start[0] != start[1] ? g : parent ? parent->nearest[stage] : NO_GROUP;
+        }
+    }
+}
+
+bool phys_arrange(PhysSystem *system) {
+    uint64_t particles = system->particle_count, slots = (uint64_t)system->group_count * STAGE_COUNT;
+    if (!phys_buffer_reserve(system, &system->indices, 0, 2 * particles + slots + 1, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &system->forces, 0, system->force_count, sizeof(Force)))
+        return false;
+    system->order = system->indices.bytes;
+    system->place = system->order + particles;
+    system->starts = system->place + particles;
+    arrange_particles(system);
+    arrange_forces(system);
+    link_groups(system);
+    return true;
+}

@@ -1,0 +1,173 @@
+// internal.h: what the files of lib/physics share; nobody else includes it.
+//
+// A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
+// particle a row of 3 n doubles (position, velocity, force), which is also where results are read. To simulate, it is
+// arranged: particles go into columns, component k of particle i at [k * count + i], in pre-order of their groups, each
+// group's own first; forces are sorted by group and by the stage in which they act. Then
+//
+//   - the particles of a group are one contiguous range, and so are those of a group with all its sub-groups;
+//   - what a particle sees in a pass over pairs is its own range and one range for each enclosing group;
+//   - all forces that one stage applies for one group are contiguous.
+//
+// Columns, not rows, since later kernels give each lane a particle of its own.
+#ifndef PETRI_PHYSICS_INTERNAL_H
+#define PETRI_PHYSICS_INTERNAL_H
+
+#include "base/arena.h"
+#include "physics/system.h"
+
+#include <math.h>
+
+// An array that grows and is kept from frame to frame. Its memory is an arena of one block, because only base/ touches
+// the heap.
+typedef struct Buffer {
+    Arena arena;
+    void *bytes;
+    uint64_t capacity; // in bytes
+} Buffer;
+
+// The stages of a step in which forces act.
+typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_COUNT } Stage;
+
+#define NO_GROUP UINT32_MAX
+
+typedef struct Group {
+    uint32_t parent; // the top is its own parent
+    uint32_t first;  // own particles are columns first … first + count - 1
+    uint32_t count;
+    uint32_t populated;            // this group or its nearest ancestor that has particles, or NO_GROUP
+    uint32_t nearest[STAGE_COUNT]; // this group or its nearest ancestor that has forces of a stage, or NO_GROUP
+} Group;
+
+typedef struct ParticleRecord {
+    double ease;
+    double radius;
+    double mass;
+    double charge;
+    uint32_t group;
+    bool anchor;
+} ParticleRecord;
+
+typedef struct ForceRecord {
+    PhysForce given;  // its vectors are those of the caller and must not be used
+    uint64_t vector;  // where the copy begins in the vector buffer, plus 1; 0 stands for all zeros
+    uint64_t vector2; // likewise
+    uint32_t group;
+} ForceRecord;
+
+// A force as the kernels see it: vectors point to the copies, `from` and `to` are columns.
+typedef struct Force {
+    PhysForce given;
+    double strength; // at this step, eased in
+    uint64_t item;   // random: items of the stream taken so far in this frame
+} Force;
+
+typedef struct Columns {
+    size_t dimensions;
+    uint32_t count;
+    double *position;
+    double *velocity;
+    double *thrust; // the particle's own force
+    double *force;  // sum of all forces of the step
+    double *ease;
+    double *radius;
+    double *mass;
+    double *charge;
+    double *section; // radius^(n-1), valid if some force needs it
+    double *volume;  // radius^n, likewise
+    double *scratch; // 3 n doubles for the kernel that is running
+    bool *anchor;
+} Columns;
+
+struct PhysSystem {
+    Arena home;     // holds this struct
+    uint64_t bytes; // capacity of all buffers together
+    bool failed;    // memory was used up since phys_begin
+    // description
+    uint32_t dimensions;
+    uint32_t group_count;
+    uint32_t particle_count;
+    uint32_t force_count;
+    uint64_t vector_doubles; // doubles in use in `vectors`
+    Buffer groups;           // Group
+    Buffer particles;        // ParticleRecord by handle
+    Buffer rows;             // 3 n doubles by handle
+    Buffer force_records;    // ForceRecord in order of the calls
+    Buffer vectors;          // double
+    // arranged for simulation
+    Buffer indices;     // uint32_t: `order`, `place`, `starts`
+    Buffer forces;      // Force, by group, then stage, then declaration
+    Buffer column_data; // what `columns` points to
+    uint32_t *order;    // column -> handle
+    uint32_t *place;    // handle -> column
+    uint32_t *starts;   // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
+    Columns columns;
+};
+
+// A run of forces.
+typedef struct ForceRange {
+    Force *begin;
+    Force *end;
+} ForceRange;
+
+// buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
+// `system->failed` set, if memory is used up.
+bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size);
+void phys_buffer_free(Buffer *buffer);
+
+// groups.c: sorts particles and forces by group. False if memory is used up.
+bool phys_arrange(PhysSystem *system);
+
+// particles.c: rows into columns and back. phys_load is false if memory is used up.
+bool phys_load(PhysSystem *system);
+void phys_store(PhysSystem *system);
+
+// step.c: one step of `delta` at `clock`.
+void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
+
+// Kernels. They apply forces to the particles of one group (for links: to any two).
+void phys_apply_links(const Columns *columns, ForceRange forces);
+void phys_apply_pairs(const PhysSystem *system, const Group *group);
+void phys_apply_singles(const Columns *columns, const Group *group, ForceRange forces, double delta);
+void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces);
+// integrate.c: moves particle i (4.3) and leaves its acceleration in phys_acceleration().
+void phys_move(const Columns *columns, size_t i, double delta, double speed_of_light);
+// barrier.c: after a move of `delta`, lets particle i bounce off one barrier (4.4).
+void phys_bounce(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
+
+static inline double *phys_acceleration(const Columns *columns) {
+    return columns->scratch;
+}
+
+static inline double phys_at(PhysVector vector, size_t k) {
+    return vector ? vector[k] : 0.0;
+}
+
+// `factor` of a strength (or of a particle's own force) while it is eased in.
+static inline double phys_ramp(double ease, double clock) {
+    return ease > 0 && clock < ease ? clock / ease : 1.0;
+}
+
+// displacement^power as section 4.1 defines it. The exponent must not be a constant at the place of the call:
+// compilers replace pow by other operations then.
+static inline double phys_power(double displacement, double power) {
+    if (power == 1)
+        return displacement;
+    if (power == 2)
+        return displacement * displacement;
+    return pow(displacement, power < 0 ? 0.0 : power);
+}
+
+// Forces that `group` declares for a stage.
+static inline ForceRange phys_forces(const PhysSystem *system, uint32_t group, Stage stage) {
+    const uint32_t *start = system->starts + (size_t)group * STAGE_COUNT + stage;
+    Force *forces = system->forces.bytes;
+    return start[0] == start[1] ? (ForceRange){0} : (ForceRange){forces + start[0], forces + start[1]};
+}
+
+// The next group above `group` that has forces of a stage, or NO_GROUP.
+static inline uint32_t phys_next_above(const Group *groups, uint32_t group, Stage stage) {
+    return group ? groups[groups[group].parent].nearest[stage] : NO_GROUP;
+}
+
+#endif

@@ -1,0 +1,80 @@
+// particles.c: the columns that are simulated, filled from the description and written back to it.
+#include "physics/internal.h"
+
+// Points the columns into their memory.
+static bool reserve_columns(PhysSystem *system) {
+    Columns *columns = &system->columns;
+    uint64_t n = system->dimensions, count = system->particle_count;
+    double **vectors[] = {&columns->position, &columns->velocity, &columns->thrust, &columns->force};
+    double **scalars[] = {&columns->ease,   &columns->radius,  &columns->mass,
+                          &columns->charge, &columns->section, &columns->volume};
+    enum { VECTORS = sizeof vectors / sizeof *vectors, SCALARS = sizeof scalars / sizeof *scalars, SCRATCH = 3 };
+    // n * count is bounded by the rows, which exist already. Without particles nothing is needed, however large n is.
+    uint64_t doubles = VECTORS * n * count + SCALARS * count + (count ? SCRATCH * n : 0);
+    uint64_t flags = (count + sizeof(double) - 1) / sizeof(double);
+    if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)))
+        return false;
+    *columns = (Columns){.dimensions = n, .count = system->particle_count};
+    if (!count)
+        return true;
+    double *next = system->column_data.bytes;
+    for (int i = 0; i < VECTORS; i++, next += n * count)
+        *vectors[i] = next;
+    for (int i = 0; i < SCALARS; i++, next += count)
+        *scalars[i] = next;
+    columns->scratch = next;
+    columns->anchor = (bool *)(next + SCRATCH * n);
+    return true;
+}
+
+// radius^(n-1) and radius^n are wanted at every step, and pow is slow.
+static void compute_radius_powers(const PhysSystem *system, const Columns *columns) {
+    const Force *forces = system->forces.bytes;
+    bool drag = false, buoyancy = false;
+    for (uint32_t i = 0; i < system->force_count; i++) {
+        drag |= forces[i].given.kind == PHYS_DRAG;
+        buoyancy |= forces[i].given.kind == PHYS_BUOYANCY;
+    }
+    double n = (double)columns->dimensions;
+    for (size_t i = 0; drag && i < columns->count; i++)
+        columns->section[i] = pow(columns->radius[i], n - 1);
+    for (size_t i = 0; buoyancy && i < columns->count; i++)
+        columns->volume[i] = pow(columns->radius[i], n);
+}
+
+bool phys_load(PhysSystem *system) {
+    if (!reserve_columns(system))
+        return false;
+    const Columns *columns = &system->columns;
+    const ParticleRecord *particles = system->particles.bytes;
+    size_t n = columns->dimensions, count = columns->count;
+    for (size_t i = 0; i < count; i++) {
+        uint32_t handle = system->order[i];
+        const ParticleRecord *particle = &particles[handle];
+        columns->ease[i] = particle->ease;
+        columns->radius[i] = particle->radius;
+        columns->mass[i] = particle->mass;
+        columns->charge[i] = particle->charge;
+        columns->anchor[i] = particle->anchor;
+        const double *row = (const double *)system->rows.bytes + 3 * n * handle;
+        for (size_t k = 0; k < n; k++) {
+            columns->position[k * count + i] = row[k];
+            columns->velocity[k * count + i] = row[n + k];
+            columns->thrust[k * count + i] = row[2 * n + k];
+        }
+    }
+    compute_radius_powers(system, columns);
+    return true;
+}
+
+void phys_store(PhysSystem *system) {
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions, count = columns->count;
+    for (size_t i = 0; i < count; i++) {
+        double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
+        for (size_t k = 0; k < n; k++) {
+            row[k] = columns->position[k * count + i];
+            row[n + k] = columns->velocity[k * count + i];
+        }
+    }
+}

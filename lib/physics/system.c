@@ -1,0 +1,145 @@
+// system.c: the description of a system (see system.h).
+#include "physics/internal.h"
+
+#include <assert.h>
+#include <string.h>
+
+// Counts are uint32_t: the limit on bytes keeps them in range.
+_Static_assert(PHYS_MAX_BYTES / sizeof(Group) < UINT32_MAX / STAGE_COUNT, "group numbers must fit");
+_Static_assert(PHYS_MAX_BYTES / sizeof(ParticleRecord) < UINT32_MAX, "particle handles must fit");
+_Static_assert(PHYS_MAX_BYTES / sizeof(ForceRecord) < UINT32_MAX, "force numbers must fit");
+_Static_assert(PHYS_MAX_BYTES < SIZE_MAX, "sizes must fit");
+
+enum { ROW_VECTORS = 3 }; // position, velocity, force
+
+PhysSystem *phys_new(void) {
+    Arena home;
+    jmp_buf escape;
+    arena_init(&home, "physics", SIZE_MAX);
+    home.escape = &escape;
+    if (setjmp(escape))
+        return NULL;
+    PhysSystem *system = arena_alloc(&home, sizeof *system);
+    home.escape = NULL;
+    *system = (PhysSystem){.home = home};
+    phys_begin(system, 1);
+    return system;
+}
+
+void phys_free(PhysSystem *system) {
+    if (!system)
+        return;
+    Buffer *buffers[] = {&system->groups,  &system->particles, &system->rows,   &system->force_records,
+                         &system->vectors, &system->indices,   &system->forces, &system->column_data};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        phys_buffer_free(buffers[i]);
+    Arena home = system->home; // the struct goes with it
+    arena_free(&home);
+}
+
+void phys_begin(PhysSystem *system, uint32_t dimensions) {
+    system->failed = false;
+    system->dimensions = dimensions;
+    system->group_count = 0;
+    system->particle_count = 0;
+    system->force_count = 0;
+    system->vector_doubles = 0;
+    phys_add_group(system, 0);
+}
+
+// Makes room for one more element of a buffer that holds `count`.
+static bool reserve_one(PhysSystem *system, Buffer *buffer, uint64_t count, uint64_t size) {
+    return phys_buffer_reserve(system, buffer, count * size, count + 1, size);
+}
+
+uint32_t phys_add_group(PhysSystem *system, uint32_t parent) {
+    if (!reserve_one(system, &system->groups, system->group_count, sizeof(Group)))
+        return 0;
+    uint32_t group = system->group_count++;
+    assert(parent < group || !group);
+    ((Group *)system->groups.bytes)[group] = (Group){.parent = parent};
+    return group;
+}
+
+static void copy_vector(double *to, PhysVector from, size_t dimensions) {
+    if (from)
+        memcpy(to, from, dimensions * sizeof *to);
+    else
+        memset(to, 0, dimensions * sizeof *to);
+}
+
+uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle) {
+    uint32_t handle = system->particle_count;
+    size_t n = system->dimensions;
+    if (!reserve_one(system, &system->particles, handle, sizeof(ParticleRecord)) ||
+        !reserve_one(system, &system->rows, handle, ROW_VECTORS * n * sizeof(double)))
+        return 0;
+    assert(group < system->group_count);
+    ((ParticleRecord *)system->particles.bytes)[handle] = (ParticleRecord){
+        .ease = particle->ease,
+        .radius = particle->radius,
+        .mass = particle->mass,
+        .charge = particle->charge,
+        .group = group,
+        .anchor = particle->anchor,
+    };
+    double *row = (double *)system->rows.bytes + ROW_VECTORS * n * handle;
+    copy_vector(row, particle->position, n);
+    copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
+    copy_vector(row + 2 * n, particle->anchor ? NULL : particle->force, n);
+    system->particle_count++;
+    return handle;
+}
+
+// Copies a vector of a force; returns where it begins plus 1, or 0 for all zeros (or no memory).
+static uint64_t keep_vector(PhysSystem *system, PhysVector vector) {
+    uint64_t n = system->dimensions, begin = system->vector_doubles;
+    if (!vector || !phys_buffer_reserve(system, &system->vectors, begin * sizeof(double), begin + n, sizeof(double)))
+        return 0;
+    copy_vector((double *)system->vectors.bytes + begin, vector, n);
+    system->vector_doubles += n;
+    return begin + 1;
+}
+
+// Which of its two vectors a force reads; the others may be garbage.
+static int vectors_of(PhysForceKind kind) {
+    switch (kind) {
+    case PHYS_CONSTANT:
+    case PHYS_BARRIER:
+        return 2;
+    case PHYS_FIELD:
+    case PHYS_DRAG:
+    case PHYS_BUOYANCY:
+        return 1;
+    default:
+        return 0;
+    }
+}
+
+void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
+    if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
+        return;
+    assert(group < system->group_count);
+    int vectors = vectors_of(force->kind);
+    ForceRecord record = {.given = *force, .group = group};
+    record.vector = vectors > 0 ? keep_vector(system, force->vector) : 0;
+    record.vector2 = vectors > 1 ? keep_vector(system, force->vector2) : 0;
+    if (system->failed)
+        return;
+    ((ForceRecord *)system->force_records.bytes)[system->force_count++] = record;
+}
+
+uint32_t phys_particle_count(const PhysSystem *system) {
+    return system->particle_count;
+}
+
+const double *phys_position(const PhysSystem *system, uint32_t particle) {
+    if (particle >= system->particle_count)
+        return NULL; // a handle from a call that failed
+    return (const double *)system->rows.bytes + (size_t)ROW_VECTORS * system->dimensions * particle;
+}
+
+const double *phys_velocity(const PhysSystem *system, uint32_t particle) {
+    const double *position = phys_position(system, particle);
+    return position ? position + system->dimensions : NULL;
+}

@@ -1,0 +1,120 @@
+// system.h: a particle system as arrays of doubles, and how it moves (spec physics.md section 4).
+//
+// This room knows no Flitter word: the scene translates `!physics` trees into calls of these functions and puts the
+// results into the state. A system is described anew for each frame (phys_begin … phys_add_…) and then simulated.
+// All arithmetic is IEEE double in the order that the specification fixes; the results do not depend on how the
+// particles are stored or on how many threads share the work.
+#ifndef PETRI_PHYSICS_SYSTEM_H
+#define PETRI_PHYSICS_SYSTEM_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef struct PhysSystem PhysSystem;
+
+// A vector attribute of n (= dimensions) doubles; NULL stands for all zeros.
+typedef const double *PhysVector;
+
+typedef struct PhysParticle {
+    PhysVector position;
+    PhysVector velocity; // ignored for an anchor: zero
+    PhysVector force;    // ignored for an anchor
+    double ease;         // of `force`, in units of the simulation clock
+    double radius;       // >= 0
+    double mass;         // >= 0; 0 is never accelerated
+    double charge;
+    bool anchor;
+} PhysParticle;
+
+typedef enum PhysForceKind {
+    // pair forces (4.1)
+    PHYS_COLLISION,
+    PHYS_GRAVITY,
+    PHYS_ELECTROSTATIC,
+    PHYS_ADHESION,
+    // between two given particles (4.1)
+    PHYS_DISTANCE,
+    // single-particle forces (4.2)
+    PHYS_CONSTANT,
+    PHYS_RANDOM,
+    PHYS_FIELD,
+    PHYS_DRAG,
+    PHYS_BUOYANCY,
+    // barriers (4.4)
+    PHYS_BARRIER,
+} PhysForceKind;
+
+// One force applier or barrier. Fields that its kind does not name are ignored. Vectors are copied by phys_add_force.
+typedef struct PhysForce {
+    PhysForceKind kind;
+    double strength;
+    double ease;         // ramp of strength, in units of the simulation clock; <= 0: none
+    double power;        // distance, collision, barrier; below 0 counts as 0
+    double max_distance; // pair forces; <= 0: no limit
+    double overlap;      // adhesion; clamped to 0…1 by the scene
+    double density;      // buoyancy
+    double restitution;  // barrier; clamped to 0…1 by the scene
+    bool has_minimum;    // distance and barrier bounds
+    bool has_maximum;
+    double minimum;
+    double maximum;
+    uint32_t from; // distance: particle handles
+    uint32_t to;
+    uint64_t key;       // random: key of the stream for this frame
+    PhysVector vector;  // constant: force; field: direction; drag: flow; buoyancy: gravity; barrier: position
+    PhysVector vector2; // constant: acceleration; barrier: unit normal
+} PhysForce;
+
+// A system without particles; NULL if memory is used up. phys_free takes NULL too.
+PhysSystem *phys_new(void);
+void phys_free(PhysSystem *system);
+
+// The most bytes that the arrays of one system may take.
+#define PHYS_MAX_BYTES (UINT64_C(2) << 30)
+
+// Starts a new description: drops groups, particles and forces (memory is kept). Group 0, the top, exists then.
+void phys_begin(PhysSystem *system, uint32_t dimensions);
+// Adds a sub-group and returns its number. Groups must be added in pre-order (a group before its sub-groups, in order
+// of declaration), so numbers ascend in pre-order. Particles and forces may come in any order of groups; within a group
+// the order of the calls is the order of declaration.
+uint32_t phys_add_group(PhysSystem *system, uint32_t parent);
+// Adds a particle to a group and returns its handle: 0, 1, 2, … in the order of the calls. Vectors are copied.
+uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle);
+// Adds a force applier or barrier to a group.
+void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
+
+typedef struct PhysTime {
+    double last;           // time up to which the state has been simulated
+    double now;            // time of this frame; > last
+    double clock;          // simulation clock at `last`
+    double resolution;     // longest step; > 0 and finite
+    bool lockstep;         // always catch up
+    double performance;    // engine performance, decides about the one extra step in real time
+    double speed_of_light; // <= 0: no limit
+} PhysTime;
+
+typedef enum PhysStatus {
+    PHYS_OK,
+    PHYS_DROPPED_TIME, // the step limit or the precision of the clock was reached; the rest of the frame was dropped
+    PHYS_NO_MEMORY,    // an allocation failed or PHYS_MAX_BYTES would be exceeded; nothing was simulated
+} PhysStatus;
+
+enum { PHYS_MAX_STEPS = 1000000 }; // in one frame
+
+typedef struct PhysResult {
+    PhysStatus status;
+    double clock;   // simulation clock afterwards
+    uint64_t steps; // steps made
+} PhysResult;
+
+// Simulates one frame (spec section 4). Deterministic to the last bit.
+PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
+
+uint32_t phys_particle_count(const PhysSystem *system);
+// The n doubles of a particle, by handle; valid until the next phys_begin. They may be non-finite. Before phys_simulate
+// they are what was given.
+const double *phys_position(const PhysSystem *system, uint32_t particle);
+const double *phys_velocity(const PhysSystem *system, uint32_t particle);
+
+#endif

@@ -1,0 +1,377 @@
+// compile.c: syntax tree to executable expressions; see program.h.
+//
+// One pass, in the order of evaluation: a binding becomes visible just after its value has been compiled, which is
+// exactly its scope (spec language.md L8.2).
+#include "program/compile.h"
+
+Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count) {
+    Expr *expr = arena_alloc(compiler->arena, sizeof *expr);
+    *expr = (Expr){.kind = kind,
+                   .count = count,
+                   .source = compiler->source,
+                   .span = ast->span,
+                   .children = arena_copy(compiler->arena, children, count * sizeof *children)};
+    return expr;
+}
+
+static const Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
+    Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
+    expr->as.value = value;
+    return expr;
+}
+
+void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint) {
+    diag_report(compiler->diags, &(Diag){level, compiler->source, span, text, hint, code});
+}
+
+// All children in order, as one expression.
+static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast) {
+    const Expr **children = arena_alloc_array(compiler->arena, ast->count, sizeof *children);
+    for (uint32_t i = 0; i < ast->count; i++)
+        children[i] = compile_expr(compiler, ast->children[i]);
+    return compile_expr_new(compiler, kind, ast, children, ast->count);
+}
+
+static const Expr *compile_arith(Compiler *compiler, const Ast *ast, ArithOp op) {
+    Expr *expr = compile_children(compiler, EXPR_ARITH, ast);
+    expr->slot = op;
+    return expr;
+}
+
+static const Expr *compile_range(Compiler *compiler, const Ast *ast) {
+    const Expr *parts[3];
+    for (int i = 0; i < 3; i++)
+        parts[i] =
+            ast->children[i] ? compile_expr(compiler, ast->children[i]) : constant(compiler, ast, VALUE_NULL);
+    return compile_expr_new(compiler, EXPR_RANGE, ast, parts, 3);
+}
+
+static const Expr *compile_node(Compiler *compiler, const Ast *ast) {
+    Expr *expr = compile_expr_new(compiler, EXPR_NODE, ast, NULL, 0);
+    expr->as.name = ast->name;
+    return expr;
+}
+
+// `then if test else other`: the IF of one branch.
+static const Expr *compile_cond(Compiler *compiler, const Ast *ast) {
+    const Expr *test = compile_expr(compiler, ast->children[1]);
+    const Expr *parts[3] = {test, compile_expr(compiler, ast->children[0])};
+    if (ast->children[2])
+        parts[2] = compile_expr(compiler, ast->children[2]);
+    return compile_expr_new(compiler, EXPR_IF, ast, parts, ast->children[2] ? 3 : 2);
+}
+
+// BINDING: the value first, then its names become visible.
+static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
+    const Ast *names = binding->children[0];
+    const Expr *value = compile_expr(compiler, binding->children[1]);
+    Expr *bind = compile_expr_new(compiler, EXPR_BIND, binding, &value, 1);
+    bind->slot = compile_bind_names(compiler, names, binding->children[1]);
+    bind->slot_count = names->count;
+    return bind;
+}
+
+static const Expr *compile_let(Compiler *compiler, const Ast *ast) {
+    const Expr **binds = arena_alloc_array(compiler->arena, ast->count, sizeof *binds);
+    for (uint32_t i = 0; i < ast->count; i++)
+        binds[i] = compile_binding(compiler, ast->children[i]);
+    return ast->count == 1 ? binds[0] : compile_expr_new(compiler, EXPR_COMPOSE, ast, binds, ast->count);
+}
+
+static const Expr *compile_where(Compiler *compiler, const Ast *ast) {
+    ScopeMark mark = compile_scope_open(compiler);
+    const Expr **parts = arena_alloc_array(compiler->arena, ast->count, sizeof *parts);
+    for (uint32_t i = 1; i < ast->count; i++)
+        parts[i - 1] = compile_binding(compiler, ast->children[i]);
+    parts[ast->count - 1] = compile_expr(compiler, ast->children[0]);
+    compile_scope_close(compiler, mark);
+    return compile_expr_new(compiler, EXPR_COMPOSE, ast, parts, ast->count);
+}
+
+static const Expr *compile_for(Compiler *compiler, const Ast *ast) {
+    const Expr *parts[2] = {compile_expr(compiler, ast->children[1])};
+    ScopeMark mark = compile_scope_open(compiler);
+    uint32_t slot = compile_bind_names(compiler, ast->children[0], NULL);
+    parts[1] = compile_expr(compiler, ast->children[2]);
+    compile_scope_close(compiler, mark);
+    Expr *expr = compile_expr_new(compiler, EXPR_FOR, ast, parts, 2);
+    expr->slot = slot;
+    expr->slot_count = ast->children[0]->count;
+    return expr;
+}
+
+static const Expr *compile_suite(Compiler *compiler, const Ast *ast) {
+    ScopeMark mark = compile_scope_open(compiler);
+    const Expr *expr = compile_children(compiler, EXPR_COMPOSE, ast);
+    compile_scope_close(compiler, mark);
+    return expr;
+}
+
+static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
+    DecorateCode *code = arena_alloc(compiler->arena, sizeof *code);
+    const Symbol **tags = arena_alloc_array(compiler->arena, ast->count, sizeof *tags);
+    const Symbol **names = arena_alloc_array(compiler->arena, ast->count, sizeof *names);
+    const Expr **children = arena_alloc_array(compiler->arena, ast->count, sizeof *children);
+    *code = (DecorateCode){.tags = tags, .names = names};
+    children[0] = compile_expr(compiler, ast->children[0]);
+    for (uint32_t i = 1; i < ast->count; i++) {
+        const Ast *decoration = ast->children[i];
+        if (decoration->kind == AST_TAG) {
+            tags[code->tag_count++] = decoration->name;
+        } else {
+            names[code->attr_count++] = decoration->name;
+            children[code->attr_count] = compile_expr(compiler, decoration->children[0]);
+        }
+    }
+    Expr *expr = compile_expr_new(compiler, EXPR_DECORATE, ast, children, code->attr_count + 1);
+    expr->as.decorate = code;
+    return expr;
+}
+
+// CALL and TEMPLATE alike: callee, positional and named arguments.
+static const Expr *make_call(Compiler *compiler, const Ast *ast, const Ast *const *args, uint32_t count) {
+    CallCode *code = arena_alloc(compiler->arena, sizeof *code);
+    const Symbol **names = arena_alloc_array(compiler->arena, count, sizeof *names);
+    const Expr **children = arena_alloc_array(compiler->arena, count + 1, sizeof *children);
+    *code = (CallCode){.names = names};
+    children[0] = compile_expr(compiler, ast->children[0]);
+    for (uint32_t i = 0; i < count; i++) {
+        bool named = args[i]->kind == AST_NAMED || args[i]->kind == AST_ATTR;
+        if (named)
+            names[code->named_count++] = args[i]->name;
+        else
+            code->arg_count++;
+        children[i + 1] = compile_expr(compiler, named ? args[i]->children[0] : args[i]);
+    }
+    Expr *expr = compile_expr_new(compiler, EXPR_CALL, ast, children, count + 1);
+    expr->as.call = code;
+    return expr;
+}
+
+// The suite under a template call is its first positional argument.
+static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
+    uint32_t count = ast->count - 1;
+    const Ast **args = arena_alloc_array(compiler->arena, ast->count, sizeof *args);
+    bool suite = count > 0 && ast->children[count]->kind == AST_SUITE;
+    if (suite)
+        args[0] = ast->children[count];
+    for (uint32_t i = 0; i < count - suite; i++)
+        args[i + suite] = ast->children[i + 1];
+    return make_call(compiler, ast, args, count);
+}
+
+static const Expr *compile_func(Compiler *compiler, const Ast *ast) {
+    const Ast *params = ast->children[0];
+    FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
+    const Symbol **names = arena_alloc_array(compiler->arena, params->count, sizeof *names);
+    const Expr **defaults = arena_alloc_array(compiler->arena, params->count, sizeof *defaults);
+    for (uint32_t i = 0; i < params->count; i++) {
+        const Ast *param = params->children[i];
+        names[i] = param->name;
+        defaults[i] = param->count ? compile_expr(compiler, param->children[0]) : NULL;
+    }
+    *code = (FunctionCode){.name = ast->name ? ast->name->name : STR("<anon>"),
+                           .param_count = params->count,
+                           .params = names,
+                           .defaults = defaults};
+    FunctionScope function;
+    compile_function_open(compiler, &function, ast->name);
+    for (uint32_t i = 0; i < params->count; i++)
+        compile_bind(compiler, names[i], params->children[i]->span, NULL);
+    code->body = compile_expr(compiler, ast->children[1]);
+    compile_function_close(compiler, &function, code);
+    Expr *expr = compile_expr_new(compiler, EXPR_FUNC, ast, NULL, 0);
+    expr->as.function = code;
+    return expr;
+}
+
+// `func name(…)` as a statement binds the name; without one the closure is the statement's value.
+static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
+    const Expr *closure = compile_func(compiler, ast);
+    if (!ast->name)
+        return closure;
+    Expr *bind = compile_expr_new(compiler, EXPR_BIND, ast, &closure, 1);
+    bind->slot = compile_bind(compiler, ast->name, ast->span, ast);
+    bind->slot_count = 1;
+    return bind;
+}
+
+static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
+    const Ast *names = ast->children[0];
+    const Expr *file = compile_expr(compiler, ast->children[1]);
+    const Symbol **symbols = arena_alloc_array(compiler->arena, names->count, sizeof *symbols);
+    for (uint32_t i = 0; i < names->count; i++)
+        symbols[i] = names->children[i]->name;
+    ImportCode *code = arena_alloc(compiler->arena, sizeof *code);
+    *code = (ImportCode){symbols, names->count};
+    Expr *expr = compile_expr_new(compiler, EXPR_IMPORT, ast, &file, 1);
+    expr->slot = compile_bind_names(compiler, names, NULL);
+    expr->slot_count = names->count;
+    expr->as.import = code;
+    return expr;
+}
+
+static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
+    const Expr *null = constant(compiler, ast, VALUE_NULL);
+    Str path;
+    if (!compile_include_path(compiler, ast->children[0], &path))
+        return null;
+    const Source *source;
+    Str why = {0};
+    const Ast *included = compiler->options->host.include(compiler->options->host.host, path, &source, &why);
+    if (!included) {
+        compile_report(compiler, ast->span, DIAG_WARNING, "cannot-include",
+                       str_format(compiler->arena, "cannot include '%.*s': %.*s", (int)path.len, path.bytes,
+                                  (int)why.len, why.bytes),
+                       (Str){0});
+        return null;
+    }
+    const Source *outer = compiler->source;
+    compiler->source = source;
+    const Expr *expr = compile_suite(compiler, included);
+    compiler->source = outer;
+    return expr;
+}
+
+// The row of a kind whose expression is just the same kind over the same children, or EXPR_CONST if there is none.
+static ExprKind plain_kind(AstKind kind) {
+    switch (kind) {
+    case AST_COMPOSE:
+        return EXPR_COMPOSE;
+    case AST_IF:
+        return EXPR_IF;
+    case AST_APPEND:
+        return EXPR_APPEND;
+    case AST_OR:
+        return EXPR_OR;
+    case AST_XOR:
+        return EXPR_XOR;
+    case AST_AND:
+        return EXPR_AND;
+    case AST_NOT:
+        return EXPR_NOT;
+    case AST_EQ:
+        return EXPR_EQ;
+    case AST_NE:
+        return EXPR_NE;
+    case AST_LT:
+        return EXPR_LT;
+    case AST_GT:
+        return EXPR_GT;
+    case AST_LE:
+        return EXPR_LE;
+    case AST_GE:
+        return EXPR_GE;
+    case AST_IN:
+        return EXPR_IN;
+    case AST_NEG:
+        return EXPR_NEG;
+    case AST_POS:
+        return EXPR_POS;
+    case AST_INDEX:
+        return EXPR_INDEX;
+    default:
+        return EXPR_CONST;
+    }
+}
+
+const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
+    switch (ast->kind) {
+    case AST_LITERAL:
+        return constant(compiler, ast, ast->value);
+    case AST_NODE:
+        return compile_node(compiler, ast);
+    case AST_NAME:
+        return compile_name(compiler, ast);
+    case AST_SUITE:
+        return compile_suite(compiler, ast);
+    case AST_LET:
+    case AST_LET_STABLE:
+        return compile_let(compiler, ast);
+    case AST_FUNC:
+        return compile_func_statement(compiler, ast);
+    case AST_IMPORT:
+        return compile_import(compiler, ast);
+    case AST_INCLUDE:
+        return compile_include(compiler, ast);
+    case AST_FOR:
+        return compile_for(compiler, ast);
+    case AST_COND:
+        return compile_cond(compiler, ast);
+    case AST_WHERE:
+        return compile_where(compiler, ast);
+    case AST_DECORATE:
+        return compile_decorate(compiler, ast);
+    case AST_CALL:
+        return make_call(compiler, ast, (const Ast *const *)ast->children + 1, ast->count - 1);
+    case AST_TEMPLATE:
+        return compile_template(compiler, ast);
+    case AST_RANGE:
+        return compile_range(compiler, ast);
+    case AST_ADD:
+        return compile_arith(compiler, ast, ARITH_ADD);
+    case AST_SUB:
+        return compile_arith(compiler, ast, ARITH_SUB);
+    case AST_MUL:
+        return compile_arith(compiler, ast, ARITH_MUL);
+    case AST_DIV:
+        return compile_arith(compiler, ast, ARITH_DIV);
+    case AST_FLOORDIV:
+        return compile_arith(compiler, ast, ARITH_FLOORDIV);
+    case AST_MOD:
+        return compile_arith(compiler, ast, ARITH_MOD);
+    case AST_POW:
+        return compile_arith(compiler, ast, ARITH_POW);
+    case AST_LOOKUP:
+        compiler->function->dynamic = true;
+        return compile_children(compiler, EXPR_LOOKUP, ast);
+    default:
+        return compile_children(compiler, plain_kind(ast->kind), ast);
+    }
+}
+
+static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program) {
+    Pragma *pragmas = arena_alloc_array(compiler->arena, ast->count, sizeof *pragmas);
+    for (uint32_t i = 0; i < ast->count && ast->children[i]->kind == AST_PRAGMA; i++) {
+        const Ast *pragma = ast->children[i];
+        pragmas[program->pragma_count++] =
+            (Pragma){pragma->name, pragma->children[0]->value, compiler->source, pragma->span};
+    }
+    program->pragmas = pragmas;
+}
+
+// The top-level bindings that are visible at the end, oldest first.
+static void collect_exports(Compiler *compiler, Program *program) {
+    uint32_t count = 0;
+    for (const Binding *binding = compiler->function->scope; binding; binding = binding->outer)
+        count++;
+    Export *exports = arena_alloc_array(compiler->arena, count, sizeof *exports);
+    program->export_count = count;
+    for (const Binding *binding = compiler->function->scope; binding; binding = binding->outer)
+        exports[--count] = (Export){binding->name, binding->slot};
+    program->exports = exports;
+}
+
+const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source *source, const Ast *ast,
+                               const CompileOptions *options, DiagSink *diags) {
+    Compiler compiler = {
+        .arena = arena, .symbols = symbols, .source = source, .options = options, .diags = diags};
+    FunctionScope function;
+    compile_function_open(&compiler, &function, NULL);
+    Program *program = arena_alloc(arena, sizeof *program);
+    *program = (Program){.source = source};
+    collect_pragmas(&compiler, ast, program);
+    uint32_t skip = program->pragma_count;
+    Ast *body = ast_new(arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
+    program->body = compile_children(&compiler, EXPR_COMPOSE, body);
+    collect_exports(&compiler, program);
+    program->frame_size = function.frame_size;
+    return program;
+}
+
+const Export *program_find_export(const Program *program, const Symbol *name) {
+    for (uint32_t i = program->export_count; i > 0; i--)
+        if (program->exports[i - 1].name == name)
+            return &program->exports[i - 1];
+    return NULL;
+}

@@ -1,0 +1,69 @@
+// compile.h: what the compiler's two files share: expressions (compile.c) and names (scope.c).
+#ifndef PETRI_PROGRAM_COMPILE_H
+#define PETRI_PROGRAM_COMPILE_H
+
+#include "program/program.h"
+
+// A name that is visible from here on. Bindings form a chain from the innermost outwards, one chain per function.
+typedef struct Binding Binding;
+struct Binding {
+    Binding *outer;
+    const Symbol *name;
+    uint32_t slot;
+    Span span;
+    // For %include: the syntax tree of the value and which of its unpacked elements this is. NULL: not static.
+    const Ast *value;
+    uint32_t element;
+    uint32_t element_count;
+};
+
+// The function whose body is being compiled.
+typedef struct FunctionScope FunctionScope;
+struct FunctionScope {
+    FunctionScope *outer;
+    const Symbol *self; // its own name, visible inside, or NULL
+    Binding *scope;
+    uint32_t next_slot;
+    uint32_t frame_size;
+    const Expr **captures; // in the enclosing function
+    const Symbol **capture_names;
+    uint32_t capture_count;
+    uint32_t capture_capacity;
+    bool dynamic; // uses something that is not static (L17.2)
+    // A scratch function that evaluates a static expression: outer names are found from here and become constants.
+    FunctionScope *static_outer;
+    const Binding *static_scope;
+};
+
+typedef struct Compiler {
+    Arena *arena;
+    SymbolTable *symbols;
+    const Source *source; // changes inside an included file
+    const CompileOptions *options;
+    DiagSink *diags;
+    FunctionScope *function;
+} Compiler;
+
+typedef struct ScopeMark {
+    Binding *scope;
+    uint32_t next_slot;
+} ScopeMark;
+
+const Expr *compile_expr(Compiler *compiler, const Ast *ast);
+Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
+void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint);
+
+ScopeMark compile_scope_open(Compiler *compiler);
+void compile_scope_close(Compiler *compiler, ScopeMark mark);
+// Makes one name visible; returns its slot. `value` is its static syntax tree or NULL.
+uint32_t compile_bind(Compiler *compiler, const Symbol *name, Span span, const Ast *value);
+// Makes a NAMES node visible in consecutive slots; returns the first.
+uint32_t compile_bind_names(Compiler *compiler, const Ast *names, const Ast *value);
+const Expr *compile_name(Compiler *compiler, const Ast *ast);
+void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
+// Fills frame size and captures of `code` and returns to the enclosing function.
+void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code);
+// The resolved path of an %include; false (after a diagnostic, or silently for null) if there is none.
+bool compile_include_path(Compiler *compiler, const Ast *file, Str *path);
+
+#endif

@@ -1,0 +1,133 @@
+// program.h: a compiled program: names resolved to slots, constants in place, nothing left to look up.
+//
+// A program is an immutable tree of expressions in one arena, replaced as a whole on reload. Every function, the main
+// program and every module runs in a frame of slots; a nested function reaches outer values only through what it has
+// captured by value when it was defined (spec language.md L9.1).
+#ifndef PETRI_PROGRAM_PROGRAM_H
+#define PETRI_PROGRAM_PROGRAM_H
+
+#include "base/diag.h"
+#include "syntax/ast.h"
+#include "value/ops.h"
+#include "value/value.h"
+
+typedef enum ExprKind {
+#define EXPR(kind, text) EXPR_##kind,
+#include "program/expr_list.h"
+#undef EXPR
+} ExprKind;
+
+typedef enum EngineName {
+#define ENGINE_NAME(id, text, is_static) ENGINE_##id,
+#include "program/engine_names.h"
+#undef ENGINE_NAME
+    ENGINE_NAME_COUNT
+} EngineName;
+
+typedef struct Expr Expr;
+
+typedef struct FunctionCode {
+    Str name; // "<anon>" without one
+    uint32_t param_count;
+    const Symbol *const *params;
+    const Expr *const *defaults; // evaluated at the definition; NULL entries have none
+    const Expr *body;
+    uint32_t frame_size; // slots: parameters first
+    uint32_t capture_count;
+    const Expr *const *captures; // evaluated at the definition, in the enclosing frame
+} FunctionCode;
+
+typedef struct ImportCode {
+    const Symbol *const *names;
+    uint32_t count;
+} ImportCode;
+
+typedef struct CallCode {
+    uint32_t arg_count;         // positional
+    const Symbol *const *names; // of the named ones
+    uint32_t named_count;
+} CallCode;
+
+typedef struct DecorateCode {
+    const Symbol *const *tags;
+    uint32_t tag_count;
+    const Symbol *const *names; // of the attributes
+    uint32_t attr_count;
+} DecorateCode;
+
+struct Expr {
+    ExprKind kind;
+    uint32_t count; // children
+    uint32_t slot;
+    uint32_t slot_count;
+    const Source *source;
+    Span span;
+    union {
+        Value value;        // CONST
+        const Symbol *name; // NODE, UNBOUND
+        const FunctionCode *function;
+        const ImportCode *import;
+        const CallCode *call;
+        const DecorateCode *decorate;
+    } as;
+    const Expr *const *children;
+};
+
+typedef struct Export {
+    const Symbol *name;
+    uint32_t slot;
+} Export;
+
+typedef struct Pragma {
+    const Symbol *name;
+    Value value;
+    const Source *source;
+    Span span;
+} Pragma;
+
+typedef struct Program {
+    const Source *source;
+    const Expr *body;
+    uint32_t frame_size;
+    const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
+    uint32_t export_count;
+    const Pragma *pragmas;
+    uint32_t pragma_count;
+} Program;
+
+// What compiling may ask of the host.
+typedef struct CompileHost {
+    void *host;
+    // Parses another file for %include; NULL with a reason in *why (borrowed) if it cannot. The tree must live as long
+    // as the program.
+    const Ast *(*include)(void *host, Str path, const Source **source, Str *why);
+    // Evaluates an expression that holds no dynamic part (L17.2), in a fresh frame; the value must live as long as the
+    // program.
+    Value (*evaluate)(void *host, const Expr *expr, uint32_t frame_size);
+} CompileHost;
+
+typedef struct Define {
+    const Symbol *name;
+    Value value;
+} Define;
+
+typedef struct CompileOptions {
+    bool module;           // neither engine names nor -D names are visible; unbound names are reported when reached
+    const Define *defines; // later ones count
+    uint32_t define_count;
+    CompileHost host;
+} CompileOptions;
+
+// Compiles a parsed program. Faults are reported to the sink and never fatal. Everything lives in the arena.
+const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source *source, const Ast *ast,
+                               const CompileOptions *options, DiagSink *diags);
+
+// The export of this name that counts, or NULL.
+const Export *program_find_export(const Program *program, const Symbol *name);
+
+const char *engine_name_text(EngineName name);
+
+// The program as indented text, for --dump=code.
+void program_print(Text *out, const SymbolTable *symbols, const Program *program);
+
+#endif

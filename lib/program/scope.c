@@ -1,0 +1,259 @@
+// scope.c: what names mean; see compile.h.
+#include "program/compile.h"
+
+#include "builtin/builtin.h"
+
+ScopeMark compile_scope_open(Compiler *compiler) {
+    return (ScopeMark){compiler->function->scope, compiler->function->next_slot};
+}
+
+// Slots of a closed scope are used again: closures have copied what they need.
+void compile_scope_close(Compiler *compiler, ScopeMark mark) {
+    compiler->function->scope = mark.scope;
+    compiler->function->next_slot = mark.next_slot;
+}
+
+static Binding *bind(Compiler *compiler, const Symbol *name, Span span) {
+    FunctionScope *function = compiler->function;
+    Binding *binding = arena_alloc(compiler->arena, sizeof *binding);
+    *binding = (Binding){.outer = function->scope, .name = name, .slot = function->next_slot++, .span = span};
+    function->scope = binding;
+    if (function->next_slot > function->frame_size)
+        function->frame_size = function->next_slot;
+    return binding;
+}
+
+uint32_t compile_bind(Compiler *compiler, const Symbol *name, Span span, const Ast *value) {
+    Binding *binding = bind(compiler, name, span);
+    binding->value = value;
+    binding->element_count = 1;
+    return binding->slot;
+}
+
+uint32_t compile_bind_names(Compiler *compiler, const Ast *names, const Ast *value) {
+    uint32_t slot = compiler->function->next_slot;
+    for (uint32_t i = 0; i < names->count; i++) {
+        Binding *binding = bind(compiler, names->children[i]->name, names->children[i]->span);
+        binding->value = value;
+        binding->element = i;
+        binding->element_count = names->count;
+    }
+    return slot;
+}
+
+void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self) {
+    *function = (FunctionScope){.outer = compiler->function, .self = self};
+    compiler->function = function;
+}
+
+void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code) {
+    code->frame_size = function->frame_size;
+    code->captures = function->captures;
+    code->capture_count = function->capture_count;
+    compiler->function = function->outer;
+    if (function->outer)
+        function->outer->dynamic |= function->dynamic;
+}
+
+static const Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
+    Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
+    expr->as.value = value;
+    return expr;
+}
+
+static const Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, uint32_t slot) {
+    Expr *expr = compile_expr_new(compiler, kind, ast, NULL, 0);
+    expr->slot = slot;
+    return expr;
+}
+
+static const Binding *find_binding(const Binding *scope, const Symbol *name) {
+    while (scope && scope->name != name)
+        scope = scope->outer;
+    return scope;
+}
+
+static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *binding, bool *dynamic);
+
+// A name of the program that is not bound in the function itself: captured by value, once per function.
+static const Expr *capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
+    for (uint32_t i = 0; i < function->capture_count; i++)
+        if (function->capture_names[i] == ast->name && function->captures[i]->kind == outer->kind &&
+            function->captures[i]->slot == outer->slot)
+            return slot_expr(compiler, EXPR_CAPTURE, ast, i);
+    if (function->capture_count == function->capture_capacity) {
+        uint32_t old = function->capture_capacity, capacity = old ? old * 2 : 4;
+        function->captures = arena_grow(compiler->arena, function->captures, old * sizeof *function->captures,
+                                        capacity * sizeof *function->captures);
+        function->capture_names = arena_grow(compiler->arena, function->capture_names,
+                                             old * sizeof *function->capture_names,
+                                             capacity * sizeof *function->capture_names);
+        function->capture_capacity = capacity;
+    }
+    function->captures[function->capture_count] = outer;
+    function->capture_names[function->capture_count] = ast->name;
+    return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
+}
+
+// The name as seen from inside `function`, or NULL if no binding of the program has it.
+static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, const Ast *ast) {
+    if (!function)
+        return NULL;
+    const Binding *binding = find_binding(function->scope, ast->name);
+    if (binding)
+        return slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
+    if (function->self == ast->name)
+        return slot_expr(compiler, EXPR_SELF, ast, 0);
+    if (function->static_outer) {
+        // Inside a static expression: names of the program are replaced by their values.
+        const Binding *scope = function->static_scope;
+        for (FunctionScope *at = function->static_outer; at; at = at->outer, scope = at ? at->scope : NULL) {
+            binding = find_binding(scope, ast->name);
+            if (binding)
+                return constant(compiler, ast, static_value(compiler, at, binding, &function->dynamic));
+            if (at->self == ast->name)
+                function->dynamic = true;
+        }
+        return NULL;
+    }
+    const Expr *outer = find_in_program(compiler, function->outer, ast);
+    if (!outer || outer->kind == EXPR_CONST)
+        return outer;
+    return capture(compiler, function, ast, outer);
+}
+
+static const struct {
+    const char *name;
+    bool is_static;
+} engine_names[] = {
+#define ENGINE_NAME(id, text, is_static) {text, is_static},
+#include "program/engine_names.h"
+#undef ENGINE_NAME
+};
+
+const char *engine_name_text(EngineName name) {
+    return engine_names[name].name;
+}
+
+// Engine names, then -D names, then built-ins (L8.1); NULL if none has it.
+static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
+    Str name = ast->name->name;
+    const CompileOptions *options = compiler->options;
+    for (uint32_t i = 0; !options->module && i < ENGINE_NAME_COUNT; i++)
+        if (str_equal(name, str_from(engine_names[i].name))) {
+            compiler->function->dynamic |= !engine_names[i].is_static;
+            return slot_expr(compiler, EXPR_GLOBAL, ast, i);
+        }
+    for (uint32_t i = options->module ? 0 : options->define_count; i > 0; i--)
+        if (options->defines[i - 1].name == ast->name)
+            return constant(compiler, ast, options->defines[i - 1].value);
+    Value value;
+    if (builtin_constant(name, &value))
+        return constant(compiler, ast, value);
+    const Builtin *builtin = builtin_find(name);
+    if (!builtin)
+        return NULL;
+    compiler->function->dynamic |= !builtin->pure;
+    Function *function = arena_alloc(compiler->arena, sizeof *function);
+    *function = (Function){.name = str_from(builtin->name), .builtin = builtin};
+    return constant(compiler, ast, value_function(compiler->arena, function));
+}
+
+typedef struct Nearest {
+    Str wanted;
+    Str name;
+    int distance;
+} Nearest;
+
+static void consider(Nearest *nearest, Str name) {
+    int distance = str_distance(nearest->wanted, name);
+    if (distance < nearest->distance) {
+        nearest->distance = distance;
+        nearest->name = name;
+    }
+}
+
+// "did you mean …", if some visible name is close.
+static Str nearest_name(Compiler *compiler, Str wanted) {
+    Nearest nearest = {.wanted = wanted, .distance = wanted.len < 4 ? 2 : 3};
+    for (const FunctionScope *function = compiler->function; function; function = function->outer) {
+        for (const Binding *binding = function->scope; binding; binding = binding->outer)
+            consider(&nearest, binding->name->name);
+        if (function->self)
+            consider(&nearest, function->self->name);
+    }
+    for (uint32_t i = 0; !compiler->options->module && i < ENGINE_NAME_COUNT; i++)
+        consider(&nearest, str_from(engine_names[i].name));
+    for (uint32_t i = 0; i < builtin_count; i++)
+        consider(&nearest, str_from(builtin_table[i].name));
+    if (!nearest.name.len)
+        return (Str){0};
+    return str_format(compiler->arena, "did you mean '%.*s'?", (int)nearest.name.len, nearest.name.bytes);
+}
+
+static const Expr *unbound(Compiler *compiler, const Ast *ast) {
+    Str name = ast->name->name;
+    if (compiler->options->module) {
+        Expr *expr = compile_expr_new(compiler, EXPR_UNBOUND, ast, NULL, 0);
+        expr->as.name = ast->name;
+        return expr;
+    }
+    compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
+                   str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
+                   nearest_name(compiler, name));
+    return constant(compiler, ast, VALUE_NULL);
+}
+
+const Expr *compile_name(Compiler *compiler, const Ast *ast) {
+    const Expr *expr = find_in_program(compiler, compiler->function, ast);
+    if (!expr)
+        expr = find_outside(compiler, ast);
+    return expr ? expr : unbound(compiler, ast);
+}
+
+// Compiles and evaluates a syntax tree as it stands in `scope` of function `at`; sets *dynamic if it is not static.
+static Value evaluate_static(Compiler *compiler, FunctionScope *at, const Binding *scope, const Ast *ast,
+                             bool *dynamic) {
+    FunctionScope scratch, *outer = compiler->function;
+    compile_function_open(compiler, &scratch, NULL);
+    scratch.outer = NULL;
+    scratch.static_outer = at;
+    scratch.static_scope = scope;
+    DiagSink *diags = compiler->diags;
+    DiagSink discarded = diag_sink_new(compiler->arena, 0); // what is wrong here is reported where it is really compiled
+    compiler->diags = &discarded;
+    const Expr *expr = compile_expr(compiler, ast);
+    compiler->diags = diags;
+    compiler->function = outer;
+    if (scratch.dynamic) {
+        *dynamic = true;
+        return VALUE_NULL;
+    }
+    return compiler->options->host.evaluate(compiler->options->host.host, expr, scratch.frame_size);
+}
+
+static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *binding, bool *dynamic) {
+    if (!binding->value) {
+        *dynamic = true;
+        return VALUE_NULL;
+    }
+    Value value = evaluate_static(compiler, at, binding->outer, binding->value, dynamic);
+    if (binding->element_count == 1)
+        return value;
+    return value_element(compiler->arena, value, binding->element);
+}
+
+bool compile_include_path(Compiler *compiler, const Ast *file, Str *path) {
+    bool dynamic = false;
+    Value value = evaluate_static(compiler, compiler->function, compiler->function->scope, file, &dynamic);
+    if (dynamic) {
+        compile_report(compiler, file->span, DIAG_WARNING, "cannot-include",
+                       STR("the file of an %include must be known when the program is loaded"), (Str){0});
+        return false;
+    }
+    if (value.len == 0)
+        return false;
+    Str name = value_text(compiler->arena, compiler->symbols, value);
+    *path = path_join(compiler->arena, compiler->source->directory, name);
+    return true;
+}

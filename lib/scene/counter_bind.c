@@ -1,0 +1,74 @@
+// counter_bind.c: `!counter`: a value that grows with time, kept in the state.
+//
+// The value is a vector, element by element: it starts at clamp(initial) and each frame becomes
+// clamp(value + (time − last time)·rate). It is as long as the longest of its attributes; shorter ones repeat.
+#include "scene/systems.h"
+
+// A numeric attribute of any length, or the fallback.
+static Value numbers_or(const Reader *reader, AttrRow row, double fallback) {
+    Value v = attr_value(reader, row);
+    if (value_is_numeric(v))
+        return v;
+    if (v.len > 0)
+        attr_float(reader, row); // reports the shape
+    return value_number(fallback);
+}
+
+// The first given of two attributes.
+static Value bound(const Reader *reader, AttrRow full, AttrRow brief) {
+    Value v = attr_value(reader, full);
+    if (!value_is_numeric(v))
+        v = attr_value(reader, brief);
+    return value_is_numeric(v) ? v : VALUE_NULL;
+}
+
+static double element(Value v, uint32_t i) {
+    return value_numbers(&v)[i % v.len];
+}
+
+static uint32_t longest(const Value *values, uint32_t count) {
+    uint32_t len = 1;
+    for (uint32_t i = 0; i < count; i++)
+        if (values[i].len > len)
+            len = values[i].len;
+    return len;
+}
+
+void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
+    Reader reader = {&scene->schema, frame->arena, node, 1};
+    reader_check_names(&reader, KIND_COUNTER);
+    Value key = attr_value(&reader, ROW_COUNTER_STATE);
+    if (key.len == 0 || !state_key_valid(key)) {
+        reader_report(&reader, DIAG_WARNING, "skipped-system", STR("no usable state key; the counter is skipped"));
+        return;
+    }
+    Value time_key = scene_key(frame->arena, key, VALUE_NULL, scene->key_time);
+    Value stored = state_get(frame->state, key), last = state_get(frame->state, time_key);
+    Value time = numbers_or(&reader, ROW_COUNTER_TIME, frame->time);
+    Value rate = numbers_or(&reader, ROW_COUNTER_RATE, 1);
+    Value initial = numbers_or(&reader, ROW_COUNTER_INITIAL, 0);
+    Value low = bound(&reader, ROW_COUNTER_MINIMUM, ROW_COUNTER_MIN);
+    Value high = bound(&reader, ROW_COUNTER_MAXIMUM, ROW_COUNTER_MAX);
+    bool start = !value_is_numeric(stored) || !value_is_numeric(last) ||
+                 value_true(attr_value(&reader, ROW_COUNTER_RESET));
+    Value parts[] = {initial, rate, low, high, time, start ? VALUE_NULL : stored};
+    uint32_t len = longest(parts, sizeof parts / sizeof parts[0]);
+    double *values = arena_alloc_array(frame->arena, len, sizeof *values);
+    bool finite = true;
+    for (uint32_t i = 0; i < len; i++) {
+        double x = start ? element(initial, i)
+                         : element(stored, i) + (element(time, i) - element(last, i)) * element(rate, i);
+        if (low.len && x < element(low, i))
+            x = element(low, i);
+        if (high.len && x > element(high, i))
+            x = element(high, i);
+        values[i] = x;
+        finite = finite && x - x == 0;
+    }
+    if (!finite) {
+        reader_report(&reader, DIAG_WARNING, "not-finite", STR("the value is not finite; the counter keeps its last one"));
+        return;
+    }
+    state_set(frame->state, key, value_numbers_view(values, len));
+    state_set(frame->state, time_key, time);
+}

@@ -1,0 +1,340 @@
+// physics_read.c: a `!physics` tree to the engine's terms (spec physics.md sections 1, 3 and 4.2).
+#include "base/random.h"
+#include "scene/systems.h"
+
+#include "value/format.h"
+#include "value/seed.h"
+
+#include <math.h>
+
+static Reader reader_of(const PhysicsTree *tree, const Node *node) {
+    return (Reader){&tree->scene->schema, tree->frame->arena, node, tree->dimensions};
+}
+
+static double clamp(double x, double low, double high) {
+    return x < low ? low : x > high ? high : x;
+}
+
+static bool has_slot(const void *owner, uint32_t entry, const void *key) {
+    return ((const PhysicsTree *)owner)->bodies[entry].position == *(const StateSlot *)key;
+}
+
+const Body *physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
+    uint32_t found = index_find(&tree->by_slot, hash_mix(slot + UINT64_C(1)), has_slot, tree, &slot);
+    return found == INDEX_NONE ? NULL : &tree->bodies[found];
+}
+
+const Body *physics_find_body(const PhysicsTree *tree, Value id) {
+    if (id.len == 0)
+        return NULL;
+    StateSlot slot = state_find(tree->frame->state, scene_key(tree->frame->arena, tree->prefix, id, NULL));
+    return slot == STATE_NO_SLOT ? NULL : physics_find_slot(tree, slot);
+}
+
+// Remembers a body; NULL (reported) if it has no usable id or one that was seen already.
+static Body *add_body(PhysicsTree *tree, const Reader *reader, AttrRow id_row, bool anchor) {
+    Arena *arena = tree->frame->arena;
+    Value id = attr_value(reader, id_row);
+    StateSlot slot = id.len ? state_slot(tree->frame->state, scene_key(arena, tree->prefix, id, NULL)) : STATE_NO_SLOT;
+    if (slot == STATE_NO_SLOT) {
+        reader_report(reader, DIAG_WARNING, "missing-id",
+                      id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
+        return NULL;
+    }
+    if (physics_find_slot(tree, slot)) {
+        reader_report(reader, DIAG_WARNING, "duplicate-id", STR("a particle with this id is there already; ignored"));
+        return NULL;
+    }
+    if (tree->body_count == tree->body_capacity) {
+        uint32_t capacity = tree->body_capacity ? tree->body_capacity * 2 : 64;
+        tree->bodies = arena_grow(arena, tree->bodies, tree->body_capacity * sizeof *tree->bodies,
+                                  capacity * sizeof *tree->bodies);
+        tree->body_capacity = capacity;
+    }
+    if (!index_add(&tree->by_slot, hash_mix(slot + UINT64_C(1)), tree->body_count))
+        return NULL;
+    Body *body = &tree->bodies[tree->body_count++];
+    *body = (Body){
+        .node = reader->node,
+        .position = slot,
+        .velocity = state_slot(tree->frame->state, scene_key(arena, tree->prefix, id, tree->scene->key_velocity)),
+        .anchor = anchor,
+    };
+    return body;
+}
+
+// The state's vector, if the run goes on and it has one of n numbers; else the attribute's.
+static const double *stored_or_attr(const PhysicsTree *tree, const Reader *reader, StateSlot slot, AttrRow row) {
+    if (tree->from_state) {
+        Value stored = state_slot_get(tree->frame->state, slot);
+        if (stored.kind == VALUE_NUMBERS && stored.len == tree->dimensions) {
+            Value copy = value_copy(tree->frame->arena, stored);
+            return copy.len == 1 ? arena_copy(tree->frame->arena, &copy.as.number, sizeof(double)) : copy.as.numbers;
+        }
+    }
+    return attr_vector(reader, row);
+}
+
+static void read_particle(PhysicsTree *tree, const Node *node, uint32_t group) {
+    Reader reader = reader_of(tree, node);
+    reader_check_names(&reader, KIND_PARTICLE);
+    Body *body = add_body(tree, &reader, ROW_PARTICLE_ID, false);
+    if (!body)
+        return;
+    body->handle = phys_add_particle(tree->engine, group,
+                                     &(PhysParticle){
+                                         .position = stored_or_attr(tree, &reader, body->position, ROW_PARTICLE_POSITION),
+                                         .velocity = stored_or_attr(tree, &reader, body->velocity, ROW_PARTICLE_VELOCITY),
+                                         .force = attr_vector(&reader, ROW_PARTICLE_FORCE),
+                                         .ease = attr_float(&reader, ROW_PARTICLE_EASE),
+                                         .radius = clamp(attr_float(&reader, ROW_PARTICLE_RADIUS), 0, INFINITY),
+                                         .mass = clamp(attr_float(&reader, ROW_PARTICLE_MASS), 0, INFINITY),
+                                         .charge = attr_float(&reader, ROW_PARTICLE_CHARGE),
+                                     });
+}
+
+static void read_anchor(PhysicsTree *tree, const Node *node, uint32_t group) {
+    Reader reader = reader_of(tree, node);
+    reader_check_names(&reader, KIND_ANCHOR);
+    Body *body = add_body(tree, &reader, ROW_ANCHOR_ID, true);
+    if (!body)
+        return;
+    body->handle = phys_add_particle(tree->engine, group,
+                                     &(PhysParticle){
+                                         .position = attr_vector(&reader, ROW_ANCHOR_POSITION),
+                                         .radius = clamp(attr_float(&reader, ROW_ANCHOR_RADIUS), 0, INFINITY),
+                                         .mass = clamp(attr_float(&reader, ROW_ANCHOR_MASS), 0, INFINITY),
+                                         .charge = attr_float(&reader, ROW_ANCHOR_CHARGE),
+                                         .anchor = true,
+                                     });
+}
+
+static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t group) {
+    for (uint32_t i = 0; i < parent->child_count; i++) {
+        const Node *child = parent->children[i];
+        switch (schema_kind(&tree->scene->schema, child)) {
+        case KIND_PARTICLE:
+            read_particle(tree, child, group);
+            break;
+        case KIND_ANCHOR:
+            read_anchor(tree, child, group);
+            break;
+        case KIND_GROUP:
+            read_group_bodies(tree, child, phys_add_group(tree->engine, group));
+            break;
+        default:
+            break; // forces come in the second pass, when all particles are known
+        }
+    }
+}
+
+void physics_read_bodies(PhysicsTree *tree) {
+    read_group_bodies(tree, tree->root, 0);
+}
+
+static PhysForce pair_force(const Reader *reader, PhysForceKind kind, AttrRow strength, AttrRow ease,
+                            AttrRow max_distance) {
+    return (PhysForce){.kind = kind,
+                       .strength = attr_float(reader, strength),
+                       .ease = attr_float(reader, ease),
+                       .power = 1,
+                       .max_distance = attr_float(reader, max_distance)};
+}
+
+// Bounds of !distance and !barrier: `fixed` gives both, else the long name wins over the short one.
+static void read_bounds(const Reader *reader, PhysForce *force, const AttrRow lower[3], const AttrRow upper[3]) {
+    force->has_minimum = attr_first(reader, lower, 3, &force->minimum);
+    force->has_maximum = attr_first(reader, upper, 3, &force->maximum);
+}
+
+static bool read_distance(const PhysicsTree *tree, const Reader *reader, PhysForce *force) {
+    static const AttrRow lower[] = {ROW_DISTANCE_FIXED, ROW_DISTANCE_MINIMUM, ROW_DISTANCE_MIN};
+    static const AttrRow upper[] = {ROW_DISTANCE_FIXED, ROW_DISTANCE_MAXIMUM, ROW_DISTANCE_MAX};
+    Value from = attr_value(reader, ROW_DISTANCE_FROM), to = attr_value(reader, ROW_DISTANCE_TO);
+    const Body *first = physics_find_body(tree, from), *second = physics_find_body(tree, to);
+    if (!first || !second) {
+        Text text = text_new(reader->arena);
+        text_add_format(&text, "%s=", first ? "to" : "from");
+        format_value(&text, reader->schema->symbols, first ? to : from);
+        text_add_c(&text, " names no particle; ignored");
+        reader_report(reader, DIAG_WARNING, "no-such-particle", text_str(&text));
+        return false;
+    }
+    *force = (PhysForce){.kind = PHYS_DISTANCE,
+                         .strength = attr_float(reader, ROW_DISTANCE_STRENGTH),
+                         .ease = attr_float(reader, ROW_DISTANCE_EASE),
+                         .power = attr_float(reader, ROW_DISTANCE_POWER),
+                         .from = first->handle,
+                         .to = second->handle};
+    read_bounds(reader, force, lower, upper);
+    return true;
+}
+
+// normal / sqrt(Σ normal_k²); NULL (reported) if that is no direction.
+static const double *unit_normal(const Reader *reader) {
+    const double *normal = attr_vector(reader, ROW_BARRIER_NORMAL);
+    double sum = 0;
+    for (uint32_t k = 0; normal && k < reader->dimensions; k++)
+        sum += normal[k] * normal[k];
+    double length = sqrt(sum);
+    if (!(length > 0) || !isfinite(length)) {
+        reader_report(reader, DIAG_WARNING, "bad-normal", STR("normal is no direction; the barrier is ignored"));
+        return NULL;
+    }
+    double *unit = arena_alloc_array(reader->arena, reader->dimensions, sizeof *unit);
+    for (uint32_t k = 0; k < reader->dimensions; k++)
+        unit[k] = normal[k] / length;
+    return unit;
+}
+
+static bool read_barrier(const Reader *reader, PhysForce *force) {
+    static const AttrRow lower[] = {ROW_BARRIER_FIXED, ROW_BARRIER_MINIMUM, ROW_BARRIER_MIN};
+    static const AttrRow upper[] = {ROW_BARRIER_FIXED, ROW_BARRIER_MAXIMUM, ROW_BARRIER_MAX};
+    const double *normal = unit_normal(reader);
+    if (!normal)
+        return false;
+    *force = (PhysForce){.kind = PHYS_BARRIER,
+                         .strength = attr_float(reader, ROW_BARRIER_STRENGTH),
+                         .ease = attr_float(reader, ROW_BARRIER_EASE),
+                         .power = attr_float(reader, ROW_BARRIER_POWER),
+                         .restitution = clamp(attr_float(reader, ROW_BARRIER_RESTITUTION), 0, 1),
+                         .vector = attr_vector(reader, ROW_BARRIER_POSITION),
+                         .vector2 = normal};
+    read_bounds(reader, force, lower, upper);
+    return true;
+}
+
+static PhysForce read_buoyancy(const Reader *reader) {
+    const double *gravity = attr_vector(reader, ROW_BUOYANCY_GRAVITY);
+    if (!gravity) {
+        // The default points down along the last axis.
+        double *down = arena_alloc_array(reader->arena, reader->dimensions, sizeof *down);
+        for (uint32_t k = 0; k < reader->dimensions; k++)
+            down[k] = k + 1 == reader->dimensions ? -1 : 0;
+        gravity = down;
+    }
+    return (PhysForce){.kind = PHYS_BUOYANCY,
+                       .strength = attr_float(reader, ROW_BUOYANCY_STRENGTH),
+                       .ease = attr_float(reader, ROW_BUOYANCY_EASE),
+                       .density = attr_float(reader, ROW_BUOYANCY_DENSITY),
+                       .vector = gravity};
+}
+
+// The seed of a !random: prefix;run;iteration and a 0 for each !random before it (spec 4.2).
+static uint64_t random_key(const PhysicsTree *tree, uint32_t randoms_before) {
+    Vector seed = vector_new(tree->frame->arena);
+    vector_add(&seed, tree->prefix);
+    vector_add_number(&seed, tree->run);
+    vector_add_number(&seed, tree->iteration);
+    uint64_t key = value_seed_hash(vector_finish(&seed));
+    for (uint32_t i = 0; i < randoms_before; i++)
+        key = random_hash_step(key, random_hash_number(0));
+    return key;
+}
+
+// Fills `force` from a force applier or barrier; false if it is to be ignored.
+static bool read_force(const PhysicsTree *tree, const Reader *reader, SceneKind kind, uint32_t randoms,
+                       PhysForce *force) {
+    switch (kind) {
+    case KIND_CONSTANT:
+        *force = (PhysForce){.kind = PHYS_CONSTANT,
+                             .strength = attr_float(reader, ROW_CONSTANT_STRENGTH),
+                             .ease = attr_float(reader, ROW_CONSTANT_EASE),
+                             .vector = attr_vector(reader, ROW_CONSTANT_FORCE),
+                             .vector2 = attr_vector(reader, ROW_CONSTANT_ACCELERATION)};
+        return true;
+    case KIND_RANDOM:
+        *force = (PhysForce){.kind = PHYS_RANDOM,
+                             .strength = attr_float(reader, ROW_RANDOM_STRENGTH),
+                             .ease = attr_float(reader, ROW_RANDOM_EASE),
+                             .key = random_key(tree, randoms)};
+        return true;
+    case KIND_FIELD:
+        *force = (PhysForce){.kind = PHYS_FIELD,
+                             .strength = attr_float(reader, ROW_FIELD_STRENGTH),
+                             .ease = attr_float(reader, ROW_FIELD_EASE),
+                             .vector = attr_vector(reader, ROW_FIELD_DIRECTION)};
+        return true;
+    case KIND_DRAG:
+        *force = (PhysForce){.kind = PHYS_DRAG,
+                             .strength = attr_float(reader, ROW_DRAG_STRENGTH),
+                             .ease = attr_float(reader, ROW_DRAG_EASE),
+                             .vector = attr_vector(reader, ROW_DRAG_FLOW)};
+        return true;
+    case KIND_BUOYANCY:
+        *force = read_buoyancy(reader);
+        return true;
+    case KIND_COLLISION:
+        *force = pair_force(reader, PHYS_COLLISION, ROW_COLLISION_STRENGTH, ROW_COLLISION_EASE,
+                            ROW_COLLISION_MAX_DISTANCE);
+        force->power = attr_float(reader, ROW_COLLISION_POWER);
+        return true;
+    case KIND_GRAVITY:
+        *force = pair_force(reader, PHYS_GRAVITY, ROW_GRAVITY_STRENGTH, ROW_GRAVITY_EASE, ROW_GRAVITY_MAX_DISTANCE);
+        return true;
+    case KIND_ELECTROSTATIC:
+        *force = pair_force(reader, PHYS_ELECTROSTATIC, ROW_ELECTROSTATIC_STRENGTH, ROW_ELECTROSTATIC_EASE,
+                            ROW_ELECTROSTATIC_MAX_DISTANCE);
+        return true;
+    case KIND_ADHESION:
+        *force =
+            pair_force(reader, PHYS_ADHESION, ROW_ADHESION_STRENGTH, ROW_ADHESION_EASE, ROW_ADHESION_MAX_DISTANCE);
+        force->overlap = clamp(attr_float(reader, ROW_ADHESION_OVERLAP), 0, 1);
+        return true;
+    case KIND_DISTANCE:
+        return read_distance(tree, reader, force);
+    case KIND_BARRIER:
+        return read_barrier(reader, force);
+    default:
+        return false;
+    }
+}
+
+static void report_unknown_kind(const Reader *reader) {
+    const Symbol *nearest = NULL;
+    int least = 4;
+    for (int kind = KIND_PARTICLE; kind <= KIND_BARRIER; kind++) {
+        int distance = str_distance(reader->node->kind->name, reader->schema->kinds[kind]->name);
+        if (distance < least) {
+            least = distance;
+            nearest = reader->schema->kinds[kind];
+        }
+    }
+    Text out = text_new(reader->arena);
+    text_add_c(&out, "no such node inside !physics; ignored");
+    if (nearest)
+        text_add_format(&out, ", did you mean !%.*s?", (int)nearest->name.len, nearest->name.bytes);
+    reader_report(reader, DIAG_WARNING, "unknown-node", text_str(&out));
+}
+
+static bool is_inside_physics(SceneKind kind) {
+    return kind > KIND_PHYSICS && kind <= KIND_BARRIER;
+}
+
+static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t group, uint32_t randoms) {
+    for (uint32_t i = 0; i < parent->child_count; i++) {
+        const Node *child = parent->children[i];
+        SceneKind kind = schema_kind(&tree->scene->schema, child);
+        Reader reader = reader_of(tree, child);
+        PhysForce force;
+        if (kind == KIND_PARTICLE || kind == KIND_ANCHOR)
+            continue;
+        if (kind == KIND_GROUP) {
+            read_group_forces(tree, child, tree->next_group++, randoms);
+            continue;
+        }
+        if (!is_inside_physics(kind)) {
+            report_unknown_kind(&reader);
+            continue;
+        }
+        reader_check_names(&reader, kind);
+        if (read_force(tree, &reader, kind, randoms, &force))
+            phys_add_force(tree->engine, group, &force);
+        randoms += kind == KIND_RANDOM;
+    }
+}
+
+void physics_read_forces(PhysicsTree *tree) {
+    tree->next_group = 1;
+    read_group_forces(tree, tree->root, 0, 0);
+}

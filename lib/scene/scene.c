@@ -1,0 +1,66 @@
+// scene.c: see scene.h.
+#include "scene/scene.h"
+
+#include "scene/systems.h"
+
+#include <stdlib.h>
+
+Scene *scene_new(SymbolTable *symbols, SceneHost host) {
+    Scene *scene = calloc(1, sizeof *scene);
+    if (!scene)
+        return NULL;
+    schema_init(&scene->schema, symbols, host);
+    scene->key_run = symbol_know(symbols, STR("run"));
+    scene->key_iteration = symbol_know(symbols, STR("iteration"));
+    scene->key_clock = symbol_know(symbols, STR("clock"));
+    scene->key_last = symbol_know(symbols, STR("last"));
+    scene->key_velocity = symbol_know(symbols, STR("velocity"));
+    scene->key_time = symbol_know(symbols, STR("time"));
+    return scene;
+}
+
+void scene_reset(Scene *scene) {
+    for (PhysicsSystem *system = scene->systems, *next; system; system = next) {
+        next = system->next;
+        phys_free(system->engine);
+        free(system->slots);
+        free(system);
+    }
+    scene->systems = NULL;
+}
+
+void scene_free(Scene *scene) {
+    if (scene)
+        scene_reset(scene);
+    free(scene);
+}
+
+static uint64_t update_kind(Scene *scene, SceneKind kind, Value tree, uint32_t from, const SceneFrame *frame) {
+    uint64_t steps = 0;
+    for (uint32_t i = from; i < tree.len; i++) {
+        const Item *item = &tree.as.items[i];
+        if (item->type != ITEM_NODE || schema_kind(&scene->schema, item->as.node) != kind)
+            continue;
+        if (kind == KIND_PHYSICS)
+            steps += physics_update(scene, item->as.node, frame);
+        else
+            counter_update(scene, item->as.node, frame);
+    }
+    return steps;
+}
+
+uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
+    bool done[KIND_COUNT_OF] = {false};
+    uint64_t steps = 0;
+    scene->frame_number++;
+    for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
+        if (tree.as.items[i].type != ITEM_NODE)
+            continue;
+        SceneKind kind = schema_kind(&scene->schema, tree.as.items[i].as.node);
+        if ((kind != KIND_PHYSICS && kind != KIND_COUNTER) || done[kind])
+            continue;
+        done[kind] = true;
+        steps += update_kind(scene, kind, tree, i, frame);
+    }
+    return steps;
+}

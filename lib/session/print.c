@@ -1,0 +1,140 @@
+// print.c: frames as text (spec cli.md 3.3).
+#include "session/session.h"
+
+#include "base/number.h"
+#include "value/format.h"
+
+#include <string.h>
+
+// Text on its way to the host, handed over in pieces.
+typedef struct Output {
+    Text text;
+    PetriWrite *write;
+    void *host;
+    bool stopped;
+} Output;
+
+enum { PIECE = 64 << 10 };
+
+static Output output_new(PetriSession *session, PetriWrite *write, void *host) {
+    arena_reset(&session->text_arena);
+    return (Output){.text = text_new(&session->text_arena), .write = write, .host = host};
+}
+
+static void output_flush(Output *out) {
+    if (out->text.len && !out->stopped)
+        out->stopped = !out->write(out->host, out->text.bytes, out->text.len);
+    out->text.len = 0;
+}
+
+static void output_line_end(Output *out) {
+    text_add_char(&out->text, '\n');
+    if (out->text.len >= PIECE)
+        output_flush(out);
+}
+
+static PetriStatus output_finish(Output *out) {
+    output_flush(out);
+    return out->stopped ? PETRI_INVALID : PETRI_OK;
+}
+
+static void add_number(Text *out, double x) {
+    char digits[NUMBER_TEXT];
+    text_add(out, (Str){digits, number_format(x, digits)});
+}
+
+static void print_header(Output *out, const PetriFrame *frame) {
+    text_add_format(&out->text, "@%lld time=", (long long)frame->number);
+    add_number(&out->text, frame->time);
+    text_add_c(&out->text, " beat=");
+    add_number(&out->text, frame->beat);
+    output_line_end(out);
+}
+
+static void print_tree(Output *out, PetriSession *session) {
+    Value tree = session->tree;
+    for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len && !out->stopped; i++)
+        if (tree.as.items[i].type == ITEM_NODE) {
+            format_tree(&out->text, &session->symbols, tree.as.items[i].as.node, 0);
+            if (out->text.len >= PIECE)
+                output_flush(out);
+        }
+}
+
+typedef struct Entry {
+    Value key;
+    Value value;
+} Entry;
+
+// Merge sort: stable, and unlike qsort it can be given the symbol table that the order needs.
+static void sort_entries(Entry *entries, Entry *scratch, uint32_t count, const SymbolTable *symbols) {
+    if (count < 2)
+        return;
+    uint32_t half = count / 2;
+    sort_entries(entries, scratch, half, symbols);
+    sort_entries(entries + half, scratch, count - half, symbols);
+    memcpy(scratch, entries, half * sizeof *entries);
+    for (uint32_t left = 0, right = half, to = 0; left < half; to++) {
+        if (right < count && format_key_compare(symbols, entries[right].key, scratch[left].key) < 0)
+            entries[to] = entries[right++];
+        else
+            entries[to] = scratch[left++];
+    }
+}
+
+static void print_state(Output *out, PetriSession *session) {
+    uint32_t count = 0, room = state_count(session->state), cursor = 0;
+    Entry *entries = arena_alloc_array(&session->text_arena, room, sizeof *entries);
+    Entry *scratch = arena_alloc_array(&session->text_arena, room, sizeof *scratch);
+    while (count < room && state_next(session->state, &cursor, &entries[count].key, &entries[count].value))
+        count++;
+    sort_entries(entries, scratch, count, &session->symbols);
+    for (uint32_t i = 0; i < count && !out->stopped; i++) {
+        bool several = entries[i].key.len != 1;
+        text_add_c(&out->text, several ? "$(" : "$");
+        format_value(&out->text, &session->symbols, entries[i].key);
+        text_add_c(&out->text, several ? ") = " : " = ");
+        format_value(&out->text, &session->symbols, entries[i].value);
+        output_line_end(out);
+    }
+}
+
+// Each text on its line.
+static void print_lines(Output *out, const DiagSink *sink, const char *mark, bool places) {
+    for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
+        text_add_c(&out->text, mark);
+        text_add(&out->text, places ? diag_one_line(out->text.arena, &sink->items[i]) : sink->items[i].text);
+        output_line_end(out);
+    }
+}
+
+PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host) {
+    Output out = output_new(session, write, host);
+    print_header(&out, &session->frame);
+    if (sections & PETRI_PRINT_TREE)
+        print_tree(&out, session);
+    if (sections & PETRI_PRINT_STATE)
+        print_state(&out, session);
+    if (sections & PETRI_PRINT_LOG)
+        print_lines(&out, &session->log, "> ", false);
+    if (sections & PETRI_PRINT_ERROR)
+        print_lines(&out, &session->errors, "? ", true);
+    return output_finish(&out);
+}
+
+PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host) {
+    Output out = output_new(session, write, host);
+    print_lines(&out, &session->log, "> ", false);
+    return output_finish(&out);
+}
+
+PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host) {
+    if (!session->program)
+        return PETRI_INVALID;
+    Output out = output_new(session, write, host);
+    if (what == PETRI_DUMP_AST)
+        ast_print(&out.text, &session->symbols, session->program->source, session->program->ast);
+    else
+        program_print(&out.text, &session->symbols, session->program->program);
+    return output_finish(&out);
+}

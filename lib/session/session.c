@@ -1,0 +1,278 @@
+// session.c: opening, loading, diagnostics; see petri.h.
+#include "session/session.h"
+
+#include "syntax/literal.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COOKIE UINT32_C(0x70657472)
+enum { MOST_TOLD = 1000, MOST_LINES = 100000 };
+
+PetriOptions petri_default_options(void) {
+    return (PetriOptions){.fps = 60,
+                          .run_time = NAN,
+                          .stack_bytes = (size_t)4 << 20,
+                          .memory_bytes = (size_t)2 << 30,
+                          .cookie = COOKIE};
+}
+
+static void tell_scene(void *host, DiagLevel level, const char *code, Str text) {
+    PetriSession *session = host;
+    Diag diag = {.level = level, .text = text, .code = code};
+    diag_report(&session->errors, &diag);
+    session_tell(session, &diag);
+}
+
+static void tell_machine(void *host, const Diag *diag) {
+    PetriSession *session = host;
+    if (session->in_frame)
+        diag_report(&session->errors, diag);
+    session_tell(session, diag);
+}
+
+static void log_machine(void *host, Str text) {
+    PetriSession *session = host;
+    diag_report(&session->log, &(Diag){.level = DIAG_NOTE, .text = text});
+}
+
+PetriSession *petri_open(const PetriOptions *options) {
+    if (!options || options->cookie != COOKIE)
+        return NULL;
+    PetriSession *session = calloc(1, sizeof *session);
+    if (!session)
+        return NULL;
+    session->options = *options;
+    arena_init(&session->arena, "session", SIZE_MAX);
+    arena_init(&session->frame_arena, "frame", options->memory_bytes);
+    arena_init(&session->text_arena, "text", SIZE_MAX);
+    session->symbols = symbol_table_new(&session->arena);
+    session->log = diag_sink_new(&session->frame_arena, MOST_LINES);
+    session->errors = diag_sink_new(&session->frame_arena, MOST_LINES);
+    session->state = state_new();
+    session->scene = scene_new(&session->symbols, (SceneHost){session, tell_scene});
+    session->files = file_cache_new();
+    vm_init(&session->vm, &session->frame_arena, &session->symbols,
+            (VmHost){session, tell_machine, log_machine, session_module}, options->stack_bytes);
+    session->vm.builtins.files = session->files;
+    session->frame.number = -1;
+    if (!session->state || !session->scene || !session->files)
+        petri_close(&session);
+    return session;
+}
+
+void petri_close(PetriSession **handle) {
+    PetriSession *session = *handle;
+    *handle = NULL;
+    if (!session)
+        return;
+    unit_free(session->program);
+    for (Unit *unit = session->modules, *next; unit; unit = next) {
+        next = unit->next;
+        unit_free(unit);
+    }
+    scene_free(session->scene);
+    state_free(session->state);
+    file_cache_free(session->files);
+    vm_free(&session->vm);
+    diag_sink_free(&session->log);
+    diag_sink_free(&session->errors);
+    index_free(&session->told_index);
+    free(session->told);
+    symbol_table_free(&session->symbols);
+    arena_free(&session->frame_arena);
+    arena_free(&session->text_arena);
+    arena_free(&session->arena);
+    free(session);
+}
+
+static bool told_same(const void *owner, uint32_t entry, const void *key) {
+    return ((const PetriSession *)owner)->told[entry] == *(const uint64_t *)key;
+}
+
+// Remembers a text; false if it was told before or too many were.
+static bool told_add(PetriSession *session, Str text) {
+    uint64_t hash = hash_bytes(0, text.bytes, text.len);
+    if (session->told_count >= MOST_TOLD || index_find(&session->told_index, hash, told_same, session, &hash) != INDEX_NONE)
+        return false;
+    if (session->told_count == session->told_capacity) {
+        uint32_t capacity = session->told_capacity ? session->told_capacity * 2 : 16;
+        uint64_t *told = realloc(session->told, capacity * sizeof *told);
+        if (!told)
+            return false;
+        session->told = told;
+        session->told_capacity = capacity;
+    }
+    session->told[session->told_count] = hash;
+    return index_add(&session->told_index, hash, session->told_count++);
+}
+
+static void give(PetriSession *session, const Diag *diag, Str rendered) {
+    session->counts[diag->level]++;
+    if (!session->options.diagnostic)
+        return;
+    Arena *arena = &session->text_arena;
+    SourcePlace place = {0};
+    if (diag->source)
+        place = source_locate(diag->source, diag->span.start);
+    PetriDiagnostic public_diag = {.level = (PetriLevel)diag->level,
+                                   .file = diag->source ? str_to_c(arena, diag->source->name) : NULL,
+                                   .line = place.line,
+                                   .column = place.column,
+                                   .text = str_to_c(arena, diag->text),
+                                   .code = diag->code,
+                                   .rendered = str_to_c(arena, rendered)};
+    session->options.diagnostic(session->options.host, &public_diag);
+}
+
+void session_tell(PetriSession *session, const Diag *diag) {
+    ArenaMark mark = arena_mark(&session->text_arena);
+    Text rendered = text_new(&session->text_arena);
+    diag_format(&rendered, diag, session->options.colour);
+    if (told_add(session, text_str(&rendered))) {
+        give(session, diag, text_str(&rendered));
+        if (session->told_count == MOST_TOLD) {
+            Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics were given; no more are shown")};
+            rendered.len = 0;
+            diag_format(&rendered, &last, session->options.colour);
+            give(session, &last, text_str(&rendered));
+        }
+    }
+    arena_rewind(&session->text_arena, mark);
+}
+
+void session_tell_text(PetriSession *session, DiagLevel level, const char *code, Str text) {
+    session_tell(session, &(Diag){.level = level, .text = text, .code = code});
+}
+
+void session_tell_all(PetriSession *session, const DiagSink *sink) {
+    for (uint32_t i = 0; i < sink->count; i++)
+        session_tell(session, &sink->items[i]);
+    if (sink->dropped)
+        session_tell_text(session, DIAG_NOTE, NULL,
+                          str_format(sink->arena, "%u more diagnostics are not shown", sink->dropped));
+}
+
+uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level) {
+    return session->counts[level];
+}
+
+// One part of a -D value (L16.3).
+static void add_define_part(PetriSession *session, Vector *vector, Str part) {
+    double x;
+    const Symbol *symbol = part.len > 1 && part.bytes[0] == ':'
+                               ? symbol_know(&session->symbols, (Str){part.bytes + 1, part.len - 1})
+                               : NULL;
+    if (symbol)
+        vector_add_number(vector, symbol->number);
+    else if (literal_parse_number(part, &x) || literal_parse_timecode(part, &x))
+        vector_add_number(vector, x);
+    else
+        vector_add(vector, value_string(&session->arena, part));
+}
+
+static Value define_value(PetriSession *session, Str text) {
+    Vector vector = vector_new(&session->arena);
+    for (;;) {
+        const char *end = memchr(text.bytes, ';', text.len);
+        Str part = {text.bytes, end ? (size_t)(end - text.bytes) : text.len};
+        add_define_part(session, &vector, part);
+        if (!end)
+            return vector_finish(&vector);
+        text = (Str){end + 1, text.len - part.len - 1};
+    }
+}
+
+PetriStatus petri_define(PetriSession *session, const char *definition) {
+    const char *equals = strchr(definition, '=');
+    if (!equals || equals == definition || utf8_find_error(str_from(definition)) != strlen(definition))
+        return PETRI_INVALID;
+    if (session->define_count == session->define_capacity) {
+        uint32_t old = session->define_capacity, capacity = old ? old * 2 : 8;
+        session->defines = arena_grow(&session->arena, session->defines, old * sizeof *session->defines,
+                                      capacity * sizeof *session->defines);
+        session->define_capacity = capacity;
+    }
+    Str name = {definition, (size_t)(equals - definition)};
+    session->defines[session->define_count++] =
+        (Define){symbol_intern(&session->symbols, name), define_value(session, str_copy(&session->arena, str_from(equals + 1)))};
+    return PETRI_OK;
+}
+
+typedef struct LoadRequest {
+    const char *file; // or, if NULL, a text
+    Str name;         // of either
+    Str text;
+} LoadRequest;
+
+// Loads within an escape. What is known after a jump is in *unit, not in a local that the jump may have clobbered.
+static bool load_guarded(PetriSession *session, const LoadRequest *request, Unit **unit) {
+    jmp_buf escape;
+    session->frame_arena.escape = &escape;
+    bool escaped = setjmp(escape) != 0;
+    if (!escaped)
+        *unit = request->file ? unit_load_file(session, request->file, false)
+                              : unit_load_text(session, request->name, request->text);
+    session->frame_arena.escape = NULL;
+    session->loading = NULL;
+    return !escaped;
+}
+
+static void report_too_large(PetriSession *session) {
+    session_tell_text(session, DIAG_ERROR, "memory-limit", STR("the script is too large: the limit is 4 GiB"));
+}
+
+static PetriStatus load(PetriSession *session, const LoadRequest *request, bool keep) {
+    Unit *unit = NULL;
+    PetriStatus status = PETRI_OK;
+    if (!load_guarded(session, request, &unit) || !unit) {
+        report_too_large(session);
+        return PETRI_MEMORY;
+    }
+    unit->arena.escape = NULL;
+    if (!unit->source)
+        session_tell_text(session, DIAG_ERROR, "cannot-read",
+                          str_format(&unit->arena, "cannot read '%.*s': %.*s", (int)request->name.len,
+                                     request->name.bytes, (int)unit->why.len, unit->why.bytes));
+    if (!unit->program)
+        status = PETRI_INVALID;
+    if (status == PETRI_OK && keep) {
+        unit_free(session->program);
+        session->program = unit;
+        session_start(session, unit->program);
+    } else {
+        unit_free(unit);
+    }
+    return status;
+}
+
+PetriStatus petri_load(PetriSession *session, const char *file) {
+    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, true);
+}
+
+PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    Str content = {text, length == PETRI_Z ? strlen(text) : length};
+    return load(session, &(LoadRequest){.name = str_from(name), .text = content}, true);
+}
+
+PetriStatus petri_check(PetriSession *session, const char *file) {
+    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, false);
+}
+
+bool petri_builtin(size_t index, PetriBuiltin *builtin) {
+    if (index >= builtin_count)
+        return false;
+    const Builtin *row = &builtin_table[index];
+    *builtin = (PetriBuiltin){row->name, row->parameters, row->help};
+    return true;
+}
+
+bool petri_read_number(const char *text, double *x) {
+    return literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x);
+}
+
+const char *petri_version(void) {
+    return PETRI_VERSION;
+}

@@ -1,0 +1,243 @@
+// state.c: see state.h.
+#include "state/state.h"
+
+#include "base/random.h"
+#include "base/table.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct StateEntry {
+    uint64_t hash;
+    Value key;       // owned: one heap block, or inline
+    Value value;     // owned likewise; null: the slot is empty
+} StateEntry;
+
+struct State {
+    StateEntry *entries;
+    uint32_t count; // slots, empty ones included
+    uint32_t capacity;
+    uint32_t live;
+    Index index;
+};
+
+State *state_new(void) {
+    return calloc(1, sizeof(State));
+}
+
+// A mixed vector is kept as one heap block: items, then Strings, then their bytes.
+static bool own_mixed(Value *copy, Value v) {
+    size_t strings = 0, bytes = 0;
+    for (uint32_t i = 0; i < v.len; i++)
+        if (v.as.items[i].type == ITEM_STRING) {
+            strings++;
+            bytes += v.as.items[i].as.string->text.len;
+        }
+    Item *items = malloc(v.len * sizeof *items + strings * sizeof(String) + bytes);
+    if (!items)
+        return false;
+    String *string = (String *)(items + v.len);
+    char *text = (char *)(string + strings);
+    for (uint32_t i = 0; i < v.len; i++) {
+        items[i] = v.as.items[i];
+        if (items[i].type != ITEM_STRING)
+            continue;
+        Str from = items[i].as.string->text;
+        if (from.len)
+            memcpy(text, from.bytes, from.len);
+        *string = (String){{text, from.len}};
+        items[i].as.string = string++;
+        text += from.len;
+    }
+    *copy = (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
+    return true;
+}
+
+static bool own(Value *copy, Value v) {
+    *copy = v;
+    if (v.kind == VALUE_MIXED)
+        return own_mixed(copy, v);
+    if (v.len > 1) {
+        double *numbers = malloc(v.len * sizeof *numbers);
+        if (!numbers)
+            return false;
+        memcpy(numbers, v.as.numbers, v.len * sizeof *numbers);
+        copy->as.numbers = numbers;
+    }
+    return true;
+}
+
+static void disown(Value *v) {
+    if (v->kind == VALUE_MIXED)
+        free((void *)v->as.items);
+    else if (v->len > 1)
+        free((void *)v->as.numbers);
+    *v = VALUE_NULL;
+}
+
+void state_clear(State *state) {
+    for (uint32_t i = 0; i < state->count; i++) {
+        disown(&state->entries[i].key);
+        disown(&state->entries[i].value);
+    }
+    state->count = state->live = 0;
+    index_clear(&state->index);
+}
+
+void state_free(State *state) {
+    if (!state)
+        return;
+    state_clear(state);
+    index_free(&state->index);
+    free(state->entries);
+    free(state);
+}
+
+bool state_key_valid(Value key) {
+    if (key.kind == VALUE_STREAM)
+        return false;
+    for (uint32_t i = 0; i < key.len; i++) {
+        Item item = value_at(&key, i);
+        if (item.type == ITEM_NODE || item.type == ITEM_FUNCTION ||
+            (item.type == ITEM_NUMBER && isnan(item.as.number)))
+            return false;
+    }
+    return true;
+}
+
+static uint64_t bits_of(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+static uint64_t key_hash(Value key) {
+    uint64_t hash = RANDOM_HASH_START;
+    for (uint32_t i = 0; i < key.len; i++) {
+        Item item = value_at(&key, i);
+        uint64_t y = item.type == ITEM_NUMBER
+                         ? bits_of(item.as.number)
+                         : hash_bytes(1, item.as.string->text.bytes, item.as.string->text.len);
+        hash = random_hash_step(hash, y);
+    }
+    return hash;
+}
+
+// Same bits, same code points (L11.2): stricter than ==.
+static bool key_equal(Value a, Value b) {
+    if (a.len != b.len || a.kind != b.kind)
+        return false;
+    for (uint32_t i = 0; i < a.len; i++) {
+        Item x = value_at(&a, i), y = value_at(&b, i);
+        if (x.type != y.type)
+            return false;
+        if (x.type == ITEM_NUMBER ? bits_of(x.as.number) != bits_of(y.as.number) : !item_equal(x, y))
+            return false;
+    }
+    return true;
+}
+
+static bool entry_has_key(const void *owner, uint32_t entry, const void *key) {
+    return key_equal(((const State *)owner)->entries[entry].key, *(const Value *)key);
+}
+
+static uint32_t find(const State *state, Value key, uint64_t hash) {
+    return index_find(&state->index, hash, entry_has_key, state, &key);
+}
+
+StateSlot state_slot(State *state, Value key) {
+    if (!state_key_valid(key))
+        return STATE_NO_SLOT;
+    uint64_t hash = key_hash(key);
+    uint32_t found = find(state, key, hash);
+    if (found != INDEX_NONE)
+        return found;
+    if (state->count == state->capacity) {
+        uint32_t capacity = state->capacity ? state->capacity * 2 : 16;
+        StateEntry *entries = realloc(state->entries, capacity * sizeof *entries);
+        if (!entries)
+            return STATE_NO_SLOT;
+        state->entries = entries;
+        state->capacity = capacity;
+    }
+    StateEntry entry = {.hash = hash};
+    if (!own(&entry.key, key))
+        return STATE_NO_SLOT;
+    if (!index_add(&state->index, hash, state->count)) {
+        disown(&entry.key);
+        return STATE_NO_SLOT;
+    }
+    state->entries[state->count] = entry;
+    return state->count++;
+}
+
+StateSlot state_find(const State *state, Value key) {
+    uint32_t found = state_key_valid(key) ? find(state, key, key_hash(key)) : INDEX_NONE;
+    return found == INDEX_NONE ? STATE_NO_SLOT : found;
+}
+
+Value state_slot_get(const State *state, StateSlot slot) {
+    return slot < state->count ? state->entries[slot].value : VALUE_NULL;
+}
+
+bool state_slot_set(State *state, StateSlot slot, Value value) {
+    if (slot >= state->count)
+        return slot != STATE_NO_SLOT;
+    StateEntry *entry = &state->entries[slot];
+    Value *stored = &entry->value;
+    if (value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len && value.len > 0) {
+        // In place, element by element only if the whole differs: an equal value leaves the stored bits alone.
+        if (!value_equal(*stored, value)) {
+            if (value.len == 1)
+                *stored = value;
+            else
+                memcpy((void *)stored->as.numbers, value.as.numbers, value.len * sizeof(double));
+        }
+        return true;
+    }
+    if (value.len > 0 && value_equal(*stored, value))
+        return true;
+    Value copy;
+    if (!own(&copy, value.len ? value : VALUE_NULL))
+        return false;
+    state->live += (copy.len > 0);
+    state->live -= (stored->len > 0);
+    disown(stored);
+    *stored = copy;
+    return true;
+}
+
+Value state_get(const State *state, Value key) {
+    if (!state_key_valid(key))
+        return VALUE_NULL;
+    uint32_t found = find(state, key, key_hash(key));
+    return found == INDEX_NONE ? VALUE_NULL : state->entries[found].value;
+}
+
+bool state_set(State *state, Value key, Value value) {
+    if (!state_key_valid(key))
+        return true;
+    if (value.len == 0) {
+        uint32_t found = find(state, key, key_hash(key));
+        return found == INDEX_NONE || state_slot_set(state, found, VALUE_NULL);
+    }
+    StateSlot slot = state_slot(state, key);
+    return slot != STATE_NO_SLOT && state_slot_set(state, slot, value);
+}
+
+bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value) {
+    while (*cursor < state->count) {
+        const StateEntry *entry = &state->entries[(*cursor)++];
+        if (entry->value.len > 0) {
+            *key = entry->key;
+            *value = entry->value;
+            return true;
+        }
+    }
+    return false;
+}
+
+uint32_t state_count(const State *state) {
+    return state->live;
+}

@@ -1,0 +1,43 @@
+// state.h: the state dictionary (spec language.md L11).
+//
+// A mapping from key vectors to non-null vectors that lives as long as the session. Scripts only read it; engine
+// systems write it between evaluations. Entries keep the order in which they were first stored, and a slot is a stable
+// number, so a system finds a key once and then reads and writes its slot without hashing.
+#ifndef PETRI_STATE_STATE_H
+#define PETRI_STATE_STATE_H
+
+#include "value/value.h"
+
+typedef struct State State;
+typedef uint32_t StateSlot;
+#define STATE_NO_SLOT UINT32_MAX
+
+// NULL if memory is used up.
+State *state_new(void);
+void state_free(State *state);
+// Removes every entry; slots become invalid.
+void state_clear(State *state);
+
+// Can this vector be a key at all: numbers (no nan) and strings only (L11.2). Null can.
+bool state_key_valid(Value key);
+
+// The value under a key, or null. A borrowed view: valid until that key is written or removed.
+Value state_get(const State *state, Value key);
+// Stores a copy of the value; null removes the key. An invalid key is ignored. A value that compares equal to the
+// stored one leaves the stored one, so 0 is not replaced by -0. Returns false if memory is used up.
+bool state_set(State *state, Value key, Value value);
+
+// Slots. state_slot finds or makes the slot of a valid key; a slot without value is not an entry. It stays valid until
+// state_clear. STATE_NO_SLOT if memory is used up.
+StateSlot state_slot(State *state, Value key);
+// The slot of a key if there is one, else STATE_NO_SLOT.
+StateSlot state_find(const State *state, Value key);
+Value state_slot_get(const State *state, StateSlot slot);
+// As state_set. Numbers of unchanged length are overwritten in place.
+bool state_slot_set(State *state, StateSlot slot, Value value);
+
+// Entries that have a value, in order of first storing: `*cursor` starts at 0; false at the end.
+bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value);
+uint32_t state_count(const State *state);
+
+#endif

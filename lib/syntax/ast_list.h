@@ -1,0 +1,54 @@
+// ast_list.h: the kinds of syntax tree nodes, one row each.
+//
+// AST(KIND, "name in --dump=ast", children). `names` is a NAMES node, `?` marks a child that may be NULL, `…` repeats.
+// clang-format off
+AST(LITERAL,    "literal")      // value: a number, string or symbol
+AST(NODE,       "node")         // name: the kind of a fresh node
+AST(NAME,       "name")         // name
+AST(NAMES,      "names")        // NAME…
+AST(COMPOSE,    "compose")      // part…
+AST(SUITE,      "suite")        // statement…, LET, FUNC and IMPORT among them
+AST(LET,        "let")          // BINDING…
+AST(LET_STABLE, "let-stable")   // BINDING…
+AST(BINDING,    "binding")      // names, value
+AST(FUNC,       "func")         // name or NULL; PARAMS, body
+AST(PARAMS,     "params")       // PARAM…
+AST(PARAM,      "param")        // name; default?
+AST(IMPORT,     "import")       // names, file
+AST(INCLUDE,    "include")      // file
+AST(PRAGMA,     "pragma")       // name; value
+AST(FOR,        "for")          // names, source, body
+AST(IF,         "if")           // test, suite, [test, suite]…, [else suite]
+AST(APPEND,     "append")       // parent, children
+AST(DECORATE,   "decorate")     // subject, TAG or ATTR…
+AST(TAG,        "tag")          // name
+AST(ATTR,       "attr")         // name; value
+AST(TEMPLATE,   "template")     // callee, ATTR…, [SUITE]
+AST(COND,       "cond")         // then, test, else?
+AST(WHERE,      "where")        // body, BINDING…
+AST(OR,         "or")           // left, right
+AST(XOR,        "xor")          // left, right
+AST(AND,        "and")          // left, right
+AST(NOT,        "not")          // operand
+AST(EQ,         "==")           // left, right
+AST(NE,         "!=")           // left, right
+AST(LT,         "<")            // left, right
+AST(GT,         ">")            // left, right
+AST(LE,         "<=")           // left, right
+AST(GE,         ">=")           // left, right
+AST(IN,         "in")           // left, right
+AST(RANGE,      "range")        // start?, stop, step?
+AST(ADD,        "+")            // left, right
+AST(SUB,        "-")            // left, right
+AST(MUL,        "*")            // left, right
+AST(DIV,        "/")            // left, right
+AST(FLOORDIV,   "//")           // left, right
+AST(MOD,        "%")            // left, right
+AST(POW,        "**")           // left, right
+AST(NEG,        "neg")          // operand
+AST(POS,        "pos")          // operand
+AST(CALL,       "call")         // callee, argument…, NAMED…
+AST(NAMED,      "named")        // name; value
+AST(INDEX,      "index")        // vector, index
+AST(LOOKUP,     "lookup")       // key
+// clang-format on

@@ -1,0 +1,93 @@
+// layout.c: see layout.h.
+#include "syntax/layout.h"
+
+#include "parser.h"
+
+void layout_init(Layout *layout, const Source *source) {
+    layout->lexer = lexer_new(source);
+    layout->level_count = 1;
+    layout->levels[0] = (LayoutLevel){0};
+    layout->paren_count = 0;
+    layout->settling = false;
+}
+
+// Spaces plus eight times tabs after the last line end of a newline token: a sum, not tab stops.
+static uint32_t indentation(const Source *source, Span newline) {
+    uint32_t indent = 0;
+    for (uint32_t at = newline.end; at > newline.start && source->text.bytes[at - 1] != '\n'; at--)
+        indent += source->text.bytes[at - 1] == '\t' ? 8 : 1;
+    return indent;
+}
+
+static Token fault(Span span, const char *error, bool fatal) {
+    return (Token){.kind = GR_UNDEF, .span = span, .error = error, .fatal = fatal};
+}
+
+// What is still due for the newline in layout->line; a token of kind GR_EMPTY if nothing is.
+static Token settle(Layout *layout) {
+    Span here = {layout->line.end, layout->line.end};
+    LayoutLevel *top = &layout->levels[layout->level_count - 1];
+    while (layout->indent < top->indent) {
+        bool silent = top->silent;
+        top = &layout->levels[--layout->level_count - 1];
+        if (layout->indent > top->indent) {
+            // Between two levels: taken as the outer one, so that what follows still parses.
+            layout->indent = top->indent;
+            layout->settling = true;
+            return fault(here, "this line's indentation matches none of the lines above", false);
+        }
+        if (!silent)
+            return (Token){.kind = DEDENT, .span = here};
+    }
+    layout->settling = false;
+    if (layout->indent == top->indent)
+        return (Token){.kind = GR_EMPTY};
+    if (layout->level_count > LAYOUT_MAX_DEPTH)
+        return fault(here, "indented too deeply: the limit is 1000 levels", true);
+    layout->levels[layout->level_count++] = (LayoutLevel){.indent = layout->indent};
+    return (Token){.kind = INDENT, .span = here};
+}
+
+static Token newline(Layout *layout, Token token) {
+    layout->line = token.span;
+    layout->indent = indentation(layout->lexer.source, token.span);
+    layout->settling = true;
+    return token;
+}
+
+Token layout_next(Layout *layout) {
+    if (layout->settling) {
+        Token token = settle(layout);
+        if (token.kind != GR_EMPTY)
+            return token;
+    }
+    for (;;) {
+        Token token = lexer_next(&layout->lexer);
+        switch (token.kind) {
+        case NEWLINE:
+            if (layout->paren_count > 0)
+                continue;
+            return newline(layout, token);
+        case '(':
+            if (layout->paren_count == LAYOUT_MAX_DEPTH)
+                return fault(token.span, "parentheses nested too deeply: the limit is 1000", true);
+            layout->parens[layout->paren_count++] = token.span.start;
+            return token;
+        case ')':
+            layout->paren_count -= layout->paren_count > 0;
+            return token;
+        default:
+            return token;
+        }
+    }
+}
+
+void layout_resume(Layout *layout, uint32_t offset) {
+    layout->lexer.at = offset;
+}
+
+void layout_recover(Layout *layout, const Token *token) {
+    layout->paren_count = 0;
+    if (token->kind == INDENT)
+        layout->levels[layout->level_count - 1].silent = true;
+}

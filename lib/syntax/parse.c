@@ -1,0 +1,291 @@
+// parse.c: the parser's driver: decides what words are keywords, builds literals, phrases errors; see parse.h.
+#include "syntax/parse.h"
+
+#include "parser.h"
+#include "syntax/layout.h"
+#include "syntax/literal.h"
+
+#include <string.h>
+
+static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
+    context->failed = true;
+    diag_report(context->diags, &(Diag){.level = DIAG_ERROR,
+                                        .source = context->source,
+                                        .span = span,
+                                        .text = text,
+                                        .hint = hint,
+                                        .code = code});
+}
+
+Ast *parse_checked(ParseContext *context, Ast *ast) {
+    if (ast->height <= AST_MAX_HEIGHT)
+        return ast;
+    parse_too_deep(context, ast->span);
+    return ast_literal(context->arena, ast->span, VALUE_NULL); // any shallow tree: the program has failed
+}
+
+void parse_too_deep(ParseContext *context, Span span) {
+    if (!context->too_deep)
+        report(context, span, "too-deep",
+               str_format(context->arena, "nested too deeply: the limit is %d levels", AST_MAX_HEIGHT), (Str){0});
+    context->too_deep = true;
+}
+
+static Str token_text(const ParseContext *context, Span span) {
+    return (Str){context->source->text.bytes + span.start, span.end - span.start};
+}
+
+// Words like "end of line" describe a token; everything else is quoted.
+static void add_token_name(Text *out, const char *name) {
+    static const char *const described[] = {"name",        "number",      "time code",          "string", "symbol", "node",
+                                            "tag",         "end of file", "end of line",        "indentation",
+                                            "end of indentation"};
+    bool quote = name[0] != '\'';
+    for (size_t i = 0; i < sizeof described / sizeof described[0]; i++)
+        if (strcmp(name, described[i]) == 0)
+            quote = false;
+    text_add_format(out, quote ? "'%s'" : "%s", name);
+}
+
+// A second sentence for common slips.
+static Str syntax_hint(const ParseContext *context, Span span, const char *found, bool wants_block) {
+    if (wants_block)
+        return STR("the line above needs an indented block under it");
+    if (strcmp(found, "'='") == 0)
+        return STR("to compare write ==, to name a value write let NAME=…");
+    if (strcmp(found, "indentation") == 0)
+        return STR("only the line under a statement that takes a block is indented");
+    if (strcmp(found, "'['") == 0)
+        return STR("vectors are written with semicolons: 1;2;3");
+    if (strcmp(found, "else") == 0 || strcmp(found, "elif") == 0)
+        return STR("it must follow the block of an if, at the same indentation");
+    if (strcmp(found, "end of line") == 0 && span.start > 0 && context->source->text.bytes[span.start - 1] == ';')
+        return STR("a vector may not end in a semicolon");
+    return (Str){0};
+}
+
+void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count) {
+    if (context->reported)
+        return;
+    bool wants_block = count == 1 && strcmp(expected[0], "indentation") == 0;
+    Text text = text_new(context->arena);
+    Str word = token_text(context, span);
+    text_add_c(&text, "unexpected ");
+    bool layout = strncmp(found, "end of", 6) == 0 || strcmp(found, "indentation") == 0;
+    if (found[0] != '\'' && !layout && word.len > 0 && word.len <= 40 && !memchr(word.bytes, '\n', word.len)) {
+        // A name, literal or keyword: show it as it was written.
+        bool described = strcmp(found, "name") == 0 || strcmp(found, "node") == 0 || strcmp(found, "symbol") == 0 ||
+                         strcmp(found, "tag") == 0 || strcmp(found, "number") == 0 || strcmp(found, "string") == 0 ||
+                         strcmp(found, "time code") == 0;
+        text_add_format(&text, described ? "%s %.*s" : "%s'%.*s'", described ? found : "", (int)word.len, word.bytes);
+    } else {
+        add_token_name(&text, found);
+    }
+    for (int i = 0; i < count; i++) {
+        text_add_c(&text, i == 0 ? ", expected " : i + 1 < count ? ", " : " or ");
+        if (wants_block)
+            text_add_c(&text, "an indented block");
+        else
+            add_token_name(&text, expected[i]);
+    }
+    report(context, span, "syntax", text_str(&text), syntax_hint(context, span, found, wants_block));
+}
+
+// A character at which no token starts.
+static void report_character(ParseContext *context, Span span) {
+    Str text = token_text(context, span);
+    size_t at = 0;
+    int32_t c = utf8_next(text, &at);
+    if (c == '\'' || c == '"')
+        report(context, span, "syntax", STR("unterminated string"),
+               STR("a string ends on its line; one in ''' or \"\"\" may span lines"));
+    else if (c == '\\')
+        report(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
+    else if (c == 0xfeff)
+        report(context, span, "syntax", STR("byte-order mark: save the file as UTF-8 without one"), (Str){0});
+    else if (c < 0x20 || c == 0x7f)
+        report(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
+               STR("is this a text file?"));
+    else if (c == ':' || c == '!' || c == '#')
+        report(context, span, "syntax", str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
+               c == '#' ? STR("comments start with --") : c == '!' ? STR("to negate write not") : (Str){0});
+    else
+        report(context, span, "syntax",
+               str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
+               (Str){0});
+}
+
+static void report_bad_token(ParseContext *context, const Token *token) {
+    if (!token->error) {
+        report_character(context, token->span);
+        return;
+    }
+    SourcePlace place = source_locate(context->source, token->span.start);
+    bool tabs = !token->fatal && memchr(place.text.bytes, '\t', place.text.len);
+    report(context, token->span, "syntax", str_from(token->error),
+           tabs ? STR("a tab counts as eight spaces: do not mix the two") : (Str){0});
+    context->too_deep |= token->fatal;
+}
+
+// The tree of a literal token, or NULL after a complaint.
+static Ast *literal(ParseContext *context, const Token *token) {
+    Str text = token_text(context, token->span), string;
+    double x = 0;
+    const Symbol *symbol;
+    const char *complaint = NULL;
+    switch (token->kind) {
+    case NUMBER:
+        complaint = literal_number(text, &x);
+        break;
+    case TIMECODE:
+        x = literal_timecode(text);
+        break;
+    case SYMBOL:
+        symbol = symbol_know(context->symbols, (Str){text.bytes + 1, text.len - 1});
+        if (symbol)
+            x = symbol->number;
+        else
+            complaint = "this symbol has the same value as another symbol: rename one";
+        break;
+    default:
+        complaint = literal_string(context->arena, text, &string);
+        if (!complaint)
+            return ast_literal(context->arena, token->span, value_string(context->arena, string));
+    }
+    if (!complaint)
+        return ast_literal(context->arena, token->span, value_number(x));
+    report(context, token->span, "syntax", str_from(complaint), (Str){0});
+    context->reported = true;
+    return NULL;
+}
+
+static Ast *named_token(ParseContext *context, const Token *token, AstKind kind, uint32_t sigil) {
+    Str text = token_text(context, token->span);
+    const Symbol *name = symbol_intern(context->symbols, (Str){text.bytes + sigil, text.len - sigil});
+    return ast_new(context->arena, kind, token->span, name, NULL, 0);
+}
+
+// The semantic value of a token; may turn it into GR_UNDEF.
+static GR_STYPE token_value(ParseContext *context, Token *token) {
+    GR_STYPE result = {0};
+    switch (token->kind) {
+    case NAME:
+        result.ast = named_token(context, token, AST_NAME, 0);
+        break;
+    case NODE:
+        result.ast = named_token(context, token, AST_NODE, 1);
+        break;
+    case TAG:
+        result.ast = named_token(context, token, AST_TAG, 1);
+        break;
+    case NUMBER:
+    case TIMECODE:
+    case STRING:
+    case SYMBOL:
+        result.ast = literal(context, token);
+        if (!result.ast)
+            token->kind = GR_UNDEF;
+        break;
+    default:
+        break;
+    }
+    return result;
+}
+
+// Cuts the token down to its first `len` bytes as another kind; scanning goes on after them.
+static void retoken(Layout *layout, Token *token, int kind, uint32_t len) {
+    token->kind = kind;
+    token->span.end = token->span.start + len;
+    layout_resume(layout, token->span.end);
+}
+
+// Context decides what a word or a directive is (L2.2, L2.12).
+static void settle_kind(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
+    Str text = token_text(context, token->span);
+    if ((token->kind == PRAGMA || token->kind == INCLUDE) && !gr_accepts(parser, token->kind)) {
+        retoken(layout, token, '%', 1);
+    } else if (token->kind == NAME && token->keyword && gr_accepts(parser, token->keyword)) {
+        token->kind = token->keyword;
+    } else if (token->kind == NAME && !gr_accepts(parser, NAME)) {
+        // Where only `in` or `from` can follow, they are taken as a bare prefix of the text (K11).
+        if (gr_accepts(parser, IN) && !gr_accepts(parser, AND) && str_starts_with(text, STR("in")))
+            retoken(layout, token, IN, 2);
+        else if (gr_accepts(parser, FROM) && str_starts_with(text, STR("from")))
+            retoken(layout, token, FROM, 4);
+    }
+}
+
+static void add_paren_hint(ParseContext *context, const Layout *layout, const Token *token, uint32_t errors_before) {
+    if (layout->paren_count == 0 || context->diags->count == errors_before)
+        return;
+    SourcePlace open = source_locate(context->source, layout->parens[layout->paren_count - 1]);
+    if (token->kind == END || source_locate(context->source, token->span.start).line > open.line)
+        context->diags->items[context->diags->count - 1].hint =
+            str_format(context->diags->arena, "the parenthesis opened at line %u, column %u is not closed", open.line,
+                       open.column);
+}
+
+// Pushes one token; tells whether the parser wants more, is done, or has given up.
+static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token *token) {
+    uint32_t errors_before = context->diags->count;
+    context->reported = false;
+    if (token->kind == GR_UNDEF) {
+        report_bad_token(context, token);
+        context->reported = true;
+    }
+    GR_STYPE semantic = token_value(context, token);
+    Span span = token->span;
+    int status = gr_push_parse(parser, token->kind, &semantic, &span, context);
+    if (context->diags->count > errors_before || context->reported) {
+        add_paren_hint(context, layout, token, errors_before);
+        layout_recover(layout, token);
+    }
+    return status;
+}
+
+// Skips the rest of the line after an error from which the grammar could not recover.
+static int skip_line(Layout *layout) {
+    Token token;
+    do
+        token = layout_next(layout);
+    while (token.kind != NEWLINE && token.kind != END);
+    return token.kind;
+}
+
+static bool check_text(ParseContext *context) {
+    Str text = context->source->text;
+    size_t bad = utf8_find_error(text);
+    if (bad < text.len) {
+        report(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
+               STR("is this a text file?"));
+        return false;
+    }
+    return true;
+}
+
+static void parse_text(ParseContext *context, Layout *layout) {
+    layout_init(layout, context->source);
+    gr_pstate *parser = gr_pstate_new();
+    int status = YYPUSH_MORE;
+    while (parser && status == YYPUSH_MORE && !context->too_deep) {
+        Token token = layout_next(layout);
+        settle_kind(context, layout, parser, &token);
+        status = push(context, layout, parser, &token);
+        if (status == 1 && token.kind != END) {
+            // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
+            gr_pstate_delete(parser);
+            parser = gr_pstate_new();
+            status = token.kind == NEWLINE || skip_line(layout) == NEWLINE ? YYPUSH_MORE : 1;
+        }
+    }
+    if (!parser)
+        arena_exhausted(context->arena);
+    gr_pstate_delete(parser);
+}
+
+const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {
+    ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
+    if (check_text(&context))
+        parse_text(&context, arena_alloc(arena, sizeof(Layout)));
+    return context.failed ? NULL : context.program;
+}

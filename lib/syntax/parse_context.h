@@ -1,0 +1,25 @@
+// parse_context.h: what the grammar's actions share with the parser's driver (parse.c).
+#ifndef PETRI_SYNTAX_PARSE_CONTEXT_H
+#define PETRI_SYNTAX_PARSE_CONTEXT_H
+
+#include "base/diag.h"
+#include "syntax/ast.h"
+
+typedef struct ParseContext {
+    Arena *arena; // the program's
+    SymbolTable *symbols;
+    const Source *source;
+    DiagSink *diags;
+    Ast *program;  // the result
+    bool failed;   // an error was reported
+    bool too_deep; // … that of nesting; reported once, and parsing stops
+    bool reported; // the lexer or the layout has explained the present error already
+} ParseContext;
+
+// The node itself, unless the tree has become too high (then the error is reported once).
+Ast *parse_checked(ParseContext *context, Ast *ast);
+// Reports a token that cannot continue the program. `expected` lists up to three alternatives by name.
+void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count);
+void parse_too_deep(ParseContext *context, Span span);
+
+#endif

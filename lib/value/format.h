@@ -1,0 +1,16 @@
+// format.h: values and trees as text (spec language.md L18, cli.md 3.1 and 3.2).
+#ifndef PETRI_VALUE_FORMAT_H
+#define PETRI_VALUE_FORMAT_H
+
+#include "value/node.h"
+
+// The printed form (L18.1); reads back as the same value for numbers, symbols and strings.
+void format_value(Text *out, const SymbolTable *symbols, Value v);
+// The text of debug() (L18.3).
+void format_debug(Text *out, const SymbolTable *symbols, Value v);
+// One line per node (L18.2), starting at `depth` levels of four spaces.
+void format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth);
+// Canonical order of state keys (L18.4): element by element symbols, numbers, strings; a prefix comes first.
+int format_key_compare(const SymbolTable *symbols, Value a, Value b);
+
+#endif

@@ -1,0 +1,163 @@
+// node.c: see node.h.
+#include "value/node.h"
+
+#include <string.h>
+
+Node *node_new(Arena *arena, const Symbol *kind) {
+    Node *node = arena_alloc(arena, sizeof *node);
+    *node = (Node){.kind = kind, .height = 1};
+    return node;
+}
+
+static Node *node_clone(Arena *arena, const Node *node) {
+    return arena_copy(arena, node, sizeof *node);
+}
+
+Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag) {
+    Node *copy = node_clone(arena, node);
+    uint32_t at = 0;
+    while (at < node->tag_count && str_compare(node->tags[at]->name, tag->name) < 0)
+        at++;
+    if (at < node->tag_count && node->tags[at] == tag)
+        return copy;
+    const Symbol **tags = arena_alloc_array(arena, node->tag_count + 1, sizeof *tags);
+    for (uint32_t i = 0; i < node->tag_count; i++)
+        tags[i < at ? i : i + 1] = node->tags[i];
+    tags[at] = tag;
+    copy->tags = tags;
+    copy->tag_count++;
+    return copy;
+}
+
+static uint32_t attr_find(const Attr *attrs, uint32_t count, const Symbol *name) {
+    uint32_t i = 0;
+    while (i < count && attrs[i].name != name)
+        i++;
+    return i;
+}
+
+Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t set_count) {
+    Node *copy = node_clone(arena, node);
+    Attr *attrs = arena_alloc_array(arena, node->attr_count + set_count, sizeof *attrs);
+    if (node->attr_count)
+        memcpy(attrs, node->attrs, node->attr_count * sizeof *attrs);
+    uint32_t count = node->attr_count;
+    for (uint32_t i = 0; i < set_count; i++) {
+        uint32_t at = attr_find(attrs, count, set[i].name);
+        if (set[i].value.len > 0) {
+            attrs[at] = set[i];
+            count += at == count;
+        } else if (at < count) {
+            memmove(attrs + at, attrs + at + 1, (count - at - 1) * sizeof *attrs);
+            count--;
+        }
+    }
+    copy->attrs = attrs;
+    copy->attr_count = count;
+    return copy;
+}
+
+Node *node_append(Arena *arena, const Node *node, Value children) {
+    uint32_t more = 0, height = node->height;
+    for (uint32_t i = 0; children.kind == VALUE_MIXED && i < children.len; i++)
+        if (children.as.items[i].type == ITEM_NODE) {
+            uint32_t child_height = children.as.items[i].as.node->height;
+            height = child_height + 1 > height ? child_height + 1 : height;
+            more++;
+        }
+    if (height > NODE_MAX_HEIGHT)
+        return NULL;
+    Node *copy = node_clone(arena, node);
+    if (more == 0)
+        return copy;
+    const Node **all = arena_alloc_array(arena, node->child_count + more, sizeof *all);
+    if (node->child_count)
+        memcpy(all, node->children, node->child_count * sizeof *all);
+    uint32_t count = node->child_count;
+    for (uint32_t i = 0; i < children.len; i++)
+        if (children.as.items[i].type == ITEM_NODE)
+            all[count++] = children.as.items[i].as.node;
+    copy->children = all;
+    copy->child_count = count;
+    copy->height = height;
+    return copy;
+}
+
+Value node_get(const Node *node, const Symbol *name) {
+    uint32_t at = attr_find(node->attrs, node->attr_count, name);
+    return at < node->attr_count ? node->attrs[at].value : VALUE_NULL;
+}
+
+bool node_equal(const Node *a, const Node *b) {
+    if (a == b && a->attr_count == 0 && a->child_count == 0)
+        return true;
+    if (a->kind != b->kind || a->tag_count != b->tag_count || a->attr_count != b->attr_count ||
+        a->child_count != b->child_count)
+        return false;
+    for (uint32_t i = 0; i < a->tag_count; i++)
+        if (a->tags[i] != b->tags[i])
+            return false;
+    for (uint32_t i = 0; i < a->attr_count; i++) {
+        uint32_t at = attr_find(b->attrs, b->attr_count, a->attrs[i].name);
+        if (at == b->attr_count || !value_equal(a->attrs[i].value, b->attrs[at].value))
+            return false;
+    }
+    for (uint32_t i = 0; i < a->child_count; i++)
+        if (!node_equal(a->children[i], b->children[i]))
+            return false;
+    return true;
+}
+
+const Node *node_copy(Arena *arena, const Node *node) {
+    Node *copy = node_clone(arena, node);
+    copy->tags = arena_copy(arena, node->tags, node->tag_count * sizeof *node->tags);
+    Attr *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        attrs[i] = (Attr){node->attrs[i].name, value_copy(arena, node->attrs[i].value)};
+    copy->attrs = attrs;
+    const Node **children = arena_alloc_array(arena, node->child_count, sizeof *children);
+    for (uint32_t i = 0; i < node->child_count; i++)
+        children[i] = node_copy(arena, node->children[i]);
+    copy->children = children;
+    return copy;
+}
+
+// A copy of a mixed vector's items, for the caller to replace nodes in.
+static Item *items_clone(Arena *arena, Value v) {
+    return arena_copy(arena, v.as.items, v.len * sizeof(Item));
+}
+
+Value value_add_tag(Arena *arena, Value v, const Symbol *tag) {
+    if (v.kind != VALUE_MIXED)
+        return v;
+    Item *items = items_clone(arena, v);
+    for (uint32_t i = 0; i < v.len; i++)
+        if (items[i].type == ITEM_NODE)
+            items[i].as.node = node_add_tag(arena, items[i].as.node, tag);
+    return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
+}
+
+Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count) {
+    if (v.kind != VALUE_MIXED)
+        return v;
+    Item *items = items_clone(arena, v);
+    for (uint32_t i = 0; i < v.len; i++)
+        if (items[i].type == ITEM_NODE)
+            items[i].as.node = node_set_attrs(arena, items[i].as.node, attrs, count);
+    return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
+}
+
+Value value_append(Arena *arena, Value v, Value children, bool *too_high) {
+    if (v.kind != VALUE_MIXED)
+        return v;
+    Item *items = items_clone(arena, v);
+    for (uint32_t i = 0; i < v.len; i++)
+        if (items[i].type == ITEM_NODE) {
+            const Node *extended = node_append(arena, items[i].as.node, children);
+            if (extended)
+                items[i].as.node = extended;
+            else
+                *too_high = true;
+        }
+    return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
+}

@@ -1,0 +1,51 @@
+// node.h: immutable tree nodes (spec language.md L7), and functions as values.
+//
+// Every operation returns a new node and leaves its operand alone; children and attribute values are shared.
+#ifndef PETRI_VALUE_NODE_H
+#define PETRI_VALUE_NODE_H
+
+#include "value/value.h"
+
+typedef struct Attr {
+    const Symbol *name;
+    Value value; // never null
+} Attr;
+
+struct Node {
+    const Symbol *kind;
+    const Symbol *const *tags; // ascending by bytes
+    const Attr *attrs;         // in the order in which they were first set
+    const Node *const *children;
+    uint32_t tag_count;
+    uint32_t attr_count;
+    uint32_t child_count;
+    uint32_t height; // 1 + the greatest height of a child
+};
+
+enum { NODE_MAX_HEIGHT = 16384 }; // deeper trees are refused, so that walking one never exhausts the stack
+
+// What a function value is. The machine extends it for closures, whose identity is the address.
+struct Function {
+    Str name;            // for printing; "<anon>" without one
+    const void *builtin; // the row of a built-in, or NULL for a user function
+};
+
+Node *node_new(Arena *arena, const Symbol *kind);
+Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
+// Sets attributes in order; a null or stream value removes one (L7.2).
+Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
+// Appends the nodes of `children`; other elements are ignored. NULL if the tree would be too high.
+Node *node_append(Arena *arena, const Node *node, Value children);
+// The attribute's value, or null.
+Value node_get(const Node *node, const Symbol *name);
+// Structural equality (L7.5).
+bool node_equal(const Node *a, const Node *b);
+const Node *node_copy(Arena *arena, const Node *node);
+
+// The same over every node element of a vector, other elements untouched.
+Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
+Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count);
+// *too_high is set if a node could not be extended and was left as it was.
+Value value_append(Arena *arena, Value v, Value children, bool *too_high);
+
+#endif

@@ -1,0 +1,84 @@
+// ops.c: see ops.h.
+#include "value/ops.h"
+
+#include <math.h>
+
+double op_number(ArithOp op, double x, double y) {
+    switch (op) {
+    case ARITH_ADD:
+        return x + y;
+    case ARITH_SUB:
+        return x - y;
+    case ARITH_MUL:
+        return x * y;
+    case ARITH_DIV:
+        return x / y;
+    case ARITH_FLOORDIV:
+        return floor(x / y);
+    case ARITH_MOD:
+        return x - floor(x / y) * y;
+    case ARITH_POW:
+        return pow(x, y);
+    }
+    return NAN;
+}
+
+Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
+    if (!value_is_numeric(a) || !value_is_numeric(b))
+        return VALUE_NULL;
+    const double *x = value_numbers(&a), *y = value_numbers(&b);
+    // The square is a multiplication: glibc's pow(x, 2) differs in the last bit for some x (D2).
+    bool square = op == ARITH_POW && b.len == 1 && y[0] == 2;
+    if (a.len == 1 && b.len == 1)
+        return value_number(square ? x[0] * x[0] : op_number(op, x[0], y[0]));
+    uint32_t len = a.len > b.len ? a.len : b.len;
+    double *result = arena_alloc_array(arena, len, sizeof *result);
+    for (uint32_t i = 0, j = 0, k = 0; i < len; i++) {
+        result[i] = square ? x[j] * x[j] : op_number(op, x[j], y[k]);
+        j = j + 1 == a.len ? 0 : j + 1;
+        k = k + 1 == b.len ? 0 : k + 1;
+    }
+    return value_numbers_view(result, len);
+}
+
+Value op_negate(Arena *arena, Value v) {
+    if (!value_is_numeric(v))
+        return VALUE_NULL;
+    if (v.len == 1)
+        return value_number(-v.as.number);
+    double *result = arena_alloc_array(arena, v.len, sizeof *result);
+    for (uint32_t i = 0; i < v.len; i++)
+        result[i] = -v.as.numbers[i];
+    return value_numbers_view(result, v.len);
+}
+
+Value op_plus(Value v) {
+    return value_is_numeric(v) ? v : VALUE_NULL;
+}
+
+// A bound of a range: its number, or the default for null; false if it has another shape.
+static bool range_part(Value v, double fallback, double *x) {
+    *x = v.len == 0 ? fallback : v.as.number;
+    return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);
+}
+
+Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long) {
+    double from, by;
+    if (!range_part(start, 0, &from) || !range_part(step, 1, &by) || by == 0 || stop.len != 1 ||
+        stop.kind != VALUE_NUMBERS)
+        return VALUE_NULL;
+    double count = ceil((stop.as.number - from) / by);
+    if (!(count > 0) || isinf(count))
+        return VALUE_NULL;
+    if (count > VALUE_MAX_LEN) {
+        *too_long = true;
+        return VALUE_NULL;
+    }
+    uint32_t len = (uint32_t)count;
+    if (len == 1)
+        return value_number(from + by * 0);
+    double *result = arena_alloc_array(arena, len, sizeof *result);
+    for (uint32_t i = 0; i < len; i++)
+        result[i] = from + by * i;
+    return value_numbers_view(result, len);
+}

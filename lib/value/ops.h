@@ -1,0 +1,19 @@
+// ops.h: the operators of spec language.md L5.1 to L5.3, one function for simplifier and machine alike.
+#ifndef PETRI_VALUE_OPS_H
+#define PETRI_VALUE_OPS_H
+
+#include "value/value.h"
+
+typedef enum ArithOp { ARITH_ADD, ARITH_SUB, ARITH_MUL, ARITH_DIV, ARITH_FLOORDIV, ARITH_MOD, ARITH_POW } ArithOp;
+
+// x op y for one pair of numbers; ARITH_POW is C pow here.
+double op_number(ArithOp op, double x, double y);
+// Element-wise with repetition (L5.1); null unless both are numeric.
+Value op_arith(Arena *arena, ArithOp op, Value a, Value b);
+Value op_negate(Arena *arena, Value v);
+// +x: x itself if numeric, else null.
+Value op_plus(Value v);
+// start..stop|step (L5.3). *too_long is set if the count exceeds VALUE_MAX_LEN.
+Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long);
+
+#endif

@@ -1,0 +1,82 @@
+// seed.c: see seed.h.
+#include "value/seed.h"
+
+#include "base/random.h"
+#include "value/node.h"
+
+#include <math.h>
+#include <string.h>
+
+static uint64_t hash_vector(Value v, bool floored);
+
+static uint64_t hash_node(const Node *node) {
+    uint64_t hash = random_hash_step(RANDOM_HASH_START, symbol_hash(node->kind->name));
+    for (uint32_t i = 0; i < node->tag_count; i++)
+        hash = random_hash_step(hash, symbol_hash(node->tags[i]->name));
+    // Attributes count in the order of their names, whatever the order in which they were set.
+    const Symbol *last = NULL;
+    for (uint32_t done = 0; done < node->attr_count; done++) {
+        const Attr *next = NULL;
+        for (uint32_t i = 0; i < node->attr_count; i++) {
+            const Attr *attr = &node->attrs[i];
+            if ((!last || str_compare(attr->name->name, last->name) > 0) &&
+                (!next || str_compare(attr->name->name, next->name->name) < 0))
+                next = attr;
+        }
+        if (!next)
+            break;
+        hash = random_hash_step(hash, symbol_hash(next->name->name));
+        hash = random_hash_step(hash, hash_vector(next->value, false));
+        last = next->name;
+    }
+    for (uint32_t i = 0; i < node->child_count; i++)
+        hash = random_hash_step(hash, hash_node(node->children[i]));
+    return hash;
+}
+
+static uint64_t hash_item(Item item, bool floored) {
+    uint64_t bits;
+    switch (item.type) {
+    case ITEM_NUMBER:
+        if (floored)
+            return random_hash_number(item.as.number);
+        memcpy(&bits, &item.as.number, sizeof bits);
+        return bits;
+    case ITEM_STRING:
+        return symbol_hash(item.as.string->text);
+    case ITEM_NODE:
+        return hash_node(item.as.node);
+    default:
+        return symbol_hash(item.as.function->name); // unspecified; the name keeps runs reproducible
+    }
+}
+
+static uint64_t hash_vector(Value v, bool floored) {
+    uint64_t hash = RANDOM_HASH_START;
+    for (uint32_t i = 0; i < v.len; i++)
+        hash = random_hash_step(hash, hash_item(value_at(&v, i), floored));
+    return hash;
+}
+
+uint64_t value_seed_hash(Value seed) {
+    return hash_vector(seed, true);
+}
+
+double value_stream_item(Value stream, uint64_t i) {
+    switch ((StreamKind)stream.stream) {
+    case STREAM_UNIFORM:
+        return random_uniform(stream.as.key, i);
+    case STREAM_BETA:
+        return random_beta(stream.as.key, i);
+    default:
+        return random_normal(stream.as.key, i);
+    }
+}
+
+uint64_t value_stream_position(double x) {
+    double whole = floor(x);
+    // Beyond the range of 64 bits the x86 conversion gives the least integer; so do we on every machine.
+    if (!(whole >= -9223372036854775808.0 && whole < 9223372036854775808.0))
+        return UINT64_C(1) << 63;
+    return (uint64_t)(int64_t)whole;
+}

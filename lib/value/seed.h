@@ -1,0 +1,14 @@
+// seed.h: the seed hash of a vector (spec builtins.md B9.2), from which streams and noise get their keys.
+#ifndef PETRI_VALUE_SEED_H
+#define PETRI_VALUE_SEED_H
+
+#include "value/value.h"
+
+// The 64-bit key of a seed. A stream counts as null.
+uint64_t value_seed_hash(Value seed);
+// Item i of a stream value, as `stream[i]` gives it.
+double value_stream_item(Value stream, uint64_t i);
+// Position in a stream of an index x: floored, as a signed 64-bit integer, as unsigned (B9.3).
+uint64_t value_stream_position(double x);
+
+#endif

@@ -1,0 +1,86 @@
+// symbol.c: see symbol.h.
+#include "value/symbol.h"
+
+#include <string.h>
+
+uint64_t symbol_hash(Str text) {
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (size_t at = 0; at < text.len;)
+        hash = (hash ^ (uint64_t)(uint32_t)utf8_next(text, &at)) * 0x100000001b3u;
+    return hash;
+}
+
+static uint64_t bits_of(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+double symbol_number(Str name) {
+    uint64_t bits = 0xffe0000000000000u | symbol_hash(name) >> 12;
+    double number;
+    memcpy(&number, &bits, sizeof number);
+    return number;
+}
+
+SymbolTable symbol_table_new(Arena *arena) {
+    return (SymbolTable){.arena = arena};
+}
+
+void symbol_table_free(SymbolTable *table) {
+    index_free(&table->by_name);
+    index_free(&table->by_number);
+}
+
+static bool has_name(const void *owner, uint32_t entry, const void *key) {
+    return str_equal(((const SymbolTable *)owner)->items[entry]->name, *(const Str *)key);
+}
+
+static bool has_number(const void *owner, uint32_t entry, const void *key) {
+    return ((const SymbolTable *)owner)->items[entry]->number == *(const double *)key;
+}
+
+static uint32_t intern(SymbolTable *table, Str name) {
+    uint64_t hash = hash_bytes(0, name.bytes, name.len);
+    uint32_t found = index_find(&table->by_name, hash, has_name, table, &name);
+    if (found != INDEX_NONE)
+        return found;
+    if (table->count == table->capacity) {
+        uint32_t capacity = table->capacity ? table->capacity * 2 : 64;
+        table->items = arena_grow(table->arena, table->items, table->capacity * sizeof *table->items,
+                                  capacity * sizeof *table->items);
+        table->capacity = capacity;
+    }
+    Symbol *symbol = arena_alloc(table->arena, sizeof *symbol);
+    *symbol = (Symbol){.name = str_copy(table->arena, name), .number = symbol_number(name)};
+    if (!index_add(&table->by_name, hash, table->count))
+        arena_exhausted(table->arena);
+    table->items[table->count] = symbol;
+    return table->count++;
+}
+
+const Symbol *symbol_intern(SymbolTable *table, Str name) {
+    uint32_t entry = intern(table, name); // first: it may move items
+    return table->items[entry];
+}
+
+const Symbol *symbol_know(SymbolTable *table, Str name) {
+    uint32_t entry = intern(table, name);
+    Symbol *symbol = table->items[entry];
+    if (symbol->known)
+        return symbol;
+    uint64_t hash = hash_mix(bits_of(symbol->number));
+    if (index_find(&table->by_number, hash, has_number, table, &symbol->number) != INDEX_NONE)
+        return NULL;
+    if (!index_add(&table->by_number, hash, entry))
+        arena_exhausted(table->arena);
+    symbol->known = true;
+    return symbol;
+}
+
+const Symbol *symbol_of_number(const SymbolTable *table, double number) {
+    if (!(number < -8.9e307)) // symbols lie in (-1.8e308, -8.9e307]: nearly every number leaves here
+        return NULL;
+    uint32_t entry = index_find(&table->by_number, hash_mix(bits_of(number)), has_number, table, &number);
+    return entry == INDEX_NONE ? NULL : table->items[entry];
+}

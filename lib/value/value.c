@@ -1,0 +1,230 @@
+// value.c: construction, comparison and copying of vectors; see value.h.
+#include "value/value.h"
+
+#include "base/number.h"
+#include "value/node.h"
+
+#include <math.h>
+#include <string.h>
+
+Value value_item(Arena *arena, Item item) {
+    if (item.type == ITEM_NUMBER)
+        return value_number(item.as.number);
+    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = arena_copy(arena, &item, sizeof item)};
+}
+
+static const String *string_new(Arena *arena, Str text) {
+    String *string = arena_alloc(arena, sizeof *string);
+    string->text = str_copy(arena, text);
+    return string;
+}
+
+Value value_string(Arena *arena, Str text) {
+    return value_item(arena, (Item){ITEM_STRING, .as.string = string_new(arena, text)});
+}
+
+Value value_node(Arena *arena, const Node *node) {
+    return value_item(arena, (Item){ITEM_NODE, .as.node = node});
+}
+
+Value value_function(Arena *arena, const Function *function) {
+    return value_item(arena, (Item){ITEM_FUNCTION, .as.function = function});
+}
+
+Item value_at(const Value *v, uint32_t i) {
+    if (v->kind == VALUE_MIXED)
+        return v->as.items[i];
+    return (Item){ITEM_NUMBER, .as.number = value_numbers(v)[i]};
+}
+
+static bool item_true(Item item) {
+    switch (item.type) {
+    case ITEM_NUMBER:
+        return item.as.number != 0; // a nan is true
+    case ITEM_STRING:
+        return item.as.string->text.len > 0;
+    default:
+        return true;
+    }
+}
+
+bool value_true(Value v) {
+    if (v.kind == VALUE_STREAM)
+        return true;
+    for (uint32_t i = 0; i < v.len; i++)
+        if (item_true(value_at(&v, i)))
+            return true;
+    return false;
+}
+
+bool item_equal(Item a, Item b) {
+    if (a.type != b.type)
+        return false;
+    switch (a.type) {
+    case ITEM_NUMBER:
+        return a.as.number == b.as.number;
+    case ITEM_STRING:
+        return str_equal(a.as.string->text, b.as.string->text);
+    case ITEM_NODE:
+        return node_equal(a.as.node, b.as.node);
+    default:
+        // A closure is itself only; a built-in is its row, whichever program names it.
+        return a.as.function == b.as.function ||
+               (a.as.function->builtin && a.as.function->builtin == b.as.function->builtin);
+    }
+}
+
+bool value_equal(Value a, Value b) {
+    if (a.kind == VALUE_STREAM || b.kind == VALUE_STREAM)
+        return a.kind == b.kind && a.stream == b.stream && a.as.key == b.as.key;
+    if (a.len != b.len)
+        return false;
+    for (uint32_t i = 0; i < a.len; i++)
+        if (!item_equal(value_at(&a, i), value_at(&b, i)))
+            return false;
+    return true;
+}
+
+// Order of two elements that are not equal.
+static int item_compare_unequal(Item a, Item b) {
+    if (a.type == ITEM_NUMBER && b.type == ITEM_NUMBER)
+        return a.as.number < b.as.number ? -1 : 1; // a nan on either side gives 1
+    if (a.type == ITEM_STRING && b.type == ITEM_STRING)
+        return str_compare(a.as.string->text, b.as.string->text);
+    return VALUE_INCOMPARABLE;
+}
+
+int value_compare(Value a, Value b) {
+    if (a.len == 0 || b.len == 0)
+        return (a.len > 0) - (b.len > 0);
+    if (a.kind != b.kind)
+        return VALUE_INCOMPARABLE;
+    if (a.len == b.len && a.len > 1 && a.as.items == b.as.items)
+        return 0; // the same object (L5.5 rule 1)
+    for (uint32_t i = 0; i < a.len && i < b.len; i++) {
+        Item x = value_at(&a, i), y = value_at(&b, i);
+        if (!item_equal(x, y))
+            return item_compare_unequal(x, y);
+    }
+    return (a.len > b.len) - (a.len < b.len);
+}
+
+bool value_contains(Value x, Value y) {
+    if (x.len == 0)
+        return true;
+    for (uint32_t start = 0; start + x.len <= y.len && y.len; start++) {
+        uint32_t i = 0;
+        while (i < x.len && item_equal(value_at(&x, i), value_at(&y, start + i)))
+            i++;
+        if (i == x.len)
+            return true;
+    }
+    return false;
+}
+
+uint32_t value_wrap_index(double x, uint32_t n) {
+    if (!isfinite(x))
+        x = -2147483648.0;
+    double rest = fmod(floor(x), n); // exact, with the sign of x
+    return rest < 0 ? (uint32_t)(rest + n) : (uint32_t)rest;
+}
+
+Value value_index(Arena *arena, Value v, Value index) {
+    if (!value_is_numeric(index) || v.len == 0)
+        return VALUE_NULL;
+    const double *at = value_numbers(&index);
+    if (index.len == 1)
+        return value_element(arena, v, value_wrap_index(at[0], v.len));
+    if (v.kind == VALUE_NUMBERS) {
+        const double *from = value_numbers(&v);
+        double *numbers = arena_alloc_array(arena, index.len, sizeof *numbers);
+        for (uint32_t i = 0; i < index.len; i++)
+            numbers[i] = from[value_wrap_index(at[i], v.len)];
+        return value_numbers_view(numbers, index.len);
+    }
+    Vector vector = vector_new(arena);
+    for (uint32_t i = 0; i < index.len; i++)
+        vector_add_item(&vector, v.as.items[value_wrap_index(at[i], v.len)]);
+    return vector_finish(&vector);
+}
+
+Value value_element(Arena *arena, Value v, uint32_t k) {
+    (void)arena;
+    if (v.len == 0)
+        return VALUE_NULL;
+    k %= v.len;
+    if (v.kind == VALUE_NUMBERS)
+        return value_number(value_numbers(&v)[k]);
+    const Item *item = &v.as.items[k];
+    if (item->type == ITEM_NUMBER)
+        return value_number(item->as.number);
+    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = item};
+}
+
+Value value_slice(Arena *arena, Value v, uint32_t start, uint32_t count) {
+    if (count == 0)
+        return VALUE_NULL;
+    if (v.kind == VALUE_NUMBERS)
+        return value_numbers_view(value_numbers(&v) + start, count);
+    if (count == 1)
+        return value_element(arena, v, start);
+    for (uint32_t i = 0; i < count; i++)
+        if (v.as.items[start + i].type != ITEM_NUMBER)
+            return (Value){.len = count, .kind = VALUE_MIXED, .as.items = v.as.items + start};
+    double *numbers = arena_alloc_array(arena, count, sizeof *numbers);
+    for (uint32_t i = 0; i < count; i++)
+        numbers[i] = v.as.items[start + i].as.number;
+    return value_numbers_view(numbers, count);
+}
+
+static Item item_copy(Arena *arena, Item item) {
+    if (item.type == ITEM_STRING)
+        item.as.string = string_new(arena, item.as.string->text);
+    else if (item.type == ITEM_NODE)
+        item.as.node = node_copy(arena, item.as.node);
+    return item;
+}
+
+Value value_copy(Arena *arena, Value v) {
+    if (v.kind == VALUE_NUMBERS && v.len > 1)
+        v.as.numbers = arena_copy(arena, v.as.numbers, v.len * sizeof *v.as.numbers);
+    if (v.kind == VALUE_MIXED) {
+        Item *items = arena_alloc_array(arena, v.len, sizeof *items);
+        for (uint32_t i = 0; i < v.len; i++)
+            items[i] = item_copy(arena, v.as.items[i]);
+        v.as.items = items;
+    }
+    return v;
+}
+
+static void add_item_text(Text *out, const SymbolTable *symbols, Item item) {
+    char digits[NUMBER_TEXT];
+    const Symbol *symbol;
+    switch (item.type) {
+    case ITEM_NUMBER:
+        symbol = symbol_of_number(symbols, item.as.number);
+        if (symbol)
+            text_add(out, symbol->name);
+        else
+            text_add(out, (Str){digits, number_format_short(item.as.number, digits)});
+        break;
+    case ITEM_STRING:
+        text_add(out, item.as.string->text);
+        break;
+    case ITEM_NODE:
+        text_add(out, item.as.node->kind->name);
+        break;
+    case ITEM_FUNCTION:
+        text_add(out, item.as.function->name);
+        break;
+    }
+}
+
+Str value_text(Arena *arena, const SymbolTable *symbols, Value v) {
+    if (v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
+        return v.as.items[0].as.string->text;
+    Text out = text_new(arena);
+    for (uint32_t i = 0; i < v.len; i++)
+        add_item_text(&out, symbols, value_at(&v, i));
+    return text_str(&out);
+}

@@ -1,0 +1,108 @@
+// call.c: closures and calls (spec language.md L9).
+#include "vm/machine.h"
+
+bool vm_stack_left(const Vm *vm) {
+    const char *here = __builtin_frame_address(0);
+    // The stack grows down on every machine we run on; the distance is taken without sign to be safe.
+    size_t used = vm->stack_base > here ? (size_t)(vm->stack_base - here) : (size_t)(here - vm->stack_base);
+    // The other half is for the expressions inside one function, whose nesting is limited (AST_MAX_HEIGHT), and for
+    // what they call.
+    return used < vm->stack_bytes / 2;
+}
+
+Value vm_make_closure(Vm *vm, Frame *frame, const Expr *expr) {
+    const FunctionCode *code = expr->as.function;
+    Closure *closure = arena_alloc(vm->arena, sizeof *closure);
+    Value *captures = arena_alloc_array(vm->arena, code->capture_count, sizeof *captures);
+    Value *defaults = arena_alloc_array(vm->arena, code->param_count, sizeof *defaults);
+    for (uint32_t i = 0; i < code->capture_count; i++)
+        captures[i] = vm_eval(vm, frame, code->captures[i]);
+    for (uint32_t i = 0; i < code->param_count; i++)
+        defaults[i] = code->defaults[i] ? vm_eval(vm, frame, code->defaults[i]) : VALUE_NULL;
+    *closure = (Closure){{.name = code->name}, code, captures, defaults, 0};
+    return value_function(vm->arena, &closure->base);
+}
+
+// The evaluated arguments of one call.
+typedef struct Arguments {
+    const Value *positional;
+    uint32_t count;
+    const Symbol *const *names;
+    const Value *named;
+    uint32_t named_count;
+} Arguments;
+
+static Value argument(const Closure *closure, const Arguments *args, uint32_t i) {
+    if (i < args->count)
+        return args->positional[i];
+    for (uint32_t k = args->named_count; k > 0; k--)
+        if (args->names[k - 1] == closure->code->params[i])
+            return args->named[k - 1];
+    return closure->defaults[i];
+}
+
+static bool may_enter(Vm *vm, const Closure *closure, const Expr *at) {
+    const char *limit = closure->active >= VM_CLOSURE_DEPTH ? "500 calls of one function"
+                        : vm->depth >= VM_CALL_DEPTH        ? "8192 nested calls"
+                        : !vm_stack_left(vm)                ? "the stack"
+                                                            : NULL;
+    if (!limit)
+        return vm_work(vm, at);
+    vm_fault(vm, at, "recursion-depth",
+             str_format(vm->arena, "recursion too deep in '%.*s': the limit is %s", (int)closure->base.name.len,
+                        closure->base.name.bytes, limit));
+    return false;
+}
+
+static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Expr *at) {
+    const FunctionCode *code = closure->code;
+    if (!may_enter(vm, closure, at))
+        return VALUE_NULL;
+    ArenaMark mark = arena_mark(&vm->slots);
+    Frame frame = {arena_alloc_array(&vm->slots, code->frame_size, sizeof(Value)), closure};
+    for (uint32_t i = 0; i < code->param_count; i++)
+        frame.slots[i] = argument(closure, args, i);
+    closure->active++;
+    vm->depth++;
+    Value result = vm_eval(vm, &frame, code->body);
+    vm->depth--;
+    closure->active--;
+    arena_rewind(&vm->slots, mark);
+    return result;
+}
+
+static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at) {
+    if (item.type != ITEM_FUNCTION) {
+        Str what = item.type == ITEM_NUMBER ? STR("a number") : item.type == ITEM_STRING ? STR("a string") : STR("a node");
+        vm_fault(vm, at, "not-callable", str_format(vm->arena, "not callable: %.*s", (int)what.len, what.bytes));
+        return VALUE_NULL;
+    }
+    const Builtin *builtin = item.as.function->builtin;
+    if (!builtin)
+        return call_closure(vm, (Closure *)item.as.function, args, at);
+    const Expr *calling = vm->calling;
+    vm->calling = at;
+    Value result = vm_work(vm, at) ? builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names,
+                                                  args->named, args->named_count)
+                                   : VALUE_NULL;
+    vm->calling = calling;
+    return result;
+}
+
+Value vm_call_expr(Vm *vm, Frame *frame, const Expr *expr) {
+    const CallCode *code = expr->as.call;
+    Value callee = vm_eval(vm, frame, expr->children[0]);
+    uint32_t count = code->arg_count + code->named_count;
+    Value few[8], *values = count <= 8 ? few : arena_alloc_array(vm->arena, count, sizeof *values);
+    for (uint32_t i = 0; i < count; i++)
+        values[i] = vm_eval(vm, frame, expr->children[i + 1]);
+    if (callee.kind != VALUE_MIXED) // null, a stream, numbers: null in silence (L9.3)
+        return VALUE_NULL;
+    Arguments args = {values, code->arg_count, code->names, values + code->arg_count, code->named_count};
+    if (callee.len == 1)
+        return call_item(vm, callee.as.items[0], &args, expr);
+    Vector vector = vector_new(vm->arena);
+    for (uint32_t i = 0; i < callee.len; i++)
+        vector_add(&vector, call_item(vm, callee.as.items[i], &args, expr));
+    return vector_finish(&vector);
+}

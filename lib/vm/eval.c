@@ -1,0 +1,246 @@
+// eval.c: the evaluation of expressions; see vm.h. One function per form, one switch.
+#include "vm/machine.h"
+
+#include "value/seed.h"
+
+void vm_fault(Vm *vm, const Expr *at, const char *code, Str text) {
+    Diag diag = {.level = DIAG_WARNING, .source = at->source, .span = at->span, .text = text, .code = code};
+    vm->host.report(vm->host.host, &diag);
+}
+
+bool vm_work(Vm *vm, const Expr *at) {
+    if (vm->stopped)
+        return false;
+    if (++vm->work <= VM_WORK_LIMIT)
+        return true;
+    vm->stopped = true;
+    vm_fault(vm, at, "work-limit",
+             STR("the frame makes more than 134217728 calls and loop rounds; the rest of it is null"));
+    return false;
+}
+
+static Value finish(Vm *vm, const Expr *at, Vector *vector) {
+    if (vector->overflow)
+        vm_fault(vm, at, "too-long", STR("vector too long: the limit is 134217728 elements"));
+    return vector_finish(vector);
+}
+
+// A vector's parts in order; also a suite's statements, of which bindings give null.
+static Value eval_compose(Vm *vm, Frame *frame, const Expr *expr) {
+    if (expr->count == 1)
+        return vm_eval(vm, frame, expr->children[0]);
+    Vector vector = vector_new(vm->arena);
+    for (uint32_t i = 0; i < expr->count; i++)
+        vector_add(&vector, vm_eval(vm, frame, expr->children[i]));
+    return finish(vm, expr, &vector);
+}
+
+void vm_bind(Vm *vm, Frame *frame, uint32_t slot, uint32_t count, Value value) {
+    if (count == 1) {
+        frame->slots[slot] = value;
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++)
+        frame->slots[slot + i] = value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i))
+                                                            : value_element(vm->arena, value, i);
+}
+
+static Value eval_for(Vm *vm, Frame *frame, const Expr *expr) {
+    Value source = vm_eval(vm, frame, expr->children[0]);
+    const Expr *body = expr->children[1];
+    Vector vector = vector_new(vm->arena);
+    for (uint32_t at = 0; at < source.len && vm_work(vm, expr); at += expr->slot_count) {
+        for (uint32_t i = 0; i < expr->slot_count; i++)
+            frame->slots[expr->slot + i] =
+                at + i < source.len ? value_element(vm->arena, source, at + i) : VALUE_NULL;
+        vector_add(&vector, vm_eval(vm, frame, body));
+        if (vector.overflow)
+            break;
+    }
+    return finish(vm, expr, &vector);
+}
+
+static Value eval_if(Vm *vm, Frame *frame, const Expr *expr) {
+    uint32_t i = 0;
+    for (; i + 1 < expr->count; i += 2)
+        if (value_true(vm_eval(vm, frame, expr->children[i])))
+            return vm_eval(vm, frame, expr->children[i + 1]);
+    return i < expr->count ? vm_eval(vm, frame, expr->children[i]) : VALUE_NULL;
+}
+
+static Value eval_append(Vm *vm, Frame *frame, const Expr *expr) {
+    Value parent = vm_eval(vm, frame, expr->children[0]);
+    Value children = vm_eval(vm, frame, expr->children[1]);
+    bool too_high = false;
+    Value result = value_append(vm->arena, parent, children, &too_high);
+    if (too_high)
+        vm_fault(vm, expr, "too-deep", STR("node tree too deep: the limit is 16384 levels; not appended"));
+    return result;
+}
+
+static Value eval_decorate(Vm *vm, Frame *frame, const Expr *expr) {
+    const DecorateCode *code = expr->as.decorate;
+    Value subject = vm_eval(vm, frame, expr->children[0]);
+    Attr *attrs = arena_alloc_array(vm->arena, code->attr_count, sizeof *attrs);
+    for (uint32_t i = 0; i < code->attr_count; i++)
+        attrs[i] = (Attr){code->names[i], vm_eval(vm, frame, expr->children[i + 1])};
+    for (uint32_t i = 0; i < code->tag_count; i++)
+        subject = value_add_tag(vm->arena, subject, code->tags[i]);
+    return code->attr_count ? value_set_attrs(vm->arena, subject, attrs, code->attr_count) : subject;
+}
+
+static Value eval_range(Vm *vm, Frame *frame, const Expr *expr) {
+    Value start = vm_eval(vm, frame, expr->children[0]);
+    Value stop = vm_eval(vm, frame, expr->children[1]);
+    Value step = vm_eval(vm, frame, expr->children[2]);
+    bool too_long = false;
+    Value range = op_range(vm->arena, start, stop, step, &too_long);
+    if (too_long)
+        vm_fault(vm, expr, "too-long", STR("range too long: the limit is 134217728 elements"));
+    return range;
+}
+
+static Value index_stream(Vm *vm, Value stream, Value index) {
+    if (!value_is_numeric(index))
+        return VALUE_NULL;
+    const double *at = value_numbers(&index);
+    if (index.len == 1)
+        return value_number(value_stream_item(stream, value_stream_position(at[0])));
+    double *items = arena_alloc_array(vm->arena, index.len, sizeof *items);
+    for (uint32_t i = 0; i < index.len; i++)
+        items[i] = value_stream_item(stream, value_stream_position(at[i]));
+    return value_numbers_view(items, index.len);
+}
+
+static Value eval_index(Vm *vm, Frame *frame, const Expr *expr) {
+    Value vector = vm_eval(vm, frame, expr->children[0]);
+    Value index = vm_eval(vm, frame, expr->children[1]);
+    return vector.kind == VALUE_STREAM ? index_stream(vm, vector, index) : value_index(vm->arena, vector, index);
+}
+
+// The dictionary's value is copied into the frame: systems may overwrite it in place after the evaluation.
+static Value eval_lookup(Vm *vm, Frame *frame, const Expr *expr) {
+    Value key = vm_eval(vm, frame, expr->children[0]);
+    return vm->state ? value_copy(vm->arena, state_get(vm->state, key)) : VALUE_NULL;
+}
+
+static Value truth(bool x) {
+    return value_number(x ? 1 : 0);
+}
+
+// A stream counts as null for != (L5.4).
+static Value stream_as_null(Value v) {
+    return v.kind == VALUE_STREAM ? VALUE_NULL : v;
+}
+
+static Value eval_compare(ExprKind kind, Value a, Value b) {
+    if (kind == EXPR_EQ)
+        return truth(value_equal(a, b));
+    if (kind == EXPR_NE)
+        return truth(!value_equal(stream_as_null(a), stream_as_null(b)));
+    if (kind == EXPR_IN)
+        return truth(value_contains(a, b));
+    int order = value_compare(a, b);
+    if (order == VALUE_INCOMPARABLE)
+        return VALUE_NULL;
+    switch (kind) {
+    case EXPR_LT:
+        return truth(order == -1);
+    case EXPR_GT:
+        return truth(order == 1);
+    case EXPR_LE:
+        return truth(order != 1);
+    default:
+        return truth(order != -1);
+    }
+}
+
+static Value eval_logic(Vm *vm, Frame *frame, const Expr *expr) {
+    Value left = vm_eval(vm, frame, expr->children[0]);
+    bool is_true = value_true(left);
+    if (expr->kind == EXPR_OR && is_true)
+        return left;
+    if (expr->kind == EXPR_AND && !is_true)
+        return left;
+    Value right = vm_eval(vm, frame, expr->children[1]);
+    if (expr->kind != EXPR_XOR || !is_true)
+        return right;
+    return value_true(right) ? value_number(0) : left;
+}
+
+static Value eval_unbound(Vm *vm, const Expr *expr) {
+    vm_fault(vm, expr, "unbound-name",
+             str_format(vm->arena, "unbound name '%.*s' is null", (int)expr->as.name->name.len,
+                        expr->as.name->name.bytes));
+    return VALUE_NULL;
+}
+
+Value vm_eval(Vm *vm, Frame *frame, const Expr *expr) {
+    switch (expr->kind) {
+    case EXPR_CONST:
+        return expr->as.value;
+    case EXPR_NODE:
+        return value_node(vm->arena, node_new(vm->arena, expr->as.name));
+    case EXPR_SLOT:
+        return frame->slots[expr->slot];
+    case EXPR_CAPTURE:
+        return frame->closure->captures[expr->slot];
+    case EXPR_SELF:
+        return value_function(vm->arena, &frame->closure->base);
+    case EXPR_GLOBAL:
+        return vm->globals[expr->slot];
+    case EXPR_UNBOUND:
+        return eval_unbound(vm, expr);
+    case EXPR_COMPOSE:
+        return eval_compose(vm, frame, expr);
+    case EXPR_BIND:
+        vm_bind(vm, frame, expr->slot, expr->slot_count, vm_eval(vm, frame, expr->children[0]));
+        return VALUE_NULL;
+    case EXPR_FUNC:
+        return vm_make_closure(vm, frame, expr);
+    case EXPR_IMPORT:
+        vm_import(vm, frame, expr);
+        return VALUE_NULL;
+    case EXPR_FOR:
+        return eval_for(vm, frame, expr);
+    case EXPR_IF:
+        return eval_if(vm, frame, expr);
+    case EXPR_APPEND:
+        return eval_append(vm, frame, expr);
+    case EXPR_DECORATE:
+        return eval_decorate(vm, frame, expr);
+    case EXPR_CALL:
+        return vm_call_expr(vm, frame, expr);
+    case EXPR_OR:
+    case EXPR_XOR:
+    case EXPR_AND:
+        return eval_logic(vm, frame, expr);
+    case EXPR_NOT:
+        return truth(!value_true(vm_eval(vm, frame, expr->children[0])));
+    case EXPR_EQ:
+    case EXPR_NE:
+    case EXPR_LT:
+    case EXPR_GT:
+    case EXPR_LE:
+    case EXPR_GE:
+    case EXPR_IN: {
+        Value left = vm_eval(vm, frame, expr->children[0]);
+        return eval_compare(expr->kind, left, vm_eval(vm, frame, expr->children[1]));
+    }
+    case EXPR_RANGE:
+        return eval_range(vm, frame, expr);
+    case EXPR_ARITH: {
+        Value left = vm_eval(vm, frame, expr->children[0]);
+        return op_arith(vm->arena, (ArithOp)expr->slot, left, vm_eval(vm, frame, expr->children[1]));
+    }
+    case EXPR_NEG:
+        return op_negate(vm->arena, vm_eval(vm, frame, expr->children[0]));
+    case EXPR_POS:
+        return op_plus(vm_eval(vm, frame, expr->children[0]));
+    case EXPR_INDEX:
+        return eval_index(vm, frame, expr);
+    case EXPR_LOOKUP:
+        return eval_lookup(vm, frame, expr);
+    }
+    return VALUE_NULL;
+}

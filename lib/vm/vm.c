@@ -1,0 +1,128 @@
+// vm.c: running whole programs and importing modules; see vm.h.
+#include "vm/machine.h"
+
+static void builtin_fault_here(void *host, Str text) {
+    Vm *vm = host;
+    vm_fault(vm, vm->calling, "bad-call", text);
+}
+
+static void builtin_log(void *host, Str text) {
+    const Vm *vm = host;
+    vm->host.log(vm->host.host, text);
+}
+
+void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes) {
+    *vm = (Vm){.arena = arena, .symbols = symbols, .host = host, .stack_bytes = stack_bytes};
+    arena_init(&vm->slots, "call frames", SIZE_MAX);
+    vm->builtins = (BuiltinContext){
+        .arena = arena, .symbols = symbols, .fault = builtin_fault_here, .log = builtin_log, .host = vm};
+}
+
+void vm_free(Vm *vm) {
+    arena_free(&vm->slots);
+}
+
+static Frame new_frame(Vm *vm, uint32_t size) {
+    Frame frame = {arena_alloc_array(&vm->slots, size, sizeof(Value)), NULL};
+    for (uint32_t i = 0; i < size; i++)
+        frame.slots[i] = VALUE_NULL;
+    return frame;
+}
+
+// Fresh limits; nothing is left over from an evaluation that was escaped from.
+static void begin(Vm *vm, const char *stack_base) {
+    arena_reset(&vm->slots);
+    vm->slots.escape = vm->arena->escape;
+    vm->stack_base = stack_base;
+    vm->depth = 0;
+    vm->work = 0;
+    vm->stopped = false;
+    vm->imports = NULL;
+}
+
+Value vm_run(Vm *vm, const Program *program) {
+    begin(vm, __builtin_frame_address(0));
+    ImportLink self = {NULL, program->source};
+    vm->imports = &self;
+    vm->builtins.directory = program->source->directory;
+    Frame frame = new_frame(vm, program->frame_size);
+    Value result = vm_eval(vm, &frame, program->body);
+    vm->imports = NULL;
+    return vm->stopped ? VALUE_NULL : result;
+}
+
+// May be called while a program runs, when a module with an %include is loaded: leaves everything as it found it.
+Value vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size) {
+    Vm saved = *vm;
+    ArenaMark mark = arena_mark(&vm->slots);
+    if (!vm->imports)
+        begin(vm, __builtin_frame_address(0));
+    vm->arena = vm->builtins.arena = arena;
+    vm->state = NULL;
+    vm->builtins.directory = expr->source->directory;
+    Frame frame = new_frame(vm, frame_size);
+    Value result = vm_eval(vm, &frame, expr);
+    arena_rewind(&vm->slots, mark);
+    Arena slots = vm->slots;
+    *vm = saved;
+    vm->slots = slots;
+    return result;
+}
+
+static bool being_imported(const Vm *vm, const Source *source) {
+    for (const ImportLink *link = vm->imports; link; link = link->outer)
+        if (str_equal(link->source->path, source->path))
+            return true;
+    return false;
+}
+
+// Evaluates a module in a frame of its own, with only the built-ins visible and without state (L13.2).
+static void run_module(Vm *vm, Frame *frame, const Program *module, const Expr *expr) {
+    ImportLink link = {vm->imports, module->source};
+    const State *state = vm->state;
+    Str directory = vm->builtins.directory;
+    ArenaMark mark = arena_mark(&vm->slots);
+    vm->imports = &link;
+    vm->state = NULL;
+    vm->builtins.directory = module->source->directory;
+    Frame inner = new_frame(vm, module->frame_size);
+    vm_eval(vm, &inner, module->body);
+    vm->imports = link.outer;
+    vm->state = state;
+    vm->builtins.directory = directory;
+    for (uint32_t i = 0; i < expr->slot_count; i++) {
+        const Symbol *name = expr->as.import->names[i];
+        const Export *found = program_find_export(module, name);
+        if (found)
+            frame->slots[expr->slot + i] = inner.slots[found->slot];
+        else
+            vm_fault(vm, expr, "no-such-name",
+                     str_format(vm->arena, "'%.*s' binds no name '%.*s'", (int)module->source->name.len,
+                                module->source->name.bytes, (int)name->name.len, name->name.bytes));
+    }
+    arena_rewind(&vm->slots, mark);
+}
+
+void vm_import(Vm *vm, Frame *frame, const Expr *expr) {
+    Value file = vm_eval(vm, frame, expr->children[0]);
+    for (uint32_t i = 0; i < expr->slot_count; i++)
+        frame->slots[expr->slot + i] = VALUE_NULL;
+    Str name = value_text(vm->arena, vm->symbols, file);
+    Str path = path_join(vm->arena, expr->source->directory, name);
+    Str why = {0};
+    const Program *module = name.len ? vm->host.module(vm->host.host, path, &why) : NULL;
+    if (!module) {
+        if (!name.len)
+            why = STR("no file name");
+        vm_fault(vm, expr, "cannot-import",
+                 str_format(vm->arena, "cannot import '%.*s': %.*s", (int)path.len, path.bytes, (int)why.len,
+                            why.bytes));
+    } else if (being_imported(vm, module->source)) {
+        vm_fault(vm, expr, "circular-import",
+                 str_format(vm->arena, "circular import of '%.*s'", (int)path.len, path.bytes));
+    } else if (!vm_stack_left(vm)) {
+        vm_fault(vm, expr, "recursion-depth", STR("imports nested too deeply"));
+    } else {
+        run_module(vm, frame, module, expr);
+    }
+}

@@ -1,0 +1,59 @@
+// vm.h: the machine that evaluates a compiled program for one frame.
+//
+// Evaluation never fails: every fault has a value, nearly always null, and is reported through the host (spec
+// language.md L15). Results live in the frame's arena. Limits (call depth, work, stack) are diagnostics too; when the
+// work of a frame is used up, everything else in that frame is null.
+#ifndef PETRI_VM_VM_H
+#define PETRI_VM_VM_H
+
+#include "base/diag.h"
+#include "builtin/builtin.h"
+#include "program/program.h"
+#include "state/state.h"
+
+enum {
+    VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
+    VM_CALL_DEPTH = 8192,   // nested calls of user functions
+};
+// Calls and loop rounds that one frame may make: enough to go once through the longest vector, little enough that a
+// function calling itself twice ends within seconds.
+#define VM_WORK_LIMIT (UINT64_C(1) << 27)
+
+typedef struct VmHost {
+    void *host;
+    void (*report)(void *host, const Diag *diag);
+    void (*log)(void *host, Str text);
+    // The compiled module at a path, or NULL with the reason in *why (borrowed).
+    const Program *(*module)(void *host, Str path, Str *why);
+} VmHost;
+
+typedef struct ImportLink ImportLink;
+
+typedef struct Vm {
+    Arena *arena; // the frame's: results and temporaries
+    Arena slots;  // frames of slots, a stack
+    SymbolTable *symbols;
+    const State *state; // NULL: look-ups give null (modules, static evaluation)
+    Value globals[ENGINE_NAME_COUNT];
+    BuiltinContext builtins; // arena, files, directory of the program being evaluated
+    VmHost host;
+    const Expr *calling; // the call that a built-in's fault belongs to
+    uint32_t depth;
+    uint64_t work;
+    bool stopped; // the work is used up
+    size_t stack_bytes; // of the C stack that evaluation may use
+    const char *stack_base;
+    const ImportLink *imports; // modules being evaluated, innermost first
+} Vm;
+
+// Prepares a machine; `stack_bytes` is what it may use of the caller's stack. Free with vm_free.
+void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes);
+void vm_free(Vm *vm);
+
+// Evaluates the main program: the composition of its statements.
+Value vm_run(Vm *vm, const Program *program);
+// Evaluates an expression without dynamic parts in a fresh frame of `frame_size` slots, outside any program; the value
+// lives in `arena`.
+Value vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size);
+
+#endif

@@ -1,0 +1,53 @@
+// cli.h: what the commands of `petri` share: exit codes, messages, the table of commands.
+#ifndef PETRI_SRC_CLI_H
+#define PETRI_SRC_CLI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_INTERRUPTED = 130 };
+
+// One option of a command. Tables end with an entry without a name.
+typedef struct OptionSpec {
+    const char *name; // without the dashes
+    char letter;      // short form, or 0
+    int id;           // what args_next returns for it, above 0
+    const char *value; // how help names the value; NULL for a flag
+    const char *help;
+} OptionSpec;
+
+// What main found out about the process, for all commands.
+typedef struct Host {
+    size_t stack_bytes; // C stack that evaluation may use
+} Host;
+
+typedef struct Command {
+    const char *name;
+    const char *operands; // how usage names what follows the options
+    const char *summary;  // one line, for the list of commands
+    const char *details;  // a few sentences, for the command's own help
+    const OptionSpec *options;
+    int (*run)(const Host *host, int argc, char **argv); // without the command's name; returns the exit status
+} Command;
+
+extern const Command RUN_COMMAND;
+extern const Command TEST_COMMAND;
+extern const Command CHECK_COMMAND;
+extern const Command HELP_COMMAND;
+
+// The commands in the order of help, ended by NULL.
+extern const Command *const COMMANDS[];
+// NULL if there is none of this name.
+const Command *command_find(const char *name);
+
+// Prints a command's own help on standard output; returns the exit status.
+int help_for(const Command *command);
+int help_overview(void);
+
+// Writes `petri: text` and a newline to standard error.
+__attribute__((format(printf, 1, 2))) void message(const char *format, ...);
+// The name that is nearest to `word`, if near enough to be a slip of the hand, else NULL. Call it for each candidate
+// with the same `best`, which starts at SIZE_MAX.
+bool is_nearer(const char *word, const char *candidate, size_t *best);
+
+#endif

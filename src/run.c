@@ -1,0 +1,234 @@
+// run.c: `petri run`: runs frames without drawing them and prints what was asked for.
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <unistd.h>
+
+#include "args.h"
+#include "output.h"
+#include "petri.h"
+#include "progress.h"
+#include "run_options.h"
+
+// A signal handler can reach nothing but a global.
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int signal_number) {
+    (void)signal_number;
+    interrupted = 1;
+}
+
+// The first Ctrl-C ends the run after the frame at hand; a second one ends the process, should that frame not end.
+static void catch_interrupt(void) {
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+}
+
+typedef struct Run {
+    RunOptions options;
+    PetriSession *session;
+    Progress progress;
+    int64_t frames;
+    uint64_t physics_steps;
+    double start;
+    bool to_terminal;   // standard output is a terminal
+    bool shown_last;    // the last diagnostic that was no note was shown
+    bool reached_limit; // some frame was given up
+    Output output;
+} Run;
+
+static bool wants_diagnostic(Run *run, PetriLevel level) {
+    // Notes belong to the diagnostic before them.
+    if (level != PETRI_NOTE) {
+        run->shown_last = level == PETRI_ERROR || run->options.verbosity > LOG_QUIET;
+    }
+    return run->shown_last;
+}
+
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
+    Run *run = host;
+    if (wants_diagnostic(run, diagnostic->level)) {
+        progress_erase(&run->progress);
+        fputs(diagnostic->rendered, stderr);
+    }
+}
+
+static bool open_session(Run *run, const Host *host) {
+    PetriOptions options = petri_default_options();
+    options.fps = run->options.fps;
+    options.realtime = run->options.realtime;
+    options.run_time = run->options.run_time;
+    options.colour = run->options.colour;
+    options.stack_bytes = host->stack_bytes;
+    options.threads = run->options.threads;
+    options.diagnostic = on_diagnostic;
+    options.host = run;
+    run->session = petri_open(&options);
+    if (run->session == NULL) {
+        message("out of memory");
+    }
+    return run->session != NULL;
+}
+
+static bool define_names(Run *run) {
+    for (size_t i = 0; i < run->options.definition_count; i++) {
+        if (petri_define(run->session, run->options.definitions[i]) != PETRI_OK) {
+            message("option '--define' expects NAME=VALUE, not '%s'", run->options.definitions[i]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static double current_fps(const Run *run) {
+    double fps = petri_frame(run->session).fps;
+    return fps > 0 ? fps : run->options.fps;
+}
+
+static bool frame_is_due(const Run *run) {
+    if (interrupted || run->output.error != 0 || run->frames >= run->options.frames) {
+        return false;
+    }
+    if (isnan(run->options.run_time)) {
+        return true;
+    }
+    double time = run->options.realtime ? clock_seconds() - run->start : (double)run->frames / current_fps(run);
+    return time < run->options.run_time;
+}
+
+static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
+    if (run->options.verbosity < (printed ? LOG_DEBUG : LOG_TRACE)) {
+        return;
+    }
+    progress_erase(&run->progress);
+    message("frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps", frame->number,
+            frame->evaluation_seconds * 1e3, frame->physics_seconds * 1e3, frame->physics_steps);
+}
+
+static void print_frame(Run *run) {
+    // On a terminal the bar must make way before text comes, and come back below it.
+    if (run->to_terminal) {
+        progress_erase(&run->progress);
+    }
+    if (run->options.sections != 0) {
+        petri_print(run->session, run->options.sections, output_write, &run->output);
+    } else {
+        petri_print_log(run->session, output_write, &run->output);
+    }
+    if (run->to_terminal || run->options.realtime) {
+        output_flush(&run->output);
+    }
+}
+
+// One frame; false if there is no going on.
+static bool run_frame(Run *run) {
+    PetriStatus status = petri_step(run->session);
+    int64_t number = run->frames++;
+    if (status == PETRI_LIMIT) {
+        run->reached_limit = true;
+        return true;
+    }
+    if (status != PETRI_OK) {
+        progress_erase(&run->progress);
+        if (status == PETRI_MEMORY) {
+            message("out of memory in frame %" PRId64, number);
+        }
+        return false;
+    }
+    PetriFrame frame = petri_frame(run->session);
+    run->physics_steps += frame.physics_steps;
+    bool printed = number % run->options.every == 0;
+    if (printed) {
+        print_frame(run);
+    }
+    report_frame(run, &frame, printed);
+    return true;
+}
+
+static void report_summary(Run *run) {
+    Verbosity verbosity = run->options.verbosity;
+    bool wanted = verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO));
+    if (!wanted || run->output.error != 0) {
+        return;
+    }
+    double seconds = clock_seconds() - run->start;
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->frames,
+            run->frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->frames / seconds : 0, run->physics_steps,
+            run->physics_steps == 1 ? "" : "s");
+}
+
+static int64_t expected_frames(const Run *run) {
+    double by_time = run->options.run_time * current_fps(run);
+    if (!isnan(by_time) && by_time < (double)run->options.frames) {
+        return (int64_t)ceil(by_time);
+    }
+    return run->options.frames;
+}
+
+static int run_frames(Run *run) {
+    catch_interrupt();
+    bool shows_progress = run->options.verbosity > LOG_QUIET && progress_possible();
+    progress_start(&run->progress, shows_progress, expected_frames(run));
+    run->start = clock_seconds();
+    bool going = true;
+    while (going && frame_is_due(run)) {
+        progress_update(&run->progress, run->frames);
+        going = run_frame(run);
+    }
+    progress_erase(&run->progress);
+    output_flush(&run->output);
+    report_summary(run);
+    int status = !going || run->reached_limit ? STATUS_FAILED : STATUS_DONE;
+    return interrupted ? STATUS_INTERRUPTED : status;
+}
+
+static int run_session(Run *run) {
+    if (!define_names(run)) {
+        return STATUS_USAGE;
+    }
+    PetriStatus status = petri_load(run->session, run->options.script);
+    if (status == PETRI_MEMORY) {
+        message("out of memory");
+    }
+    if (status != PETRI_OK) {
+        return STATUS_FAILED;
+    }
+    if (run->options.dump >= 0) {
+        status = petri_dump(run->session, (PetriDump)run->options.dump, output_write, &run->output);
+        return status == PETRI_OK || run->output.error != 0 ? STATUS_DONE : STATUS_FAILED;
+    }
+    return run_frames(run);
+}
+
+static int run_run(const Host *host, int argc, char **argv) {
+    Run *run = calloc(1, sizeof *run);
+    if (run == NULL) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    output_start(&run->output, STDOUT_FILENO);
+    run->to_terminal = isatty(STDOUT_FILENO);
+    int status = run_options_read(&run->options, argc, argv);
+    if (status == RUN_OPTIONS_OK) {
+        status = open_session(run, host) ? run_session(run) : STATUS_FAILED;
+        petri_close(&run->session);
+        status = output_finish(&run->output, status);
+    }
+    run_options_free(&run->options);
+    free(run);
+    return status;
+}
+
+const Command RUN_COMMAND = {
+    .name = "run",
+    .operands = "SCRIPT.fl",
+    .summary = "run a script's frames and print what they hold",
+    .details = "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
+               "Ctrl-C ends the run after the frame at hand.",
+    .options = RUN_OPTION_SPECS,
+    .run = run_run,
+};

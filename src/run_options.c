@@ -1,0 +1,249 @@
+// run_options.c: the command line of `petri run`.
+#include "run_options.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "args.h"
+#include "petri.h"
+
+enum { DEFAULT_FRAMES = 600, MOST_THREADS = 1024 };
+
+enum {
+    OPT_FRAMES = 1,
+    OPT_RUNTIME,
+    OPT_FPS,
+    OPT_LOCKSTEP,
+    OPT_REALTIME,
+    OPT_DEFINE,
+    OPT_PRINT,
+    OPT_EVERY,
+    OPT_THREADS,
+    OPT_NOSIMPLIFY,
+    OPT_QUIET,
+    OPT_VERBOSE,
+    OPT_DEBUG,
+    OPT_TRACE,
+    OPT_COLOR,
+    OPT_DUMP,
+};
+
+const OptionSpec RUN_OPTION_SPECS[] = {
+    {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
+    {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
+    {"fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins"},
+    {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},
+    {"print", 0, OPT_PRINT, "LIST", "print tree, state, log, error (any of them, with commas); logs alone if not given"},
+    {"every", 0, OPT_EVERY, "K", "print each K-th frame, starting with frame 0"},
+    {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
+    {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
+    {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
+    {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},
+    {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},
+    {"trace", 0, OPT_TRACE, NULL, "also report the time that every frame took"},
+    {"color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"},
+    {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
+    {0},
+};
+
+static bool section_bit(const char *word, size_t length, unsigned *bit) {
+    static const struct {
+        const char *name;
+        unsigned bit;
+    } names[] = {
+        {"tree", PETRI_PRINT_TREE},
+        {"state", PETRI_PRINT_STATE},
+        {"log", PETRI_PRINT_LOG},
+        {"error", PETRI_PRINT_ERROR},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (strlen(names[i].name) == length && memcmp(names[i].name, word, length) == 0) {
+            *bit = names[i].bit;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool read_sections(const Args *args, unsigned *sections) {
+    *sections = 0;
+    const char *word = args->value;
+    for (;;) {
+        size_t length = strcspn(word, ",");
+        unsigned bit = 0;
+        if (!section_bit(word, length, &bit)) {
+            return args_wrong_value(args, "a list of tree, state, log, error");
+        }
+        *sections |= bit;
+        if (word[length] == '\0') {
+            return true;
+        }
+        word += length + 1;
+    }
+}
+
+static bool read_run_time(const Args *args, double *seconds) {
+    if (!petri_read_number(args->value, seconds) || !isfinite(*seconds) || *seconds < 0) {
+        return args_wrong_value(args, "seconds or a time code");
+    }
+    return true;
+}
+
+static bool read_colour(const Args *args, bool *colour) {
+    static const char *const words[] = {"auto", "always", "never", NULL};
+    int choice = 0;
+    if (!args_choice(args, words, &choice)) {
+        return false;
+    }
+    if (choice != 0) {
+        *colour = choice == 1;
+    }
+    return true;
+}
+
+static bool default_colour(void) {
+    const char *refused = getenv("NO_COLOR");
+    const char *terminal = getenv("TERM");
+    return isatty(STDERR_FILENO) && (refused == NULL || refused[0] == '\0') &&
+           (terminal == NULL || strcmp(terminal, "dumb") != 0);
+}
+
+static bool read_dump(const Args *args, int *dump) {
+    static const char *const words[] = {"ast", "code", NULL};
+    int choice = 0;
+    if (!args_choice(args, words, &choice)) {
+        return false;
+    }
+    *dump = choice == 0 ? PETRI_DUMP_AST : PETRI_DUMP_CODE;
+    return true;
+}
+
+static bool read_threads(const Args *args, int *threads) {
+    int64_t number = 0;
+    if (!args_integer(args, 1, MOST_THREADS, &number)) {
+        return false;
+    }
+    *threads = (int)number;
+    return true;
+}
+
+static bool read_definition(const Args *args, RunOptions *options) {
+    const char *equals = strchr(args->value, '=');
+    if (equals == NULL || equals == args->value) {
+        return args_wrong_value(args, "NAME=VALUE");
+    }
+    options->definitions[options->definition_count++] = args->value;
+    return true;
+}
+
+static bool read_script(const Args *args, RunOptions *options) {
+    if (options->script != NULL) {
+        message("one script at a time: '%s' and '%s' were given", options->script, args->value);
+        return false;
+    }
+    options->script = args->value;
+    return true;
+}
+
+// Options that set a limit or choose what is printed; false after a message.
+static bool apply_option(const Args *args, int id, RunOptions *options) {
+    switch (id) {
+    case ARG_OPERAND:
+        return read_script(args, options);
+    case OPT_FRAMES:
+        return args_integer(args, 0, INT64_MAX, &options->frames);
+    case OPT_RUNTIME:
+        return read_run_time(args, &options->run_time);
+    case OPT_FPS:
+        return args_positive(args, &options->fps);
+    case OPT_DEFINE:
+        return read_definition(args, options);
+    case OPT_PRINT:
+        return read_sections(args, &options->sections);
+    case OPT_EVERY:
+        return args_integer(args, 1, INT64_MAX, &options->every);
+    case OPT_THREADS:
+        return read_threads(args, &options->threads);
+    case OPT_COLOR:
+        return read_colour(args, &options->colour);
+    case OPT_DUMP:
+        return read_dump(args, &options->dump);
+    default:
+        return false;
+    }
+}
+
+// Options without a value; false if `id` is none of them.
+static bool apply_flag(int id, RunOptions *options) {
+    switch (id) {
+    case OPT_LOCKSTEP:
+    case OPT_REALTIME:
+        options->realtime = id == OPT_REALTIME;
+        return true;
+    case OPT_NOSIMPLIFY: // everything is evaluated in every frame as it is
+        return true;
+    case OPT_QUIET:
+        options->verbosity = LOG_QUIET;
+        return true;
+    case OPT_VERBOSE:
+        options->verbosity = LOG_VERBOSE;
+        return true;
+    case OPT_DEBUG:
+        options->verbosity = LOG_DEBUG;
+        return true;
+    case OPT_TRACE:
+        options->verbosity = LOG_TRACE;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static int read_all(RunOptions *options, Args *args) {
+    for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
+        if (id == ARG_HELP) {
+            return help_for(&RUN_COMMAND);
+        }
+        if (id == ARG_WRONG || (!apply_flag(id, options) && !apply_option(args, id, options))) {
+            return STATUS_USAGE;
+        }
+    }
+    if (options->script == NULL) {
+        message("no script was given; usage: petri run [options] SCRIPT.fl");
+        return STATUS_USAGE;
+    }
+    return RUN_OPTIONS_OK;
+}
+
+int run_options_read(RunOptions *options, int argc, char **argv) {
+    *options = (RunOptions){
+        .frames = -1,
+        .run_time = NAN,
+        .fps = 60,
+        .every = 1,
+        .verbosity = LOG_NORMAL,
+        .colour = default_colour(),
+        .dump = -1,
+    };
+    // Each definition takes at least one word.
+    options->definitions = calloc((size_t)argc + 1, sizeof *options->definitions);
+    if (options->definitions == NULL) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    Args args = args_start(&RUN_COMMAND, argc, argv);
+    int status = read_all(options, &args);
+    if (options->frames < 0) {
+        options->frames = isnan(options->run_time) ? DEFAULT_FRAMES : INT64_MAX;
+    }
+    return status;
+}
+
+void run_options_free(RunOptions *options) {
+    free(options->definitions);
+    options->definitions = NULL;
+}

@@ -1,0 +1,36 @@
+// run_options.h: the command line of `petri run`.
+#ifndef PETRI_SRC_RUN_OPTIONS_H
+#define PETRI_SRC_RUN_OPTIONS_H
+
+#include <stdint.h>
+
+#include "cli.h"
+
+typedef enum Verbosity { LOG_QUIET, LOG_NORMAL, LOG_VERBOSE, LOG_DEBUG, LOG_TRACE } Verbosity;
+
+typedef struct RunOptions {
+    const char *script;
+    const char **definitions; // as many as definition_count; each "name=value"
+    size_t definition_count;
+    int64_t frames;  // INT64_MAX: not limited by their number
+    double run_time; // NaN: not limited by time
+    double fps;
+    bool realtime;
+    int64_t every;
+    unsigned sections; // PETRI_PRINT_...; 0: logs alone
+    int threads;
+    Verbosity verbosity;
+    bool colour;
+    int dump; // PetriDump, or -1
+} RunOptions;
+
+enum { RUN_OPTIONS_OK = -1 };
+
+// Reads the options. RUN_OPTIONS_OK, or the status to exit with because help was asked for or something is wrong.
+// Texts point into argv.
+int run_options_read(RunOptions *options, int argc, char **argv);
+void run_options_free(RunOptions *options);
+
+extern const OptionSpec RUN_OPTION_SPECS[];
+
+#endif

@@ -1,0 +1,189 @@
+// test_barriers.c: bounces (4.4).
+#include "support.h"
+
+static const double UP[] = {0, 1}, DOWN[] = {0, -10};
+
+// A floor at height 0 in the last dimension.
+static PhysForce floor_of(double restitution) {
+    PhysForce force = force_of(PHYS_BARRIER);
+    force.vector2 = UP;
+    force.restitution = restitution;
+    return force;
+}
+
+static PhysForce gravity(void) {
+    PhysForce force = force_of(PHYS_CONSTANT);
+    force.vector2 = DOWN;
+    return force;
+}
+
+static PhysSystem *ball_and_floor(PhysVector position, PhysVector velocity, double radius, double restitution) {
+    PhysSystem *system = phys_new();
+    phys_begin(system, 2);
+    PhysParticle p = {.position = position, .velocity = velocity, .radius = radius, .mass = 1};
+    phys_add_particle(system, 0, &p);
+    PhysForce barrier = floor_of(restitution);
+    phys_add_force(system, 0, &barrier);
+    return system;
+}
+
+static void check_ball(const PhysSystem *system, double x, double y, double vx, double vy) {
+    assert_same(phys_position(system, 0)[0], x);
+    assert_same(phys_position(system, 0)[1], y);
+    assert_same(phys_velocity(system, 0)[0], vx);
+    assert_same(phys_velocity(system, 0)[1], vy);
+}
+
+// The rest of the step after the contact is spent on the way back.
+static void test_elastic(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 1);
+    one_step(system); // in touch after a quarter of the step
+    check_ball(system, 2, 3, 2, 4);
+    phys_free(system);
+    system = ball_and_floor(VEC(0, 1.5), VEC(2, -4), 0.5, 1); // the edge counts
+    one_step(system);
+    check_ball(system, 2, 3.5, 2, 4);
+    phys_free(system);
+}
+
+static void test_restitution(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 0.5);
+    one_step(system); // the whole velocity is halved at the contact
+    check_ball(system, 0.5 + 0.75 * 1, 0.75 * 2, 1, 2);
+    phys_free(system);
+    system = ball_and_floor(VEC(0, 1), VEC(2, -4), 0, 0);
+    one_step(system);
+    check_ball(system, 0.5, 0, 0, 0);
+    phys_free(system);
+}
+
+static void test_not_crossed(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, 5), VEC(2, -4), 1, 0.5);
+    one_step(system); // just in touch
+    check_ball(system, 2, 1, 2, -4);
+    phys_free(system);
+}
+
+// Behind the barrier but on its way out: put on the surface, velocity as it is.
+static void test_leaving(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, 1), 0.5, 0.5);
+    one_step(system);
+    check_ball(system, 2, 0.5, 2, 1);
+    phys_free(system);
+    system = ball_and_floor(VEC(0, -5), VEC(2, 0), 0.5, 0.5);
+    one_step(system);
+    check_ball(system, 2, 0.5, 2, 0);
+    phys_free(system);
+}
+
+// Behind the barrier from the start, going deeper: the step is taken back, then it is put on the surface and reflected.
+static void test_outside(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, -5), VEC(2, -1), 0, 1);
+    one_step(system);
+    check_ball(system, 2, 1, 2, 1);
+    phys_free(system);
+}
+
+static void test_anchor_and_massless(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 2);
+    PhysParticle anchor = {.position = VEC(0, -1), .anchor = true}, light = {.position = VEC(0, 1)};
+    light.velocity = VEC(0, -4);
+    phys_add_particle(system, 0, &light);
+    phys_add_particle(system, 0, &anchor);
+    PhysForce barrier = floor_of(1);
+    phys_add_force(system, 0, &barrier);
+    one_step(system);
+    check_ball(system, 0, 3, 0, 4);
+    assert_same(phys_position(system, 1)[1], -1);
+    phys_free(system);
+}
+
+// Corner of two barriers: both bounces in one step.
+static void test_corner(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(1, 1), VEC(-4, -2), 0, 1);
+    PhysForce wall = force_of(PHYS_BARRIER);
+    wall.vector2 = VEC(1, 0);
+    phys_add_force(system, 0, &wall);
+    one_step(system);
+    check_ball(system, 3, 1, 4, 2);
+    phys_free(system);
+}
+
+// Dropped from a height on a floor with restitution e, a ball comes back to e² of the height.
+static double bounce_height(double restitution, double resolution) {
+    PhysSystem *system = ball_and_floor(VEC(0, 1.25), NULL, 0.25, restitution);
+    PhysForce fall = gravity();
+    phys_add_force(system, 0, &fall);
+    double highest = 0, now = 0;
+    bool bounced = false;
+    while (now < 1.2) {
+        PhysTime time = time_until(now + resolution, resolution);
+        time.last = now;
+        phys_simulate(system, &time);
+        now += resolution;
+        bounced |= phys_velocity(system, 0)[1] > 0;
+        if (bounced && phys_velocity(system, 0)[1] <= 0)
+            break;
+        if (bounced && phys_position(system, 0)[1] > highest)
+            highest = phys_position(system, 0)[1];
+    }
+    phys_free(system);
+    return highest - 0.25;
+}
+
+static void test_bounce_height(void **state) {
+    (void)state;
+    const double restitutions[] = {1, 0.8, 0.5, 0.25};
+    for (size_t i = 0; i < COUNT_OF(restitutions); i++) {
+        double wanted = restitutions[i] * restitutions[i];
+        assert_near(bounce_height(restitutions[i], 1e-3), wanted, 0.01);
+        assert_near(bounce_height(restitutions[i], 1e-4), wanted, 0.001);
+    }
+}
+
+// A ball that has come to rest stays on the floor and does not tremble.
+static void test_rest(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, 1), NULL, 0.5, 0.5);
+    PhysForce fall = gravity();
+    phys_add_force(system, 0, &fall);
+    run_until(system, 20, 1 / 60.0);
+    assert_near(phys_position(system, 0)[1], 0.5, 1e-3);
+    assert_near(phys_velocity(system, 0)[1], 0, 0.1);
+    phys_free(system);
+}
+
+// Motion after a bounce obeys the speed of light too: 4 with a push of 2, for the half of the step that is left.
+static void test_speed_of_light(void **state) {
+    (void)state;
+    PhysSystem *system = ball_and_floor(VEC(0, 1), VEC(0, -4), 0, 1);
+    PhysForce push = force_of(PHYS_CONSTANT);
+    push.vector = UP;
+    push.strength = 2;
+    phys_add_force(system, 0, &push);
+    PhysTime time = time_until(1, 1);
+    time.speed_of_light = 3;
+    phys_simulate(system, &time);
+    // -4 + 2 = -2, so the place is -1 and contact was half a step ago, with -2 - 0.5 · 2 = -3; then 3 + 0.5 · 2 = 4.
+    check_ball(system, 0, 1.5, 0, 3);
+    phys_free(system);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_elastic),     cmocka_unit_test(test_restitution),
+        cmocka_unit_test(test_not_crossed), cmocka_unit_test(test_leaving),
+        cmocka_unit_test(test_outside),     cmocka_unit_test(test_anchor_and_massless),
+        cmocka_unit_test(test_corner),      cmocka_unit_test(test_bounce_height),
+        cmocka_unit_test(test_rest),        cmocka_unit_test(test_speed_of_light),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

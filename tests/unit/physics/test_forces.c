@@ -1,0 +1,347 @@
+// test_forces.c: each force against the formula of section 4, worked out by hand.
+//
+// A resting particle of mass 1 has, after one step of length 1, a velocity equal to the force on it.
+#include "base/random.h"
+#include "support.h"
+
+// Two free particles on the axis at 0 and `distance`, one force; what the first one feels. The second feels the
+// opposite to the last bit.
+static double pair_force(PhysParticle a, PhysParticle b, double distance, const PhysForce *force) {
+    PhysSystem *system = phys_new();
+    phys_begin(system, 2);
+    a.position = VEC(0, 0);
+    b.position = VEC(distance, 0);
+    phys_add_particle(system, 0, &a);
+    phys_add_particle(system, 0, &b);
+    phys_add_force(system, 0, force);
+    one_step(system);
+    double first = phys_velocity(system, 0)[0] * a.mass, second = phys_velocity(system, 1)[0] * b.mass;
+    if (a.mass == 1 && b.mass == 1)
+        assert_same(first, -second);
+    assert_same(phys_velocity(system, 0)[1], 0);
+    phys_free(system);
+    return first;
+}
+
+static PhysParticle ball(double radius) {
+    return (PhysParticle){.mass = 1, .radius = radius};
+}
+
+static PhysParticle charged(double charge) {
+    return (PhysParticle){.mass = 1, .charge = charge};
+}
+
+static PhysForce link_of(double minimum, double maximum) {
+    PhysForce force = force_of(PHYS_DISTANCE);
+    force.has_minimum = minimum >= 0;
+    force.minimum = minimum;
+    force.has_maximum = maximum >= 0;
+    force.maximum = maximum;
+    force.from = 0;
+    force.to = 1;
+    return force;
+}
+
+static void test_distance(void **state) {
+    (void)state;
+    PhysForce force = link_of(2, 3);
+    force.strength = 5;
+    assert_same(pair_force(ball(0), ball(0), 1.5, &force), -0.5 * 5);
+    assert_same(pair_force(ball(0), ball(0), 2, &force), 0);
+    assert_same(pair_force(ball(0), ball(0), 3, &force), 0);
+    assert_same(pair_force(ball(0), ball(0), 3.25, &force), 0.25 * 5);
+    assert_same(pair_force(ball(0), ball(0), 0, &force), 0); // no direction
+    force = link_of(-1, 0);                                  // max=0: always pulls
+    assert_same(pair_force(ball(0), ball(0), 0.5, &force), 0.5);
+    force = link_of(0, -1); // min=0 never acts
+    assert_same(pair_force(ball(0), ball(0), 0.5, &force), 0);
+    force = link_of(3, 1); // min wins
+    assert_same(pair_force(ball(0), ball(0), 2, &force), -1);
+}
+
+static void test_distance_powers(void **state) {
+    (void)state;
+    PhysForce force = link_of(-1, 1);
+    force.strength = 3;
+    const double powers[] = {0, 0.5, 1, 2, 3, -2};
+    const double values[] = {1, sqrt(1.75), 1.75, 1.75 * 1.75, pow(1.75, 3), 1};
+    for (size_t i = 0; i < COUNT_OF(powers); i++) {
+        force.power = powers[i];
+        assert_same(pair_force(ball(0), ball(0), 2.75, &force), values[i] * 3);
+    }
+    force = link_of(2, -1);
+    force.power = 2; // a restoring force for even powers too
+    assert_same(pair_force(ball(0), ball(0), 1.5, &force), -0.25);
+}
+
+static void test_distance_handles(void **state) {
+    (void)state;
+    const uint32_t handles[][2] = {{0, 0}, {0, 7}, {UINT32_MAX, 1}, {1, 0}};
+    for (size_t i = 0; i < COUNT_OF(handles); i++) {
+        PhysForce force = link_of(-1, 1);
+        force.from = handles[i][0];
+        force.to = handles[i][1];
+        assert_same(pair_force(ball(0), ball(0), 2, &force), i == 3 ? 1 : 0);
+    }
+}
+
+static void test_collision(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_COLLISION);
+    force.strength = 7;
+    double reach = 0.75 + 0.5;
+    assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), -((reach - 1) * 7));
+    assert_same(pair_force(ball(0.75), ball(0.5), 1.25, &force), 0);
+    assert_same(pair_force(ball(0), ball(5), 1, &force), 0);
+    assert_same(pair_force(ball(5), ball(0), 1, &force), 0);
+    force.power = 2;
+    assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), -(0.25 * 0.25 * 7));
+    force.max_distance = 1; // l < max_distance, strictly
+    assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), 0);
+    force.max_distance = 1.125;
+    assert_same(pair_force(ball(0.75), ball(0.5), 1, &force), -(0.25 * 0.25 * 7));
+}
+
+static void test_gravity(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_GRAVITY);
+    force.strength = 3;
+    PhysParticle heavy = {.mass = 5};
+    assert_same(pair_force(ball(0), heavy, 2, &force), 3 * (1 * 5.0) / 4);
+    heavy.radius = 3; // inside each other the force is constant
+    assert_same(pair_force(ball(1), heavy, 2, &force), 3 * (1 * 5.0) / 16);
+    assert_same(pair_force(ball(1), heavy, 1, &force), 3 * (1 * 5.0) / 16);
+    heavy.mass = 0;
+    assert_same(pair_force(ball(1), heavy, 2, &force), 0);
+    heavy.mass = 5;
+    force.max_distance = 2;
+    assert_same(pair_force(ball(1), heavy, 2, &force), 0);
+}
+
+static void test_electrostatic(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_ELECTROSTATIC);
+    force.strength = 2;
+    assert_same(pair_force(charged(3), charged(0.7), 2, &force), -(2 * (3 * 0.7) / 4));
+    assert_same(pair_force(charged(-3), charged(0.7), 2, &force), 2 * (3 * 0.7) / 4);
+    assert_same(pair_force(charged(-3), charged(-0.7), 2, &force), -(2 * (3 * 0.7) / 4));
+    assert_same(pair_force(charged(0), charged(0.7), 2, &force), 0);
+    force.strength = -2;
+    assert_same(pair_force(charged(3), charged(0.7), 2, &force), 2 * (3 * 0.7) / 4);
+}
+
+static void test_adhesion(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_ADHESION);
+    force.strength = 4;
+    force.overlap = 0.5;
+    // Radii 1 and 2: in touch below 3, at rest at 1 · 0.5 + 3 · 0.5 = 2.
+    assert_same(pair_force(ball(1), ball(2), 2, &force), 0);
+    assert_same(pair_force(ball(1), ball(2), 2.5, &force), 4 * 0.5 * 0.5);
+    assert_same(pair_force(ball(1), ball(2), 1.5, &force), 4 * 1.5 * -0.5);
+    assert_same(pair_force(ball(1), ball(2), 3, &force), 0);
+    assert_same(pair_force(ball(1), ball(0), 0.5, &force), 0);
+    force.overlap = 1; // the smaller one is drawn in until it touches from within
+    assert_same(pair_force(ball(1), ball(2), 1, &force), 0);
+    assert_true(pair_force(ball(1), ball(2), 1.5, &force) > 0);
+    force.overlap = 0; // a collision with power 2
+    PhysForce collision = force_of(PHYS_COLLISION);
+    collision.strength = 4;
+    collision.power = 2;
+    assert_same(pair_force(ball(1), ball(2), 2.25, &force), pair_force(ball(1), ball(2), 2.25, &collision));
+}
+
+// One particle with a velocity and one force, in three dimensions; its change of velocity in a step of length 1.
+static void single_force(PhysParticle particle, const PhysForce *force, double change[3]) {
+    PhysSystem *system = phys_new();
+    phys_begin(system, 3);
+    phys_add_particle(system, 0, &particle);
+    phys_add_force(system, 0, force);
+    one_step(system);
+    for (int k = 0; k < 3; k++)
+        change[k] = phys_velocity(system, 0)[k] - (particle.velocity ? particle.velocity[k] : 0);
+    phys_free(system);
+}
+
+static void check_single(PhysParticle particle, const PhysForce *force, double x, double y, double z) {
+    double change[3];
+    single_force(particle, force, change);
+    assert_same(change[0], x);
+    assert_same(change[1], y);
+    assert_same(change[2], z);
+}
+
+static void test_constant(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_CONSTANT);
+    force.vector = VEC(1, 2, 3);
+    check_single(ball(0), &force, 1, 2, 3);
+    force.vector2 = VEC(0, -10, 0.5);
+    force.strength = 2;
+    PhysParticle heavy = {.mass = 4};
+    check_single(heavy, &force, 2 * 1 / 4.0, 2 * (2 - 10 * 4) / 4.0, 2 * (3 + 0.5 * 4) / 4.0);
+    force.vector = NULL;
+    check_single(heavy, &force, 0, -20, 1);
+    heavy.mass = 0;
+    check_single(heavy, &force, 0, 0, 0);
+    heavy = (PhysParticle){.mass = 1, .anchor = true};
+    check_single(heavy, &force, 0, 0, 0);
+}
+
+static void test_field(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_FIELD);
+    force.vector = VEC(0.5, 0, -2);
+    force.strength = 3;
+    check_single(charged(0), &force, 0, 0, 0);
+    check_single(charged(-2), &force, -3, 0, 12);
+}
+
+static void test_drag(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_DRAG);
+    force.strength = 0.01;
+    PhysParticle p = ball(2);
+    p.velocity = VEC(3, 4, 0);
+    double c = 0.01 * 5 * 4; // strength · speed · radius²
+    check_single(p, &force, (3 - 3 * c) - 3, (4 - 4 * c) - 4, 0);
+    force.vector = VEC(3, 4, -5); // relative to the flow
+    check_single(p, &force, 0, 0, -5 * c);
+    force.strength = 1000; // at most to the velocity of the flow
+    check_single(p, &force, 0, 0, -5);
+    p.radius = 0;
+    check_single(p, &force, 0, 0, 0);
+}
+
+static void test_buoyancy(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_BUOYANCY);
+    force.vector = VEC(0, 0, -1);
+    force.density = 0.5;
+    force.strength = 3;
+    check_single(ball(2), &force, 0, 0, -(3 * (1 - 8 * 0.5)));
+    check_single(ball(0), &force, 0, 0, 0);
+    PhysParticle p = {.radius = 1};
+    check_single(p, &force, 0, 0, 0);
+}
+
+static void test_soft_barrier(void **state) {
+    (void)state;
+    PhysForce force = force_of(PHYS_BARRIER);
+    force.vector = VEC(0, 0, 1);
+    force.vector2 = VEC(0, 0, 1);
+    force.strength = 0.25;
+    force.has_minimum = force.has_maximum = true;
+    force.minimum = 1;
+    force.maximum = 2;
+    check_single(particle_at(VEC(9, 9, 1.25)), &force, 0, 0, 0.75 * 0.25);
+    check_single(particle_at(VEC(9, 9, 2)), &force, 0, 0, 0);
+    check_single(particle_at(VEC(9, 9, 3)), &force, 0, 0, 0);
+    check_single(particle_at(VEC(9, 9, 5)), &force, 0, 0, -2 * 0.25);
+    force.power = 2;
+    check_single(particle_at(VEC(9, 9, 5)), &force, 0, 0, -4 * 0.25);
+    force.has_minimum = false;
+    force.maximum = 0; // a bound like any other
+    check_single(particle_at(VEC(9, 9, 1.5)), &force, 0, 0, -0.25 * 0.25);
+}
+
+static void test_own_force(void **state) {
+    (void)state;
+    PhysForce none = force_of(PHYS_CONSTANT);
+    PhysParticle p = {.mass = 2, .force = VEC(1, 2, 4)};
+    check_single(p, &none, 0.5, 1, 2);
+    p.ease = 1; // at clock 0 nothing of it
+    check_single(p, &none, 0, 0, 0);
+    p.ease = 0;
+    p.anchor = true;
+    check_single(p, &none, 0, 0, 0);
+}
+
+// Each force, eased in over 8: at the steps that begin at clock 0, 1, 2, … it has 0, 1/8, 2/8, … of its strength.
+static void test_ease(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 1);
+    PhysParticle p = {.mass = 1};
+    phys_add_particle(system, 0, &p);
+    PhysForce force = force_of(PHYS_CONSTANT);
+    force.vector = VEC(8);
+    force.ease = 8;
+    phys_add_force(system, 0, &force);
+    double velocity = 0;
+    for (int frame = 0; frame < 12; frame++) {
+        PhysTime time = time_until(frame + 1, 1);
+        time.last = time.clock = frame;
+        assert_int_equal(phys_simulate(system, &time).steps, 1);
+        velocity += frame < 8 ? frame : 8;
+        assert_same(phys_velocity(system, 0)[0], velocity);
+    }
+    phys_free(system);
+}
+
+// `!random` items: components, then particles (anchors take none), then steps, counted in the force's own group.
+static void test_random(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 2);
+    uint32_t inner = phys_add_group(system, 0), other = phys_add_group(system, 0);
+    PhysParticle anchor = {.anchor = true, .mass = 1}, light = {.mass = 0}, body = {.mass = 1};
+    uint32_t in_other = phys_add_particle(system, other, &body), in_inner = phys_add_particle(system, inner, &body);
+    phys_add_particle(system, 0, &anchor);
+    phys_add_particle(system, 0, &light);
+    uint32_t in_top = phys_add_particle(system, 0, &body);
+    PhysForce force = force_of(PHYS_RANDOM);
+    force.key = 12345;
+    phys_add_force(system, 0, &force);
+    force.key = 777;
+    phys_add_force(system, other, &force);
+    run_until(system, 2, 1);
+    // Pre-order: light (0, 1), top (2, 3), inner (4, 5), other (6, 7); the next step goes on at 8.
+    for (uint64_t k = 0; k < 2; k++) {
+        assert_same(phys_velocity(system, in_top)[k], random_normal(12345, 2 + k) + random_normal(12345, 10 + k));
+        assert_same(phys_velocity(system, in_inner)[k], random_normal(12345, 4 + k) + random_normal(12345, 12 + k));
+        double first = random_normal(777, k) + random_normal(12345, 6 + k);
+        double second = random_normal(777, 2 + k) + random_normal(12345, 14 + k);
+        assert_same(phys_velocity(system, in_other)[k], first + second);
+    }
+    phys_free(system);
+}
+
+// Forces of the own group come first, then those of the enclosing ones; the speed limit holds after all of them.
+static void test_speed_of_light(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    phys_begin(system, 2);
+    PhysParticle p = {.mass = 1, .velocity = VEC(3, 0), .force = VEC(0, 4)}, fast = {.velocity = VEC(9, 0)};
+    phys_add_particle(system, 0, &p);
+    phys_add_particle(system, 0, &fast);
+    PhysTime time = time_until(1, 1);
+    time.speed_of_light = 2;
+    phys_simulate(system, &time);
+    assert_same(phys_velocity(system, 0)[0], 3 * (2.0 / 5));
+    assert_same(phys_velocity(system, 0)[1], 4 * (2.0 / 5));
+    assert_same(phys_velocity(system, 1)[0], 9); // no mass, no limit
+    phys_free(system);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_distance),
+        cmocka_unit_test(test_distance_powers),
+        cmocka_unit_test(test_distance_handles),
+        cmocka_unit_test(test_collision),
+        cmocka_unit_test(test_gravity),
+        cmocka_unit_test(test_electrostatic),
+        cmocka_unit_test(test_adhesion),
+        cmocka_unit_test(test_constant),
+        cmocka_unit_test(test_field),
+        cmocka_unit_test(test_drag),
+        cmocka_unit_test(test_buoyancy),
+        cmocka_unit_test(test_soft_barrier),
+        cmocka_unit_test(test_own_force),
+        cmocka_unit_test(test_ease),
+        cmocka_unit_test(test_random),
+        cmocka_unit_test(test_speed_of_light),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,93 @@
+// test_memory.c: a warm frame allocates nothing; an allocation that fails leaves the system usable.
+//
+// Linked with --wrap=malloc: arenas, the only users of the heap, come here.
+#include "support.h"
+
+void *__real_malloc(size_t size);
+void *__wrap_malloc(size_t size);
+
+static int allocations;
+static int fail_at = -1; // this allocation and all later ones fail; -1: none
+
+void *__wrap_malloc(size_t size) {
+    int number = allocations++;
+    return fail_at >= 0 && number >= fail_at ? NULL : __real_malloc(size);
+}
+
+// A system that uses every buffer and grows all of them.
+static PhysResult describe_and_run(PhysSystem *system, uint32_t scale) {
+    phys_begin(system, 3);
+    uint32_t group = 0;
+    for (uint32_t i = 0; i < scale; i++)
+        group = phys_add_group(system, i % 3 ? group : 0);
+    for (uint32_t i = 0; i < scale; i++) {
+        PhysParticle p = {.position = VEC(i, i % 7, i % 5), .radius = 0.5, .mass = 1, .charge = 1};
+        phys_add_particle(system, group ? i % group : 0, &p);
+    }
+    for (uint32_t i = 0; i < scale; i++) {
+        PhysForce force = force_of((PhysForceKind)(PHYS_DISTANCE + i % (PHYS_BARRIER - PHYS_DISTANCE + 1)));
+        force.vector = force.vector2 = VEC(0, 1, 0);
+        force.from = i;
+        phys_add_force(system, 0, &force);
+    }
+    return run_until(system, 1, 0.5);
+}
+
+static void test_warm_frame(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    describe_and_run(system, 300);
+    int before = allocations;
+    for (int frame = 0; frame < 5; frame++)
+        assert_int_equal(describe_and_run(system, 300).status, PHYS_OK);
+    assert_int_equal(describe_and_run(system, 20).status, PHYS_OK); // smaller ones are served as well
+    assert_int_equal(allocations, before);
+    phys_free(system);
+}
+
+static void test_growing(void **state) {
+    (void)state;
+    PhysSystem *system = phys_new();
+    for (uint32_t scale = 0; scale < 2000; scale = scale * 2 + 1) {
+        assert_int_equal(describe_and_run(system, scale).status, PHYS_OK);
+        assert_int_equal(phys_particle_count(system), scale);
+    }
+    phys_free(system);
+}
+
+// Each allocation of a frame in turn is the one that fails.
+static void test_failing(void **state) {
+    (void)state;
+    allocations = 0;
+    PhysSystem *system = phys_new();
+    describe_and_run(system, 300);
+    phys_free(system);
+    int total = allocations;
+    assert_true(total > 8);
+    for (int i = 0; i < total; i++) {
+        allocations = 0;
+        fail_at = i;
+        system = phys_new();
+        assert_int_equal(system == NULL, i == 0);
+        if (!system)
+            continue;
+        PhysResult result = describe_and_run(system, 300);
+        assert_int_equal(result.status, PHYS_NO_MEMORY);
+        assert_int_equal(result.steps, 0);
+        for (uint32_t p = 0; p < phys_particle_count(system); p++)
+            assert_same(phys_position(system, p)[0], p);
+        fail_at = -1;
+        assert_int_equal(describe_and_run(system, 300).status, PHYS_OK);
+        phys_free(system);
+    }
+    fail_at = -1;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_warm_frame),
+        cmocka_unit_test(test_growing),
+        cmocka_unit_test(test_failing),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
