@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "petri.h"
 
@@ -164,4 +165,21 @@ bool args_choice(const Args *args, const char *const *words, int *out) {
         snprintf(expected + length, sizeof expected - length, "%s %s", i == 0 ? "" : ",", words[i]);
     }
     return args_wrong_value(args, expected);
+}
+
+bool colour_by_default(void) {
+    const char *refused = getenv("NO_COLOR");
+    const char *terminal = getenv("TERM");
+    return isatty(STDERR_FILENO) && (refused == NULL || refused[0] == '\0') &&
+           (terminal == NULL || strcmp(terminal, "dumb") != 0);
+}
+
+bool args_colour(const Args *args, bool *colour) {
+    static const char *const words[] = {"auto", "always", "never", NULL};
+    int choice = 0;
+    if (!args_choice(args, words, &choice)) {
+        return false;
+    }
+    *colour = choice == 0 ? colour_by_default() : choice == 1;
+    return true;
 }

@@ -30,6 +30,10 @@ bool args_integer(const Args *args, int64_t least, int64_t most, int64_t *out);
 bool args_positive(const Args *args, double *out);
 // The index of the value in a list of words that ends with NULL.
 bool args_choice(const Args *args, const char *const *words, int *out);
+// auto, always or never, as whether messages are coloured.
+bool args_colour(const Args *args, bool *colour);
+// Whether standard error is a terminal that may be coloured (NO_COLOR is honoured).
+bool colour_by_default(void);
 // Says that the value is wrong and what it should be; returns false.
 bool args_wrong_value(const Args *args, const char *expected);
 

@@ -9,9 +9,9 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_INTERRUPTED 
 
 // One option of a command. Tables end with an entry without a name.
 typedef struct OptionSpec {
-    const char *name; // without the dashes
-    char letter;      // short form, or 0
-    int id;           // what args_next returns for it, above 0
+    const char *name;  // without the dashes
+    char letter;       // short form, or 0
+    int id;            // what args_next returns for it, above 0
     const char *value; // how help names the value; NULL for a flag
     const char *help;
 } OptionSpec;

@@ -56,8 +56,8 @@ int help_for(const Command *command) {
     if (output == NULL) {
         return STATUS_FAILED;
     }
-    output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name, command->options->name == NULL ? "" : " [options]",
-                  command->operands, command->details);
+    output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name,
+                  command->options->name == NULL ? "" : " [options]", command->operands, command->details);
     for (const OptionSpec *spec = command->options; spec->name != NULL; spec++) {
         output_format(output, "%s", spec == command->options ? "\n" : "");
         write_option(output, spec);

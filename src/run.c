@@ -227,8 +227,9 @@ const Command RUN_COMMAND = {
     .name = "run",
     .operands = "SCRIPT.fl",
     .summary = "run a script's frames and print what they hold",
-    .details = "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-               "Ctrl-C ends the run after the frame at hand.",
+    .details =
+        "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
+        "Ctrl-C ends the run after the frame at hand.",
     .options = RUN_OPTION_SPECS,
     .run = run_run,
 };

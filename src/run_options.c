@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
 #include "args.h"
 #include "petri.h"
@@ -37,7 +36,8 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
     {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
     {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},
-    {"print", 0, OPT_PRINT, "LIST", "print tree, state, log, error (any of them, with commas); logs alone if not given"},
+    {"print", 0, OPT_PRINT, "LIST",
+     "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print each K-th frame, starting with frame 0"},
     {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
     {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
@@ -93,25 +93,6 @@ static bool read_run_time(const Args *args, double *seconds) {
     return true;
 }
 
-static bool read_colour(const Args *args, bool *colour) {
-    static const char *const words[] = {"auto", "always", "never", NULL};
-    int choice = 0;
-    if (!args_choice(args, words, &choice)) {
-        return false;
-    }
-    if (choice != 0) {
-        *colour = choice == 1;
-    }
-    return true;
-}
-
-static bool default_colour(void) {
-    const char *refused = getenv("NO_COLOR");
-    const char *terminal = getenv("TERM");
-    return isatty(STDERR_FILENO) && (refused == NULL || refused[0] == '\0') &&
-           (terminal == NULL || strcmp(terminal, "dumb") != 0);
-}
-
 static bool read_dump(const Args *args, int *dump) {
     static const char *const words[] = {"ast", "code", NULL};
     int choice = 0;
@@ -149,7 +130,7 @@ static bool read_script(const Args *args, RunOptions *options) {
     return true;
 }
 
-// Options that set a limit or choose what is printed; false after a message.
+// The script and the options with a value; false after a message.
 static bool apply_option(const Args *args, int id, RunOptions *options) {
     switch (id) {
     case ARG_OPERAND:
@@ -169,7 +150,7 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
     case OPT_THREADS:
         return read_threads(args, &options->threads);
     case OPT_COLOR:
-        return read_colour(args, &options->colour);
+        return args_colour(args, &options->colour);
     case OPT_DUMP:
         return read_dump(args, &options->dump);
     default:
@@ -226,7 +207,7 @@ int run_options_read(RunOptions *options, int argc, char **argv) {
         .fps = 60,
         .every = 1,
         .verbosity = LOG_NORMAL,
-        .colour = default_colour(),
+        .colour = colour_by_default(),
         .dump = -1,
     };
     // Each definition takes at least one word.

@@ -7,7 +7,7 @@
 double turns_sin(double t) {
     if (t < 0)
         return -turns_sin(-t);
-    int quadrant;
+    int quadrant = 0; // remquo leaves it alone for nan and infinities
     double rest = remquo(t * 4, 1.0, &quadrant);
     double angle = rest * 1.5707963267948966;
     switch (quadrant & 3) {

@@ -1,7 +1,6 @@
 // str.c: see str.h.
 #include "base/str.h"
 
-#include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -117,7 +116,7 @@ void text_add_code_point(Text *text, uint32_t code_point) {
     text->len += utf8_encode(code_point, text_reserve(text, UTF8_MAX));
 }
 
-static void text_add_va(Text *text, const char *format, va_list args) {
+void text_add_va(Text *text, const char *format, va_list args) {
     va_list again;
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);

@@ -4,6 +4,7 @@
 
 #include "base/arena.h"
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stdint.h>
 
@@ -45,6 +46,7 @@ void text_add_c(Text *text, const char *part);
 void text_add_char(Text *text, char c);
 void text_add_code_point(Text *text, uint32_t code_point);
 void text_add_format(Text *text, const char *format, ...) __attribute__((format(printf, 2, 3)));
+void text_add_va(Text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 Str text_str(const Text *text);
 
 // Formatted text in an arena.

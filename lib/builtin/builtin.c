@@ -63,8 +63,8 @@ static Value bad_count(BuiltinContext *context, const Builtin *builtin, uint32_t
 
 static Value bad_name(BuiltinContext *context, const Builtin *builtin, const char *what, Str name) {
     int len = name.len < 100 ? (int)name.len : 100;
-    Str text = str_format(context->arena, "%s '%.*s' for %s(%s)", what, len, name.bytes, builtin->name,
-                          builtin->parameters);
+    Str text =
+        str_format(context->arena, "%s '%.*s' for %s(%s)", what, len, name.bytes, builtin->name, builtin->parameters);
     builtin_fault(context, builtin->name, str_to_c(context->arena, text));
     return VALUE_NULL;
 }
@@ -104,15 +104,9 @@ bool builtin_constant(Str name, Value *value) {
         const char *name;
         Value value;
     } constants[] = {
-        {"false", value_number(0)},
-        {"inf", value_number(INFINITY)},
-        {"nan", value_number(NAN)},
-        {"null", VALUE_NULL},
-        {"pi", value_number(BUILTIN_PI)},
-        {"tau", value_number(BUILTIN_TAU)},
-        {"true", value_number(1)},
-        {"\u03c0", value_number(BUILTIN_PI)},
-        {"\U0001d70f", value_number(BUILTIN_TAU)},
+        {"false", value_number(0)}, {"inf", value_number(INFINITY)},      {"nan", value_number(NAN)},
+        {"null", VALUE_NULL},       {"pi", value_number(BUILTIN_PI)},     {"tau", value_number(BUILTIN_TAU)},
+        {"true", value_number(1)},  {"\u03c0", value_number(BUILTIN_PI)}, {"\U0001d70f", value_number(BUILTIN_TAU)},
     };
     for (size_t i = 0; i < sizeof constants / sizeof constants[0]; i++)
         if (str_equal(name, str_from(constants[i].name))) {

@@ -14,11 +14,11 @@ typedef struct NoiseCache NoiseCache; // builtin/noise.h
 
 // What a call may use. Everything is borrowed for the call.
 typedef struct BuiltinContext {
-    Arena *arena;               // results and temporaries
-    const SymbolTable *symbols; // for texts
-    FileCache *files;           // NULL: file functions find no file
-    NoiseCache *noise;          // NULL: permutations are made anew for each call
-    Str directory;              // relative file names start here (L13.3); "" is the working directory
+    Arena *arena;                        // results and temporaries
+    const SymbolTable *symbols;          // for texts
+    FileCache *files;                    // NULL: file functions find no file
+    NoiseCache *noise;                   // NULL: permutations are made anew for each call
+    Str directory;                       // relative file names start here (L13.3); "" is the working directory
     void (*fault)(void *host, Str text); // a diagnostic at the place of the call
     void (*log)(void *host, Str text);   // a line of debug()
     void *host;
@@ -33,8 +33,8 @@ typedef struct Builtin {
     uint8_t required;       // fewest arguments
     uint8_t fixed;          // parameters before "..."; also the length of args unless more were given
     bool variadic;
-    bool named;  // accepts parameters by name (B0.3)
-    bool pure;   // B0.5
+    bool named; // accepts parameters by name (B0.3)
+    bool pure;  // B0.5
     const char *help;
 } Builtin;
 

@@ -4,8 +4,7 @@
 // several times, so it has no guard.
 
 BUILTIN("abs", builtin_abs, "x", 1, 1, false, false, true, "Magnitude of each number.")
-BUILTIN("accumulate", builtin_accumulate, "xs, zs=1", 1, 2, false, true, true,
-        "Running sums of zs interleaved series.")
+BUILTIN("accumulate", builtin_accumulate, "xs, zs=1", 1, 2, false, true, true, "Running sums of zs interleaved series.")
 BUILTIN("acos", builtin_acos, "x", 1, 1, false, false, true, "Arc cosine of each number, in turns.")
 BUILTIN("angle", builtin_angle, "xy, ys", 1, 2, false, true, true,
         "Angle in turns of each pair x;y, or of each x with its y from ys.")
@@ -75,7 +74,8 @@ BUILTIN("quaternion", builtin_quaternion, "axis, angle", 2, 2, false, true, true
         "Quaternion that turns by an angle, in turns, about an axis.")
 BUILTIN("read", builtin_read, "filename", 1, 1, false, true, false, "Text of a file as one string.")
 BUILTIN("read_bytes", builtin_read_bytes, "filename", 1, 1, false, true, false, "Bytes of a file as numbers.")
-BUILTIN("round", builtin_round, "xs, ys=0", 1, 2, false, true, true, "Each x rounded to ys decimals, halves away from 0.")
+BUILTIN("round", builtin_round, "xs, ys=0", 1, 2, false, true, true,
+        "Each x rounded to ys decimals, halves away from 0.")
 BUILTIN("sample", builtin_sample, "texture_id, coord, default=null", 2, 3, false, true, false,
         "The default: petri has no rendered images.")
 BUILTIN("sawtooth", builtin_sawtooth, "x", 1, 1, false, false, true, "Wave that rises from 0 to 1 in each cycle.")
@@ -86,7 +86,8 @@ BUILTIN("sine", builtin_sine, "x", 1, 1, false, false, true, "Sine wave from 0 t
 BUILTIN("slerp", builtin_slerp, "t, a, b", 3, 3, false, true, true, "Quaternion at part t of the way from a to b.")
 BUILTIN("snap", builtin_snap, "x", 1, 1, false, false, true, "Easing from 0 to 1 along square roots.")
 BUILTIN("sort", builtin_sort, "x", 1, 1, false, false, true, "Numbers or strings in ascending order.")
-BUILTIN("split", builtin_split, "text, separator=\"\\n\"", 1, 2, false, true, true, "Pieces of a text between separators.")
+BUILTIN("split", builtin_split, "text, separator=\"\\n\"", 1, 2, false, true, true,
+        "Pieces of a text between separators.")
 BUILTIN("sqrt", builtin_sqrt, "x", 1, 1, false, false, true, "Square root of each number.")
 BUILTIN("square", builtin_square, "x", 1, 1, false, false, true, "Wave that is 0 and then 1 in each cycle.")
 BUILTIN("srt", builtin_srt, "filename, time", 2, 2, false, true, false, "Lines of a subtitle file shown at a time.")

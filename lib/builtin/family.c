@@ -57,8 +57,9 @@ static bool is_digit(char c) {
 
 size_t builtin_scan_digits(Str text) {
     size_t at = 0;
-    while (at < text.len && (is_digit(text.bytes[at]) || (text.bytes[at] == '_' && at > 0 && text.bytes[at - 1] != '_' &&
-                                                          at + 1 < text.len && is_digit(text.bytes[at + 1]))))
+    while (at < text.len &&
+           (is_digit(text.bytes[at]) || (text.bytes[at] == '_' && at > 0 && text.bytes[at - 1] != '_' &&
+                                         at + 1 < text.len && is_digit(text.bytes[at + 1]))))
         at++;
     return at;
 }

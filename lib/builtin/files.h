@@ -11,8 +11,8 @@
 FileCache *file_cache_new(void);
 void file_cache_free(FileCache *cache);
 
-// Turns the bytes of a file, which lie in `arena` and may be changed, into what is kept: something in `arena`. NULL with
-// *problem set means that the file counts as unreadable.
+// Turns the bytes of a file, which lie in `arena` and may be changed, into what is kept: something in `arena`. NULL
+// with *problem set means that the file counts as unreadable.
 typedef const void *FileParse(Arena *arena, char *bytes, size_t len, const char **problem);
 
 // What `parse` makes of the file named by `name`, valid until the next call with this cache; NULL if it cannot be read,

@@ -198,8 +198,8 @@ static void walk_deep(Glob *glob, Str path, uint32_t k) {
     }
 }
 
-// Everything below the directory `path` that matches the parts from k on. Paths have a greatest length, so the depth has
-// too.
+// Everything below the directory `path` that matches the parts from k on. Paths have a greatest length, so the depth
+// has too.
 static void walk(Glob *glob, Str path, uint32_t k) {
     if (path.len >= PATH_MAX || glob->too_much)
         return;

@@ -1,6 +1,6 @@
 // noise_tables.h: constants, gradients and vertices of classic OpenSimplex noise (spec noise_tables.txt, B10).
 //
-// Included by noise.c alone.
+// Included by noise_point.c alone.
 #ifndef PETRI_BUILTIN_NOISE_TABLES_H
 #define PETRI_BUILTIN_NOISE_TABLES_H
 

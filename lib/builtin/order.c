@@ -129,7 +129,7 @@ Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len) {
     return merge_sort(texts, arena_alloc_array(arena, len, sizeof *texts), len, merge_texts);
 }
 
-// Which elements of a vector are strings; false if some are neither numbers nor strings, or both occur.
+// Is every element of a mixed vector a string?
 static bool all_texts(Value v) {
     for (uint32_t i = 0; i < v.len; i++)
         if (v.as.items[i].type != ITEM_STRING)

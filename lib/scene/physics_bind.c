@@ -222,7 +222,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     uint64_t steps = 0;
     if (settings->time > last)
         clock = simulate(&tree, reader, settings, last, clock, &steps);
-    else
+    else if (tree.particle_count > 0)
         store(&tree, false);
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);

@@ -54,6 +54,7 @@ static Body *add_body(PhysicsTree *tree, const Reader *reader, AttrRow id_row, b
     if (!index_add(&tree->by_slot, hash_mix(slot + UINT64_C(1)), tree->body_count))
         return NULL;
     Body *body = &tree->bodies[tree->body_count++];
+    tree->particle_count += !anchor;
     *body = (Body){
         .node = reader->node,
         .position = slot,

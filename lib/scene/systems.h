@@ -54,6 +54,7 @@ typedef struct PhysicsTree {
     Body *bodies;
     uint32_t body_count;
     uint32_t body_capacity;
+    uint32_t particle_count; // bodies that are not anchors
     Index by_slot; // bodies by the slot of their position; heap, freed by physics_tree_free
     PhysSystem *engine;
     bool from_state;      // positions and velocities come from the state where it has them

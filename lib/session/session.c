@@ -54,11 +54,13 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->state = state_new();
     session->scene = scene_new(&session->symbols, (SceneHost){session, tell_scene});
     session->files = file_cache_new();
+    session->noise = noise_cache_new();
     vm_init(&session->vm, &session->frame_arena, &session->symbols,
             (VmHost){session, tell_machine, log_machine, session_module}, options->stack_bytes);
     session->vm.builtins.files = session->files;
+    session->vm.builtins.noise = session->noise;
     session->frame.number = -1;
-    if (!session->state || !session->scene || !session->files)
+    if (!session->state || !session->scene || !session->files || !session->noise)
         petri_close(&session);
     return session;
 }
@@ -76,6 +78,7 @@ void petri_close(PetriSession **handle) {
     scene_free(session->scene);
     state_free(session->state);
     file_cache_free(session->files);
+    noise_cache_free(session->noise);
     vm_free(&session->vm);
     diag_sink_free(&session->log);
     diag_sink_free(&session->errors);

@@ -5,6 +5,7 @@
 #include "petri.h"
 
 #include "builtin/files.h"
+#include "builtin/noise.h"
 #include "scene/scene.h"
 #include "vm/vm.h"
 
@@ -31,6 +32,7 @@ struct PetriSession {
     State *state;
     Scene *scene;
     FileCache *files;
+    NoiseCache *noise;
     Define *defines;
     uint32_t define_count;
     uint32_t define_capacity;

@@ -19,8 +19,8 @@ Value vm_make_closure(Vm *vm, Frame *frame, const Expr *expr) {
         captures[i] = vm_eval(vm, frame, code->captures[i]);
     for (uint32_t i = 0; i < code->param_count; i++)
         defaults[i] = code->defaults[i] ? vm_eval(vm, frame, code->defaults[i]) : VALUE_NULL;
-    *closure = (Closure){{.name = code->name}, code, captures, defaults, 0};
-    return value_function(vm->arena, &closure->base);
+    *closure = (Closure){{.name = code->name}, code, captures, defaults, 0, value_function(vm->arena, &closure->base)};
+    return closure->self;
 }
 
 // The evaluated arguments of one call.
@@ -46,12 +46,12 @@ static bool may_enter(Vm *vm, const Closure *closure, const Expr *at) {
                         : vm->depth >= VM_CALL_DEPTH        ? "8192 nested calls"
                         : !vm_stack_left(vm)                ? "the stack"
                                                             : NULL;
-    if (!limit)
-        return vm_work(vm, at);
-    vm_fault(vm, at, "recursion-depth",
-             str_format(vm->arena, "recursion too deep in '%.*s': the limit is %s", (int)closure->base.name.len,
-                        closure->base.name.bytes, limit));
-    return false;
+    if (!vm_work(vm, at))
+        return false;
+    if (limit)
+        vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s", (int)closure->base.name.len,
+                 closure->base.name.bytes, limit);
+    return !limit;
 }
 
 static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Expr *at) {
@@ -73,8 +73,10 @@ static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const
 
 static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at) {
     if (item.type != ITEM_FUNCTION) {
-        Str what = item.type == ITEM_NUMBER ? STR("a number") : item.type == ITEM_STRING ? STR("a string") : STR("a node");
-        vm_fault(vm, at, "not-callable", str_format(vm->arena, "not callable: %.*s", (int)what.len, what.bytes));
+        vm_fault(vm, at, "not-callable", "not callable: %s",
+                 item.type == ITEM_NUMBER   ? "a number"
+                 : item.type == ITEM_STRING ? "a string"
+                                            : "a node");
         return VALUE_NULL;
     }
     const Builtin *builtin = item.as.function->builtin;

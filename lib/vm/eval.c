@@ -3,8 +3,29 @@
 
 #include "value/seed.h"
 
-void vm_fault(Vm *vm, const Expr *at, const char *code, Str text) {
-    Diag diag = {.level = DIAG_WARNING, .source = at->source, .span = at->span, .text = text, .code = code};
+#include <stdarg.h>
+
+static bool first_fault(Vm *vm, const Expr *at, const char *code) {
+    if (vm->reported_count >= VM_REPORTED / 2)
+        return false;
+    uint32_t i = (uint32_t)hash_mix((uint64_t)(uintptr_t)at ^ (uint64_t)(uintptr_t)code << 1) % VM_REPORTED;
+    for (; vm->reported[i].at; i = (i + 1) % VM_REPORTED)
+        if (vm->reported[i].at == at && vm->reported[i].code == code)
+            return false;
+    vm->reported[i] = (Reported){at, code};
+    vm->reported_count++;
+    return true;
+}
+
+void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) {
+    if (!first_fault(vm, at, code))
+        return;
+    va_list args;
+    va_start(args, format);
+    Text text = text_new(vm->arena);
+    text_add_va(&text, format, args);
+    va_end(args);
+    Diag diag = {.level = DIAG_WARNING, .source = at->source, .span = at->span, .text = text_str(&text), .code = code};
     vm->host.report(vm->host.host, &diag);
 }
 
@@ -15,13 +36,13 @@ bool vm_work(Vm *vm, const Expr *at) {
         return true;
     vm->stopped = true;
     vm_fault(vm, at, "work-limit",
-             STR("the frame makes more than 134217728 calls and loop rounds; the rest of it is null"));
+             "the frame makes more than 134217728 calls and loop rounds; it is given up");
     return false;
 }
 
 static Value finish(Vm *vm, const Expr *at, Vector *vector) {
     if (vector->overflow)
-        vm_fault(vm, at, "too-long", STR("vector too long: the limit is 134217728 elements"));
+        vm_fault(vm, at, "too-long", "vector too long: the limit is 134217728 elements");
     return vector_finish(vector);
 }
 
@@ -74,7 +95,7 @@ static Value eval_append(Vm *vm, Frame *frame, const Expr *expr) {
     bool too_high = false;
     Value result = value_append(vm->arena, parent, children, &too_high);
     if (too_high)
-        vm_fault(vm, expr, "too-deep", STR("node tree too deep: the limit is 16384 levels; not appended"));
+        vm_fault(vm, expr, "too-deep", "node tree too deep: the limit is 16384 levels; not appended");
     return result;
 }
 
@@ -96,7 +117,7 @@ static Value eval_range(Vm *vm, Frame *frame, const Expr *expr) {
     bool too_long = false;
     Value range = op_range(vm->arena, start, stop, step, &too_long);
     if (too_long)
-        vm_fault(vm, expr, "too-long", STR("range too long: the limit is 134217728 elements"));
+        vm_fault(vm, expr, "too-long", "range too long: the limit is 134217728 elements");
     return range;
 }
 
@@ -169,9 +190,8 @@ static Value eval_logic(Vm *vm, Frame *frame, const Expr *expr) {
 }
 
 static Value eval_unbound(Vm *vm, const Expr *expr) {
-    vm_fault(vm, expr, "unbound-name",
-             str_format(vm->arena, "unbound name '%.*s' is null", (int)expr->as.name->name.len,
-                        expr->as.name->name.bytes));
+    vm_fault(vm, expr, "unbound-name", "unbound name '%.*s' is null", (int)expr->as.name->name.len,
+             expr->as.name->name.bytes);
     return VALUE_NULL;
 }
 
@@ -186,7 +206,7 @@ Value vm_eval(Vm *vm, Frame *frame, const Expr *expr) {
     case EXPR_CAPTURE:
         return frame->closure->captures[expr->slot];
     case EXPR_SELF:
-        return value_function(vm->arena, &frame->closure->base);
+        return frame->closure->self;
     case EXPR_GLOBAL:
         return vm->globals[expr->slot];
     case EXPR_UNBOUND:

@@ -11,6 +11,7 @@ typedef struct Closure {
     const Value *captures;
     const Value *defaults;
     uint32_t active; // calls that have not returned
+    Value self;      // the vector of this one function
 } Closure;
 
 // The running function: its slots and itself (NULL in the main program and in modules).
@@ -31,8 +32,9 @@ void vm_import(Vm *vm, Frame *frame, const Expr *expr);
 
 // Stores a value in `count` slots from `slot` on, unpacking it if there are several (L8.3).
 void vm_bind(Vm *vm, Frame *frame, uint32_t slot, uint32_t count, Value value);
-// Reports a run-time fault at an expression.
-void vm_fault(Vm *vm, const Expr *at, const char *code, Str text);
+// Reports a run-time fault at an expression: of each kind (`code`, a literal) the first at that place in the frame.
+// The text is made up only then: a recursion that runs into its limit does so a million times.
+void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) __attribute__((format(printf, 4, 5)));
 // Counts one call or loop round; false once the frame's work is used up (reported once).
 bool vm_work(Vm *vm, const Expr *at);
 // Is there enough of the C stack left for one more call?

@@ -1,9 +1,12 @@
 // vm.c: running whole programs and importing modules; see vm.h.
 #include "vm/machine.h"
 
+#include <string.h>
+
+// A built-in's own complaint belongs to the call that is being made.
 static void builtin_fault_here(void *host, Str text) {
     Vm *vm = host;
-    vm_fault(vm, vm->calling, "bad-call", text);
+    vm_fault(vm, vm->calling, "bad-call", "%.*s", (int)text.len, text.bytes);
 }
 
 static void builtin_log(void *host, Str text) {
@@ -38,6 +41,9 @@ static void begin(Vm *vm, const char *stack_base) {
     vm->work = 0;
     vm->stopped = false;
     vm->imports = NULL;
+    if (vm->reported_count > 0)
+        memset(vm->reported, 0, sizeof vm->reported);
+    vm->reported_count = 0;
 }
 
 Value vm_run(Vm *vm, const Program *program) {
@@ -90,16 +96,18 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Expr *
     vm->imports = link.outer;
     vm->state = state;
     vm->builtins.directory = directory;
+    Text missing = text_new(vm->arena);
     for (uint32_t i = 0; i < expr->slot_count; i++) {
         const Symbol *name = expr->as.import->names[i];
         const Export *found = program_find_export(module, name);
         if (found)
             frame->slots[expr->slot + i] = inner.slots[found->slot];
         else
-            vm_fault(vm, expr, "no-such-name",
-                     str_format(vm->arena, "'%.*s' binds no name '%.*s'", (int)module->source->name.len,
-                                module->source->name.bytes, (int)name->name.len, name->name.bytes));
+            text_add_format(&missing, " '%.*s'", (int)name->name.len, name->name.bytes);
     }
+    if (missing.len)
+        vm_fault(vm, expr, "no-such-name", "'%.*s' does not bind%.*s", (int)module->source->name.len,
+                 module->source->name.bytes, (int)missing.len, missing.bytes);
     arena_rewind(&vm->slots, mark);
 }
 
@@ -114,14 +122,12 @@ void vm_import(Vm *vm, Frame *frame, const Expr *expr) {
     if (!module) {
         if (!name.len)
             why = STR("no file name");
-        vm_fault(vm, expr, "cannot-import",
-                 str_format(vm->arena, "cannot import '%.*s': %.*s", (int)path.len, path.bytes, (int)why.len,
-                            why.bytes));
+        vm_fault(vm, expr, "cannot-import", "cannot import '%.*s': %.*s", (int)path.len, path.bytes, (int)why.len,
+                 why.bytes);
     } else if (being_imported(vm, module->source)) {
-        vm_fault(vm, expr, "circular-import",
-                 str_format(vm->arena, "circular import of '%.*s'", (int)path.len, path.bytes));
+        vm_fault(vm, expr, "circular-import", "circular import of '%.*s'", (int)path.len, path.bytes);
     } else if (!vm_stack_left(vm)) {
-        vm_fault(vm, expr, "recursion-depth", STR("imports nested too deeply"));
+        vm_fault(vm, expr, "recursion-depth", "imports nested too deeply");
     } else {
         run_module(vm, frame, module, expr);
     }

@@ -2,7 +2,7 @@
 //
 // Evaluation never fails: every fault has a value, nearly always null, and is reported through the host (spec
 // language.md L15). Results live in the frame's arena. Limits (call depth, work, stack) are diagnostics too; when the
-// work of a frame is used up, everything else in that frame is null.
+// work of a frame is used up, the frame is given up.
 #ifndef PETRI_VM_VM_H
 #define PETRI_VM_VM_H
 
@@ -14,6 +14,7 @@
 enum {
     VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
     VM_CALL_DEPTH = 8192,   // nested calls of user functions
+    VM_REPORTED = 1024,     // distinct faults that one frame reports; a power of two
 };
 // Calls and loop rounds that one frame may make: enough to go once through the longest vector, little enough that a
 // function calling itself twice ends within seconds.
@@ -28,6 +29,12 @@ typedef struct VmHost {
 } VmHost;
 
 typedef struct ImportLink ImportLink;
+
+// A place and the kind of its fault.
+typedef struct Reported {
+    const Expr *at;
+    const char *code;
+} Reported;
 
 typedef struct Vm {
     Arena *arena; // the frame's: results and temporaries
@@ -44,6 +51,8 @@ typedef struct Vm {
     size_t stack_bytes; // of the C stack that evaluation may use
     const char *stack_base;
     const ImportLink *imports; // modules being evaluated, innermost first
+    Reported reported[VM_REPORTED]; // hash set of the faults of this frame
+    uint32_t reported_count;
 } Vm;
 
 // Prepares a machine; `stack_bytes` is what it may use of the caller's stack. Free with vm_free.

@@ -302,6 +302,8 @@ static void test_more(void **state) {
         "shuffle(uniform(1),..6);shuffle(uniform(),..6) => 1;3;2;4;0;5;0;1;2;3;4;5",
         "shuffle(uniform(1),'a';'b';'c';'d';'e') => 'b';'d';'c';'a';'e'",
         // B10
+        "shuffle(uniform(:seed),..256)[..16] => 230;205;168;39;93;11;116;41;140;128;181;8;104;255;147;243",
+        "shuffle(uniform(:seed),..256)[252;253;254;255] => 161;52;233;208",
         "noise(seed=:seed) => null",
         "noise(:seed,0.5,seed=1) => null",
         "noise(:seed,inf,0);noise(:seed,-1e19) => 0;0",

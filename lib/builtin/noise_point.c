@@ -1,0 +1,341 @@
+// noise_point.c: classic OpenSimplex noise at one point (spec builtins.md B10.4 to B10.9); see noise_point.h.
+//
+// A point lies in a cell of the skewed lattice. The cell's regions (A at the base corner, B at the far corner, C and D
+// between) decide which vertices can reach the point: a fixed core, and a few extra ones beyond the cell that depend on
+// which coordinates are closest. The noise is the sum of their contributions in the order of the spec.
+#include "builtin/noise_point.h"
+
+#include "builtin/noise_tables.h"
+
+#include <math.h>
+#include <stdbool.h>
+
+enum { MOST_DIMS = 4, MOST_EXTRA = 3 };
+
+typedef struct NoisePoint {
+    const uint8_t *permutation;
+    uint64_t base[MOST_DIMS]; // two's complement: only sums and the low eight bits matter
+    double frac[MOST_DIMS];   // fx … of B10.4
+    double d0[MOST_DIMS];
+    double sum; // of the fractions
+} NoisePoint;
+
+// B10.4. False if the point is too far out or not a number.
+static inline bool point_place(NoisePoint *point, const double *c, int dims) {
+    double t = c[0], whole[MOST_DIMS];
+    for (int i = 1; i < dims; i++)
+        t = t + c[i];
+    t = t * NOISE_S[dims];
+    uint64_t base_sum = 0;
+    for (int i = 0; i < dims; i++) {
+        double skewed = c[i] + t;
+        if (!(fabs(skewed) < 4611686018427387904.0)) // 2^62
+            return false;
+        whole[i] = floor(skewed);
+        point->frac[i] = skewed - whole[i];
+        point->sum = i ? point->sum + point->frac[i] : point->frac[i];
+        point->base[i] = (uint64_t)(int64_t)whole[i];
+        base_sum += point->base[i];
+    }
+    double q = (double)(int64_t)base_sum * NOISE_Q[dims];
+    for (int i = 0; i < dims; i++)
+        point->d0[i] = c[i] - (whole[i] + q);
+    return true;
+}
+
+static inline const double *gradient(const NoisePoint *point, const NoiseVertex *v, int dims) {
+    unsigned p = 0;
+    for (int i = 0; i < dims; i++) {
+        uint64_t at = point->base[i] + (uint64_t)(v->early[i] + v->late[i]);
+        p = point->permutation[(p + at) & 255];
+    }
+    return dims == 2 ? NOISE_GRAD2[p % 8] : dims == 3 ? NOISE_GRAD3[p % 24] : NOISE_GRAD4[p / 4];
+}
+
+// B10.5: d = ((d0 - a) - m*Q) - b per coordinate, A = 2 - d·d; if A > 0 the vertex adds A^4 * (g·d).
+static inline double add_vertex(const NoisePoint *point, double value, const NoiseVertex *v, int dims) {
+    double d[MOST_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
+    for (int i = 0; i < dims; i++) {
+        d[i] = ((point->d0[i] - v->early[i]) - units) - v->late[i];
+        reach = reach - d[i] * d[i];
+    }
+    if (!(reach > 0))
+        return value;
+    const double *g = gradient(point, v, dims);
+    double slope = g[0] * d[0];
+    for (int i = 1; i < dims; i++)
+        slope = slope + g[i] * d[i];
+    reach = reach * reach;
+    return value + (reach * reach) * slope;
+}
+
+static inline double add_vertices(const NoisePoint *point, double value, const NoiseVertex *v, int count, int dims) {
+    for (int i = 0; i < count; i++)
+        value = add_vertex(point, value, &v[i], dims);
+    return value;
+}
+
+// --- choosing extra vertices
+
+// bit(c): the coordinate of the lowest set bit; gap(c) is that of the lowest clear one.
+static int lowest_bit(unsigned mask) {
+    int i = 0;
+    while (!(mask >> i & 1))
+        i++;
+    return i;
+}
+
+static int lowest_gap(unsigned mask) {
+    return lowest_bit(~mask);
+}
+
+// The vertex with offset `set` where the mask is set and `clear` elsewhere.
+static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) {
+    NoiseVertex v = {.units = (uint8_t)units};
+    for (int i = 0; i < MOST_DIMS; i++)
+        v.early[i] = (int8_t)(mask >> i & 1 ? set : clear);
+    return v;
+}
+
+// `all` everywhere, and `late` more at one coordinate, all of it late.
+static NoiseVertex vertex_late(int all, int coordinate, int late, int units) {
+    NoiseVertex v = vertex_of_mask(0, 0, all, units);
+    v.late[coordinate] = (int8_t)late;
+    return v;
+}
+
+// Two candidates with their scores and coordinate masks; the flags are "big" in B10.9 and unused in B10.8.
+typedef struct Candidates {
+    double a, b;
+    unsigned mask_a, mask_b;
+    bool flag_a, flag_b;
+} Candidates;
+
+// The score replaces the lesser candidate if it is greater.
+static void take_greater(Candidates *c, double score, unsigned mask, bool flag) {
+    if (c->a >= c->b && score > c->b) {
+        c->b = score;
+        c->mask_b = mask;
+        c->flag_b = flag;
+    } else if (c->a < c->b && score > c->a) {
+        c->a = score;
+        c->mask_a = mask;
+        c->flag_a = flag;
+    }
+}
+
+// The score replaces the greater candidate if it is less.
+static void take_less(Candidates *c, double score, unsigned mask, bool flag) {
+    if (c->a <= c->b && score < c->b) {
+        c->b = score;
+        c->mask_b = mask;
+        c->flag_b = flag;
+    } else if (c->a > c->b && score < c->a) {
+        c->a = score;
+        c->mask_a = mask;
+        c->flag_a = flag;
+    }
+}
+
+// --- two dimensions (B10.7)
+
+double noise_point_2(const uint8_t *permutation, const double *c) {
+    NoisePoint point = {.permutation = permutation};
+    if (!point_place(&point, c, 2))
+        return 0;
+    double fx = point.frac[0], fy = point.frac[1];
+    bool near = point.sum <= 1;
+    NoiseVertex extra;
+    if (near) {
+        double u = 1 - point.sum;
+        if (u > fx || u > fy)
+            extra = fx > fy ? (NoiseVertex){{1, -1}, {0}, 0} : (NoiseVertex){{-1, 1}, {0}, 0};
+        else
+            extra = (NoiseVertex){{1, 1}, {0}, 2};
+    } else {
+        double u = 2 - point.sum;
+        if (u < fx || u < fy)
+            extra = fx > fy ? (NoiseVertex){{2, 0}, {0}, 2} : (NoiseVertex){{0, 2}, {0}, 2};
+        else
+            extra = (NoiseVertex){{0, 0}, {0}, 0};
+    }
+    double value = add_vertices(&point, 0, near ? NOISE_CORE2_A : NOISE_CORE2_B, 3, 2);
+    return add_vertex(&point, value, &extra, 2) / NOISE_N[2];
+}
+
+// --- three dimensions (B10.8)
+
+static const NoiseVertex *extras_3a(const double *f, double sum) {
+    Candidates c = {.a = f[0], .mask_a = 1, .b = f[1], .mask_b = 2};
+    take_greater(&c, f[2], 4, false);
+    double u = 1 - sum;
+    if (u > c.a || u > c.b)
+        return NOISE_EXT3_ORIGIN1[c.b > c.a ? c.mask_b : c.mask_a];
+    return NOISE_EXT3_ORIGIN2[c.mask_a | c.mask_b];
+}
+
+static const NoiseVertex *extras_3b(const double *f, double sum) {
+    Candidates c = {.a = f[0], .mask_a = 6, .b = f[1], .mask_b = 5};
+    take_less(&c, f[2], 3, false);
+    double u = 3 - sum;
+    if (u < c.a || u < c.b)
+        return NOISE_EXT3_CORNER2[c.b < c.a ? c.mask_b : c.mask_a];
+    return NOISE_EXT3_CORNER1[c.mask_a & c.mask_b];
+}
+
+static void extras_3c(const double *f, NoiseVertex extra[2]) {
+    static const unsigned far_masks[3] = {3, 5, 6}, near_masks[3] = {4, 2, 1};
+    const double sums[3] = {f[0] + f[1], f[0] + f[2], f[1] + f[2]};
+    double score[3];
+    unsigned mask[3];
+    bool far[3];
+    for (int i = 0; i < 3; i++) {
+        far[i] = sums[i] > 1;
+        score[i] = far[i] ? sums[i] - 1 : 1 - sums[i];
+        mask[i] = far[i] ? far_masks[i] : near_masks[i];
+    }
+    // On a tie the first gives way here, the second in take_greater.
+    int replaced = score[0] <= score[1] && score[0] < score[2] ? 0 : score[0] > score[1] && score[1] < score[2] ? 1 : 2;
+    mask[replaced] = mask[2];
+    far[replaced] = far[2];
+    if (far[0] && far[1]) {
+        extra[0] = vertex_of_mask(0, 0, 1, 3);
+        extra[1] = vertex_of_mask(1u << lowest_bit(mask[0] & mask[1]), 2, 0, 2);
+    } else if (!far[0] && !far[1]) {
+        extra[0] = vertex_of_mask(0, 0, 0, 0);
+        extra[1] = vertex_of_mask(1u << lowest_gap(mask[0] | mask[1]), -1, 1, 1);
+    } else {
+        unsigned far_mask = far[0] ? mask[0] : mask[1], near_mask = far[0] ? mask[1] : mask[0];
+        extra[0] = vertex_of_mask(1u << lowest_gap(far_mask), -1, 1, 1);
+        extra[1] = vertex_late(0, lowest_bit(near_mask), 2, 2);
+    }
+}
+
+double noise_point_3(const uint8_t *permutation, const double *c) {
+    NoisePoint point = {.permutation = permutation};
+    if (!point_place(&point, c, 3))
+        return 0;
+    double value;
+    NoiseVertex between[2];
+    const NoiseVertex *extra = between;
+    if (point.sum <= 1) {
+        value = add_vertices(&point, 0, NOISE_CORE3_A, 4, 3);
+        extra = extras_3a(point.frac, point.sum);
+    } else if (point.sum >= 2) {
+        value = add_vertices(&point, 0, NOISE_CORE3_B, 4, 3);
+        extra = extras_3b(point.frac, point.sum);
+    } else {
+        value = add_vertices(&point, 0, NOISE_CORE3_C, 6, 3);
+        extras_3c(point.frac, between);
+    }
+    return add_vertices(&point, value, extra, 2, 3) / NOISE_N[3];
+}
+
+// --- four dimensions (B10.9)
+
+static const NoiseVertex *extras_4a(const double *f, double sum) {
+    Candidates c = {.a = f[0], .mask_a = 1, .b = f[1], .mask_b = 2};
+    take_greater(&c, f[2], 4, false);
+    take_greater(&c, f[3], 8, false);
+    double u = 1 - sum;
+    if (u > c.a || u > c.b)
+        return NOISE_EXT4_ORIGIN1[c.b > c.a ? c.mask_b : c.mask_a];
+    return NOISE_EXT4_ORIGIN2[c.mask_a | c.mask_b];
+}
+
+static const NoiseVertex *extras_4b(const double *f, double sum) {
+    Candidates c = {.a = f[0], .mask_a = 14, .b = f[1], .mask_b = 13};
+    take_less(&c, f[2], 11, false);
+    take_less(&c, f[3], 7, false);
+    double u = 4 - sum;
+    if (u < c.a || u < c.b)
+        return NOISE_EXT4_CORNER3[c.b < c.a ? c.mask_b : c.mask_a];
+    return NOISE_EXT4_CORNER2[c.mask_a & c.mask_b];
+}
+
+// The first scores of region C: of each of three pairs of opposite edges the greater. All start big.
+static Candidates candidates_4c(const double *f, double sum) {
+    double xy = f[0] + f[1], xz = f[0] + f[2], xw = f[0] + f[3], yz = f[1] + f[2], yw = f[1] + f[3], zw = f[2] + f[3];
+    Candidates c = {.flag_a = true, .flag_b = true};
+    c.a = xy > zw ? xy : zw;
+    c.mask_a = xy > zw ? 3 : 12;
+    c.b = xz > yw ? xz : yw;
+    c.mask_b = xz > yw ? 5 : 10;
+    take_greater(&c, xw > yz ? xw : yz, xw > yz ? 9 : 6, true);
+    for (int i = 0; i < 4; i++)
+        take_greater(&c, 2 - sum + f[i], 1u << i, false);
+    return c;
+}
+
+static void extras_4c(const double *f, double sum, NoiseVertex extra[3]) {
+    Candidates c = candidates_4c(f, sum);
+    if (c.flag_a && c.flag_b) {
+        unsigned either = c.mask_a | c.mask_b, both = c.mask_a & c.mask_b;
+        extra[0] = vertex_of_mask(either, 1, 0, 3);
+        extra[1] = vertex_of_mask(either, 1, -1, 2);
+        extra[2] = vertex_late(0, lowest_bit(both), 2, 2);
+        return;
+    }
+    unsigned first = c.flag_a ? c.mask_a : c.flag_b ? c.mask_b : c.mask_a | c.mask_b;
+    extra[0] = NOISE_EXT4_ORIGIN2[first][1];
+    extra[1] = NOISE_EXT4_ORIGIN2[first][2];
+    if (c.flag_a || c.flag_b)
+        extra[2] = vertex_late(0, lowest_bit(c.flag_a ? c.mask_b : c.mask_a), 2, 2);
+    else
+        extra[2] = vertex_of_mask(0, 0, 0, 0);
+}
+
+// Region D mirrors C: of each pair of opposite edges the lesser.
+static Candidates candidates_4d(const double *f, double sum) {
+    double xy = f[0] + f[1], xz = f[0] + f[2], xw = f[0] + f[3], yz = f[1] + f[2], yw = f[1] + f[3], zw = f[2] + f[3];
+    Candidates c = {.flag_a = true, .flag_b = true};
+    c.a = xy < zw ? xy : zw;
+    c.mask_a = xy < zw ? 12 : 3;
+    c.b = xz < yw ? xz : yw;
+    c.mask_b = xz < yw ? 10 : 5;
+    take_less(&c, xw < yz ? xw : yz, xw < yz ? 6 : 9, true);
+    for (int i = 0; i < 4; i++)
+        take_less(&c, 3 - sum + f[i], 15u & ~(1u << i), false);
+    return c;
+}
+
+static void extras_4d(const double *f, double sum, NoiseVertex extra[3]) {
+    Candidates c = candidates_4d(f, sum);
+    if (c.flag_a && c.flag_b) {
+        unsigned both = c.mask_a & c.mask_b, either = c.mask_a | c.mask_b;
+        extra[0] = vertex_late(0, lowest_bit(both), 1, 1);
+        extra[1] = vertex_late(0, lowest_bit(both), 2, 2);
+        extra[2] = vertex_late(1, lowest_gap(either), -2, 2);
+        return;
+    }
+    unsigned first = c.flag_a ? c.mask_a : c.flag_b ? c.mask_b : c.mask_a & c.mask_b;
+    extra[0] = NOISE_EXT4_CORNER2[first][1];
+    extra[1] = NOISE_EXT4_CORNER2[first][2];
+    if (c.flag_a || c.flag_b)
+        extra[2] = vertex_late(1, lowest_gap(c.flag_a ? c.mask_b : c.mask_a), -2, 2);
+    else
+        extra[2] = vertex_of_mask(15, 1, 0, 4);
+}
+
+double noise_point_4(const uint8_t *permutation, const double *c) {
+    NoisePoint point = {.permutation = permutation};
+    if (!point_place(&point, c, 4))
+        return 0;
+    double value;
+    NoiseVertex between[MOST_EXTRA];
+    const NoiseVertex *extra = between;
+    if (point.sum <= 1) {
+        value = add_vertices(&point, 0, NOISE_CORE4_A, 5, 4);
+        extra = extras_4a(point.frac, point.sum);
+    } else if (point.sum >= 3) {
+        value = add_vertices(&point, 0, NOISE_CORE4_B, 5, 4);
+        extra = extras_4b(point.frac, point.sum);
+    } else if (point.sum <= 2) {
+        value = add_vertices(&point, 0, NOISE_CORE4_C, 10, 4);
+        extras_4c(point.frac, point.sum, between);
+    } else {
+        value = add_vertices(&point, 0, NOISE_CORE4_D, 10, 4);
+        extras_4d(point.frac, point.sum, between);
+    }
+    return add_vertices(&point, value, extra, 3, 4) / NOISE_N[4];
+}

@@ -1,0 +1,12 @@
+// noise_point.h: classic OpenSimplex noise at one point; private to lib/builtin.
+#ifndef PETRI_BUILTIN_NOISE_POINT_H
+#define PETRI_BUILTIN_NOISE_POINT_H
+
+#include <stdint.h>
+
+// The noise at the point c of two, three or four coordinates, for a permutation of 0 to 255.
+double noise_point_2(const uint8_t *permutation, const double *c);
+double noise_point_3(const uint8_t *permutation, const double *c);
+double noise_point_4(const uint8_t *permutation, const double *c);
+
+#endif

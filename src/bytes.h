@@ -1,0 +1,28 @@
+// bytes.h: growable text and memory for the command. Where memory is used up, a message is given and the process ends.
+#ifndef PETRI_SRC_BYTES_H
+#define PETRI_SRC_BYTES_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+void *memory_zeroed(size_t size);
+void *memory_resized(void *block, size_t size);
+char *memory_copied(const char *text, size_t length);
+
+// `data` ends in a NUL that `length` does not count, once something was added.
+typedef struct Bytes {
+    char *data;
+    size_t length;
+    size_t capacity;
+} Bytes;
+
+void bytes_add(Bytes *text, const char *more, size_t length);
+__attribute__((format(printf, 2, 3))) void bytes_format(Bytes *text, const char *format, ...);
+// Adds all that can be read from the descriptor, or from the file; false with errno set.
+bool bytes_read(Bytes *text, int fd);
+bool bytes_read_file(Bytes *text, const char *path);
+// Replaces the file at once: who reads it sees the old text or the new. False with errno set.
+bool bytes_replace_file(const Bytes *text, const char *path);
+void bytes_free(Bytes *text);
+
+#endif

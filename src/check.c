@@ -1,0 +1,116 @@
+// check.c: `petri check`: what is wrong with scripts, without running them.
+#include <inttypes.h>
+#include <stdio.h>
+
+#include "args.h"
+#include "petri.h"
+#include "scripts.h"
+
+enum { OPT_COLOR = 1, OPT_QUIET };
+
+static const OptionSpec OPTIONS[] = {
+    {"color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"},
+    {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
+    {0},
+};
+
+typedef struct Check {
+    ScriptList scripts;
+    bool colour;
+    bool quiet;
+    bool shown_last;
+    bool unreadable; // some path could not be read
+} Check;
+
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
+    Check *check = host;
+    // Notes belong to the diagnostic before them.
+    if (diagnostic->level != PETRI_NOTE) {
+        check->shown_last = diagnostic->level == PETRI_ERROR || !check->quiet;
+    }
+    if (check->shown_last) {
+        fputs(diagnostic->rendered, stderr);
+    }
+}
+
+static bool apply(Check *check, const Args *args, int id) {
+    switch (id) {
+    case ARG_OPERAND:
+        check->unreadable = !scripts_find(&check->scripts, args->value) || check->unreadable;
+        return true;
+    case OPT_COLOR:
+        return args_colour(args, &check->colour);
+    case OPT_QUIET:
+        check->quiet = true;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static int check_all(Check *check, const Host *host) {
+    PetriOptions options = petri_default_options();
+    options.colour = check->colour;
+    options.stack_bytes = host->stack_bytes;
+    options.diagnostic = on_diagnostic;
+    options.host = check;
+    PetriSession *session = petri_open(&options);
+    if (session == NULL) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    size_t rejected = 0;
+    for (size_t i = 0; i < check->scripts.count; i++) {
+        rejected += petri_check(session, check->scripts.items[i].path) == PETRI_OK ? 0 : 1;
+    }
+    uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
+    uint64_t warnings = petri_diagnostic_count(session, PETRI_WARNING);
+    petri_close(&session);
+    message("%zu file%s checked: %" PRIu64 " error%s, %" PRIu64 " warning%s", check->scripts.count,
+            check->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
+    return rejected > 0 || errors > 0 || check->unreadable ? STATUS_FAILED : STATUS_DONE;
+}
+
+static int read_and_check(Check *check, const Host *host, Args *args) {
+    bool has_path = false;
+    for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
+        if (id == ARG_HELP) {
+            return help_for(&CHECK_COMMAND);
+        }
+        if (id == ARG_WRONG || !apply(check, args, id)) {
+            return STATUS_USAGE;
+        }
+        has_path = has_path || id == ARG_OPERAND;
+    }
+    if (!has_path) {
+        message("nothing to check; usage: petri check PATH...");
+        return STATUS_USAGE;
+    }
+    if (check->scripts.count == 0) {
+        if (!check->unreadable) {
+            message("no script found: there is no file named *.fl");
+        }
+        return STATUS_FAILED;
+    }
+    scripts_sort(&check->scripts);
+    return check_all(check, host);
+}
+
+static int check_run(const Host *host, int argc, char **argv) {
+    Check check = {.colour = colour_by_default()};
+    Args args = args_start(&CHECK_COMMAND, argc, argv);
+    int status = read_and_check(&check, host, &args);
+    scripts_free(&check.scripts);
+    return status;
+}
+
+const Command CHECK_COMMAND = {
+    .name = "check",
+    .operands = "PATH...",
+    .summary = "tell what is wrong with scripts without running them",
+    .details =
+        "Reads scripts, or each file named *.fl in a folder and the folders in it, and reports what is wrong with\n"
+        "them. Nothing is run. The exit status is 1 if there was an error.",
+    .options = OPTIONS,
+    .run = check_run,
+};
