@@ -89,7 +89,7 @@ static AstList *prepend(ParseContext *context, Ast *first, const AstList *rest) 
 %token IF "if" ELIF "elif" ELSE "else" WHERE "where" AND "and" OR "or" XOR "xor" NOT "not"
 %token APPEND "<<" EQ "==" NE "!=" LE "<=" GE ">=" DOTS ".." FLOORDIV "//" POW "**"
 
-%nterm <ast> suite if_suite item statement lead template for_statement if_statement
+%nterm <ast> pragma suite if_suite item statement lead template for_statement if_statement
 %nterm <ast> binding wbind names param chain decorated attr comp lambda loopish cond disj conj neg cmp range sum prod unary
 %nterm <ast> power post atom literal named_arg
 %nterm <list> pragmas items bindings lets params params_opt for_clauses name_list attrs decorations compose wbinds
@@ -111,7 +111,12 @@ opt_newline: %empty | NEWLINE;
 
 pragmas:
     %empty { $$ = LIST(); }
-  | pragmas "%pragma" NAME literal NEWLINE { $$ = ast_list_add($1, named(context, AST_PRAGMA, @$, $NAME, $literal)); }
+  | pragmas pragma { $$ = ast_list_add($1, $2); }
+  ;
+pragma:
+    "%pragma" NAME literal NEWLINE {
+        $$ = named(context, AST_PRAGMA, (Span){@1.start, @literal.end}, $NAME, $literal);
+    }
   ;
 
 items:

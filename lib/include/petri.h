@@ -95,6 +95,14 @@ typedef struct PetriFrame {
 
 PetriFrame petri_frame(const PetriSession *session);
 
+// Writes the state dictionary, the frame number and what the systems need to go on to a file, which is replaced as a
+// whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
+PetriStatus petri_save(PetriSession *session, const char *file);
+// Takes a saved state back, after petri_load: the next frame is the one after that which was saved, and goes on from it
+// to the last bit. A file that does not exist is PETRI_OK and changes nothing. One that cannot be read, is cut short or
+// damaged is PETRI_INVALID (with a diagnostic) and changes nothing either.
+PetriStatus petri_restore(PetriSession *session, const char *file);
+
 // What a frame's text holds (spec cli.md 3.3), in this order.
 enum {
     PETRI_PRINT_TREE = 1,

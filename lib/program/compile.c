@@ -58,7 +58,9 @@ static const Expr *compile_cond(Compiler *compiler, const Ast *ast) {
     const Expr *parts[3] = {test, compile_expr(compiler, ast->children[0])};
     if (ast->children[2])
         parts[2] = compile_expr(compiler, ast->children[2]);
-    return compile_expr_new(compiler, EXPR_IF, ast, parts, ast->children[2] ? 3 : 2);
+    const Expr *expr = compile_expr_new(compiler, EXPR_IF, ast, parts, ast->children[2] ? 3 : 2);
+    lint_branches(compiler, expr);
+    return expr;
 }
 
 // BINDING: the value first, then its names become visible.
@@ -66,7 +68,7 @@ static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0];
     const Expr *value = compile_expr(compiler, binding->children[1]);
     Expr *bind = compile_expr_new(compiler, EXPR_BIND, binding, &value, 1);
-    bind->slot = compile_bind_names(compiler, names, binding->children[1]);
+    bind->slot = compile_bind_names(compiler, BINDING_LET, names, binding->children[1]);
     bind->slot_count = names->count;
     return bind;
 }
@@ -91,7 +93,7 @@ static const Expr *compile_where(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_for(Compiler *compiler, const Ast *ast) {
     const Expr *parts[2] = {compile_expr(compiler, ast->children[1])};
     ScopeMark mark = compile_scope_open(compiler);
-    uint32_t slot = compile_bind_names(compiler, ast->children[0], NULL);
+    uint32_t slot = compile_bind_names(compiler, BINDING_LOOP, ast->children[0], NULL);
     parts[1] = compile_expr(compiler, ast->children[2]);
     compile_scope_close(compiler, mark);
     Expr *expr = compile_expr_new(compiler, EXPR_FOR, ast, parts, 2);
@@ -145,6 +147,7 @@ static const Expr *make_call(Compiler *compiler, const Ast *ast, const Ast *cons
     }
     Expr *expr = compile_expr_new(compiler, EXPR_CALL, ast, children, count + 1);
     expr->as.call = code;
+    lint_call(compiler, ast, children[0], code);
     return expr;
 }
 
@@ -160,7 +163,7 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     return make_call(compiler, ast, args, count);
 }
 
-static const Expr *compile_func(Compiler *compiler, const Ast *ast) {
+const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     const Ast *params = ast->children[0];
     FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
     const Symbol **names = arena_alloc_array(compiler->arena, params->count, sizeof *names);
@@ -177,7 +180,7 @@ static const Expr *compile_func(Compiler *compiler, const Ast *ast) {
     FunctionScope function;
     compile_function_open(compiler, &function, ast->name);
     for (uint32_t i = 0; i < params->count; i++)
-        compile_bind(compiler, names[i], params->children[i]->span, NULL);
+        compile_bind(compiler, BINDING_PARAM, names[i], params->children[i]->span, NULL);
     code->body = compile_expr(compiler, ast->children[1]);
     compile_function_close(compiler, &function, code);
     Expr *expr = compile_expr_new(compiler, EXPR_FUNC, ast, NULL, 0);
@@ -187,11 +190,11 @@ static const Expr *compile_func(Compiler *compiler, const Ast *ast) {
 
 // `func name(…)` as a statement binds the name; without one the closure is the statement's value.
 static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
-    const Expr *closure = compile_func(compiler, ast);
+    const Expr *closure = compile_closure(compiler, ast);
     if (!ast->name)
         return closure;
     Expr *bind = compile_expr_new(compiler, EXPR_BIND, ast, &closure, 1);
-    bind->slot = compile_bind(compiler, ast->name, ast->span, ast);
+    bind->slot = compile_bind(compiler, BINDING_FUNC, ast->name, ast->span, ast);
     bind->slot_count = 1;
     return bind;
 }
@@ -205,7 +208,7 @@ static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
     ImportCode *code = arena_alloc(compiler->arena, sizeof *code);
     *code = (ImportCode){symbols, names->count};
     Expr *expr = compile_expr_new(compiler, EXPR_IMPORT, ast, &file, 1);
-    expr->slot = compile_bind_names(compiler, names, NULL);
+    expr->slot = compile_bind_names(compiler, BINDING_IMPORT, names, NULL);
     expr->slot_count = names->count;
     expr->as.import = code;
     return expr;
@@ -238,8 +241,6 @@ static ExprKind plain_kind(AstKind kind) {
     switch (kind) {
     case AST_COMPOSE:
         return EXPR_COMPOSE;
-    case AST_IF:
-        return EXPR_IF;
     case AST_APPEND:
         return EXPR_APPEND;
     case AST_OR:
@@ -325,6 +326,11 @@ const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     case AST_LOOKUP:
         compiler->function->dynamic = true;
         return compile_children(compiler, EXPR_LOOKUP, ast);
+    case AST_IF: {
+        const Expr *expr = compile_children(compiler, EXPR_IF, ast);
+        lint_branches(compiler, expr);
+        return expr;
+    }
     default:
         return compile_children(compiler, plain_kind(ast->kind), ast);
     }
@@ -334,6 +340,7 @@ static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program
     Pragma *pragmas = arena_alloc_array(compiler->arena, ast->count, sizeof *pragmas);
     for (uint32_t i = 0; i < ast->count && ast->children[i]->kind == AST_PRAGMA; i++) {
         const Ast *pragma = ast->children[i];
+        lint_pragma(compiler, pragma);
         pragmas[program->pragma_count++] =
             (Pragma){pragma->name, pragma->children[0]->value, compiler->source, pragma->span};
     }
@@ -352,10 +359,22 @@ static void collect_exports(Compiler *compiler, Program *program) {
     program->exports = exports;
 }
 
+// Does a file only bind names at its top level?
+static bool binds_only(const Ast *ast) {
+    for (uint32_t i = 0; i < ast->count; i++) {
+        AstKind kind = ast->children[i]->kind;
+        bool binds = kind == AST_LET || kind == AST_LET_STABLE || kind == AST_IMPORT || kind == AST_PRAGMA ||
+                     (kind == AST_FUNC && ast->children[i]->name);
+        if (!binds)
+            return false;
+    }
+    return true;
+}
+
 const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source *source, const Ast *ast,
                                const CompileOptions *options, DiagSink *diags) {
     Compiler compiler = {
-        .arena = arena, .symbols = symbols, .source = source, .options = options, .diags = diags};
+        .arena = arena, .symbols = symbols, .source = source, .options = options, .diags = diags, .is_module = binds_only(ast)};
     FunctionScope function;
     compile_function_open(&compiler, &function, NULL);
     Program *program = arena_alloc(arena, sizeof *program);
@@ -365,6 +384,7 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
     Ast *body = ast_new(arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
     program->body = compile_children(&compiler, EXPR_COMPOSE, body);
     collect_exports(&compiler, program);
+    lint_unused(&compiler, compiler.function->scope, NULL);
     program->frame_size = function.frame_size;
     return program;
 }

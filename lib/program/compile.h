@@ -4,6 +4,9 @@
 
 #include "program/program.h"
 
+// What bound a name; decides what a lint says of it.
+typedef enum BindingKind { BINDING_LET, BINDING_FUNC, BINDING_PARAM, BINDING_LOOP, BINDING_IMPORT } BindingKind;
+
 // A name that is visible from here on. Bindings form a chain from the innermost outwards, one chain per function.
 typedef struct Binding Binding;
 struct Binding {
@@ -11,6 +14,8 @@ struct Binding {
     const Symbol *name;
     uint32_t slot;
     Span span;
+    BindingKind kind;
+    bool used; // some name has been resolved to it
     // For %include: the syntax tree of the value and which of its unpacked elements this is. NULL: not static.
     const Ast *value;
     uint32_t element;
@@ -32,7 +37,7 @@ struct FunctionScope {
     bool dynamic; // uses something that is not static (L17.2)
     // A scratch function that evaluates a static expression: outer names are found from here and become constants.
     FunctionScope *static_outer;
-    const Binding *static_scope;
+    Binding *static_scope;
 };
 
 typedef struct Compiler {
@@ -42,6 +47,7 @@ typedef struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
+    bool is_module; // the file only binds names: they are for others, so none is unused
 } Compiler;
 
 typedef struct ScopeMark {
@@ -50,20 +56,32 @@ typedef struct ScopeMark {
 } ScopeMark;
 
 const Expr *compile_expr(Compiler *compiler, const Ast *ast);
+// FUNC as a value, whether it has a name or not.
+const Expr *compile_closure(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
 void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint);
 
 ScopeMark compile_scope_open(Compiler *compiler);
 void compile_scope_close(Compiler *compiler, ScopeMark mark);
 // Makes one name visible; returns its slot. `value` is its static syntax tree or NULL.
-uint32_t compile_bind(Compiler *compiler, const Symbol *name, Span span, const Ast *value);
+uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Makes a NAMES node visible in consecutive slots; returns the first.
-uint32_t compile_bind_names(Compiler *compiler, const Ast *names, const Ast *value);
+uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
+// The binding that a name has here, in this function or an enclosing one, or NULL. Does not count as a use.
+const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
 // Fills frame size and captures of `code` and returns to the enclosing function.
 void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code);
 // The resolved path of an %include; false (after a diagnostic, or silently for null) if there is none.
 bool compile_include_path(Compiler *compiler, const Ast *file, Str *path);
+
+// Lints, for `petri check`: things that are no faults but hardly meant (lint.c). All do nothing unless asked for.
+void lint_bind(Compiler *compiler, const Binding *binding);
+// Bindings from `scope` down to `end`, which go out of sight.
+void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
+void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
+void lint_branches(Compiler *compiler, const Expr *expr);
+void lint_pragma(Compiler *compiler, const Ast *pragma);
 
 #endif

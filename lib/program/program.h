@@ -113,6 +113,7 @@ typedef struct Define {
 
 typedef struct CompileOptions {
     bool module;           // neither engine names nor -D names are visible; unbound names are reported when reached
+    bool lint;             // report what is hardly meant, too
     const Define *defines; // later ones count
     uint32_t define_count;
     CompileHost host;

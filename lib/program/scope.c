@@ -9,31 +9,34 @@ ScopeMark compile_scope_open(Compiler *compiler) {
 
 // Slots of a closed scope are used again: closures have copied what they need.
 void compile_scope_close(Compiler *compiler, ScopeMark mark) {
+    lint_unused(compiler, compiler->function->scope, mark.scope);
     compiler->function->scope = mark.scope;
     compiler->function->next_slot = mark.next_slot;
 }
 
-static Binding *bind(Compiler *compiler, const Symbol *name, Span span) {
+static Binding *bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span) {
     FunctionScope *function = compiler->function;
     Binding *binding = arena_alloc(compiler->arena, sizeof *binding);
-    *binding = (Binding){.outer = function->scope, .name = name, .slot = function->next_slot++, .span = span};
+    *binding =
+        (Binding){.outer = function->scope, .name = name, .slot = function->next_slot++, .span = span, .kind = kind};
     function->scope = binding;
+    lint_bind(compiler, binding);
     if (function->next_slot > function->frame_size)
         function->frame_size = function->next_slot;
     return binding;
 }
 
-uint32_t compile_bind(Compiler *compiler, const Symbol *name, Span span, const Ast *value) {
-    Binding *binding = bind(compiler, name, span);
+uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value) {
+    Binding *binding = bind(compiler, kind, name, span);
     binding->value = value;
     binding->element_count = 1;
     return binding->slot;
 }
 
-uint32_t compile_bind_names(Compiler *compiler, const Ast *names, const Ast *value) {
+uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value) {
     uint32_t slot = compiler->function->next_slot;
     for (uint32_t i = 0; i < names->count; i++) {
-        Binding *binding = bind(compiler, names->children[i]->name, names->children[i]->span);
+        Binding *binding = bind(compiler, kind, names->children[i]->name, names->children[i]->span);
         binding->value = value;
         binding->element = i;
         binding->element_count = names->count;
@@ -47,6 +50,7 @@ void compile_function_open(Compiler *compiler, FunctionScope *function, const Sy
 }
 
 void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code) {
+    lint_unused(compiler, function->scope, NULL);
     code->frame_size = function->frame_size;
     code->captures = function->captures;
     code->capture_count = function->capture_count;
@@ -67,10 +71,19 @@ static const Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, 
     return expr;
 }
 
-static const Binding *find_binding(const Binding *scope, const Symbol *name) {
+static Binding *find_binding(Binding *scope, const Symbol *name) {
     while (scope && scope->name != name)
         scope = scope->outer;
     return scope;
+}
+
+const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name) {
+    for (const FunctionScope *function = compiler->function; function; function = function->outer) {
+        const Binding *binding = find_binding(function->scope, name);
+        if (binding || function->self == name)
+            return binding;
+    }
+    return NULL;
 }
 
 static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *binding, bool *dynamic);
@@ -99,18 +112,22 @@ static const Expr *capture(Compiler *compiler, FunctionScope *function, const As
 static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, const Ast *ast) {
     if (!function)
         return NULL;
-    const Binding *binding = find_binding(function->scope, ast->name);
-    if (binding)
+    Binding *binding = find_binding(function->scope, ast->name);
+    if (binding) {
+        binding->used = true;
         return slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
+    }
     if (function->self == ast->name)
         return slot_expr(compiler, EXPR_SELF, ast, 0);
     if (function->static_outer) {
         // Inside a static expression: names of the program are replaced by their values.
-        const Binding *scope = function->static_scope;
+        Binding *scope = function->static_scope;
         for (FunctionScope *at = function->static_outer; at; at = at->outer, scope = at ? at->scope : NULL) {
             binding = find_binding(scope, ast->name);
-            if (binding)
+            if (binding) {
+                binding->used = true;
                 return constant(compiler, ast, static_value(compiler, at, binding, &function->dynamic));
+            }
             if (at->self == ast->name)
                 function->dynamic = true;
         }
@@ -212,7 +229,7 @@ const Expr *compile_name(Compiler *compiler, const Ast *ast) {
 }
 
 // Compiles and evaluates a syntax tree as it stands in `scope` of function `at`; sets *dynamic if it is not static.
-static Value evaluate_static(Compiler *compiler, FunctionScope *at, const Binding *scope, const Ast *ast,
+static Value evaluate_static(Compiler *compiler, FunctionScope *at, Binding *scope, const Ast *ast,
                              bool *dynamic) {
     FunctionScope scratch, *outer = compiler->function;
     compile_function_open(compiler, &scratch, NULL);
@@ -222,7 +239,7 @@ static Value evaluate_static(Compiler *compiler, FunctionScope *at, const Bindin
     DiagSink *diags = compiler->diags;
     DiagSink discarded = diag_sink_new(compiler->arena, 0); // what is wrong here is reported where it is really compiled
     compiler->diags = &discarded;
-    const Expr *expr = compile_expr(compiler, ast);
+    const Expr *expr = ast->kind == AST_FUNC ? compile_closure(compiler, ast) : compile_expr(compiler, ast);
     compiler->diags = diags;
     compiler->function = outer;
     if (scratch.dynamic) {

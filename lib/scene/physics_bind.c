@@ -3,6 +3,7 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
     Vector key = vector_new(arena);
@@ -18,6 +19,27 @@ double scene_number(const State *state, StateSlot slot, double fallback) {
     return v.kind == VALUE_NUMBERS && v.len == 1 ? v.as.number : fallback;
 }
 
+static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
+    PhysicsSystem *system = calloc(1, sizeof *system);
+    if (!system)
+        return NULL;
+    PhysicsSystem **end = &scene->systems;
+    while (*end)
+        end = &(*end)->next;
+    *end = system;
+    Value prefix = state_slot_key(frame->state, start);
+    *system = (PhysicsSystem){
+        .start = start,
+        .occurrence = occurrence,
+        .run = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_run)),
+        .iteration = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_iteration)),
+        .clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock)),
+        .last = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_last)),
+        .engine = phys_new(),
+    };
+    return system;
+}
+
 // The record of the system with this prefix, made if it is new; NULL if memory is used up.
 static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *frame) {
     StateSlot start = state_slot(frame->state, prefix);
@@ -31,21 +53,37 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
             return system;
         occurrence++;
     }
-    PhysicsSystem *system = calloc(1, sizeof *system);
+    return new_system(scene, start, occurrence, frame);
+}
+
+// Keeps a copy of the slots of a tree's particles.
+static bool keep_slots(PhysicsSystem *system, const StateSlot *slots, uint32_t count) {
+    system->slot_count = 0;
+    if (system->slot_capacity < count) {
+        StateSlot *larger = realloc(system->slots, count * sizeof *larger);
+        if (!larger)
+            return false;
+        system->slots = larger;
+        system->slot_capacity = count;
+    }
+    if (count)
+        memcpy(system->slots, slots, count * sizeof *slots);
+    system->slot_count = count;
+    return true;
+}
+
+bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *saved) {
+    const PhysicsSystem *system = *cursor ? ((const PhysicsSystem *)*cursor)->next : scene->systems;
     if (!system)
-        return NULL;
-    PhysicsSystem **end = &scene->systems;
-    while (*end)
-        end = &(*end)->next;
-    *end = system;
-    system->start = start;
-    system->occurrence = occurrence;
-    system->run = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_run));
-    system->iteration = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_iteration));
-    system->clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock));
-    system->last = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_last));
-    system->engine = phys_new();
-    return system;
+        return false;
+    *cursor = system;
+    *saved = (SceneSystem){system->start, system->occurrence, system->slots, system->slot_count};
+    return true;
+}
+
+bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFrame *frame) {
+    PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
+    return system && keep_slots(system, saved->slots, saved->slot_count);
 }
 
 static void set_number(const SceneFrame *frame, StateSlot slot, double x) {
@@ -72,18 +110,12 @@ static void remember_particles(PhysicsSystem *system, const PhysicsTree *tree) {
             state_slot_set(tree->frame->state, system->slots[i], VALUE_NULL);
             state_slot_set(tree->frame->state, system->slots[i + 1], VALUE_NULL);
         }
-    system->slot_count = 0;
-    if (system->slot_capacity < count) {
-        StateSlot *slots = realloc(system->slots, count * sizeof *slots);
-        if (!slots)
-            return;
-        system->slots = slots;
-        system->slot_capacity = count;
-    }
+    StateSlot *slots = arena_alloc_array(tree->frame->arena, count, sizeof *slots);
     for (uint32_t i = 0; i < tree->body_count; i++) {
-        system->slots[system->slot_count++] = tree->bodies[i].position;
-        system->slots[system->slot_count++] = tree->bodies[i].velocity;
+        slots[2 * i] = tree->bodies[i].position;
+        slots[2 * i + 1] = tree->bodies[i].velocity;
     }
+    keep_slots(system, slots, count);
 }
 
 static bool all_finite(const double *numbers, uint32_t n) {

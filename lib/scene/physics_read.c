@@ -31,6 +31,16 @@ const Body *physics_find_body(const PhysicsTree *tree, Value id) {
     return slot == STATE_NO_SLOT ? NULL : physics_find_slot(tree, slot);
 }
 
+// The system's own keys are prefix;:last and so on: a particle of that id fights with them.
+static void check_reserved(const PhysicsTree *tree, const Reader *reader, Value id) {
+    const Scene *scene = tree->scene;
+    const Symbol *const reserved[] = {scene->key_last, scene->key_clock, scene->key_run, scene->key_iteration};
+    for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
+        if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number)
+            reader_report(reader, DIAG_WARNING, "reserved-id",
+                          STR("the system keeps a value of its own under this id"));
+}
+
 // Remembers a body; NULL (reported) if it has no usable id or one that was seen already.
 static Body *add_body(PhysicsTree *tree, const Reader *reader, AttrRow id_row, bool anchor) {
     Arena *arena = tree->frame->arena;
@@ -45,6 +55,7 @@ static Body *add_body(PhysicsTree *tree, const Reader *reader, AttrRow id_row, b
         reader_report(reader, DIAG_WARNING, "duplicate-id", STR("a particle with this id is there already; ignored"));
         return NULL;
     }
+    check_reserved(tree, reader, id);
     if (tree->body_count == tree->body_capacity) {
         uint32_t capacity = tree->body_capacity ? tree->body_capacity * 2 : 64;
         tree->bodies = arena_grow(arena, tree->bodies, tree->body_capacity * sizeof *tree->bodies,

@@ -24,6 +24,17 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host);
 void scene_free(Scene *scene);
 // Forgets what was in the last frame's tree (for when the state dictionary has been replaced).
 void scene_reset(Scene *scene);
+// For saving: the systems and the state keys of the particles in their last frame's trees, which decide what a later
+// frame removes. `*cursor` starts at NULL; false at the end. Slots come in pairs: position, velocity.
+typedef struct SceneSystem {
+    StateSlot prefix;
+    uint32_t occurrence; // of several systems with one prefix
+    const StateSlot *slots;
+    uint32_t slot_count;
+} SceneSystem;
+bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *system);
+// Takes a system back, as scene_next_system gave it; false if memory is used up.
+bool scene_restore_system(Scene *scene, const SceneSystem *system, const SceneFrame *frame);
 // Updates all systems from the node elements of `tree`; returns the simulation steps made.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 

@@ -51,11 +51,18 @@ void session_start(PetriSession *session, const Program *program) {
     session->slow_frame = false;
 }
 
+void session_resume(PetriSession *session, int64_t number) {
+    PetriFrame *frame = &session->frame;
+    frame->number = number;
+    frame->time = (double)number / frame->fps;
+    frame->beat = frame->time / (60 / frame->tempo);
+}
+
 // In real time: sleeps until frame `number` is due and returns the monotonic time.
 static double wait_for_frame(PetriSession *session, int64_t number) {
     double at = now(CLOCK_MONOTONIC);
-    if (number == 0) {
-        session->start = at;
+    if (session->start == 0) { // the first frame, or the first after a restored state
+        session->start = at - (double)number / session->frame.fps;
         return at;
     }
     double due = session->start + (double)number / session->frame.fps;

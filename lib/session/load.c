@@ -1,14 +1,10 @@
 // load.c: files to programs: the script, its modules and includes (spec language.md L13, L14).
 #include "session/session.h"
 
+#include "base/file.h"
 #include "syntax/parse.h"
 
-#include <errno.h>
-#include <fcntl.h>
 #include <stdlib.h>
-#include <string.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #define MAX_SOURCE_BYTES ((size_t)1 << 30)
 #define UNIT_BUDGET ((size_t)4 << 30)
@@ -27,68 +23,6 @@ void unit_free(Unit *unit) {
     if (unit)
         arena_free(&unit->arena);
     free(unit);
-}
-
-// Reads everything; false with a reason.
-static bool read_descriptor(Arena *arena, int descriptor, const struct stat *info, Str *text, Str *why) {
-    size_t capacity = info->st_size > 0 ? (size_t)info->st_size + 1 : 4096, len = 0;
-    char *bytes = arena_alloc(arena, capacity);
-    for (;;) {
-        if (len == capacity) {
-            bytes = arena_grow(arena, bytes, capacity, capacity * 2);
-            capacity *= 2;
-        }
-        ssize_t got = read(descriptor, bytes + len, capacity - len);
-        if (got < 0 && errno == EINTR)
-            continue;
-        if (got < 0) {
-            *why = str_from(strerror(errno));
-            return false;
-        }
-        if (got == 0)
-            break;
-        len += (size_t)got;
-        if (len > MAX_SOURCE_BYTES) {
-            *why = STR("larger than 1 GiB");
-            return false;
-        }
-    }
-    *text = (Str){bytes, len};
-    return true;
-}
-
-static Str file_version(Arena *arena, const struct stat *info) {
-    return str_format(arena, "%lld.%ld %lld %llu", (long long)info->st_mtim.tv_sec, (long)info->st_mtim.tv_nsec,
-                      (long long)info->st_size, (unsigned long long)info->st_ino);
-}
-
-// Reads a file of the unit's; fills *version if it is not NULL.
-static bool read_file(Arena *arena, const char *file, Str *text, Str *version, Str *why) {
-    int descriptor = open(file, O_RDONLY | O_CLOEXEC);
-    struct stat info;
-    if (descriptor < 0 || fstat(descriptor, &info) != 0) {
-        *why = str_from(strerror(errno));
-        if (descriptor >= 0)
-            close(descriptor);
-        return false;
-    }
-    bool done = false;
-    if (S_ISDIR(info.st_mode)) {
-        *why = STR("it is a directory");
-    } else {
-        if (version)
-            *version = file_version(arena, &info);
-        done = read_descriptor(arena, descriptor, &info, text, why);
-    }
-    close(descriptor);
-    return done;
-}
-
-static Str canonical_path(Arena *arena, const char *file) {
-    char *resolved = realpath(file, NULL);
-    Str path = str_copy(arena, str_from(resolved ? resolved : file));
-    free(resolved);
-    return path;
 }
 
 // True if this is the first %include of the path in the unit.
@@ -114,13 +48,16 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     PetriSession *session = host;
     Unit *unit = session->loading;
     const char *file = str_to_c(&unit->arena, path);
-    Str canonical = canonical_path(&unit->arena, file), text;
+    Str canonical = file_canonical(&unit->arena, file), text;
+    const char *problem;
     if (str_equal(canonical, unit->path) || !take_include(unit, canonical)) {
         *why = STR("this file is included already");
         return NULL;
     }
-    if (!read_file(&unit->arena, file, &text, NULL, why))
+    if (!file_read(&unit->arena, file, MAX_SOURCE_BYTES, &text, NULL, &problem)) {
+        *why = str_from(problem);
         return NULL;
+    }
     *source = source_new(&unit->arena, path, canonical, text);
     const Ast *ast = parse(session, unit, *source);
     if (!ast) {
@@ -139,9 +76,21 @@ static Value host_evaluate(void *host, const Expr *expr, uint32_t frame_size) {
     return vm_run_static(&session->vm, &session->loading->arena, expr, frame_size);
 }
 
+// In the order of the text, as far as they are of one file: a name is known to be unused only at the end.
+static void sort_by_place(DiagSink *sink) {
+    for (uint32_t i = 1; i < sink->count; i++) {
+        Diag diag = sink->items[i];
+        uint32_t at = i;
+        for (; at > 0 && sink->items[at - 1].source == diag.source && sink->items[at - 1].span.start > diag.span.start; at--)
+            sink->items[at] = sink->items[at - 1];
+        sink->items[at] = diag;
+    }
+}
+
 static void compile(PetriSession *session, Unit *unit, bool module) {
     DiagSink sink = diag_sink_new(&unit->arena, MOST_ERRORS);
     CompileOptions options = {.module = module,
+                              .lint = session->lint,
                               .defines = session->defines,
                               .define_count = session->define_count,
                               .host = {session, host_include, host_evaluate}};
@@ -149,6 +98,7 @@ static void compile(PetriSession *session, Unit *unit, bool module) {
     session->loading = unit;
     unit->program = program_compile(&unit->arena, &session->symbols, unit->source, unit->ast, &options, &sink);
     session->loading = outer;
+    sort_by_place(&sink);
     session_tell_all(session, &sink);
     diag_sink_free(&sink);
 }
@@ -180,18 +130,21 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
         session->modules = unit;
     }
     Str text;
-    unit->path = canonical_path(&unit->arena, file);
-    if (read_file(&unit->arena, file, &text, &unit->version, &unit->why))
+    const char *problem;
+    unit->path = file_canonical(&unit->arena, file);
+    if (file_read(&unit->arena, file, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
+    else
+        unit->why = str_copy(&unit->arena, str_from(problem));
     return unit;
 }
 
 // The cached module at a canonical path, if its file has not changed since.
-static Unit *cached_module(PetriSession *session, Str path, const struct stat *info) {
+static Unit *cached_module(PetriSession *session, Str path, Str version) {
     for (Unit *unit = session->modules; unit; unit = unit->next) {
         if (unit->retired || !str_equal(unit->path, path))
             continue;
-        if (str_equal(unit->version, file_version(&session->frame_arena, info)))
+        if (str_equal(unit->version, version))
             return unit;
         unit->retired = true;
     }
@@ -201,12 +154,12 @@ static Unit *cached_module(PetriSession *session, Str path, const struct stat *i
 const Program *session_module(void *host, Str path, Str *why) {
     PetriSession *session = host;
     const char *file = str_to_c(&session->frame_arena, path);
-    struct stat info;
-    if (stat(file, &info) != 0) {
-        *why = str_from(strerror(errno));
+    Str version;
+    if (!file_version(&session->frame_arena, file, &version)) {
+        *why = STR("there is no such file");
         return NULL;
     }
-    Unit *unit = cached_module(session, canonical_path(&session->frame_arena, file), &info);
+    Unit *unit = cached_module(session, file_canonical(&session->frame_arena, file), version);
     if (!unit)
         unit = unit_load_file(session, file, true);
     if (!unit) {

@@ -261,7 +261,10 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
 }
 
 PetriStatus petri_check(PetriSession *session, const char *file) {
-    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, false);
+    session->lint = true;
+    PetriStatus status = load(session, &(LoadRequest){.file = file, .name = str_from(file)}, false);
+    session->lint = false;
+    return status;
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {

@@ -39,6 +39,7 @@ struct PetriSession {
     Unit *program; // the loaded script, or NULL
     Unit *modules; // list
     Unit *loading; // whose compiler calls back
+    bool lint;     // petri_check is at work
     Vm vm;
 
     // Diagnostics already given: hashes of their texts.
@@ -81,5 +82,7 @@ void session_free_retired(PetriSession *session);
 
 // Takes tempo, quantum and fps from a program's pragmas and goes to before frame 0.
 void session_start(PetriSession *session, const Program *program);
+// Goes to just after a frame.
+void session_resume(PetriSession *session, int64_t frame);
 
 #endif

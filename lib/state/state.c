@@ -181,6 +181,10 @@ Value state_slot_get(const State *state, StateSlot slot) {
     return slot < state->count ? state->entries[slot].value : VALUE_NULL;
 }
 
+Value state_slot_key(const State *state, StateSlot slot) {
+    return slot < state->count ? state->entries[slot].key : VALUE_NULL;
+}
+
 bool state_slot_set(State *state, StateSlot slot, Value value) {
     if (slot >= state->count)
         return slot != STATE_NO_SLOT;

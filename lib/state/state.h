@@ -33,6 +33,8 @@ StateSlot state_slot(State *state, Value key);
 // The slot of a key if there is one, else STATE_NO_SLOT.
 StateSlot state_find(const State *state, Value key);
 Value state_slot_get(const State *state, StateSlot slot);
+// The key of a slot; a borrowed view, valid until state_clear.
+Value state_slot_key(const State *state, StateSlot slot);
 // As state_set. Numbers of unchanged length are overwritten in place.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 

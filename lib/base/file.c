@@ -1,0 +1,130 @@
+// file.c: see file.h.
+#include "base/file.h"
+
+#include "base/source.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+static Str version_of(Arena *arena, const struct stat *info) {
+    return str_format(arena, "%lld.%ld %lld %llu", (long long)info->st_mtim.tv_sec, (long)info->st_mtim.tv_nsec,
+                      (long long)info->st_size, (unsigned long long)info->st_ino);
+}
+
+bool file_version(Arena *arena, const char *path, Str *version) {
+    struct stat info;
+    if (stat(path, &info) != 0)
+        return false;
+    *version = version_of(arena, &info);
+    return true;
+}
+
+// Reads to the end of the file, or to just beyond the limit.
+static bool read_all(Arena *arena, int file, size_t expected, size_t limit, Str *bytes, const char **problem) {
+    size_t capacity = expected + 1, len = 0;
+    char *buffer = arena_alloc(arena, capacity);
+    for (;;) {
+        if (len + 1 >= capacity) {
+            buffer = arena_grow(arena, buffer, capacity, capacity * 2);
+            capacity *= 2;
+        }
+        ssize_t got = read(file, buffer + len, capacity - len - 1);
+        if (got < 0 && errno == EINTR)
+            continue;
+        if (got < 0) {
+            *problem = strerror(errno);
+            return false;
+        }
+        len += (size_t)got;
+        if (len > limit) {
+            *problem = "it is too large";
+            return false;
+        }
+        if (got == 0)
+            break;
+    }
+    buffer[len] = 0;
+    *bytes = (Str){buffer, len};
+    return true;
+}
+
+bool file_read(Arena *arena, const char *path, size_t limit, Str *bytes, Str *version, const char **problem) {
+    int file = open(path, O_RDONLY | O_CLOEXEC);
+    struct stat info;
+    if (file < 0 || fstat(file, &info) != 0) {
+        *problem = strerror(errno);
+        if (file >= 0)
+            close(file);
+        return false;
+    }
+    bool done = false;
+    if (S_ISDIR(info.st_mode)) {
+        *problem = "it is a directory";
+    } else if (info.st_size > 0 && (size_t)info.st_size > limit) {
+        *problem = "it is too large";
+    } else {
+        if (version)
+            *version = version_of(arena, &info);
+        done = read_all(arena, file, info.st_size > 0 ? (size_t)info.st_size + 1 : 4096, limit, bytes, problem);
+    }
+    close(file);
+    return done;
+}
+
+static bool write_all(int file, Str bytes) {
+    while (bytes.len > 0) {
+        ssize_t put = write(file, bytes.bytes, bytes.len);
+        if (put < 0 && errno == EINTR)
+            continue;
+        if (put < 0)
+            return false;
+        bytes = (Str){bytes.bytes + put, bytes.len - (size_t)put};
+    }
+    return true;
+}
+
+// The directory entry must reach the disk too; some file systems refuse to sync a directory, which is no failure.
+static void sync_directory(Arena *arena, const char *path) {
+    Str directory = path_directory(str_from(path));
+    int file = open(directory.len ? str_to_c(arena, directory) : ".", O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+    if (file >= 0) {
+        fsync(file);
+        close(file);
+    }
+}
+
+bool file_replace(Arena *arena, const char *path, Str bytes, const char **problem) {
+    Str canonical = file_canonical(arena, path); // a symbolic link stays one
+    const char *target = str_to_c(arena, canonical);
+    char *beside = str_to_c(arena, str_format(arena, "%s.%ld.tmp", target, (long)getpid()));
+    int file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) {
+        *problem = strerror(errno);
+        return false;
+    }
+    struct stat info;
+    if (stat(target, &info) == 0)
+        (void)!fchmod(file, info.st_mode & 07777);
+    bool written = write_all(file, bytes) && fsync(file) == 0;
+    int error = errno;
+    written = close(file) == 0 && written;
+    if (written && rename(beside, target) == 0) {
+        sync_directory(arena, target);
+        return true;
+    }
+    *problem = strerror(error ? error : errno);
+    unlink(beside);
+    return false;
+}
+
+Str file_canonical(Arena *arena, const char *path) {
+    char *resolved = realpath(path, NULL);
+    Str canonical = str_copy(arena, str_from(resolved ? resolved : path));
+    free(resolved);
+    return canonical;
+}

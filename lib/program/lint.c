@@ -1,0 +1,127 @@
+// lint.c: what `petri check` says beyond faults; see compile.h.
+#include "program/compile.h"
+
+#include "builtin/builtin.h"
+
+static bool wanted(const Compiler *compiler) {
+    return compiler->options->lint;
+}
+
+static void warn(Compiler *compiler, Span span, const char *code, Str text) {
+    compile_report(compiler, span, DIAG_WARNING, code, text, (Str){0});
+}
+
+static bool is_builtin(Str name) {
+    Value value;
+    return builtin_find(name) || builtin_constant(name, &value);
+}
+
+void lint_bind(Compiler *compiler, const Binding *binding) {
+    Str name = binding->name->name;
+    if (wanted(compiler) && is_builtin(name))
+        compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
+                       str_format(compiler->arena, "'%.*s' hides the built-in of that name", (int)name.len, name.bytes),
+                       (Str){0});
+}
+
+// Loops may run for their number of rounds only, and a name that starts with an underscore says that it is not used.
+static bool may_be_unused(const Binding *binding) {
+    return binding->kind == BINDING_LOOP || binding->name->name.bytes[0] == '_';
+}
+
+void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
+    static const char *const kinds[] = {"let", "func", "parameter", "loop name", "import"};
+    // A file that yields nothing is a module: its top-level names are for others.
+    if (!wanted(compiler) || (!compiler->function->outer && compiler->function->scope == scope && !end &&
+                              compiler->is_module))
+        return;
+    for (const Binding *binding = scope; binding != end; binding = binding->outer)
+        if (!binding->used && !may_be_unused(binding))
+            warn(compiler, binding->span, "unused-name",
+                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind],
+                            (int)binding->name->name.len, binding->name->name.bytes));
+}
+
+static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
+    uint32_t count = code->arg_count + code->named_count;
+    if (count < builtin->required || (!builtin->variadic && count > builtin->fixed))
+        warn(compiler, ast->span, "wrong-arguments",
+             str_format(compiler->arena, "%u argument%s for %s(%s)", count, count == 1 ? "" : "s", builtin->name,
+                        builtin->parameters));
+}
+
+static const Ast *find_param(const Ast *params, const Symbol *name) {
+    for (uint32_t i = 0; i < params->count; i++)
+        if (params->children[i]->name == name)
+            return params->children[i];
+    return NULL;
+}
+
+static bool is_named(const CallCode *code, const Symbol *name) {
+    for (uint32_t i = 0; i < code->named_count; i++)
+        if (code->names[i] == name)
+            return true;
+    return false;
+}
+
+// A call of a function that is defined in sight: surplus arguments are ignored and missing ones are null (L9.2).
+static void lint_user_call(Compiler *compiler, const Ast *ast, const Ast *function, const CallCode *code) {
+    const Ast *params = function->children[0];
+    Arena *arena = compiler->arena;
+    if (code->arg_count > params->count)
+        warn(compiler, ast->span, "wrong-arguments",
+             str_format(arena, "%u arguments for a function of %u", code->arg_count, params->count));
+    for (uint32_t i = 0; i < code->named_count; i++)
+        if (!find_param(params, code->names[i]))
+            warn(compiler, ast->span, "wrong-arguments",
+                 str_format(arena, "the function has no parameter '%.*s'", (int)code->names[i]->name.len,
+                            code->names[i]->name.bytes));
+    // A template may leave its first parameter to a suite that is not there.
+    for (uint32_t i = code->arg_count; i < params->count && ast->kind == AST_CALL; i++) {
+        const Ast *param = params->children[i];
+        if (param->count == 0 && !is_named(code, param->name))
+            warn(compiler, ast->span, "wrong-arguments",
+                 str_format(arena, "no argument for '%.*s', which has no default", (int)param->name->name.len,
+                            param->name->name.bytes));
+    }
+}
+
+void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code) {
+    if (!wanted(compiler))
+        return;
+    const Binding *binding =
+        ast->children[0]->kind == AST_NAME ? compile_find_binding(compiler, ast->children[0]->name) : NULL;
+    if (binding && binding->value && binding->value->kind == AST_FUNC && binding->element_count == 1)
+        lint_user_call(compiler, ast, binding->value, code);
+    if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1)
+        return;
+    Item item = callee->as.value.as.items[0];
+    if (item.type == ITEM_FUNCTION && item.as.function->builtin)
+        lint_builtin_call(compiler, ast, item.as.function->builtin, code);
+}
+
+// An `if` whose test is a true constant never gets to what follows.
+void lint_branches(Compiler *compiler, const Expr *expr) {
+    if (!wanted(compiler))
+        return;
+    for (uint32_t i = 0; i + 2 < expr->count; i += 2)
+        if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
+            warn(compiler, expr->children[i]->span, "unreachable",
+                 STR("always true: what follows under else is never reached"));
+            return;
+        }
+}
+
+void lint_pragma(Compiler *compiler, const Ast *pragma) {
+    static const Str known[] = {{"tempo", 5}, {"quantum", 7}, {"fps", 3}};
+    Str name = pragma->name->name, hint = {0};
+    for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
+        if (str_equal(name, known[i]))
+            return;
+        if (str_distance(name, known[i]) < 3)
+            hint = str_format(compiler->arena, "did you mean %s?", known[i].bytes);
+    }
+    if (wanted(compiler))
+        compile_report(compiler, pragma->span, DIAG_WARNING, "unknown-pragma",
+                       str_format(compiler->arena, "unknown pragma '%.*s'", (int)name.len, name.bytes), hint);
+}

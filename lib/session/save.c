@@ -1,0 +1,274 @@
+// save.c: the state dictionary on disk.
+//
+// A text of ours, one fact a line, so that a person can read it and a diff shows what changed:
+//
+//     petri-state 1
+//     frame 99
+//     $(:cells;0) = 12.5;-3                 every entry of the dictionary
+//     system 0 $(:cells)                    each system, with its occurrence among those of one prefix,
+//     particle $(:cells;0)                  and the position keys of its last frame's tree, in order
+//     end 1f0e6c9d7a5b4832                  hash of all bytes before this line
+//
+// Values are written in the language's printed form, which reads back as the same doubles. The hash at the end tells a
+// file that was cut short or edited from a good one; a bad one is never overwritten.
+#include "session/session.h"
+
+#include "base/file.h"
+#include "base/number.h"
+#include "syntax/literal.h"
+#include "value/format.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <string.h>
+
+#define HEADER "petri-state 1\n"
+#define MAX_STATE_BYTES ((size_t)8 << 30)
+
+static void add_key(Text *out, const PetriSession *session, Value key) {
+    text_add_c(out, "$(");
+    format_value(out, &session->symbols, key);
+    text_add_char(out, ')');
+}
+
+static void add_entries(Text *out, const PetriSession *session) {
+    uint32_t cursor = 0;
+    for (Value key, value; state_next(session->state, &cursor, &key, &value);) {
+        add_key(out, session, key);
+        text_add_c(out, " = ");
+        format_value(out, &session->symbols, value);
+        text_add_char(out, '\n');
+    }
+}
+
+static void add_systems(Text *out, const PetriSession *session) {
+    const void *cursor = NULL;
+    for (SceneSystem system; scene_next_system(session->scene, &cursor, &system);) {
+        text_add_format(out, "system %u ", system.occurrence);
+        add_key(out, session, state_slot_key(session->state, system.prefix));
+        text_add_char(out, '\n');
+        for (uint32_t i = 0; i < system.slot_count; i += 2) {
+            text_add_c(out, "particle ");
+            add_key(out, session, state_slot_key(session->state, system.slots[i]));
+            text_add_char(out, '\n');
+        }
+    }
+}
+
+static void complain(PetriSession *session, const char *what, const char *file, Str why) {
+    session_tell_text(session, DIAG_ERROR, "state-file",
+                      str_format(&session->text_arena, "%s '%s': %.*s", what, file, (int)why.len, why.bytes));
+}
+
+PetriStatus petri_save(PetriSession *session, const char *file) {
+    ArenaMark mark = arena_mark(&session->text_arena);
+    Text out = text_new(&session->text_arena);
+    text_add_c(&out, HEADER);
+    text_add_format(&out, "frame %lld\n", (long long)session->frame.number);
+    add_entries(&out, session);
+    add_systems(&out, session);
+    text_add_format(&out, "end %016" PRIx64 "\n", hash_bytes(0, out.bytes, out.len));
+    const char *problem = NULL;
+    bool done = file_replace(&session->text_arena, file, text_str(&out), &problem);
+    if (!done)
+        complain(session, "cannot write the state to", file, str_from(problem));
+    arena_rewind(&session->text_arena, mark);
+    return done ? PETRI_OK : PETRI_INVALID;
+}
+
+// A file being read back.
+typedef struct Restore {
+    PetriSession *session;
+    Arena *arena;
+    Str rest;
+    State *state; // the new dictionary
+    int64_t frame;
+} Restore;
+
+static bool take(Restore *restore, Str prefix) {
+    if (!str_starts_with(restore->rest, prefix))
+        return false;
+    restore->rest = (Str){restore->rest.bytes + prefix.len, restore->rest.len - prefix.len};
+    return true;
+}
+
+// End of the element that starts at the rest: a quoted string, or all up to ";", ")" or the line's end.
+static size_t element_length(Str rest) {
+    size_t at = 0;
+    char quote = rest.len && (rest.bytes[0] == '\'' || rest.bytes[0] == '"') ? rest.bytes[0] : 0;
+    if (!quote) {
+        while (at < rest.len && !strchr(";) \n", rest.bytes[at]))
+            at++;
+        return at;
+    }
+    for (at = 1; at < rest.len && rest.bytes[at] != quote; at++)
+        at += rest.bytes[at] == '\\';
+    return at < rest.len ? at + 1 : 0;
+}
+
+static bool read_element(Restore *restore, Vector *vector) {
+    size_t len = element_length(restore->rest);
+    Str text = {restore->rest.bytes, len};
+    double x;
+    if (len == 0)
+        return false;
+    restore->rest = (Str){restore->rest.bytes + len, restore->rest.len - len};
+    if (text.bytes[0] == ':') {
+        const Symbol *symbol = symbol_know(&restore->session->symbols, (Str){text.bytes + 1, len - 1});
+        if (symbol)
+            vector_add_number(vector, symbol->number);
+        return symbol != NULL;
+    }
+    if (text.bytes[0] == '\'' || text.bytes[0] == '"') {
+        Str string;
+        if (literal_string(restore->arena, text, &string))
+            return false;
+        vector_add(vector, value_string(restore->arena, string));
+        return true;
+    }
+    if (!literal_parse_number(text, &x))
+        return false;
+    vector_add_number(vector, x);
+    return true;
+}
+
+static bool read_value(Restore *restore, Value *value) {
+    Vector vector = vector_new(restore->arena);
+    if (!take(restore, STR("null"))) {
+        do
+            if (!read_element(restore, &vector))
+                return false;
+        while (take(restore, STR(";")));
+    }
+    *value = vector_finish(&vector);
+    return true;
+}
+
+static bool read_key(Restore *restore, StateSlot *slot) {
+    Value key;
+    if (!take(restore, STR("$(")) || !read_value(restore, &key) || !take(restore, STR(")")))
+        return false;
+    *slot = state_slot(restore->state, key);
+    return *slot != STATE_NO_SLOT;
+}
+
+static bool read_entry(Restore *restore) {
+    StateSlot slot;
+    Value value;
+    return read_key(restore, &slot) && take(restore, STR(" = ")) && read_value(restore, &value) &&
+           take(restore, STR("\n")) && state_slot_set(restore->state, slot, value);
+}
+
+static bool read_integer(Restore *restore, int64_t *x) {
+    size_t len = 0;
+    while (len < restore->rest.len && strchr("-0123456789", restore->rest.bytes[len]))
+        len++;
+    if (len == 0 || len > 18)
+        return false;
+    *x = (int64_t)number_parse((Str){restore->rest.bytes, len});
+    restore->rest = (Str){restore->rest.bytes + len, restore->rest.len - len};
+    return true;
+}
+
+// The velocity's slot beside a position's.
+static StateSlot velocity_slot(Restore *restore, StateSlot position) {
+    Vector key = vector_new(restore->arena);
+    vector_add(&key, state_slot_key(restore->state, position));
+    vector_add_number(&key, symbol_number(STR("velocity")));
+    return state_slot(restore->state, vector_finish(&key));
+}
+
+static bool read_system(Restore *restore) {
+    int64_t occurrence;
+    SceneSystem system = {0};
+    if (!read_integer(restore, &occurrence) || !take(restore, STR(" ")) || !read_key(restore, &system.prefix) ||
+        !take(restore, STR("\n")))
+        return false;
+    system.occurrence = (uint32_t)occurrence;
+    StateSlot *slots = NULL;
+    while (take(restore, STR("particle "))) {
+        size_t size = system.slot_count * sizeof *slots;
+        slots = arena_grow(restore->arena, slots, size, size + 2 * sizeof *slots);
+        if (!read_key(restore, &slots[system.slot_count]) || !take(restore, STR("\n")))
+            return false;
+        slots[system.slot_count + 1] = velocity_slot(restore, slots[system.slot_count]);
+        system.slot_count += 2;
+    }
+    system.slots = slots;
+    SceneFrame frame = {.state = restore->state, .arena = restore->arena};
+    return scene_restore_system(restore->session->scene, &system, &frame);
+}
+
+// Splits off the last line and compares its hash with that of everything before.
+static bool hash_matches(Str *text) {
+    enum { END = sizeof "end 0123456789abcdef\n" - 1 };
+    if (text->len < END)
+        return false;
+    Str body = {text->bytes, text->len - END};
+    char line[END + 1];
+    snprintf(line, sizeof line, "end %016" PRIx64 "\n", hash_bytes(0, body.bytes, body.len));
+    bool same = str_equal(str_from(line), (Str){text->bytes + body.len, END});
+    *text = body;
+    return same;
+}
+
+static bool read_body(Restore *restore) {
+    if (!take(restore, STR(HEADER)) || !take(restore, STR("frame ")) || !read_integer(restore, &restore->frame) ||
+        !take(restore, STR("\n")))
+        return false;
+    while (str_starts_with(restore->rest, STR("$")))
+        if (!read_entry(restore))
+            return false;
+    while (take(restore, STR("system ")))
+        if (!read_system(restore))
+            return false;
+    return restore->rest.len == 0;
+}
+
+// The scene has been told of the file's systems while the new dictionary was read; both change hands together.
+static void adopt(Restore *restore) {
+    PetriSession *session = restore->session;
+    state_free(session->state);
+    session->state = restore->state;
+    session_resume(session, restore->frame);
+}
+
+static bool restore_text(Restore *restore, const char **why) {
+    *why = "it is cut short or damaged";
+    if (!str_starts_with(restore->rest, STR("petri-state "))) {
+        *why = "it is no state file of petri";
+        return false;
+    }
+    if (!str_starts_with(restore->rest, STR(HEADER))) {
+        *why = "it was written by another version of petri";
+        return false;
+    }
+    if (!hash_matches(&restore->rest))
+        return false;
+    scene_reset(restore->session->scene);
+    if (read_body(restore))
+        return true;
+    scene_reset(restore->session->scene);
+    return false;
+}
+
+PetriStatus petri_restore(PetriSession *session, const char *file) {
+    Str version;
+    Arena arena;
+    arena_init(&arena, "restored state", SIZE_MAX);
+    Restore restore = {.session = session, .arena = &arena};
+    const char *why = NULL;
+    bool missing = !file_version(&arena, file, &version), done = missing;
+    if (!missing && file_read(&arena, file, MAX_STATE_BYTES, &restore.rest, NULL, &why)) {
+        restore.state = state_new();
+        done = restore.state && restore_text(&restore, &why);
+        if (done)
+            adopt(&restore);
+        else
+            state_free(restore.state);
+    }
+    if (!done)
+        complain(session, "cannot take the state from", file, str_from(why));
+    arena_free(&arena);
+    return done ? PETRI_OK : PETRI_INVALID;
+}

@@ -1,0 +1,126 @@
+# bad_input.sh: input that no script should be: one clear message each, never a crash. Part of run.sh.
+
+petri run missing.fl
+check "a missing file is one error" one_error
+check "a missing file is named" has err "missing.fl"
+mkdir folder.fl
+petri run folder.fl
+check "a folder is one error" one_error
+check "a folder is called one" has err "directory"
+if [ -e /proc/self/mem ]; then
+    petri run /proc/self/mem # even root cannot read it
+    check "a file that cannot be read is one error" one_error
+fi
+echo '!n' >locked.fl
+chmod 000 locked.fl
+if [ ! -r locked.fl ]; then
+    petri run locked.fl
+    check "a file without permission is one error" one_error
+fi
+chmod 600 locked.fl
+
+: >empty.fl
+petri run --frames 2 empty.fl
+check "an empty file is a script" status_is 0
+check "an empty file says nothing" empty err
+printf '\177ELF\002\001\001\000\000\000\200\377\n\000' >binary.fl
+petri run binary.fl
+check "a binary file is one error" one_error
+check "a binary file does not reach the terminal" lacks err "$(printf '\177')"
+printf '!n a=1\n!n b="\377\376"\n' >utf8.fl
+petri run utf8.fl
+check "invalid UTF-8 is one error" one_error
+check "invalid UTF-8 is placed" has err "utf8.fl:2:7: error: "
+
+# repeat COUNT TEXT
+repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }
+{ printf '!n a=0' && repeat 5000000 ';1' && echo; } >long.fl
+petri run --frames 1 long.fl
+check "a line of 10 MB is a script" status_is 0
+{ printf '!n a=0' && repeat 5000000 ';1' && echo ' ='; } >long.fl
+petri run --frames 1 long.fl
+check "a mistake at the end of 10 MB is one error" one_error
+check "a mistake at the end of 10 MB has its column" has err "long.fl:1:10000008: error: "
+check "of 10 MB only a part is shown" [ "$(wc -c <err)" -lt 2000 ]
+rm -f long.fl
+{ printf '!n a=' && repeat 100000 '(' && printf 1 && repeat 100000 ')' && echo; } >parentheses.fl
+petri run --frames 1 parentheses.fl
+check "100000 nested parentheses are one error" one_error
+check "the limit of parentheses is named" has err "1000"
+{ printf '!n a=' && repeat 100000 '-' && echo 1; } >signs.fl
+petri run --frames 1 signs.fl
+check "100000 signs are one error" one_error
+awk 'BEGIN { for (i = 0; i < 3000; i++) printf "%*s!n\n", i, "" }' >deep.fl
+petri run --frames 1 deep.fl
+check "3000 levels of indentation are one error" one_error
+check "the limit of indentation is named" has err "1000"
+awk 'BEGIN { for (i = 0; i < 300; i++) printf "%*s!n\n", i, "" }' >deep.fl
+petri run --frames 1 --print tree deep.fl
+check "300 levels of indentation are fine" lines_are out 301
+
+cat >endless.fl <<'END'
+func f(x)
+    f(x + 1)
+!n a=f(1)
+END
+petri run --frames 3 --print tree endless.fl
+check "endless recursion ends" status_is 0
+check "endless recursion is told once" count_is err "warning: " 1
+check "endless recursion is null" count_is out "!n" 3
+cat >mutual.fl <<'END'
+func f(x, g)
+    g(x, g)
+func h(x, g)
+    f(x, g)
+!n a=h(1, h)
+END
+petri run --frames 3 --print tree mutual.fl
+check "endless recursion of two functions does not crash" [ "$status" -lt 2 ]
+check "endless recursion of two functions is told" grep -q . err
+echo '!n a=..1e12' >range.fl
+petri run --frames 2 --print tree range.fl
+check "a range of 1e12 elements is told" has err "range.fl:1:6: warning: "
+check "a range of 1e12 elements is null" out_is "@0 time=0 beat=0
+!n
+@1 time=0.016666666666666666 beat=0.03333333333333333
+!n"
+echo '!n a=nowhere b=3(1)' >names.fl
+petri run --frames 2 --print tree names.fl
+check "an unbound name is null" has out "!n"
+check "an unbound name is told" has err "nowhere"
+check "calling a number does not fail the run" status_is 0
+
+# check
+cat >three.fl <<'END'
+let x = 3 +
+!box size=1;2
+let y = * 4
+!n a=y
+!other b=2;;
+END
+petri check three.fl
+check "check exits with 1 when there are errors" status_is 1
+check "check prints nothing on stdout" empty out
+check "three mistakes are three errors" count_is err ": error: " 3
+check "the first is placed" has err "three.fl:1:12: error: "
+check "the second is placed" has err "three.fl:3:9: error: "
+check "the third is placed" has err "three.fl:5:12: error: "
+check "the source line is shown" has err "let y = * 4"
+check "a caret is below it" grep -Eq '^ +\^' err
+check "check ends with a summary" last_line_is err "petri: 1 file checked: 3 errors, 0 warnings"
+petri check plain.fl count.fl
+check "check of good files exits with 0" status_is 0
+mkdir -p tree/below
+cp plain.fl tree/a.fl
+cp three.fl tree/below/b.fl
+echo 'not a script =' >tree/note.txt
+petri check tree
+check "check looks into folders" has err "tree/below/b.fl:3:9: error: "
+check "check counts the scripts of folders" has err "2 files checked: 3 errors"
+petri check missing
+check "check of a missing path fails" status_is 1
+mkdir bare
+petri check bare
+check "check of a folder without scripts fails" status_is 1
+petri check
+check "check without a path is a wrong command line" status_is 2

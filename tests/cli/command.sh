@@ -1,0 +1,172 @@
+# command.sh: options, exit codes, what goes to which stream. Part of run.sh.
+
+cat >count.fl <<'END'
+debug(frame)
+!n a=frame b=x
+END
+cat >plain.fl <<'END'
+!n a=1
+END
+cat >warn.fl <<'END'
+!n a=nowhere
+END
+
+# help and version
+petri --version
+check "--version prints the version" status_is 0
+check "the version has a number" grep -Eq '^petri [0-9]+\.[0-9]+\.[0-9]+$' out
+petri --help
+check "--help exits with 0" status_is 0
+check "--help lists the commands" has out "check"
+check "--help writes nothing to stderr" empty err
+cp out overview
+petri help
+check "help is the same as --help" cmp -s out overview
+petri help run
+check "help run tells of its options" has out "--frames N"
+cp out run_help
+petri run --help
+check "run --help is the same as help run" cmp -s out run_help
+petri test --help
+check "test has help" has out "--update"
+petri check --help
+check "check has help" has out "usage: petri check"
+petri help builtins
+check "help builtins lists functions" grep -q '^sin(' out
+petri help nonsense
+check "help on something unknown is a wrong command line" status_is 2
+
+# wrong command lines
+petri
+check "no arguments are a wrong command line" status_is 2
+check "no arguments give a message" has err "petri: "
+check "no arguments print nothing on stdout" empty out
+petri run
+check "run without a script is a wrong command line" status_is 2
+petri run plain.fl count.fl
+check "two scripts are a wrong command line" status_is 2
+petri run --frame 3 plain.fl
+check "an unknown option is a wrong command line" status_is 2
+check "an unknown option names the nearest one" has err "did you mean '--frames'"
+petri run --evrey=3 plain.fl
+check "a mistyped option with a value too" has err "did you mean '--every'"
+petri run --zzzzzz plain.fl
+check "an option like no other points to help" has err "petri help run"
+petri --quite plain.fl
+check "options without a command are those of run" has err "did you mean '--quiet'"
+petri test --updat .
+check "test knows its own options" has err "did you mean '--update'"
+petri chek plain.fl
+check "an unknown command is a wrong command line" status_is 2
+check "an unknown command names the nearest one" has err "petri check"
+petri run --frames
+check "an option without its value is a wrong command line" status_is 2
+for wrong in --frames=-1 --frames=x --frames=1.5 --frames= --every=0 --fps=0 --fps=nan --runtime=soon --threads=0 \
+    --print=trees --print= --color=sometimes --dump=all --quiet=1 -D1 --define==1 -q; do
+    petri run "$wrong" plain.fl
+    check "$wrong is a wrong command line" status_is 2
+    check "$wrong gives one message" lines_are err 1
+done
+
+# running
+petri run --frames 3 count.fl -D x=1
+check "a run exits with 0" status_is 0
+check "logs alone are printed by default" out_is "> 0
+> 1
+> 2"
+check "a run without a terminal is silent on stderr" empty err
+petri count.fl --frames 3 -D x=1
+check "petri SCRIPT.fl runs the script" out_is "> 0
+> 1
+> 2"
+petri run -D x=1 count.fl
+check "600 frames are the default" lines_are out 600
+petri run --runtime 0.5 --fps 10 -Dx=1 count.fl
+check "--runtime counts seconds" lines_are out 5
+petri run --runtime 0:02 --fps=10 -Dx=1 count.fl
+check "--runtime takes a time code" lines_are out 20
+petri run --runtime 2 --frames 3 -Dx=1 count.fl
+check "the smaller of --frames and --runtime ends the run" lines_are out 3
+petri run --frames 0 -Dx=1 count.fl
+check "no frames at all are possible" status_is 0
+check "no frames print nothing" empty out
+petri run --frames 7 --every 3 --print tree --fps 4 -D 'x=1;:two;three' count.fl
+check "--every prints each K-th frame, --print the tree, -D a vector" out_is "@0 time=0 beat=0
+!n a=0 b=1;:two;'three'
+@3 time=0.75 beat=1.5
+!n a=3 b=1;:two;'three'
+@6 time=1.5 beat=3
+!n a=6 b=1;:two;'three'"
+petri run --frames=1 --print=tree --define=x=2 -- count.fl
+check "--name=value and -- are understood" out_is "@0 time=0 beat=0
+!n a=0 b=2"
+petri run --frames 1 --print tree,log --define x=2 count.fl
+check "--print takes several sections" out_is "@0 time=0 beat=0
+!n a=0 b=2
+> 0"
+petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
+check "--realtime runs" lines_are out 2
+petri run --threads 3 --nosimplify --lockstep --frames 1 -D x=1 count.fl
+check "--threads, --nosimplify and --lockstep are accepted" out_is "> 0"
+petri run --dump=ast plain.fl
+check "--dump=ast prints the syntax tree" test -s out
+petri run --dump code plain.fl
+check "--dump=code prints the code" test -s out
+
+# how much is said
+petri run --frames 2 warn.fl
+check "a warning does not fail the run" status_is 0
+check "a warning is told once however often it occurs" count_is err "warning: " 1
+check "a warning is not coloured without a terminal" lacks err "$(printf '\033')"
+petri run --frames 2 --color always warn.fl
+check "--color always colours" has err "$(printf '\033')"
+petri run --frames 2 --quiet warn.fl
+check "--quiet keeps warnings back" empty err
+petri run --frames 2 --verbose plain.fl
+check "--verbose gives a summary" has err "petri: 2 frames in "
+petri run --frames 2 --trace plain.fl
+check "--trace tells of every frame" has err "petri: frame 1: "
+petri run --frames 2 --quiet --verbose --quiet plain.fl
+check "the last word on verbosity counts" empty err
+
+# streams
+{ timeout 100 "$petri" run --frames 1000000 --print tree plain.fl 2>err; echo $? >code; } | head -n 1 >out
+status=$(cat code)
+check "a closed pipe ends the run" status_is 0
+check "a closed pipe ends it quietly" empty err
+check "what was read is right" out_is "@0 time=0 beat=0"
+if [ -c /dev/full ]; then
+    for words in "run --print tree plain.fl" "help" "help builtins"; do
+        # shellcheck disable=SC2086 # the words are words
+        timeout 100 "$petri" $words >/dev/full 2>err </dev/null
+        status=$?
+        check "'$words' to a full device fails" status_is 1
+        check "'$words' to a full device says so" has err "No space left"
+    done
+fi
+timeout 100 "$petri" run --frames 1 --print tree plain.fl >&- 2>err
+status=$?
+check "a closed stdout is an error" status_is 1
+"$petri" run --frames 1000000000 --verbose plain.fl >out 2>err &
+job=$!
+sleep 1
+kill -INT "$job"
+wait "$job"
+status=$?
+check "Ctrl-C exits with 130" status_is 130
+check "Ctrl-C still gives the summary" has err " frames in "
+if command -v script >/dev/null; then
+    script -qec "'$petri' run --frames 30 --realtime plain.fl" /dev/null >out 2>&1 </dev/null
+    check "there is a progress line on a terminal" has out "/30 frames, "
+    check "the progress line is erased" has out "$(printf '\r\033[K')petri: 30 frames in "
+    script -qec "'$petri' run --frames 30 --quiet plain.fl" /dev/null >out 2>&1 </dev/null
+    check "--quiet has no progress line" empty out
+    NO_COLOR=1 script -qec "'$petri' run --frames 1 warn.fl" /dev/null >out 2>&1 </dev/null
+    check "NO_COLOR is honoured" lacks out "$(printf '\033[3')"
+    check "NO_COLOR keeps the message" has out "warning: "
+fi
+printf '#!%s\n!n a=1\n' "$petri" >direct.fl
+chmod +x direct.fl
+./direct.fl --frames 1 --print tree >out 2>err
+status=$?
+check "a script with a #! line runs by itself" has out "!n a=1"

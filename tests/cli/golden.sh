@@ -1,0 +1,200 @@
+# golden.sh: the golden runner `petri test`. Part of run.sh.
+
+mkdir -p g/below
+# case_is NAME < golden: a case with this golden and a script that prints two frames.
+case_is() {
+    printf '!n a=frame/3 b=1;2;3 c="it" d=:sym\ndebug(1)\ndebug(2)\n' >"g/$1.fl"
+    cat >"g/$1.golden"
+}
+# verdict NAME: runs that case alone.
+verdict() { petri test "g/$1.fl"; }
+passes() { status_is 0 && last_line_is out "1 passed, 0 failed"; }
+fails() { status_is 1 && last_line_is out "0 passed, 1 failed" && has out "FAIL "; }
+
+case_is same <<'END'
+# run --frames 2 --print tree,log
+@0 time=0 beat=0
+!n a=0 b=1;2;3 c='it' d=:sym
+> 1
+> 2
+@1 time=0.016666666666666666 beat=0.03333333333333333
+!n a=0.3333333333333333 b=1;2;3 c='it' d=:sym
+> 1
+> 2
+END
+verdict same
+check "what is the same passes" passes
+check "a pass is one line" has out "ok g/same.fl"
+case_is loose <<'END'
+# run --frames 2 --print tree,log
+# a remark that means nothing
+@0 time=0 beat=0
+!n a=-0 b=1.0;2e0;3 c="\x69\u0074" d=:sym
+> 2
+> 1
+@1 time=0.016666666666666666 beat=0.03333333333333333
+!n   a=0.3333333333333333 b=1;2;3 c="it" d=:sym
+> 1
+> 2
+END
+verdict loose
+check "numbers count as numbers, strings by value, logs as a set" passes
+sed 's/3333333333333333 b/3333333333333334 b/' g/same.golden >digit
+case_is digit <digit
+verdict digit
+check "one digit in the last place fails" fails
+check "a failure tells frame, line, expected and got" \
+    has out "FAIL g/digit.fl frame 1 line 7: expected !n a=0.3333333333333334 b=1;2;3 c='it' d=:sym got !n a=0.3333333333333333 b"
+sed 's/^# run.*/&\n# tolerance 1e-9/' digit >tolerance
+case_is tolerance <tolerance
+verdict tolerance
+check "a tolerance lets one digit pass" passes
+sed 's/0.3333333333333334/0.33334/' tolerance | case_is beyond
+verdict beyond
+check "a tolerance has an end" fails
+sed 's/0.3333333333333334/0.33334/; s/^# tol.*/&\n# horizon 1 strict 0/' tolerance | case_is strict
+verdict strict
+check "after strict the comparison is loose" passes
+sed 's/^!n a=0.3333333333333334.*/!m/; s/^# tol.*/&\n# horizon 0/' tolerance | case_is horizon
+verdict horizon
+check "after the horizon only headers count" passes
+sed 's/^@1.*/@2/; s/^# tol.*/&\n# horizon 0/' tolerance | case_is header
+verdict header
+check "after the horizon headers do count" fails
+sed 's/^# run.*/&\n# horizon 0/' digit | case_is exact
+verdict exact
+check "a horizon without a tolerance changes nothing" fails
+sed '$d' g/same.golden | case_is extra
+verdict extra
+check "an extra log fails" fails
+sed 's/^> 2/> 3/' g/same.golden | case_is log
+verdict log
+check "another log fails" fails
+sed 's/=:sym/=:other/' g/same.golden | case_is symbol
+verdict symbol
+check "another symbol fails" fails
+sed 's/^!n/    !n/' g/same.golden | case_is indent
+verdict indent
+check "another depth fails" fails
+sed '/^@1/,$d' g/same.golden | case_is short
+verdict short
+check "an extra frame fails" fails
+{ cat g/same.golden && echo '@2 time=1 beat=2'; } | case_is more
+verdict more
+check "a missing frame fails" fails
+printf '!n a=nowhere\n' >g/error.fl
+printf '# run --frames 1 --print tree,error\n@0 time=0 beat=0\n!n\n' >g/error.golden
+verdict error
+check "errors of a frame do not count if the golden has none" passes
+echo '? something else' >>g/error.golden
+verdict error
+check "errors of a frame count if the golden has some" fails
+printf '!n\n' >g/oops.fl
+for first in '# run --frames 1 --no-such-option' '# run "--frames 1' 'run' ''; do
+    printf '%s\n@0 time=0 beat=0\n' "$first" >g/oops.golden
+    verdict oops
+    check "a golden that starts with '$first' fails" fails
+done
+printf '# run --frames 1 --print tree -D "a=:x;4" -D '"'b=1;2'"'\n@0 time=0 beat=0\n!n a=:x;4 b=1;2\n' >g/quotes.golden
+printf '!n a=a b=b\n' >g/quotes.fl
+verdict quotes
+check "options in quotes are split as a shell does" passes
+printf '!n a=read("beside.txt")\n' >g/beside.fl
+printf 'text' >g/beside.txt
+printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a="text"\n' >g/beside.golden
+verdict beside
+check "scripts run in their own folder" passes
+echo '!n (' >g/broken.fl
+printf '# run --frames 1\n' >g/broken.golden
+verdict broken
+check "a script that cannot be loaded fails" fails
+check "a failure shows the error" has out "ended with status 1: broken.fl:1:"
+
+# rejections
+printf '!n a=1\n!n b=*\n' >g/wrong.fl
+echo 'line 2' >g/wrong.err
+verdict wrong
+check "a rejected script passes" passes
+echo 'line *' >g/wrong.err
+verdict wrong
+check "any line will do for *" passes
+echo 'line 1' >g/wrong.err
+verdict wrong
+check "another line fails" fails
+check "another line is told" has out "expected an error in line 1 got one in line 2"
+echo 'row 2' >g/wrong.err
+verdict wrong
+check "an unreadable .err fails" fails
+echo 'line 2' >g/wrong.err
+echo '!n' >g/accepted.fl
+echo 'line 1' >g/accepted.err
+verdict accepted
+check "a script that should be rejected and is not fails" fails
+
+# many at once
+rm -rf g
+mkdir -p g/below
+for name in c a b; do
+    printf '!n a=frame\n' >g/$name.fl
+    printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a=0\n' >g/$name.golden
+done
+cp g/a.fl g/lonely.fl
+cp g/a.fl g/below/d.fl
+printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a=1\n' >g/below/d.golden
+petri test --jobs 3 g
+check "results come in the order of the paths" out_is "ok g/a.fl
+ok g/b.fl
+FAIL g/below/d.fl frame 0 line 3: expected !n a=1 got !n a=0
+ok g/c.fl
+3 passed, 1 failed"
+check "one failure fails the whole" status_is 1
+petri test g/a.fl g/a.fl g/b.fl
+check "a script that is named twice runs once" last_line_is out "2 passed, 0 failed"
+petri test --filter below/ g
+check "--filter looks at the path below the folder" last_line_is out "0 passed, 1 failed"
+petri test --filter a.fl --nosimplify g
+check "--filter chooses" last_line_is out "1 passed, 0 failed"
+petri test --filter nothing-like-that g
+check "no script that fits is an error" status_is 1
+petri test bare
+check "no script at all is an error" status_is 1
+check "no script at all is told" has err "no script found"
+petri test
+check "test without a path is a wrong command line" status_is 2
+petri test missing g/a.fl
+check "a missing path is an error" status_is 1
+check "a missing path does not keep others from running" last_line_is out "1 passed, 0 failed"
+petri test --junit results.xml g
+check "--junit counts" has results.xml '<testsuite name="petri" tests="4" failures="1"'
+check "--junit tells why" has results.xml 'message="frame 0 line 3: expected !n a=1'
+petri test --junit nowhere/results.xml g/a.fl
+check "--junit to a folder that is not there fails" status_is 1
+timeout 100 "$petri" test g/a.fl >/dev/full 2>err
+status=$?
+check "results to a full device fail" status_is 1
+
+# --update
+printf '# run --frames 1 --print tree\n# tolerance 1e-3\n# kept\n@0 time=0 beat=0\n!n a=7\n' >g/below/d.golden
+chmod 640 g/below/d.golden
+petri test --update g/below
+check "--update exits with 0" status_is 0
+check "--update tells what it rewrote" has out "ok g/below/d.fl (updated)"
+check "--update keeps the head and writes the output" [ "$(cat g/below/d.golden)" = "# run --frames 1 --print tree
+# tolerance 1e-3
+# kept
+@0 time=0 beat=0
+!n a=0" ]
+check "--update keeps the permissions" [ "$(ls -l g/below/d.golden | cut -c 1-10)" = "-rw-r-----" ]
+petri test g
+check "after --update all is well" last_line_is out "4 passed, 0 failed"
+petri test --update g
+check "--update leaves alone what is right" lacks out "updated"
+check "--update leaves nothing else behind" [ "$(ls g/below | wc -l)" -eq 2 ]
+echo '# run --frames 1 --print tree' >g/lonely.golden
+petri test --update g/lonely.fl
+check "--update fills a golden that holds but its first line" [ "$(cat g/lonely.golden)" = "# run --frames 1 --print tree
+@0 time=0 beat=0
+!n a=0" ]
+echo '!n (' >g/lonely.fl
+petri test --update g/lonely.fl
+check "--update does not record a failure" has g/lonely.golden "!n a=0"

@@ -1,0 +1,140 @@
+#!/bin/sh
+# run.sh PETRI ROOT: runs the examples of ROOT/grammar/README.md and ROOT/README.md.
+#
+# Fenced blocks that are read:
+#   ```flitter-eval       lines `EXPRESSION => RESULT`; RESULT is the printed value, or `error` if it must be rejected
+#   ```flitter            a script; the block that follows it is
+#   ```tree [FRAME]       its printed tree (for frame 0 unless a frame is named), or `error` if it must be rejected
+#   ```flitter NAME.fl    a file of that name, for other examples to import or include
+# A failure is one line with the place in the document. Too few examples are a failure too: a broken extraction passes
+# everything it does not find.
+set -u
+LC_ALL=C.UTF-8
+export LC_ALL
+
+least=60
+if [ $# -ne 2 ]; then
+    echo "usage: run.sh PETRI ROOT" >&2
+    exit 2
+fi
+petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+root=$2
+work=$(mktemp -d "${TMPDIR:-/tmp}/petri-docs.XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM HUP
+
+# Splits one document into $work/N.fl, $work/N.want and a line `N PLACE FRAME` in $work/cases for each example. What is
+# wrong with the document itself becomes a line of $work/faults.
+extract() { # FILE NAME FIRST
+    awk -v name="$2" -v work="$work" -v count="$3" '
+        function fault(line, text) { print name ":" line ": " text > (work "/faults") }
+        function add(line, script, want, frame,    base) {
+            base = work "/" ++count
+            printf "%s", script > (base ".fl"); close(base ".fl")
+            printf "%s", want > (base ".want"); close(base ".want")
+            print count, name ":" line, frame > (work "/cases")
+        }
+        function add_line(line, text,    at, next_at, want) {
+            at = 0
+            while ((next_at = index(substr(text, at + 1), " => ")) > 0)
+                at += next_at
+            if (at == 0) {
+                if (text !~ /^[ \t]*$/)
+                    fault(line, "no => in this line")
+                return
+            }
+            want = substr(text, at + 4)
+            if (want != "error")
+                want = want == "null" ? "!value" : "!value is=" want
+            # The closing parenthesis has a line of its own: the expression may end in a comment.
+            add(line, "!value is=(" substr(text, 1, at - 1) "\n)\n", want "\n", 0)
+        }
+        function unpaired() {
+            if (pending)
+                fault(pending, "this script has no ```tree block after it")
+            pending = 0
+        }
+        fence == "" && /^```/ {
+            fence = $1
+            opened = NR
+            file = $2
+            body = ""
+            if (fence == "```tree" && !pending)
+                fault(NR, "no script before this tree")
+            else if (fence != "```tree")
+                unpaired()
+            next
+        }
+        /^```[ \t]*$/ {
+            if (fence == "```flitter" && file != "") {
+                printf "%s", body > (work "/" file); close(work "/" file)
+            } else if (fence == "```flitter") {
+                pending = opened
+                script = body
+            } else if (fence == "```tree" && pending) {
+                add(pending, script, body, file == "" ? 0 : file)
+                pending = 0
+            }
+            fence = ""
+            next
+        }
+        fence == "```flitter-eval" { add_line(NR, $0) }
+        fence != "" { body = body $0 "\n" }
+        fence == "" && !/^[ \t]*$/ { unpaired() }
+        END {
+            unpaired()
+            if (fence != "")
+                fault(opened, "this block is not closed")
+        }' "$1"
+}
+
+# The tree of the last frame printed, or `error` if the script was rejected as it should be.
+run() { # N FRAME
+    "$petri" run --quiet --print tree --frames $(($2 + 1)) --every $(($2 > 0 ? $2 : 1)) "$work/$1.fl" \
+        >"$work/out" 2>"$work/err"
+    status=$?
+    if [ $status -eq 0 ]; then
+        awk '/^@/ { text = ""; next } { text = text $0 "\n" } END { printf "%s", text }' "$work/out"
+    elif [ $status -eq 1 ] && grep -q ': error: ' "$work/err"; then
+        echo error
+    else
+        echo "exit status $status: $(head -n 1 "$work/err")"
+    fi
+}
+
+# The first line in which two texts differ.
+explain() { # WANT GOT
+    awk 'FILENAME == ARGV[1] { want[FNR] = $0; wants = FNR; next }
+         { got[FNR] = $0; gots = FNR }
+         END {
+             for (i = 1; i <= wants || i <= gots; i++)
+                 if (i > wants || i > gots || want[i] != got[i])
+                     break
+             printf "line %d: expected %s, got %s\n", i, i > wants ? "nothing" : want[i], i > gots ? "nothing" : got[i]
+         }' "$1" "$2"
+}
+
+: >"$work/cases"
+: >"$work/faults"
+extract "$root/grammar/README.md" grammar/README.md 0
+extract "$root/README.md" README.md "$(awk 'END { print NR }' "$work/cases")"
+
+cat "$work/faults"
+passed=0
+failed=$(awk 'END { print NR }' "$work/faults")
+while read -r number place frame; do
+    run "$number" "$frame" >"$work/got" </dev/null
+    if cmp -s "$work/$number.want" "$work/got"; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "$place: $(explain "$work/$number.want" "$work/got")"
+    fi
+done <"$work/cases"
+
+if [ $((passed + failed)) -lt $least ]; then
+    echo "found $((passed + failed)) examples, expected at least $least: has the form of the blocks changed?"
+    failed=$((failed + 1))
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,62 @@
+// cases.h: tables of small scripts with what they must lead to, worked out by hand.
+//
+// At one frame a second the first step is the one of frame 1, and it has length 1: a resting particle of mass 1 then has
+// a velocity equal to the force on it. Numbers in the tables are such that nothing is rounded.
+#ifndef PETRI_TESTS_PHYSICS_CASES_H
+#define PETRI_TESTS_PHYSICS_CASES_H
+
+#include "world.h"
+
+typedef struct Case {
+    const char *title;
+    const char *script; // at one frame a second
+    int frame;
+    // What the state holds then: NAME=NUMBERS for the position of the particle `:NAME` of the system `:s`, NAME'=… for its
+    // velocity, :NAME=… for another key of the system, $=… for that of the prefix itself, =none for a key that is not there.
+    const char *wanted;
+    const char *told; // the kinds of all diagnostics up to then; NULL: none
+} Case;
+
+static inline void case_key(const char *name, size_t len, char key[64]) {
+    bool velocity = len > 1 && name[len - 1] == '\'';
+    if (*name == '$')
+        snprintf(key, 64, ":s");
+    else
+        snprintf(key, 64, ":s;%s%.*s%s", *name == ':' ? "" : ":", (int)(len - velocity), name, velocity ? ";:velocity" : "");
+}
+
+static inline void check_case(const Case *row, const char *file, int line) {
+    World world;
+    world_open(&world, 1, row->script);
+    world_to(&world, row->frame);
+    for (const char *at = row->wanted; *at; at += strspn(at, " ")) {
+        char key[64];
+        double wanted[WORLD_MOST_NUMBERS], found[WORLD_MOST_NUMBERS];
+        const char *equals = strchr(at, '=');
+        case_key(at, (size_t)(equals - at), key);
+        int count = -1;
+        if (strncmp(equals + 1, "none", 4) == 0)
+            at = equals + 5;
+        else
+            count = read_numbers(equals + 1, wanted, &at);
+        bool same = world_numbers(&world, key, found) == count;
+        for (int i = 0; same && i < count; i++)
+            same = found[i] == wanted[i];
+        if (!same) {
+            print_error("%s: wanted %s, the state at frame %d is\n%s", row->title, row->wanted, row->frame,
+                        world_state(&world));
+            world_print_told(&world);
+            _fail(file, line);
+        }
+    }
+    check_told(&world, row->told ? row->told : "", row->title, file, line);
+    world_close(&world);
+}
+
+#define CHECK_CASES(table) \
+    do { \
+        for (size_t row = 0; row < COUNT_OF(table); row++) \
+            check_case(&(table)[row], __FILE__, __LINE__); \
+    } while (0)
+
+#endif

@@ -1,0 +1,244 @@
+// world.h: runs a script from a string and looks at the state as it prints; all that these tests know of petri is petri.h.
+#ifndef PETRI_TESTS_PHYSICS_WORLD_H
+#define PETRI_TESTS_PHYSICS_WORLD_H
+
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "petri.h"
+
+#include <math.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#define COUNT_OF(array) (sizeof(array) / sizeof *(array))
+
+// First lines of a system with the prefix `:s`.
+#define P1 "!physics state=:s dimensions=1\n"
+#define P2 "!physics state=:s dimensions=2\n"
+#define P3 "!physics state=:s dimensions=3\n"
+#define P5 "!physics state=:s dimensions=5\n"
+
+enum { WORLD_MOST_TOLD = 32, WORLD_MOST_NUMBERS = 64 };
+
+typedef struct Told {
+    PetriLevel level;
+    char code[32];
+    char text[256];
+} Told;
+
+typedef struct World {
+    PetriSession *session;
+    char *text; // the printed state, or NULL if it has not been printed since the last step
+    size_t len;
+    Told told[WORLD_MOST_TOLD];
+    int told_count; // also counts those beyond WORLD_MOST_TOLD
+} World;
+
+static inline void world_hear(void *host, const PetriDiagnostic *diagnostic) {
+    World *world = host;
+    if (world->told_count < WORLD_MOST_TOLD) {
+        Told *told = &world->told[world->told_count];
+        told->level = diagnostic->level;
+        snprintf(told->code, sizeof told->code, "%s", diagnostic->code ? diagnostic->code : "-");
+        snprintf(told->text, sizeof told->text, "%s", diagnostic->text);
+    }
+    world->told_count++;
+}
+
+// A session at `fps` frames a second, in lockstep unless `options` says otherwise. The world must not be moved.
+static inline void world_open_with(World *world, PetriOptions options, const char *script) {
+    *world = (World){0};
+    options.diagnostic = world_hear;
+    options.host = world;
+    world->session = petri_open(&options);
+    assert_non_null(world->session);
+    if (petri_load_text(world->session, "world.fl", script, PETRI_Z) != PETRI_OK) {
+        print_error("%s\n%s\n", script, world->told_count ? world->told[0].text : "?");
+        fail_msg("the script cannot be loaded");
+    }
+}
+
+static inline void world_open(World *world, double fps, const char *script) {
+    PetriOptions options = petri_default_options();
+    options.fps = fps;
+    world_open_with(world, options, script);
+}
+
+static inline void world_close(World *world) {
+    petri_close(&world->session);
+    free(world->text);
+    world->text = NULL;
+}
+
+// A text from a format, to be freed.
+__attribute__((format(printf, 1, 2))) static inline char *text_of(const char *format, ...) {
+    va_list arguments;
+    va_start(arguments, format);
+    int len = vsnprintf(NULL, 0, format, arguments);
+    va_end(arguments);
+    char *text = malloc((size_t)len + 1);
+    assert_non_null(text);
+    va_start(arguments, format);
+    vsnprintf(text, (size_t)len + 1, format, arguments);
+    va_end(arguments);
+    return text;
+}
+
+// Makes frames until the last one has this number.
+static inline void world_to(World *world, int64_t frame) {
+    while (petri_frame(world->session).number < frame)
+        assert_int_equal(petri_step(world->session), PETRI_OK);
+    free(world->text);
+    world->text = NULL;
+}
+
+static inline bool world_take(void *host, const char *text, size_t len) {
+    World *world = host;
+    char *grown = realloc(world->text, world->len + len + 1);
+    if (!grown)
+        return false;
+    memcpy(grown + world->len, text, len);
+    world->text = grown;
+    world->len += len;
+    grown[world->len] = 0;
+    return true;
+}
+
+// The frame's header and the state. The state's lines are those behind the first line feed.
+static inline const char *world_text(World *world) {
+    if (!world->text) {
+        world->len = 0;
+        assert_int_equal(petri_print(world->session, PETRI_PRINT_STATE, world_take, world), PETRI_OK);
+    }
+    return world->text;
+}
+
+static inline const char *world_state(World *world) {
+    return strchr(world_text(world), '\n') + 1;
+}
+
+// The printed value of a key, as in ":s;:a;:velocity"; NULL if the state does not have it.
+static inline const char *world_find(World *world, const char *key) {
+    char line[160];
+    for (int several = 0; several < 2; several++) {
+        snprintf(line, sizeof line, several ? "\n$(%s) = " : "\n$%s = ", key);
+        const char *found = strstr(world_text(world), line);
+        if (found)
+            return found + strlen(line);
+    }
+    return NULL;
+}
+
+// The numbers of a text such as "1;-2.5", up to what is no number; returns how many.
+static inline int read_numbers(const char *text, double *numbers, const char **end) {
+    int count = 0;
+    char *next = (char *)text;
+    do {
+        const char *start = next + (count > 0);
+        assert_true(count < WORLD_MOST_NUMBERS);
+        numbers[count] = strtod(start, &next);
+        assert_true(next > start);
+        count++;
+    } while (*next == ';');
+    if (end)
+        *end = next;
+    return count;
+}
+
+// The numbers under a key; -1 if there is none.
+static inline int world_numbers(World *world, const char *key, double *numbers) {
+    const char *value = world_find(world, key);
+    return value ? read_numbers(value, numbers, NULL) : -1;
+}
+
+static inline double world_number(World *world, const char *key) {
+    double numbers[WORLD_MOST_NUMBERS];
+    int count = world_numbers(world, key, numbers);
+    if (count != 1)
+        fail_msg("%s: %d numbers, wanted one\n%s", key, count, world_state(world));
+    return numbers[0];
+}
+
+// How many diagnostics of this kind were given.
+static inline int world_heard(const World *world, const char *code) {
+    int count = 0;
+    for (int i = 0; i < world->told_count && i < WORLD_MOST_TOLD; i++)
+        count += strcmp(world->told[i].code, code) == 0;
+    return count;
+}
+
+static inline void world_print_told(const World *world) {
+    for (int i = 0; i < world->told_count && i < WORLD_MOST_TOLD; i++)
+        print_error("  told: [%s] %s\n", world->told[i].code, world->told[i].text);
+}
+
+// Numbers that are equal, or within a tolerance; a nan is never wanted.
+static inline void check_numbers(World *world, const char *key, double tolerance, int count, const double *wanted,
+                                 const char *file, int line) {
+    double found[WORLD_MOST_NUMBERS];
+    int n = world_numbers(world, key, found);
+    bool same = n == count;
+    for (int i = 0; same && i < count; i++)
+        same = found[i] == wanted[i] || fabs(found[i] - wanted[i]) <= tolerance;
+    if (same)
+        return;
+    print_error("%s:%d: %s\n found: ", file, line, key);
+    for (int i = 0; i < n; i++)
+        print_error(" %.17g", found[i]);
+    print_error("%s\n wanted:", n < 0 ? " nothing" : "");
+    for (int i = 0; i < count; i++)
+        print_error(" %.17g", wanted[i]);
+    print_error("\n");
+    world_print_told(world);
+    _fail(file, line);
+}
+
+#define NUMBERS(...) (int)(sizeof((double[]){__VA_ARGS__}) / sizeof(double)), (double[]){__VA_ARGS__}
+// `key` holds these numbers, to the last bit (but zeros of either sign are equal) or within a tolerance.
+#define EXPECT(world, key, ...) check_numbers(world, key, 0, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
+#define EXPECT_NEAR(world, key, tolerance, ...) \
+    check_numbers(world, key, tolerance, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
+#define EXPECT_ABSENT(world, key) assert_null(world_find(world, key))
+
+// One number against another.
+static inline void check_near(double found, double wanted, double tolerance, const char *file, int line) {
+    if (found == wanted || fabs(found - wanted) <= tolerance)
+        return;
+    print_error("found %.17g, wanted %.17g within %g\n", found, wanted, tolerance);
+    _fail(file, line);
+}
+
+#define NEAR(found, wanted, tolerance) check_near(found, wanted, tolerance, __FILE__, __LINE__)
+
+// Exactly these diagnostics, by kind, in any order: "bad-attribute bad-attribute", or "" for none.
+static inline void check_told(const World *world, const char *codes, const char *title, const char *file, int line) {
+    int wanted = 0;
+    bool all = true;
+    for (const char *at = codes; *at; at += strspn(at, " ")) {
+        size_t len = strcspn(at, " ");
+        char code[32];
+        int same = 0;
+        snprintf(code, sizeof code, "%.*s", (int)len, at);
+        for (const char *other = codes; *other; other += strcspn(other, " "), other += strspn(other, " "))
+            same += strcspn(other, " ") == len && strncmp(other, code, len) == 0;
+        all = all && world_heard(world, code) == same;
+        wanted++;
+        at += len;
+    }
+    if (all && world->told_count == wanted)
+        return;
+    print_error("%s: wanted the diagnostics \"%s\"\n", title, codes);
+    world_print_told(world);
+    _fail(file, line);
+}
+
+#define EXPECT_TOLD(world, codes) check_told(world, codes, "", __FILE__, __LINE__)
+
+#endif

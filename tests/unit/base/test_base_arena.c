@@ -1,0 +1,234 @@
+// test_base_arena.c: regions: alignment, marks, growth, budget.
+#include "check.h"
+
+#include "base/arena.h"
+
+static void test_alignment(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    for (size_t size = 0; size < 100; size++)
+        assert_int_equal((uintptr_t)arena_alloc(&arena, size) % 16, 0);
+    for (size_t size = 1; size < 10 << 20; size *= 3)
+        assert_int_equal((uintptr_t)arena_alloc(&arena, size) % 16, 0);
+    arena_free(&arena);
+}
+
+// Every byte of every allocation can be written without touching another's.
+static void test_allocations_are_apart(void **state) {
+    (void)state;
+    enum { COUNT = 400 };
+    unsigned char *parts[COUNT];
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    for (int i = 0; i < COUNT; i++) {
+        parts[i] = arena_alloc(&arena, (size_t)(i * 7));
+        memset(parts[i], i & 255, (size_t)(i * 7));
+    }
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < i * 7; k++)
+            assert_int_equal(parts[i][k], i & 255);
+    arena_free(&arena);
+}
+
+static void test_copy(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    char *copy = arena_copy(&arena, "petri", 6);
+    assert_string_equal(copy, "petri");
+    assert_non_null(arena_copy(&arena, NULL, 0));
+    arena_free(&arena);
+}
+
+static void test_mark_and_rewind(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    ArenaMark empty = arena_mark(&arena);
+    char *kept = arena_copy(&arena, "kept", 5);
+    ArenaMark mark = arena_mark(&arena);
+    size_t used = arena.used;
+    char *first = arena_alloc(&arena, 100);
+    for (int i = 0; i < 50; i++) // across several blocks
+        memset(arena_alloc(&arena, 5000), 1, 5000);
+    arena_rewind(&arena, mark);
+    assert_int_equal(arena.used, used);
+    assert_string_equal(kept, "kept");
+#ifndef PETRI_STRESS
+    assert_ptr_equal(arena_alloc(&arena, 100), first); // the same place is given out again
+#else
+    (void)first;
+#endif
+    arena_rewind(&arena, mark);
+    arena_rewind(&arena, mark); // twice is once
+    assert_string_equal(kept, "kept");
+    arena_rewind(&arena, empty);
+    assert_int_equal(arena.used, 0);
+    memset(arena_alloc(&arena, 300), 2, 300);
+    arena_free(&arena);
+}
+
+// A nested mark after a block boundary, then the outer one.
+static void test_nested_marks(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    memset(arena_alloc(&arena, 10000), 1, 10000);
+    ArenaMark outer = arena_mark(&arena);
+    memset(arena_alloc(&arena, 30000), 2, 30000);
+    ArenaMark inner = arena_mark(&arena);
+    memset(arena_alloc(&arena, 90000), 3, 90000);
+    arena_rewind(&arena, inner);
+    assert_int_equal(arena.used, 40000);
+    memset(arena_alloc(&arena, 64), 4, 64);
+    arena_rewind(&arena, outer);
+    assert_int_equal(arena.used, 10000);
+    memset(arena_alloc(&arena, 90000), 5, 90000);
+    arena_free(&arena);
+}
+
+static void test_reset_keeps_blocks(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    for (int round = 0; round < 3; round++) {
+        for (int i = 0; i < 20; i++)
+            memset(arena_alloc(&arena, 4000), round, 4000);
+        assert_int_equal(arena.used, 80000);
+        arena_reset(&arena);
+        assert_int_equal(arena.used, 0);
+    }
+    assert_int_equal(arena.high_water, 80000);
+    ArenaBlock *first = arena.first;
+    arena_alloc(&arena, 16);
+    assert_ptr_equal(arena.first, first);
+    assert_int_equal(arena.high_water, 80000);
+    arena_free(&arena);
+    assert_null(arena.first);
+}
+
+static void test_high_water(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    arena_alloc(&arena, 160);
+    ArenaMark mark = arena_mark(&arena);
+    arena_alloc(&arena, 320);
+    arena_rewind(&arena, mark);
+    arena_alloc(&arena, 16);
+    assert_int_equal(arena.used, 176);
+    assert_int_equal(arena.high_water, 480);
+    arena_free(&arena);
+}
+
+static void test_grow(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    char *bytes = arena_grow(&arena, NULL, 0, 8);
+    memcpy(bytes, "1234567", 8);
+    char *same = arena_grow(&arena, bytes, 8, 40);
+#ifndef PETRI_STRESS
+    assert_ptr_equal(same, bytes); // it was the latest: extended in place
+#endif
+    memset(same + 8, 'x', 32);
+    char *other = arena_alloc(&arena, 16);
+    memset(other, 'o', 16);
+    char *moved = arena_grow(&arena, same, 40, 80);
+    assert_ptr_not_equal(moved, same);
+    assert_memory_equal(moved, "1234567", 8);
+    for (int i = 8; i < 40; i++)
+        assert_int_equal(moved[i], 'x');
+    assert_int_equal(other[15], 'o');
+    size_t size = 80;
+    for (; size < 1 << 20; size *= 2) { // over many block boundaries
+        memset(moved + size / 2, 'y', size / 2);
+        moved = arena_grow(&arena, moved, size, size * 2);
+    }
+    assert_memory_equal(moved, "1234567", 8);
+    assert_int_equal(moved[size / 2 - 1], 'y');
+    arena_free(&arena);
+}
+
+typedef struct Attempt {
+    Arena arena;
+    size_t size;
+    size_t count;
+    void *bytes;
+} Attempt;
+
+// True if the action left through the escape.
+static bool escapes(Attempt *attempt, void (*action)(Attempt *)) {
+    jmp_buf escape;
+    attempt->arena.escape = &escape;
+    if (setjmp(escape) != 0)
+        return true;
+    action(attempt);
+    return false;
+}
+
+static void alloc_size(Attempt *attempt) {
+    attempt->bytes = arena_alloc(&attempt->arena, attempt->size);
+}
+
+static void alloc_array(Attempt *attempt) {
+    attempt->bytes = arena_alloc_array(&attempt->arena, attempt->count, attempt->size);
+}
+
+static void grow_to_size(Attempt *attempt) {
+    attempt->bytes = arena_grow(&attempt->arena, attempt->bytes, 16, attempt->size);
+}
+
+static void test_budget(void **state) {
+    (void)state;
+    Attempt attempt = {.size = 1000};
+    arena_init(&attempt.arena, "test", 10000);
+    for (int i = 0; i < 9; i++)
+        assert_false(escapes(&attempt, alloc_size));
+    assert_int_equal(attempt.arena.used, 9 * 1008);
+    assert_true(escapes(&attempt, alloc_size));
+    assert_int_equal(attempt.arena.used, 9 * 1008); // a refused allocation takes nothing
+    attempt.size = 16;
+    assert_false(escapes(&attempt, alloc_size));
+    attempt.size = 20000;
+    assert_true(escapes(&attempt, grow_to_size));
+    arena_reset(&attempt.arena);
+    attempt.size = 10000;
+    assert_false(escapes(&attempt, alloc_size)); // the budget counts from reset to reset
+    arena_free(&attempt.arena);
+}
+
+static void test_overflowing_sizes(void **state) {
+    (void)state;
+    Attempt attempt = {.size = 16, .count = SIZE_MAX / 8};
+    arena_init(&attempt.arena, "test", SIZE_MAX);
+    assert_true(escapes(&attempt, alloc_array));
+    attempt.size = SIZE_MAX / 2;
+    assert_true(escapes(&attempt, alloc_size)); // more than any machine has
+    attempt.size = SIZE_MAX - 3;                // rounding up to the alignment must not wrap round to 0
+    assert_true(escapes(&attempt, alloc_size));
+    attempt.size = SIZE_MAX - 40; // nor must the block's header
+    assert_true(escapes(&attempt, alloc_size));
+    attempt.size = 0;
+    attempt.count = SIZE_MAX;
+    assert_false(escapes(&attempt, alloc_array));
+    assert_non_null(attempt.bytes);
+    arena_free(&attempt.arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_alignment),
+        cmocka_unit_test(test_allocations_are_apart),
+        cmocka_unit_test(test_copy),
+        cmocka_unit_test(test_mark_and_rewind),
+        cmocka_unit_test(test_nested_marks),
+        cmocka_unit_test(test_reset_keeps_blocks),
+        cmocka_unit_test(test_high_water),
+        cmocka_unit_test(test_grow),
+        cmocka_unit_test(test_budget),
+        cmocka_unit_test(test_overflowing_sizes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

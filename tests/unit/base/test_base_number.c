@@ -1,0 +1,152 @@
+// test_base_number.c: doubles to text and back, in any locale.
+#include "check.h"
+
+#include "base/number.h"
+
+#include <locale.h>
+
+static const char *printed(double x) {
+    static char text[NUMBER_TEXT];
+    size_t len = number_format(x, text);
+    assert_int_equal(len, strlen(text));
+    return text;
+}
+
+static const char *printed_short(double x) {
+    static char text[NUMBER_TEXT];
+    size_t len = number_format_short(x, text);
+    assert_int_equal(len, strlen(text));
+    return text;
+}
+
+static const struct {
+    double x;
+    const char *shortest, *nine_digits;
+} rows[] = {
+    {0, "0", "0"},
+    {-0.0, "-0", "-0"},
+    {1, "1", "1"},
+    {-17, "-17", "-17"},
+    {0.1, "0.1", "0.1"},
+    {-0.1, "-0.1", "-0.1"},
+    {0.1 + 0.2, "0.30000000000000004", "0.3"},
+    {1.0 / 3, "0.3333333333333333", "0.333333333"},
+    {4.35, "4.35", "4.35"},
+    {1e-4, "0.0001", "0.0001"},
+    {1e-5, "1e-05", "1e-05"},
+    {9.5e-5, "9.5e-05", "9.5e-05"},
+    {123456789012, "123456789012", "1.23456789e+11"},
+    {123456789, "123456789", "123456789"},
+    {1e9, "1000000000", "1e+09"},
+    {1e15, "1000000000000000", "1e+15"},
+    {9007199254740991, "9007199254740991", "9.00719925e+15"},
+    {9007199254740992, "9007199254740992", "9.00719925e+15"},
+    {9999999999999998, "9999999999999998", "1e+16"},
+    {1e16, "1e+16", "1e+16"},
+    {1e21, "1e+21", "1e+21"},
+    {1e23, "1e+23", "1e+23"},
+    {1.2345678901234568e+17, "1.2345678901234568e+17", "1.23456789e+17"},
+    {1.5e300, "1.5e+300", "1.5e+300"},
+    {0x1p-44, "5.684341886080802e-14", "5.68434189e-14"}, // the nearest 16 digits do not read back
+    {0x1p-24, "5.960464477539063e-08", "5.96046448e-08"},
+    {0x1p60, "1.152921504606847e+18", "1.1529215e+18"},
+    {0x1p1023, "8.98846567431158e+307", "8.98846567e+307"},
+    {1.7976931348623157e308, "1.7976931348623157e+308", "1.79769313e+308"},
+    {2.2250738585072014e-308, "2.2250738585072014e-308", "2.22507386e-308"},
+    {5e-324, "5e-324", "4.94065646e-324"},
+    {INFINITY, "inf", "inf"},
+    {-INFINITY, "-inf", "-inf"},
+    {NAN, "nan", "nan"},
+};
+
+static void test_printed_forms(void **state) {
+    (void)state;
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        assert_text(rows[i].shortest, printed(rows[i].x), rows[i].shortest);
+        assert_text(rows[i].nine_digits, printed_short(rows[i].x), rows[i].nine_digits);
+    }
+    assert_text("nan with a sign", printed(-NAN), "nan");
+    assert_text("nan with a sign", printed_short(-NAN), "nan");
+}
+
+static uint64_t hash_line(uint64_t hash, const char *text) {
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * 0x100000001b3u;
+    return (hash ^ '\n') * 0x100000001b3u;
+}
+
+static double of_bits(uint64_t bits) {
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+// FNV-1a of the lines that an independent implementation (Python's repr without ".0") prints.
+static void test_powers_of_two(void **state) {
+    (void)state;
+    uint64_t hash = 0xcbf29ce484222325u;
+    for (int exponent = -1074; exponent <= 1023; exponent++) {
+        double x = ldexp(1, exponent);
+        assert_number("reads back", number_parse(str_from(printed(x))), x);
+        hash = hash_line(hash, printed(x));
+    }
+    assert_true(hash == UINT64_C(POWERS_HASH));
+}
+
+static void test_random_bits(void **state) {
+    (void)state;
+    uint64_t seed = 1, hash = 0xcbf29ce484222325u;
+    for (int i = 0; i < 100000; i++) {
+        double x = of_bits(next_bits(&seed));
+        if (!isfinite(x))
+            continue;
+        assert_number("reads back", number_parse(str_from(printed(x))), x);
+        hash = hash_line(hash, printed(x));
+    }
+    assert_true(hash == UINT64_C(RANDOM_HASH));
+}
+
+static void test_parse(void **state) {
+    (void)state;
+    static const struct {
+        const char *text;
+        double x;
+    } cases[] = {
+        {"0", 0},       {"1_000", 1000},   {"1_0.5_5e1_0", 105500000000.0},
+        {".5", 0.5},    {"1e400", INFINITY}, {"1e-400", 0},
+        {"1E3", 1000},  {"2.5e-3", 0.0025}, {"0.1", 0.1},
+        {"-1.5", -1.5}, {"9007199254740993", 9007199254740992.0},
+        {"2.2250738585072011e-308", 2.225073858507201e-308},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++)
+        assert_number(cases[i].text, number_parse(str_from(cases[i].text)), cases[i].x);
+    // The text need not end where its slice does, and may be long.
+    assert_number("slice", number_parse((Str){"12345", 2}), 12);
+    char digits[501];
+    memset(digits, '1', 500);
+    digits[1] = '.';
+    assert_number("500 digits", number_parse((Str){digits, 500}), 1.1111111111111112);
+}
+
+// A locale with a decimal comma, if the machine has one, changes nothing.
+static void test_locale(void **state) {
+    static const char *const locales[] = {"de_DE.UTF-8", "de_DE.utf8", "de_DE", "fr_FR.UTF-8", "nl_NL.UTF-8"};
+    const char *found = NULL;
+    for (size_t i = 0; i < COUNT_OF(locales) && !found; i++)
+        found = setlocale(LC_NUMERIC, locales[i]);
+    if (!found)
+        skip();
+    assert_string_equal(localeconv()->decimal_point, ",");
+    test_printed_forms(state);
+    test_parse(state);
+    test_powers_of_two(state);
+    setlocale(LC_NUMERIC, "C");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_printed_forms), cmocka_unit_test(test_powers_of_two), cmocka_unit_test(test_random_bits),
+        cmocka_unit_test(test_parse),         cmocka_unit_test(test_locale),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,136 @@
+// test_base_table.c: the index of a hash table, against a plain model.
+#include "check.h"
+
+#include "base/table.h"
+
+#include <stdlib.h>
+
+enum { KEYS = 3000 };
+
+// Entries are numbers; `weak` hashes put many of them into one run of slots.
+typedef struct Owner {
+    Index index;
+    uint32_t entries[KEYS];
+    bool weak;
+} Owner;
+
+static bool same_key(const void *owner, uint32_t entry, const void *key) {
+    return ((const Owner *)owner)->entries[entry] == *(const uint32_t *)key;
+}
+
+static uint64_t hash_of(const Owner *owner, uint32_t key) {
+    return owner->weak ? (uint64_t)(key % 3) << 32 : hash_mix(key + UINT64_C(1));
+}
+
+static uint32_t find(const Owner *owner, uint32_t key) {
+    return index_find(&owner->index, hash_of(owner, key), same_key, owner, &key);
+}
+
+static void add(Owner *owner, uint32_t entry, uint32_t key) {
+    owner->entries[entry] = key;
+    assert_true(index_add(&owner->index, hash_of(owner, key), entry));
+}
+
+static void test_empty(void **state) {
+    (void)state;
+    Owner owner = {0};
+    assert_true(find(&owner, 1) == INDEX_NONE);
+    index_clear(&owner.index);
+    index_free(&owner.index);
+    assert_null(owner.index.slots);
+}
+
+static void add_and_find(bool weak, uint32_t count) {
+    Owner owner = {.weak = weak};
+    for (uint32_t i = 0; i < count; i++) {
+        assert_true(find(&owner, i * 7) == INDEX_NONE);
+        add(&owner, i, i * 7);
+        assert_int_equal(owner.index.live, i + 1);
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        assert_int_equal(find(&owner, i * 7), i);
+        assert_true(find(&owner, i * 7 + 1) == INDEX_NONE);
+    }
+    index_clear(&owner.index);
+    assert_int_equal(owner.index.live, 0);
+    for (uint32_t i = 0; i < count; i++)
+        assert_true(find(&owner, i * 7) == INDEX_NONE);
+    add(&owner, 0, 5);
+    assert_int_equal(find(&owner, 5), 0);
+    index_free(&owner.index);
+}
+
+static void test_add_and_find(void **state) {
+    (void)state;
+    add_and_find(false, KEYS);
+    add_and_find(true, 300);
+}
+
+// Random additions, removals and moves; after each change all keys are found where the model has them.
+static void churn(bool weak, uint32_t keys, int rounds) {
+    enum { NOWHERE = UINT32_MAX };
+    Owner owner = {.weak = weak};
+    uint32_t place[KEYS], live = 0;
+    uint64_t seed = 42;
+    for (uint32_t k = 0; k < keys; k++)
+        place[k] = NOWHERE;
+    for (int round = 0; round < rounds; round++) {
+        uint32_t key = (uint32_t)(next_bits(&seed) % keys);
+        if (place[key] == NOWHERE) {
+            place[key] = live;
+            add(&owner, live++, key);
+        } else {
+            // Remove, and fill the hole with the last entry, as a dense owner does.
+            uint32_t hole = place[key], last = --live, moved = owner.entries[last];
+            index_remove(&owner.index, hash_of(&owner, key), hole);
+            place[key] = NOWHERE;
+            if (hole != last) {
+                index_move(&owner.index, hash_of(&owner, moved), last, hole);
+                owner.entries[hole] = moved;
+                place[moved] = hole;
+            }
+        }
+        assert_int_equal(owner.index.live, live);
+        assert_true(owner.index.used >= live && owner.index.used <= owner.index.mask);
+        for (uint32_t k = 0; k < keys; k += round % 50 ? 41 : 1)
+            assert_int_equal(find(&owner, k), place[k] == NOWHERE ? INDEX_NONE : place[k]);
+    }
+    index_free(&owner.index);
+}
+
+static void test_add_remove_move(void **state) {
+    (void)state;
+    churn(false, 500, 20000);
+    churn(true, 60, 5000);
+}
+
+// Removing and adding for ever does not make the table grow.
+static void test_deleted_slots_are_reclaimed(void **state) {
+    (void)state;
+    Owner owner = {0};
+    for (uint32_t i = 0; i < 100000; i++) {
+        add(&owner, 0, i);
+        index_remove(&owner.index, hash_of(&owner, i), 0);
+    }
+    assert_int_equal(owner.index.live, 0);
+    assert_true(owner.index.mask < 64);
+    index_free(&owner.index);
+}
+
+static void test_hash(void **state) {
+    (void)state;
+    assert_true(hash_bytes(0, "ab", 2) != hash_bytes(0, "ba", 2));
+    assert_true(hash_bytes(0, "ab", 2) != hash_bytes(1, "ab", 2));
+    assert_true(hash_bytes(0, "a\0", 2) != hash_bytes(0, "a", 1));
+    assert_true(hash_bytes(0, NULL, 0) == hash_bytes(0, "x", 0));
+    assert_true(hash_mix(1) == UINT64_C(0x5692161d100b05e5)); // the finaliser of SplitMix64
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_empty),           cmocka_unit_test(test_add_and_find),
+        cmocka_unit_test(test_add_remove_move), cmocka_unit_test(test_deleted_slots_are_reclaimed),
+        cmocka_unit_test(test_hash),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
