@@ -15,8 +15,8 @@ typedef struct Child {
 
 enum { CHILD_SECONDS = 120 };
 
-// Starts `petri run` with these words in a folder. False with errno set.
-bool child_start(Child *child, const Host *host, const char *folder, int argc, char **argv);
+// Starts a program in a folder; the words end with NULL, the first is the program's name. False with errno set.
+bool child_start(Child *child, const char *program, const char *folder, char **argv);
 // Waits for any child to end; its process id, or -1 if there is none. `status` is that of waitpid.
 pid_t child_wait(int *status);
 // Reads what an ended child has written and closes its files.

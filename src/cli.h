@@ -18,7 +18,8 @@ typedef struct OptionSpec {
 
 // What main found out about the process, for all commands.
 typedef struct Host {
-    size_t stack_bytes; // C stack that evaluation may use
+    size_t stack_bytes;  // C stack that evaluation may use
+    const char *program; // path of this program, from wherever it is started
 } Host;
 
 typedef struct Command {

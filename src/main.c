@@ -1,8 +1,10 @@
 // main.c: prepares the process, finds the command and runs it on a thread with a large stack.
 #include <fcntl.h>
+#include <limits.h>
 #include <pthread.h>
 #include <signal.h>
 #include <stdint.h>
+#include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
@@ -106,11 +108,24 @@ static bool run_on_large_stack(Job *job) {
     return false;
 }
 
+// The system knows best where we are; argv[0] may be a name that the shell has looked up.
+static const char *program_path(const char *name, char *resolved) {
+    static const char system_path[] = "/proc/self/exe";
+    if (access(system_path, X_OK) == 0) {
+        return system_path;
+    }
+    return name != NULL && realpath(name, resolved) != NULL ? resolved : "petri";
+}
+
 int main(int argc, char **argv) {
     open_standard_descriptors();
     // A closed pipe is seen as an error of write, not as the end of the process.
     signal(SIGPIPE, SIG_IGN);
-    Job job = {.argc = argc, .argv = argv, .status = STATUS_FAILED};
+    char resolved[PATH_MAX];
+    Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
+               .argc = argc,
+               .argv = argv,
+               .status = STATUS_FAILED};
     if (!run_on_large_stack(&job)) {
         message("cannot start a thread");
         return STATUS_FAILED;

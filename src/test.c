@@ -90,8 +90,10 @@ static void start_child(Suite *suite, Case *item) {
     size_t length = slash == NULL ? 0 : (size_t)(slash - item->script) + 1;
     char *folder = slash == NULL ? memory_copied(".", 1) : memory_copied(item->script, length);
     const Golden *golden = &item->golden;
-    char **argv = memory_zeroed(((size_t)golden->option_count + 6) * sizeof *argv);
+    char **argv = memory_zeroed(((size_t)golden->option_count + 8) * sizeof *argv);
     int argc = 0;
+    argv[argc++] = "petri";
+    argv[argc++] = "run";
     // Scripts run side by side already. Results never depend on the number of threads, and the golden may ask for more.
     argv[argc++] = "--threads=1";
     if (item->is_rejection) {
@@ -106,7 +108,7 @@ static void start_child(Suite *suite, Case *item) {
     argv[argc++] = "--";
     argv[argc++] = item->script + length;
     item->result.seconds = clock_seconds();
-    if (!child_start(&item->child, suite->host, folder, argc, argv)) {
+    if (!child_start(&item->child, suite->host->program, folder, argv)) {
         bytes_format(&item->result.trouble, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
@@ -167,11 +169,16 @@ static void report_done(Suite *suite, size_t started) {
     output_flush(&suite->output);
 }
 
+// Nobody waits for results that nobody reads.
+static bool is_wanted(const Suite *suite) {
+    return suite->output.error == 0 || suite->junit != NULL;
+}
+
 static void run_cases(Suite *suite) {
     size_t started = 0;
     int64_t running = 0;
-    while (started < suite->count || running > 0) {
-        if (started < suite->count && running < suite->jobs) {
+    while ((started < suite->count && is_wanted(suite)) || running > 0) {
+        if (started < suite->count && running < suite->jobs && is_wanted(suite)) {
             Case *item = &suite->cases[started++];
             start_case(suite, item);
             running += item->done ? 0 : 1;

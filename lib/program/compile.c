@@ -32,9 +32,57 @@ static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast)
     return compile_expr_new(compiler, kind, ast, children, ast->count);
 }
 
+// The row of a kind whose expression is just the same kind over the same children, or EXPR_CONST if there is none.
+static ExprKind plain_kind(AstKind kind) {
+    switch (kind) {
+    case AST_COMPOSE:
+        return EXPR_COMPOSE;
+    case AST_APPEND:
+        return EXPR_APPEND;
+    case AST_OR:
+        return EXPR_OR;
+    case AST_XOR:
+        return EXPR_XOR;
+    case AST_AND:
+        return EXPR_AND;
+    case AST_NOT:
+        return EXPR_NOT;
+    case AST_EQ:
+        return EXPR_EQ;
+    case AST_NE:
+        return EXPR_NE;
+    case AST_LT:
+        return EXPR_LT;
+    case AST_GT:
+        return EXPR_GT;
+    case AST_LE:
+        return EXPR_LE;
+    case AST_GE:
+        return EXPR_GE;
+    case AST_IN:
+        return EXPR_IN;
+    case AST_NEG:
+        return EXPR_NEG;
+    case AST_POS:
+        return EXPR_POS;
+    case AST_INDEX:
+        return EXPR_INDEX;
+    default:
+        return EXPR_CONST;
+    }
+}
+
 static const Expr *compile_arith(Compiler *compiler, const Ast *ast, ArithOp op) {
     Expr *expr = compile_children(compiler, EXPR_ARITH, ast);
     expr->slot = op;
+    return expr;
+}
+
+// A name compared with itself is one object, of which not even a nan is out of order (L5.5).
+static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
+    const Ast *left = ast->children[0], *right = ast->children[1];
+    Expr *expr = compile_children(compiler, plain_kind(ast->kind), ast);
+    expr->slot = left->kind == AST_NAME && right->kind == AST_NAME && left->name == right->name;
     return expr;
 }
 
@@ -77,7 +125,7 @@ static const Expr *compile_let(Compiler *compiler, const Ast *ast) {
     const Expr **binds = arena_alloc_array(compiler->arena, ast->count, sizeof *binds);
     for (uint32_t i = 0; i < ast->count; i++)
         binds[i] = compile_binding(compiler, ast->children[i]);
-    return ast->count == 1 ? binds[0] : compile_expr_new(compiler, EXPR_COMPOSE, ast, binds, ast->count);
+    return ast->count == 1 ? binds[0] : compile_expr_new(compiler, EXPR_LET, ast, binds, ast->count);
 }
 
 static const Expr *compile_where(Compiler *compiler, const Ast *ast) {
@@ -236,46 +284,6 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-// The row of a kind whose expression is just the same kind over the same children, or EXPR_CONST if there is none.
-static ExprKind plain_kind(AstKind kind) {
-    switch (kind) {
-    case AST_COMPOSE:
-        return EXPR_COMPOSE;
-    case AST_APPEND:
-        return EXPR_APPEND;
-    case AST_OR:
-        return EXPR_OR;
-    case AST_XOR:
-        return EXPR_XOR;
-    case AST_AND:
-        return EXPR_AND;
-    case AST_NOT:
-        return EXPR_NOT;
-    case AST_EQ:
-        return EXPR_EQ;
-    case AST_NE:
-        return EXPR_NE;
-    case AST_LT:
-        return EXPR_LT;
-    case AST_GT:
-        return EXPR_GT;
-    case AST_LE:
-        return EXPR_LE;
-    case AST_GE:
-        return EXPR_GE;
-    case AST_IN:
-        return EXPR_IN;
-    case AST_NEG:
-        return EXPR_NEG;
-    case AST_POS:
-        return EXPR_POS;
-    case AST_INDEX:
-        return EXPR_INDEX;
-    default:
-        return EXPR_CONST;
-    }
-}
-
 const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     switch (ast->kind) {
     case AST_LITERAL:
@@ -331,6 +339,11 @@ const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
         lint_branches(compiler, expr);
         return expr;
     }
+    case AST_LT:
+    case AST_GT:
+    case AST_LE:
+    case AST_GE:
+        return compile_order(compiler, ast);
     default:
         return compile_children(compiler, plain_kind(ast->kind), ast);
     }

@@ -11,6 +11,7 @@ EXPR(GLOBAL,  "global")   // slot: an EngineName
 EXPR(UNBOUND, "unbound")  // name: reported when reached; null
 EXPR(COMPOSE, "compose")  // part…
 EXPR(BIND,    "bind")     // value; unpacked into slot_count slots from slot; null itself
+EXPR(LET,     "let")      // BIND…; null itself
 EXPR(FUNC,    "func")     // function: makes a closure
 EXPR(IMPORT,  "import")   // file; import: names to bind from slot on; null itself
 EXPR(FOR,     "for")      // source, body; names in slot_count slots from slot
@@ -24,10 +25,10 @@ EXPR(AND,     "and")      // left, right
 EXPR(NOT,     "not")      // operand
 EXPR(EQ,      "eq")       // left, right
 EXPR(NE,      "ne")       // left, right
-EXPR(LT,      "lt")       // left, right
-EXPR(GT,      "gt")       // left, right
-EXPR(LE,      "le")       // left, right
-EXPR(GE,      "ge")       // left, right
+EXPR(LT,      "lt")       // left, right; slot: 1 if both are one object
+EXPR(GT,      "gt")       // left, right; slot: 1 if both are one object
+EXPR(LE,      "le")       // left, right; slot: 1 if both are one object
+EXPR(GE,      "ge")       // left, right; slot: 1 if both are one object
 EXPR(IN,      "in")       // left, right
 EXPR(RANGE,   "range")    // start, stop, step (CONST null where left out)
 EXPR(ARITH,   "arith")    // left, right; slot: an ArithOp

@@ -122,7 +122,7 @@ Value value_copy(Arena *arena, Value v);
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 
 // A vector under construction. Collects values in order; `vector_finish` gives their composition (L4.7). A stream
-// survives only if it is the single part.
+// survives only if it is the single part, nulls counted.
 typedef struct Vector {
     Arena *arena;
     union {
@@ -133,7 +133,9 @@ typedef struct Vector {
     uint32_t capacity;
     bool mixed;
     bool overflow; // more than VALUE_MAX_LEN elements were added: the result is null and the caller reports it
-    uint32_t parts;
+    uint32_t parts; // that are not null
+    bool several;   // more than one part was added, null or not
+    bool any;
     Value first; // the first part, returned as it is if it stays the only one
 } Vector;
 

@@ -51,6 +51,8 @@ static void append(Vector *vector, Value part) {
 
 // The first part is kept aside, so that composing one value costs nothing and keeps a stream.
 void vector_add(Vector *vector, Value part) {
+    vector->several = vector->any;
+    vector->any = true;
     if (value_is_null(part))
         return;
     if (vector->parts++ == 0) {
@@ -79,8 +81,10 @@ void vector_add_item(Vector *vector, Item item) {
 Value vector_finish(Vector *vector) {
     if (vector->overflow)
         return VALUE_NULL;
-    if (vector->parts <= 1)
-        return vector->parts ? vector->first : VALUE_NULL;
+    if (vector->parts == 0 || (vector->several && vector->parts == 1 && vector->first.kind == VALUE_STREAM))
+        return VALUE_NULL;
+    if (vector->parts == 1)
+        return vector->first;
     if (!vector->mixed)
         return value_numbers_view(vector->as.numbers, vector->len);
     return (Value){.len = vector->len, .kind = VALUE_MIXED, .as.items = vector->as.items};

@@ -46,14 +46,27 @@ static Value finish(Vm *vm, const Expr *at, Vector *vector) {
     return vector_finish(vector);
 }
 
-// A vector's parts in order; also a suite's statements, of which bindings give null.
+static bool only_binds(const Expr *expr) {
+    return expr->kind == EXPR_BIND || expr->kind == EXPR_LET || expr->kind == EXPR_IMPORT;
+}
+
+// A vector's parts in order; also a suite's statements, of which bindings are no parts.
 static Value eval_compose(Vm *vm, Frame *frame, const Expr *expr) {
     if (expr->count == 1)
         return vm_eval(vm, frame, expr->children[0]);
     Vector vector = vector_new(vm->arena);
-    for (uint32_t i = 0; i < expr->count; i++)
-        vector_add(&vector, vm_eval(vm, frame, expr->children[i]));
+    for (uint32_t i = 0; i < expr->count; i++) {
+        Value part = vm_eval(vm, frame, expr->children[i]);
+        if (!only_binds(expr->children[i]))
+            vector_add(&vector, part);
+    }
     return finish(vm, expr, &vector);
+}
+
+static Value eval_let(Vm *vm, Frame *frame, const Expr *expr) {
+    for (uint32_t i = 0; i < expr->count; i++)
+        vm_eval(vm, frame, expr->children[i]);
+    return VALUE_NULL;
 }
 
 void vm_bind(Vm *vm, Frame *frame, uint32_t slot, uint32_t count, Value value) {
@@ -154,14 +167,14 @@ static Value stream_as_null(Value v) {
     return v.kind == VALUE_STREAM ? VALUE_NULL : v;
 }
 
-static Value eval_compare(ExprKind kind, Value a, Value b) {
+static Value eval_compare(ExprKind kind, Value a, Value b, bool same) {
     if (kind == EXPR_EQ)
         return truth(value_equal(a, b));
     if (kind == EXPR_NE)
         return truth(!value_equal(stream_as_null(a), stream_as_null(b)));
     if (kind == EXPR_IN)
         return truth(value_contains(a, b));
-    int order = value_compare(a, b);
+    int order = same ? 0 : value_compare(a, b);
     if (order == VALUE_INCOMPARABLE)
         return VALUE_NULL;
     switch (kind) {
@@ -216,6 +229,8 @@ Value vm_eval(Vm *vm, Frame *frame, const Expr *expr) {
     case EXPR_BIND:
         vm_bind(vm, frame, expr->slot, expr->slot_count, vm_eval(vm, frame, expr->children[0]));
         return VALUE_NULL;
+    case EXPR_LET:
+        return eval_let(vm, frame, expr);
     case EXPR_FUNC:
         return vm_make_closure(vm, frame, expr);
     case EXPR_IMPORT:
@@ -245,7 +260,7 @@ Value vm_eval(Vm *vm, Frame *frame, const Expr *expr) {
     case EXPR_GE:
     case EXPR_IN: {
         Value left = vm_eval(vm, frame, expr->children[0]);
-        return eval_compare(expr->kind, left, vm_eval(vm, frame, expr->children[1]));
+        return eval_compare(expr->kind, left, vm_eval(vm, frame, expr->children[1]), expr->slot);
     }
     case EXPR_RANGE:
         return eval_range(vm, frame, expr);

@@ -110,6 +110,13 @@ verdict broken
 check "a script that cannot be loaded fails" fails
 check "a failure shows the error" has out "ended with status 1: broken.fl:1:"
 
+printf '!n a=frame\n' >g/endless.fl
+printf '# run --frames 1000000000000\n' >g/endless.golden
+petri_limited() { (ulimit -t 1 && timeout 100 "$petri" "$@" >out 2>err </dev/null); status=$?; }
+petri_limited test g/endless.fl g/same.fl
+check "a script that is killed fails" has out "FAIL g/endless.fl was killed by signal"
+check "a script that is killed stops no other" last_line_is out "1 passed, 1 failed"
+
 # rejections
 printf '!n a=1\n!n b=*\n' >g/wrong.fl
 echo 'line 2' >g/wrong.err

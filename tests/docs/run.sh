@@ -110,7 +110,9 @@ explain() { # WANT GOT
              for (i = 1; i <= wants || i <= gots; i++)
                  if (i > wants || i > gots || want[i] != got[i])
                      break
-             printf "line %d: expected %s, got %s\n", i, i > wants ? "nothing" : want[i], i > gots ? "nothing" : got[i]
+             expected = i <= wants ? want[i] : "nothing"
+             actual = i <= gots ? got[i] : "nothing"
+             print "line " i ": expected " expected ", got " actual
          }' "$1" "$2"
 }
 

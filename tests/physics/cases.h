@@ -1,7 +1,7 @@
 // cases.h: tables of small scripts with what they must lead to, worked out by hand.
 //
-// At one frame a second the first step is the one of frame 1, and it has length 1: a resting particle of mass 1 then has
-// a velocity equal to the force on it. Numbers in the tables are such that nothing is rounded.
+// At one frame a second the first step is the one of frame 1, and it has length 1: a resting particle of mass 1 then
+// has a velocity equal to the force on it. Numbers in the tables are such that nothing is rounded.
 #ifndef PETRI_TESTS_PHYSICS_CASES_H
 #define PETRI_TESTS_PHYSICS_CASES_H
 
@@ -11,8 +11,9 @@ typedef struct Case {
     const char *title;
     const char *script; // at one frame a second
     int frame;
-    // What the state holds then: NAME=NUMBERS for the position of the particle `:NAME` of the system `:s`, NAME'=… for its
-    // velocity, :NAME=… for another key of the system, $=… for that of the prefix itself, =none for a key that is not there.
+    // What the state holds then: NAME=NUMBERS for the position of the particle `:NAME` of the system `:s`, NAME'=… for
+    // its velocity, :NAME=… for another key of the system, $=… for that of the prefix itself, =none for a key that is
+    // not there.
     const char *wanted;
     const char *told; // the kinds of all diagnostics up to then; NULL: none
 } Case;
@@ -22,7 +23,8 @@ static inline void case_key(const char *name, size_t len, char key[64]) {
     if (*name == '$')
         snprintf(key, 64, ":s");
     else
-        snprintf(key, 64, ":s;%s%.*s%s", *name == ':' ? "" : ":", (int)(len - velocity), name, velocity ? ";:velocity" : "");
+        snprintf(key, 64, ":s;%s%.*s%s", *name == ':' ? "" : ":", (int)(len - velocity), name,
+                 velocity ? ";:velocity" : "");
 }
 
 static inline void check_case(const Case *row, const char *file, int line) {
@@ -53,10 +55,10 @@ static inline void check_case(const Case *row, const char *file, int line) {
     world_close(&world);
 }
 
-#define CHECK_CASES(table) \
-    do { \
-        for (size_t row = 0; row < COUNT_OF(table); row++) \
-            check_case(&(table)[row], __FILE__, __LINE__); \
+#define CHECK_CASES(table)                                                                                             \
+    do {                                                                                                               \
+        for (size_t row = 0; row < COUNT_OF(table); row++)                                                             \
+            check_case(&(table)[row], __FILE__, __LINE__);                                                             \
     } while (0)
 
 #endif

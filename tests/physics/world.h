@@ -1,4 +1,5 @@
-// world.h: runs a script from a string and looks at the state as it prints; all that these tests know of petri is petri.h.
+// world.h: runs a script from a string and looks at the state as it prints; all that these tests know of petri is
+// petri.h.
 #ifndef PETRI_TESTS_PHYSICS_WORLD_H
 #define PETRI_TESTS_PHYSICS_WORLD_H
 
@@ -200,10 +201,13 @@ static inline void check_numbers(World *world, const char *key, double tolerance
     _fail(file, line);
 }
 
-#define NUMBERS(...) (int)(sizeof((double[]){__VA_ARGS__}) / sizeof(double)), (double[]){__VA_ARGS__}
+#define NUMBERS(...)                                                                                                   \
+    (int)(sizeof((double[]){__VA_ARGS__}) / sizeof(double)), (double[]) {                                              \
+        __VA_ARGS__                                                                                                    \
+    }
 // `key` holds these numbers, to the last bit (but zeros of either sign are equal) or within a tolerance.
 #define EXPECT(world, key, ...) check_numbers(world, key, 0, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
-#define EXPECT_NEAR(world, key, tolerance, ...) \
+#define EXPECT_NEAR(world, key, tolerance, ...)                                                                        \
     check_numbers(world, key, tolerance, NUMBERS(__VA_ARGS__), __FILE__, __LINE__)
 #define EXPECT_ABSENT(world, key) assert_null(world_find(world, key))
 

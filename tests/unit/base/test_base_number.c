@@ -90,7 +90,7 @@ static void test_powers_of_two(void **state) {
         assert_number("reads back", number_parse(str_from(printed(x))), x);
         hash = hash_line(hash, printed(x));
     }
-    assert_true(hash == UINT64_C(POWERS_HASH));
+    assert_true(hash == UINT64_C(0x3fc860b38cea65d5));
 }
 
 static void test_random_bits(void **state) {
@@ -103,7 +103,7 @@ static void test_random_bits(void **state) {
         assert_number("reads back", number_parse(str_from(printed(x))), x);
         hash = hash_line(hash, printed(x));
     }
-    assert_true(hash == UINT64_C(RANDOM_HASH));
+    assert_true(hash == UINT64_C(0x1fb3382a90909f4a));
 }
 
 static void test_parse(void **state) {

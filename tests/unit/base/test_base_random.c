@@ -1,0 +1,90 @@
+// test_base_random.c: the worked examples of builtins.md B1.2 and B9.
+#include "check.h"
+
+#include "base/random.h"
+
+static const uint64_t empty_key = UINT64_C(0xe220a8397b1dcdaf), one_key = UINT64_C(0x03953eea0e693074);
+
+static void test_raw(void **state) {
+    (void)state;
+    assert_true(random_raw(one_key, 1) == UINT64_C(0x8175f7480693d57d));
+    assert_true(random_raw(one_key, 0) == random_raw(one_key, 0));
+    assert_true(random_raw(one_key, 1) != random_raw(empty_key, 1));
+}
+
+static void test_hash(void **state) {
+    (void)state;
+    assert_true(RANDOM_HASH_START == empty_key);
+    assert_true(random_hash_step(RANDOM_HASH_START, random_hash_number(1)) == one_key);
+    static const struct {
+        double x;
+        uint64_t bits;
+    } rows[] = {{1, 0x3ff0000000000000},  {1.9, 0x3ff0000000000000},      {-0.3, 0xbff0000000000000},
+                {0, 0},                   {-0.0, 0x8000000000000000},     {INFINITY, 0x7ff0000000000000},
+                {0.5, 0},                 {-INFINITY, 0xfff0000000000000}};
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        assert_true(random_hash_number(rows[i].x) == rows[i].bits);
+}
+
+static void test_uniform(void **state) {
+    (void)state;
+    static const double from_empty[] = {0.11377270426292592, 0.12216453115897499, 0.16838215125240424,
+                                        0.0731532577968758};
+    for (size_t i = 0; i < COUNT_OF(from_empty); i++)
+        assert_number("uniform()", random_uniform(empty_key, i), from_empty[i]);
+    static const struct {
+        uint64_t i;
+        double x;
+    } rows[] = {{0, 0.3236437711805903},
+                {1, 0.5057062674373606},
+                {2, 0.17853683594231115},
+                {UINT64_MAX, 0.9828360224742672},
+                {UINT64_C(1000000000000000), 0.2866916867763784}};
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        assert_number("uniform(1)", random_uniform(one_key, rows[i].i), rows[i].x);
+}
+
+static void test_beta_and_normal(void **state) {
+    (void)state;
+    assert_number("beta()[0]", random_beta(empty_key, 0), 0.12216453115897499);
+    assert_number("beta(1)[0]", random_beta(one_key, 0), 0.3236437711805903);
+    assert_number("beta(1)[1]", random_beta(one_key, 1), 0.6619503345041775);
+    static const double normal[] = {-1.5011077911134676, -0.05384309512351037, -1.3848472029966286, 1.2361710621158093};
+    for (size_t i = 0; i < COUNT_OF(normal); i++)
+        assert_number("normal(1)", random_normal(one_key, i), normal[i]);
+    assert_number("normal()[0]", random_normal(empty_key, 0), 1.5003277345391304);
+    for (uint64_t i = 0; i < 10000; i++) { // the median of three, whatever their order
+        double a = random_uniform(one_key, 4 * i), b = random_uniform(one_key, 4 * i + 1),
+               c = random_uniform(one_key, 4 * i + 2), m = random_beta(one_key, i);
+        assert_true(m == a || m == b || m == c);
+        assert_true((m <= a) + (m <= b) + (m <= c) >= 2 && (m >= a) + (m >= b) + (m >= c) >= 2);
+        assert_true(isfinite(random_normal(one_key, i)));
+    }
+}
+
+static void test_quarter_turns(void **state) {
+    (void)state;
+    static const double sines[] = {0, 1, -0.0, -1}, cosines[] = {1, -0.0, -1, 0};
+    for (int k = 0; k < 1000; k++) {
+        assert_number("sine", turns_sin(k * 0.25), sines[k % 4]);
+        assert_number("cosine", turns_cos(k * 0.25), cosines[k % 4]);
+        assert_true(turns_sin(k * -0.25) == -sines[k % 4]);
+    }
+    assert_number("sin(0.1)", turns_sin(0.1), 0.5877852522924731);
+    assert_number("cos(0.1)", turns_cos(0.1), 0.8090169943749475);
+    assert_number("sin(-0.3)", turns_sin(-0.3), -0.9510565162951536);
+    assert_number("nan", turns_sin(NAN), NAN);
+    assert_number("inf", turns_sin(INFINITY), NAN);
+    assert_number("-inf", turns_cos(-INFINITY), NAN);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_raw),
+        cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_uniform),
+        cmocka_unit_test(test_beta_and_normal),
+        cmocka_unit_test(test_quarter_turns),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,234 @@
+// test_state_dictionary.c: keys, slots and order of the state (language.md L11).
+#include "values.h"
+
+#include "state/state.h"
+
+typedef struct Fixture {
+    World *world;
+    State *state;
+} Fixture;
+
+static int setup(void **state) {
+    Fixture *fixture = calloc(1, sizeof *fixture);
+    void *world;
+    world_setup(&world);
+    *fixture = (Fixture){world, state_new()};
+    *state = fixture;
+    return fixture->state == NULL;
+}
+
+static int teardown(void **state) {
+    Fixture *fixture = *state;
+    void *world = fixture->world;
+    state_free(fixture->state);
+    world_teardown(&world);
+    free(fixture);
+    return 0;
+}
+
+#define STATE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
+
+static void put(Fixture *fixture, const char *key, const char *value) {
+    assert_true(state_set(fixture->state, read_value(fixture->world, key), read_value(fixture->world, value)));
+}
+
+static const char *get(Fixture *fixture, const char *key) {
+    return show(fixture->world, state_get(fixture->state, read_value(fixture->world, key)));
+}
+
+// All entries in their order, as `key=value key=value`.
+static const char *listing(Fixture *fixture) {
+    Text text = text_new(&fixture->world->arena);
+    uint32_t cursor = 0, count = 0;
+    Value key, value;
+    while (state_next(fixture->state, &cursor, &key, &value)) {
+        if (count++)
+            text_add_char(&text, ' ');
+        format_value(&text, &fixture->world->symbols, key);
+        text_add_char(&text, '=');
+        format_value(&text, &fixture->world->symbols, value);
+    }
+    assert_int_equal(count, state_count(fixture->state));
+    return text_c(&text);
+}
+
+static void test_empty(void **state) {
+    Fixture *fixture = *state;
+    assert_text("nothing", get(fixture, ":a"), "null");
+    assert_text("null key", get(fixture, "null"), "null");
+    assert_text("no entry", listing(fixture), "");
+    put(fixture, ":a", "null");
+    assert_text("removing nothing", listing(fixture), "");
+    state_free(NULL);
+}
+
+static void test_insertion_order(void **state) {
+    Fixture *fixture = *state;
+    put(fixture, ":z", "1");
+    put(fixture, ":a;1", "2;3");
+    put(fixture, "'s'", "'t'");
+    put(fixture, "5", "4");
+    assert_text("order", listing(fixture), ":z=1 :a;1=2;3 's'='t' 5=4");
+    put(fixture, ":z", "9");
+    put(fixture, ":a;1", "1;2;3");
+    assert_text("writing again moves nothing", listing(fixture), ":z=9 :a;1=1;2;3 's'='t' 5=4");
+    put(fixture, ":a;1", "null");
+    assert_text("removed", listing(fixture), ":z=9 's'='t' 5=4");
+    assert_text("removed", get(fixture, ":a;1"), "null");
+}
+
+static void test_key_equality(void **state) {
+    Fixture *fixture = *state;
+    static const char *const keys[] = {
+        "0", "-0", "1", "1.5", "1;2", "2;1", "1;2;3", "'1'", "'a'", ":a", ":a;'b'", "'a';:b", "''", "'a';'b'", "'ab'",
+        "inf", "-inf", "null",
+    };
+    char text[20];
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        snprintf(text, sizeof text, "%zu", i);
+        put(fixture, keys[i], text);
+    }
+    assert_int_equal(state_count(fixture->state), COUNT_OF(keys));
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        snprintf(text, sizeof text, "%zu", i);
+        assert_text(keys[i], get(fixture, keys[i]), text);
+    }
+    assert_text("no rounding", get(fixture, "1.4999999999999998"), "null");
+}
+
+static void test_invalid_keys(void **state) {
+    Fixture *fixture = *state;
+    static const char *const keys[] = {"nan", "1;nan", "!a", "1;!a", "uniform:1"};
+    for (size_t i = 0; i < COUNT_OF(keys); i++) {
+        Value key = read_value(fixture->world, keys[i]);
+        assert_claim(keys[i], !state_key_valid(key));
+        assert_claim(keys[i], state_set(fixture->state, key, value_number(1))); // ignored
+        assert_claim(keys[i], state_slot(fixture->state, key) == STATE_NO_SLOT);
+        assert_claim(keys[i], state_find(fixture->state, key) == STATE_NO_SLOT);
+        assert_text(keys[i], get(fixture, keys[i]), "null");
+    }
+    assert_int_equal(state_count(fixture->state), 0);
+    static const Function function = {.name = {"f", 1}};
+    assert_false(state_key_valid(value_function(&fixture->world->arena, &function)));
+    assert_true(state_key_valid(VALUE_NULL));
+}
+
+// A value that compares equal to the stored one leaves the stored one.
+static void test_equal_values_stay(void **state) {
+    Fixture *fixture = *state;
+    static const struct {
+        const char *first, *then, *wanted;
+    } rows[] = {
+        {"0", "-0", "0"},         {"-0", "0", "-0"},           {"0;1", "-0;1", "0;1"}, {"0;1", "-0;2", "-0;2"},
+        {"nan", "1", "1"},        {"1", "nan", "nan"},         {"1;2", "3", "3"},      {"3", "1;2", "1;2"},
+        {"1;2", "1;2;3", "1;2;3"}, {"1", "'a'", "'a'"},        {"'a'", "1", "1"},      {"'a';1", "'b';2", "'b';2"},
+        {"1;2", "null", "null"},  {"'a';0", "'a';-0", "'a';0"}, {"'a'", "uniform:1", "null"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        put(fixture, ":k", rows[i].first);
+        put(fixture, ":k", rows[i].then);
+        assert_text(rows[i].then, get(fixture, ":k"), rows[i].wanted);
+        put(fixture, ":k", "null");
+    }
+}
+
+// Numbers of unchanged length are overwritten where they are.
+static void test_in_place(void **state) {
+    Fixture *fixture = *state;
+    StateSlot slot = state_slot(fixture->state, read_value(fixture->world, ":p"));
+    double numbers[] = {1, 2, 3};
+    assert_true(state_slot_set(fixture->state, slot, value_numbers_view(numbers, 3)));
+    const double *place = state_slot_get(fixture->state, slot).as.numbers;
+    assert_ptr_not_equal(place, numbers); // a copy
+    for (int i = 0; i < 10; i++) {
+        numbers[1] = i;
+        assert_true(state_slot_set(fixture->state, slot, value_numbers_view(numbers, 3)));
+        assert_ptr_equal(state_slot_get(fixture->state, slot).as.numbers, place);
+        assert_number("element", place[1], i);
+    }
+}
+
+static void test_slots(void **state) {
+    Fixture *fixture = *state;
+    enum { COUNT = 5000 };
+    StateSlot slots[COUNT];
+    for (int i = 0; i < COUNT; i++) {
+        double key[] = {symbol_of(fixture->world, "cells"), i};
+        slots[i] = state_slot(fixture->state, value_numbers_view(key, 2));
+        assert_int_not_equal(slots[i], STATE_NO_SLOT);
+        assert_int_equal(state_count(fixture->state), i / 2); // a slot without value is no entry
+        if (i % 2)
+            assert_true(state_slot_set(fixture->state, slots[i], value_number(i)));
+    }
+    for (int i = 0; i < COUNT; i++) { // the same after growth
+        double key[] = {symbol_of(fixture->world, "cells"), i};
+        Value k = value_numbers_view(key, 2);
+        assert_int_equal(state_slot(fixture->state, k), slots[i]);
+        assert_int_equal(state_find(fixture->state, k), slots[i]);
+        assert_int_equal(state_slot_get(fixture->state, slots[i]).len, i % 2);
+        assert_true(value_equal(state_get(fixture->state, k), i % 2 ? value_number(i) : VALUE_NULL));
+    }
+    assert_true(state_slot_set(fixture->state, slots[1], VALUE_NULL));
+    assert_int_equal(state_count(fixture->state), COUNT / 2 - 1);
+    assert_true(state_slot_set(fixture->state, slots[1], value_number(-1))); // the slot is still good
+    assert_true(value_equal(state_slot_get(fixture->state, slots[1]), value_number(-1)));
+    assert_false(state_slot_set(fixture->state, STATE_NO_SLOT, value_number(1)));
+    assert_true(value_is_null(state_slot_get(fixture->state, STATE_NO_SLOT)));
+}
+
+// Keys and values are the state's own.
+static void test_copies(void **state) {
+    Fixture *fixture = *state;
+    Arena other;
+    arena_init(&other, "other", SIZE_MAX);
+    Vector key = vector_new(&other);
+    vector_add(&key, value_string(&other, STR("key")));
+    vector_add(&key, value_string(&other, STR("")));
+    vector_add_number(&key, 3);
+    Value value = value_string(&other, STR("a longer text than fits anywhere inline"));
+    assert_true(state_set(fixture->state, vector_finish(&key), value));
+    arena_free(&other);
+    assert_text("value", get(fixture, "'key';'';3"), "'a longer text than fits anywhere inline'");
+    assert_text("key", listing(fixture), "'key';'';3='a longer text than fits anywhere inline'");
+}
+
+static void test_clear(void **state) {
+    Fixture *fixture = *state;
+    put(fixture, ":a", "1;2");
+    put(fixture, "'b'", "'c'");
+    state_clear(fixture->state);
+    assert_int_equal(state_count(fixture->state), 0);
+    assert_text("gone", get(fixture, ":a"), "null");
+    assert_int_equal(state_find(fixture->state, read_value(fixture->world, ":a")), STATE_NO_SLOT);
+    put(fixture, "'b'", "7");
+    assert_text("new", listing(fixture), "'b'=7");
+}
+
+// Random writes and removals against a plain array.
+static void test_against_a_model(void **state) {
+    Fixture *fixture = *state;
+    enum { KEYS = 200 };
+    double model[KEYS] = {0};
+    uint32_t count = 0;
+    uint64_t seed = 3;
+    for (int round = 0; round < 20000; round++) {
+        uint32_t k = (uint32_t)(next_bits(&seed) % KEYS);
+        double x = (double)(next_bits(&seed) % 4); // 0 removes
+        count += (x != 0) - (model[k] != 0);
+        model[k] = x;
+        assert_true(state_set(fixture->state, value_number(k), x != 0 ? value_number(x) : VALUE_NULL));
+        assert_int_equal(state_count(fixture->state), count);
+    }
+    for (uint32_t k = 0; k < KEYS; k++)
+        assert_true(value_equal(state_get(fixture->state, value_number(k)), model[k] != 0 ? value_number(model[k]) : VALUE_NULL));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        STATE_TEST(test_empty),         STATE_TEST(test_insertion_order), STATE_TEST(test_key_equality),
+        STATE_TEST(test_invalid_keys),  STATE_TEST(test_equal_values_stay), STATE_TEST(test_in_place),
+        STATE_TEST(test_slots),         STATE_TEST(test_copies),          STATE_TEST(test_clear),
+        STATE_TEST(test_against_a_model),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

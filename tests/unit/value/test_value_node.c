@@ -1,0 +1,187 @@
+// test_value_node.c: immutable nodes (language.md L7).
+#include "values.h"
+
+#include "value/node.h"
+
+// One line per node, as text.
+static const char *tree(World *world, const Node *node) {
+    Text text = text_new(&world->arena);
+    format_tree(&text, &world->symbols, node, 0);
+    return text_c(&text);
+}
+
+static const Node *fresh(World *world, const char *kind) {
+    return node_new(&world->arena, name_of(world, kind));
+}
+
+// Sets `name=value …` in one go.
+static const Node *with_attrs(World *world, const Node *node, const char *names, const char *const *values) {
+    Attr attrs[8];
+    uint32_t count = 0;
+    for (; names[count]; count++)
+        attrs[count] = (Attr){symbol_intern(&world->symbols, (Str){names + count, 1}), read_value(world, values[count])};
+    return node_set_attrs(&world->arena, node, attrs, count);
+}
+
+static const Node *with_attr(World *world, const Node *node, const char *name, const char *value) {
+    return with_attrs(world, node, name, &value);
+}
+
+static void test_fresh(void **state) {
+    World *world = *state;
+    assert_text("fresh", tree(world, fresh(world, "canvas")), "!canvas\n");
+    assert_int_equal(fresh(world, "a")->height, 1);
+}
+
+static void test_attribute_order(void **state) {
+    World *world = *state;
+    const Node *a = with_attrs(world, fresh(world, "a"), "xyz", (const char *const[]){"1", "2", "3"});
+    assert_text("set", tree(world, a), "!a x=1 y=2 z=3\n");
+    assert_text("keeps its place", tree(world, with_attr(world, a, "x", "9")), "!a x=9 y=2 z=3\n");
+    const Node *without = with_attr(world, a, "x", "null");
+    assert_text("removed", tree(world, without), "!a y=2 z=3\n");
+    assert_text("set again: at the end", tree(world, with_attr(world, without, "x", "4")), "!a y=2 z=3 x=4\n");
+    assert_text("a stream removes", tree(world, with_attr(world, a, "y", "uniform:1")), "!a x=1 z=3\n");
+    assert_text("removing what is not there", tree(world, with_attr(world, a, "q", "null")), "!a x=1 y=2 z=3\n");
+    const char *const twice[] = {"5", "null", "6"};
+    assert_text("the same name three times", tree(world, with_attrs(world, a, "yyy", twice)), "!a x=1 z=3 y=6\n");
+    assert_text("the first is as it was", tree(world, a), "!a x=1 y=2 z=3\n");
+    assert_text("get", show(world, node_get(a, name_of(world, "z"))), "3");
+    assert_true(value_is_null(node_get(a, name_of(world, "q"))));
+}
+
+static void test_tags(void **state) {
+    World *world = *state;
+    const Node *node = fresh(world, "a");
+    static const char *const tags[] = {"m", "z", "b", "é", "b", "Z", "m"};
+    for (size_t i = 0; i < COUNT_OF(tags); i++)
+        node = node_add_tag(&world->arena, node, name_of(world, tags[i]));
+    assert_text("sorted, each once", tree(world, node), "!a #Z #b #m #z #é\n");
+}
+
+static void test_append(void **state) {
+    World *world = *state;
+    Arena *arena = &world->arena;
+    const Node *a = node_append(arena, fresh(world, "a"), read_value(world, "!b;1;'x';!c"));
+    assert_text("nodes only", tree(world, a), "!a\n    !b\n    !c\n");
+    const Node *more = node_append(arena, a, value_node(arena, a)); // itself, as it was
+    assert_text("at the end", tree(world, more), "!a\n    !b\n    !c\n    !a\n        !b\n        !c\n");
+    assert_int_equal(more->height, 3);
+    assert_text("untouched", tree(world, a), "!a\n    !b\n    !c\n");
+    assert_text("null", tree(world, node_append(arena, a, VALUE_NULL)), "!a\n    !b\n    !c\n");
+    assert_text("numbers", tree(world, node_append(arena, a, read_value(world, "1;2"))), "!a\n    !b\n    !c\n");
+}
+
+static void test_equality(void **state) {
+    World *world = *state;
+    Arena *arena = &world->arena;
+    const Node *a = fresh(world, "a"), *ab = node_append(arena, a, read_value(world, "!b;!c"));
+    const Node *xy = with_attrs(world, a, "xy", (const char *const[]){"1;2", "'s'"});
+    const Node *yx = with_attrs(world, a, "yx", (const char *const[]){"'s'", "1;2"});
+    const Symbol *t = name_of(world, "t"), *u = name_of(world, "u");
+    const Node *tu = node_add_tag(arena, node_add_tag(arena, a, t), u);
+    const Node *ut = node_add_tag(arena, node_add_tag(arena, a, u), t);
+    const struct {
+        const char *what;
+        const Node *a, *b;
+        bool wanted;
+    } rows[] = {
+        {"kind", a, fresh(world, "a"), true},
+        {"other kind", a, fresh(world, "b"), false},
+        {"attributes in any order", xy, yx, true},
+        {"other value", xy, with_attr(world, yx, "x", "1;3"), false},
+        {"fewer attributes", xy, with_attr(world, xy, "x", "null"), false},
+        {"removed is never had", a, with_attr(world, with_attr(world, xy, "x", "null"), "y", "null"), true},
+        {"-0", with_attr(world, a, "x", "0"), with_attr(world, a, "x", "-0"), true},
+        {"nan", with_attr(world, a, "x", "nan"), with_attr(world, a, "x", "nan"), false},
+        {"tags in any order", tu, ut, true},
+        {"fewer tags", tu, node_add_tag(arena, a, t), false},
+        {"children", ab, node_append(arena, node_append(arena, a, read_value(world, "!b")), read_value(world, "!c")), true},
+        {"children's order", ab, node_append(arena, a, read_value(world, "!c;!b")), false},
+        {"fewer children", ab, node_append(arena, a, read_value(world, "!b")), false},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        assert_claim(rows[i].what, node_equal(rows[i].a, rows[i].b) == rows[i].wanted);
+        assert_claim(rows[i].what, node_equal(rows[i].b, rows[i].a) == rows[i].wanted);
+    }
+    const Node *nan = with_attr(world, a, "x", "nan");
+    assert_false(node_equal(nan, nan)); // elements decide, not identity
+}
+
+// Chains of the greatest height can be walked; a higher one is refused.
+static void test_height_limit(void **state) {
+    World *world = *state;
+    Arena *arena = &world->arena;
+    const Node *node = fresh(world, "a");
+    for (int height = 1; height < NODE_MAX_HEIGHT; height++) {
+        node = node_append(arena, fresh(world, "a"), value_node(arena, node));
+        assert_non_null(node);
+    }
+    assert_int_equal(node->height, NODE_MAX_HEIGHT);
+    assert_null(node_append(arena, node, value_node(arena, node)));
+    assert_non_null(node_append(arena, node, read_value(world, "!b")));
+    assert_true(node_equal(node, node_copy(arena, node)));
+    value_seed_hash(value_node(arena, node));
+    bool too_high = false;
+    Vector vector = vector_new(arena);
+    vector_add(&vector, value_node(arena, fresh(world, "p")));
+    vector_add(&vector, value_number(1));
+    Value both = value_append(arena, vector_finish(&vector), value_node(arena, node), &too_high);
+    assert_true(too_high);
+    assert_text("left as it was", show(world, both), "(!p);1");
+    assert_int_equal(both.as.items[0].as.node->child_count, 0);
+}
+
+// A node inside an attribute can be walked too (== and the seed hash go into it), so that it has to count as height.
+static void test_attributes_count_as_height(void **state) {
+    World *world = *state;
+    Arena *arena = &world->arena;
+    const Node *node = fresh(world, "a");
+    for (int i = 0; i < 100; i++)
+        node = node_set_attrs(arena, fresh(world, "a"), &(Attr){name_of(world, "x"), value_node(arena, node)}, 1);
+    assert_int_equal(node->height, 101);
+}
+
+static void test_over_vectors(void **state) {
+    World *world = *state;
+    Arena *arena = &world->arena;
+    Value v = read_value(world, "!a;3;!b;'s'");
+    v = value_add_tag(arena, v, name_of(world, "t"));
+    v = value_set_attrs(arena, v, &(Attr){name_of(world, "x"), value_number(1)}, 1);
+    bool too_high = false;
+    v = value_append(arena, v, read_value(world, "!c"), &too_high);
+    assert_false(too_high);
+    assert_text("the others stay", show(world, v), "(!a);3;(!b);'s'");
+    assert_text("first", tree(world, v.as.items[0].as.node), "!a #t x=1\n    !c\n");
+    assert_text("second", tree(world, v.as.items[2].as.node), "!b #t x=1\n    !c\n");
+    static const char *const others[] = {"1;2", "null", "'s'"};
+    for (size_t i = 0; i < COUNT_OF(others); i++) {
+        Value w = read_value(world, others[i]);
+        assert_text(others[i], show(world, value_add_tag(arena, w, name_of(world, "t"))), others[i]);
+        assert_text(others[i], show(world, value_append(arena, w, v, &too_high)), others[i]);
+    }
+    assert_int_equal(value_add_tag(arena, value_stream(STREAM_BETA, 1), name_of(world, "t")).kind, VALUE_STREAM);
+}
+
+static void test_copy(void **state) {
+    World *world = *state;
+    Arena other;
+    arena_init(&other, "other", SIZE_MAX);
+    const Node *node = node_add_tag(&other, node_new(&other, name_of(world, "a")), name_of(world, "t"));
+    node = node_set_attrs(&other, node, &(Attr){name_of(world, "x"), value_string(&other, STR("s"))}, 1);
+    node = node_append(&other, node, value_node(&other, node));
+    const Node *copy = node_copy(&world->arena, node);
+    assert_true(node_equal(copy, node));
+    arena_free(&other);
+    assert_text("copy", tree(world, copy), "!a #t x='s'\n    !a #t x='s'\n");
+    assert_int_equal(copy->height, 2);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WORLD_TEST(test_fresh),        WORLD_TEST(test_attribute_order), WORLD_TEST(test_tags),
+        WORLD_TEST(test_append),       WORLD_TEST(test_equality),        WORLD_TEST(test_height_limit),
+        WORLD_TEST(test_over_vectors), WORLD_TEST(test_copy),            WORLD_TEST(test_attributes_count_as_height),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
