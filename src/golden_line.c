@@ -48,8 +48,9 @@ static size_t string_length(const char *text, size_t length) {
 }
 
 static size_t word_length(const char *text, size_t length) {
+    static const char ends[] = {' ', '\t', '\n', ';', '=', '(', ')', '\'', '"'};
     size_t i = 0;
-    while (i < length && memchr(" \t\n;=()'\"", text[i], 9) == NULL) {
+    while (i < length && memchr(ends, text[i], sizeof ends) == NULL) {
         i++;
     }
     return i;

@@ -13,6 +13,8 @@
 #include "progress.h"
 #include "run_options.h"
 
+enum { SECONDS_BETWEEN_SAVES = 5 };
+
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
 
@@ -37,7 +39,8 @@ typedef struct Run {
     double start;
     bool to_terminal;   // standard output is a terminal
     bool shown_last;    // the last diagnostic that was no note was shown
-    bool reached_limit; // some frame was given up
+    bool state_lost;    // the state file could not be read or written
+    double saved;       // when the state was saved last
     Output output;
 } Run;
 
@@ -65,6 +68,7 @@ static bool open_session(Run *run, const Host *host) {
     options.colour = run->options.colour;
     options.stack_bytes = host->stack_bytes;
     options.threads = run->options.threads;
+    options.simplify = run->options.simplify;
     options.diagnostic = on_diagnostic;
     options.host = run;
     run->session = petri_open(&options);
@@ -124,24 +128,29 @@ static void print_frame(Run *run) {
     }
 }
 
-// One frame; false if there is no going on.
+// A file that could not be read is left alone: it may be all that is left of something.
+static void save_state(Run *run) {
+    if (run->options.state_file != NULL && !run->state_lost) {
+        run->state_lost = petri_save(run->session, run->options.state_file) != PETRI_OK;
+        run->saved = clock_seconds();
+    }
+}
+
+// One frame; false if there is no going on: a limit that one frame has reached, the next will reach as well.
 static bool run_frame(Run *run) {
     PetriStatus status = petri_step(run->session);
-    int64_t number = run->frames++;
-    if (status == PETRI_LIMIT) {
-        run->reached_limit = true;
-        return true;
-    }
+    PetriFrame frame = petri_frame(run->session);
     if (status != PETRI_OK) {
         progress_erase(&run->progress);
-        if (status == PETRI_MEMORY) {
-            message("out of memory in frame %" PRId64, number);
-        }
+        message("stopped in frame %" PRId64 "%s", frame.number, status == PETRI_MEMORY ? ": out of memory" : "");
         return false;
     }
-    PetriFrame frame = petri_frame(run->session);
+    run->frames++;
     run->physics_steps += frame.physics_steps;
-    bool printed = number % run->options.every == 0;
+    if (clock_seconds() - run->saved > SECONDS_BETWEEN_SAVES) {
+        save_state(run);
+    }
+    bool printed = frame.number % run->options.every == 0;
     if (printed) {
         print_frame(run);
     }
@@ -173,7 +182,7 @@ static int run_frames(Run *run) {
     catch_interrupt();
     bool shows_progress = run->options.verbosity > LOG_QUIET && progress_possible();
     progress_start(&run->progress, shows_progress, expected_frames(run));
-    run->start = clock_seconds();
+    run->start = run->saved = clock_seconds();
     bool going = true;
     while (going && frame_is_due(run)) {
         progress_update(&run->progress, run->frames);
@@ -181,8 +190,11 @@ static int run_frames(Run *run) {
     }
     progress_erase(&run->progress);
     output_flush(&run->output);
+    if (going) {
+        save_state(run);
+    }
     report_summary(run);
-    int status = !going || run->reached_limit ? STATUS_FAILED : STATUS_DONE;
+    int status = !going || run->state_lost ? STATUS_FAILED : STATUS_DONE;
     return interrupted ? STATUS_INTERRUPTED : status;
 }
 
@@ -200,6 +212,9 @@ static int run_session(Run *run) {
     if (run->options.dump >= 0) {
         status = petri_dump(run->session, (PetriDump)run->options.dump, output_write, &run->output);
         return status == PETRI_OK || run->output.error != 0 ? STATUS_DONE : STATUS_FAILED;
+    }
+    if (run->options.state_file != NULL) {
+        run->state_lost = petri_restore(run->session, run->options.state_file) != PETRI_OK;
     }
     return run_frames(run);
 }

@@ -19,6 +19,7 @@ enum {
     OPT_DEFINE,
     OPT_PRINT,
     OPT_EVERY,
+    OPT_STATE,
     OPT_THREADS,
     OPT_NOSIMPLIFY,
     OPT_QUIET,
@@ -39,6 +40,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"print", 0, OPT_PRINT, "LIST",
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print each K-th frame, starting with frame 0"},
+    {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},
     {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
     {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
     {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
@@ -147,6 +149,9 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return read_sections(args, &options->sections);
     case OPT_EVERY:
         return args_integer(args, 1, INT64_MAX, &options->every);
+    case OPT_STATE:
+        options->state_file = args->value;
+        return true;
     case OPT_THREADS:
         return read_threads(args, &options->threads);
     case OPT_COLOR:
@@ -165,7 +170,8 @@ static bool apply_flag(int id, RunOptions *options) {
     case OPT_REALTIME:
         options->realtime = id == OPT_REALTIME;
         return true;
-    case OPT_NOSIMPLIFY: // everything is evaluated in every frame as it is
+    case OPT_NOSIMPLIFY:
+        options->simplify = false;
         return true;
     case OPT_QUIET:
         options->verbosity = LOG_QUIET;
@@ -208,6 +214,7 @@ int run_options_read(RunOptions *options, int argc, char **argv) {
         .every = 1,
         .verbosity = LOG_NORMAL,
         .colour = colour_by_default(),
+        .simplify = true,
         .dump = -1,
     };
     // Each definition takes at least one word.

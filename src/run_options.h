@@ -21,7 +21,9 @@ typedef struct RunOptions {
     int threads;
     Verbosity verbosity;
     bool colour;
-    int dump; // PetriDump, or -1
+    bool simplify;
+    const char *state_file; // NULL: the state is neither taken from a file nor kept in one
+    int dump;               // PetriDump, or -1
 } RunOptions;
 
 enum { RUN_OPTIONS_OK = -1 };

@@ -54,7 +54,7 @@ void arena_free(Arena *arena) {
 }
 
 static void block_truncate(ArenaBlock *block, size_t fill) {
-#ifndef NDEBUG
+#ifndef __OPTIMIZE__
     UNPOISON(block->bytes + fill, block->capacity - fill);
     if (block->fill > fill)
         memset(block->bytes + fill, 0xdb, block->fill - fill);

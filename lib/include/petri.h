@@ -49,6 +49,7 @@ typedef struct PetriOptions {
     double fps;      // target frame rate; a script's `%pragma fps` wins. Default 60
     bool realtime;   // follow the wall clock: petri_step waits until the frame is due. Default false: lockstep
     double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
+    bool simplify;   // evaluate static parts once, when loading; results never depend on it. Default true
     bool colour;     // colour `rendered` with ANSI escapes
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is enough.
     size_t stack_bytes;

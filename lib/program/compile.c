@@ -11,6 +11,7 @@ Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const 
                    .source = compiler->source,
                    .span = ast->span,
                    .children = arena_copy(compiler->arena, children, count * sizeof *children)};
+    fold_describe(expr);
     return expr;
 }
 
@@ -118,6 +119,8 @@ static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
     Expr *bind = compile_expr_new(compiler, EXPR_BIND, binding, &value, 1);
     bind->slot = compile_bind_names(compiler, BINDING_LET, names, binding->children[1]);
     bind->slot_count = names->count;
+    if (value->kind == EXPR_CONST)
+        compile_set_known(compiler, names->count, value->as.value);
     return bind;
 }
 
@@ -142,7 +145,9 @@ static const Expr *compile_for(Compiler *compiler, const Ast *ast) {
     const Expr *parts[2] = {compile_expr(compiler, ast->children[1])};
     ScopeMark mark = compile_scope_open(compiler);
     uint32_t slot = compile_bind_names(compiler, BINDING_LOOP, ast->children[0], NULL);
+    compiler->repeats++;
     parts[1] = compile_expr(compiler, ast->children[2]);
+    compiler->repeats--;
     compile_scope_close(compiler, mark);
     Expr *expr = compile_expr_new(compiler, EXPR_FOR, ast, parts, 2);
     expr->slot = slot;
@@ -211,6 +216,23 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     return make_call(compiler, ast, args, count);
 }
 
+// A closure depends on what it captures and on its defaults; its body is another matter.
+static void describe_closure(Expr *expr) {
+    const FunctionCode *code = expr->as.function;
+    Expr all = {.kind = EXPR_COMPOSE, .count = code->capture_count, .children = code->captures};
+    fold_describe(&all);
+    expr->dynamic = all.dynamic;
+    expr->enclosed = all.enclosed;
+    expr->lowest = all.lowest;
+    for (uint32_t i = 0; i < code->param_count; i++)
+        if (code->defaults[i]) {
+            expr->dynamic |= code->defaults[i]->dynamic;
+            expr->enclosed |= code->defaults[i]->enclosed;
+            if (code->defaults[i]->lowest < expr->lowest)
+                expr->lowest = code->defaults[i]->lowest;
+        }
+}
+
 const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     const Ast *params = ast->children[0];
     FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
@@ -229,11 +251,14 @@ const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     compile_function_open(compiler, &function, ast->name);
     for (uint32_t i = 0; i < params->count; i++)
         compile_bind(compiler, BINDING_PARAM, names[i], params->children[i]->span, NULL);
+    compiler->repeats++;
     code->body = compile_expr(compiler, ast->children[1]);
+    compiler->repeats--;
     compile_function_close(compiler, &function, code);
     Expr *expr = compile_expr_new(compiler, EXPR_FUNC, ast, NULL, 0);
     expr->as.function = code;
-    return expr;
+    describe_closure(expr);
+    return fold_expr(compiler, expr, compiler->function->next_slot);
 }
 
 // `func name(…)` as a statement binds the name; without one the closure is the statement's value.
@@ -244,6 +269,8 @@ static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
     Expr *bind = compile_expr_new(compiler, EXPR_BIND, ast, &closure, 1);
     bind->slot = compile_bind(compiler, BINDING_FUNC, ast->name, ast->span, ast);
     bind->slot_count = 1;
+    if (closure->kind == EXPR_CONST)
+        compile_set_known(compiler, 1, closure->as.value);
     return bind;
 }
 
@@ -284,7 +311,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     switch (ast->kind) {
     case AST_LITERAL:
         return constant(compiler, ast, ast->value);
@@ -347,6 +374,11 @@ const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     default:
         return compile_children(compiler, plain_kind(ast->kind), ast);
     }
+}
+
+const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
+    uint32_t mark = compiler->function->next_slot;
+    return fold_expr(compiler, (Expr *)compile_kind(compiler, ast), mark);
 }
 
 static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program) {

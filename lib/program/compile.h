@@ -15,7 +15,9 @@ struct Binding {
     uint32_t slot;
     Span span;
     BindingKind kind;
-    bool used; // some name has been resolved to it
+    bool used;  // some name has been resolved to it
+    bool known; // its value is `constant`, whatever the frame
+    Value constant;
     // For %include: the syntax tree of the value and which of its unpacked elements this is. NULL: not static.
     const Ast *value;
     uint32_t element;
@@ -47,6 +49,7 @@ typedef struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
+    uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
     bool is_module; // the file only binds names: they are for others, so none is unused
 } Compiler;
 
@@ -67,6 +70,8 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark);
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Makes a NAMES node visible in consecutive slots; returns the first.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
+// Tells the `count` bindings made last that their value is a constant, to be unpacked if there are several.
+void compile_set_known(Compiler *compiler, uint32_t count, Value value);
 // The binding that a name has here, in this function or an enclosing one, or NULL. Does not count as a use.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
@@ -75,6 +80,12 @@ void compile_function_open(Compiler *compiler, FunctionScope *function, const Sy
 void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code);
 // The resolved path of an %include; false (after a diagnostic, or silently for null) if there is none.
 bool compile_include_path(Compiler *compiler, const Ast *file, Str *path);
+
+// The simplifier (fold.c). `mark` is the function's next slot before the expression was compiled: slots from there on
+// are its own. Returns the expression, or what is left of it after static parts have been evaluated.
+const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
+// Notes what a new expression depends on, from its kind and children.
+void fold_describe(Expr *expr);
 
 // Lints, for `petri check`: things that are no faults but hardly meant (lint.c). All do nothing unless asked for.
 void lint_bind(Compiler *compiler, const Binding *binding);

@@ -60,6 +60,10 @@ struct Expr {
     uint32_t count; // children
     uint32_t slot;
     uint32_t slot_count;
+    // For the simplifier (fold.c): what the value depends on.
+    bool dynamic;    // something that may change from frame to frame
+    bool enclosed;   // the running closure: its captures or itself
+    uint32_t lowest; // the lowest slot that is read, UINT32_MAX if none
     const Source *source;
     Span span;
     union {
@@ -101,9 +105,9 @@ typedef struct CompileHost {
     // Parses another file for %include; NULL with a reason in *why (borrowed) if it cannot. The tree must live as long
     // as the program.
     const Ast *(*include)(void *host, Str path, const Source **source, Str *why);
-    // Evaluates an expression that holds no dynamic part (L17.2), in a fresh frame; the value must live as long as the
-    // program.
-    Value (*evaluate)(void *host, const Expr *expr, uint32_t frame_size);
+    // Evaluates an expression that reads no slot from outside, in a fresh frame. False if that met anything dynamic
+    // (L17.2), a fault or a limit; then *value is null. The value must live as long as the program.
+    bool (*evaluate)(void *host, const Expr *expr, uint32_t frame_size, Value *value);
 } CompileHost;
 
 typedef struct Define {
@@ -114,6 +118,7 @@ typedef struct Define {
 typedef struct CompileOptions {
     bool module;           // neither engine names nor -D names are visible; unbound names are reported when reached
     bool lint;             // report what is hardly meant, too
+    bool simplify;         // evaluate static parts now (L17.1)
     const Define *defines; // later ones count
     uint32_t define_count;
     CompileHost host;

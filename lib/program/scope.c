@@ -59,15 +59,16 @@ void compile_function_close(Compiler *compiler, FunctionScope *function, Functio
         function->outer->dynamic |= function->dynamic;
 }
 
-static const Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
+static Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
     Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
     expr->as.value = value;
     return expr;
 }
 
-static const Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, uint32_t slot) {
+static Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, uint32_t slot) {
     Expr *expr = compile_expr_new(compiler, kind, ast, NULL, 0);
     expr->slot = slot;
+    fold_describe(expr);
     return expr;
 }
 
@@ -115,7 +116,8 @@ static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, 
     Binding *binding = find_binding(function->scope, ast->name);
     if (binding) {
         binding->used = true;
-        return slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
+        return binding->known ? constant(compiler, ast, binding->constant)
+                              : slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
     }
     if (function->self == ast->name)
         return slot_expr(compiler, EXPR_SELF, ast, 0);
@@ -159,7 +161,9 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     for (uint32_t i = 0; !options->module && i < ENGINE_NAME_COUNT; i++)
         if (str_equal(name, str_from(engine_names[i].name))) {
             compiler->function->dynamic |= !engine_names[i].is_static;
-            return slot_expr(compiler, EXPR_GLOBAL, ast, i);
+            Expr *expr = slot_expr(compiler, EXPR_GLOBAL, ast, i);
+            expr->dynamic = !engine_names[i].is_static;
+            return expr;
         }
     for (uint32_t i = options->module ? 0 : options->define_count; i > 0; i--)
         if (options->defines[i - 1].name == ast->name)
@@ -173,7 +177,9 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     compiler->function->dynamic |= !builtin->pure;
     Function *function = arena_alloc(compiler->arena, sizeof *function);
     *function = (Function){.name = str_from(builtin->name), .builtin = builtin};
-    return constant(compiler, ast, value_function(compiler->arena, function));
+    Expr *expr = constant(compiler, ast, value_function(compiler->arena, function));
+    expr->dynamic = !builtin->pure;
+    return expr;
 }
 
 typedef struct Nearest {
@@ -239,14 +245,20 @@ static Value evaluate_static(Compiler *compiler, FunctionScope *at, Binding *sco
     DiagSink *diags = compiler->diags;
     DiagSink discarded = diag_sink_new(compiler->arena, 0); // what is wrong here is reported where it is really compiled
     compiler->diags = &discarded;
+    CompileOptions plain = *compiler->options; // simplifying comes to nothing here: it is evaluated as a whole
+    const CompileOptions *options = compiler->options;
+    plain.simplify = plain.lint = false;
+    compiler->options = &plain;
     const Expr *expr = ast->kind == AST_FUNC ? compile_closure(compiler, ast) : compile_expr(compiler, ast);
+    compiler->options = options;
     compiler->diags = diags;
     compiler->function = outer;
-    if (scratch.dynamic) {
+    Value value = VALUE_NULL;
+    if (scratch.dynamic)
         *dynamic = true;
-        return VALUE_NULL;
-    }
-    return compiler->options->host.evaluate(compiler->options->host.host, expr, scratch.frame_size);
+    else
+        compiler->options->host.evaluate(compiler->options->host.host, expr, scratch.frame_size, &value);
+    return value;
 }
 
 static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *binding, bool *dynamic) {

@@ -91,7 +91,7 @@ static void advance_clocks(PetriSession *session) {
     session->delta = frame->number == 0 ? 0 : frame->beat - last_beat;
 }
 
-static void set_globals(PetriSession *session) {
+void session_set_globals(const PetriSession *session, Vm *vm) {
     const PetriFrame *frame = &session->frame;
     bool realtime = session->options.realtime;
     const double values[ENGINE_NAME_COUNT] = {
@@ -109,8 +109,8 @@ static void set_globals(PetriSession *session) {
         [ENGINE_OFFSCREEN] = 1,
     };
     for (int i = 0; i < ENGINE_NAME_COUNT; i++)
-        session->vm.globals[i] = value_number(values[i]);
-    session->vm.globals[ENGINE_RUN_TIME] =
+        vm->globals[i] = value_number(values[i]);
+    vm->globals[ENGINE_RUN_TIME] =
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
@@ -172,7 +172,7 @@ PetriStatus petri_step(PetriSession *session) {
         return PETRI_INVALID;
     clear_frame(session);
     advance_clocks(session);
-    set_globals(session);
+    session_set_globals(session, &session->vm);
     session->frame.physics_steps = 0;
     if (!guarded(session, evaluate, &session->frame.evaluation_seconds)) {
         session->tree = VALUE_NULL;

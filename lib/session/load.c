@@ -71,9 +71,35 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     return ast_new(&unit->arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
-static Value host_evaluate(void *host, const Expr *expr, uint32_t frame_size) {
+// Memory that evaluating one expression ahead may take.
+#define STATIC_BUDGET ((size_t)1 << 29)
+
+// The escape of the unit's arena leads here: what does not fit is left for the frames.
+static bool evaluate_ahead(PetriSession *session, const Expr *expr, uint32_t frame_size, Value *value) {
+    jmp_buf escape;
+    Arena *arena = &session->loading->arena;
+    arena->escape = &escape;
+    if (setjmp(escape) != 0)
+        return false;
+    return vm_run_static(&session->static_vm, arena, expr, frame_size, value);
+}
+
+static bool host_evaluate(void *host, const Expr *expr, uint32_t frame_size, Value *value) {
     PetriSession *session = host;
-    return vm_run_static(&session->vm, &session->loading->arena, expr, frame_size);
+    Arena *arena = &session->loading->arena;
+    jmp_buf *escape = arena->escape;
+    size_t budget = arena->budget;
+    ArenaMark mark = arena_mark(arena);
+    if (arena->budget - arena->used > STATIC_BUDGET)
+        arena->budget = arena->used + STATIC_BUDGET;
+    bool done = evaluate_ahead(session, expr, frame_size, value);
+    arena->escape = escape;
+    arena->budget = budget;
+    if (!done) {
+        *value = VALUE_NULL;
+        arena_rewind(arena, mark);
+    }
+    return done;
 }
 
 // In the order of the text, as far as they are of one file: a name is known to be unused only at the end.
@@ -91,6 +117,7 @@ static void compile(PetriSession *session, Unit *unit, bool module) {
     DiagSink sink = diag_sink_new(&unit->arena, MOST_ERRORS);
     CompileOptions options = {.module = module,
                               .lint = session->lint,
+                              .simplify = session->options.simplify,
                               .defines = session->defines,
                               .define_count = session->define_count,
                               .host = {session, host_include, host_evaluate}};

@@ -14,6 +14,7 @@ enum { MOST_TOLD = 1000, MOST_LINES = 100000 };
 PetriOptions petri_default_options(void) {
     return (PetriOptions){.fps = 60,
                           .run_time = NAN,
+                          .simplify = true,
                           .stack_bytes = (size_t)4 << 20,
                           .memory_bytes = (size_t)2 << 30,
                           .cookie = COOKIE};
@@ -31,6 +32,12 @@ static void tell_machine(void *host, const Diag *diag) {
     if (session->in_frame)
         diag_report(&session->errors, diag);
     session_tell(session, diag);
+}
+
+// What is wrong with an expression that is evaluated ahead is told when it is really reached.
+static void tell_nobody(void *host, const Diag *diag) {
+    (void)host;
+    (void)diag;
 }
 
 static void log_machine(void *host, Str text) {
@@ -56,9 +63,11 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->files = file_cache_new();
     session->noise = noise_cache_new();
     vm_init(&session->vm, &session->frame_arena, &session->symbols,
-            (VmHost){session, tell_machine, log_machine, session_module}, options->stack_bytes);
+            (VmHost){session, tell_machine, log_machine, session_module}, options->stack_bytes, false);
+    vm_init(&session->static_vm, &session->frame_arena, &session->symbols,
+            (VmHost){session, tell_nobody, log_machine, session_module}, options->stack_bytes, true);
     session->vm.builtins.files = session->files;
-    session->vm.builtins.noise = session->noise;
+    session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->frame.number = -1;
     if (!session->state || !session->scene || !session->files || !session->noise)
         petri_close(&session);
@@ -80,6 +89,7 @@ void petri_close(PetriSession **handle) {
     file_cache_free(session->files);
     noise_cache_free(session->noise);
     vm_free(&session->vm);
+    vm_free(&session->static_vm);
     diag_sink_free(&session->log);
     diag_sink_free(&session->errors);
     index_free(&session->told_index);
@@ -214,6 +224,7 @@ typedef struct LoadRequest {
 static bool load_guarded(PetriSession *session, const LoadRequest *request, Unit **unit) {
     jmp_buf escape;
     session->frame_arena.escape = &escape;
+    session_set_globals(session, &session->static_vm);
     bool escaped = setjmp(escape) != 0;
     if (!escaped)
         *unit = request->file ? unit_load_file(session, request->file, false)

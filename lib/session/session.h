@@ -41,6 +41,7 @@ struct PetriSession {
     Unit *loading; // whose compiler calls back
     bool lint;     // petri_check is at work
     Vm vm;
+    Vm static_vm; // evaluates ahead while a program is compiled
 
     // Diagnostics already given: hashes of their texts.
     uint64_t *told;
@@ -82,6 +83,8 @@ void session_free_retired(PetriSession *session);
 
 // Takes tempo, quantum and fps from a program's pragmas and goes to before frame 0.
 void session_start(PetriSession *session, const Program *program);
+// The values of the engine's names in the present frame; before the first, those that never change.
+void session_set_globals(const PetriSession *session, Vm *vm);
 // Goes to just after a frame.
 void session_resume(PetriSession *session, int64_t frame);
 

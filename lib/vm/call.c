@@ -19,7 +19,11 @@ Value vm_make_closure(Vm *vm, Frame *frame, const Expr *expr) {
         captures[i] = vm_eval(vm, frame, code->captures[i]);
     for (uint32_t i = 0; i < code->param_count; i++)
         defaults[i] = code->defaults[i] ? vm_eval(vm, frame, code->defaults[i]) : VALUE_NULL;
-    *closure = (Closure){{.name = code->name}, code, captures, defaults, 0, value_function(vm->arena, &closure->base)};
+    *closure = (Closure){.base = {.name = code->name},
+                         .code = code,
+                         .captures = captures,
+                         .defaults = defaults,
+                         .self = value_function(vm->arena, &closure->base)};
     return closure->self;
 }
 
@@ -56,6 +60,10 @@ static bool may_enter(Vm *vm, const Closure *closure, const Expr *at) {
 
 static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Expr *at) {
     const FunctionCode *code = closure->code;
+    if (closure->run != vm->run) { // made ahead: what an evaluation that was given up left is void
+        closure->run = vm->run;
+        closure->active = 0;
+    }
     if (!may_enter(vm, closure, at))
         return VALUE_NULL;
     ArenaMark mark = arena_mark(&vm->slots);
@@ -82,6 +90,9 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at)
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
+    vm->met_dynamic |= !builtin->pure;
+    if (vm->is_static && vm->met_dynamic)
+        return VALUE_NULL; // no debug line, no file is read ahead
     const Expr *calling = vm->calling;
     vm->calling = at;
     Value result = vm_work(vm, at) ? builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names,

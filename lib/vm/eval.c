@@ -32,7 +32,7 @@ void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...)
 bool vm_work(Vm *vm, const Expr *at) {
     if (vm->stopped)
         return false;
-    if (++vm->work <= VM_WORK_LIMIT)
+    if (++vm->work <= vm->work_limit)
         return true;
     vm->stopped = true;
     vm_fault(vm, at, "work-limit",
@@ -155,6 +155,7 @@ static Value eval_index(Vm *vm, Frame *frame, const Expr *expr) {
 // The dictionary's value is copied into the frame: systems may overwrite it in place after the evaluation.
 static Value eval_lookup(Vm *vm, Frame *frame, const Expr *expr) {
     Value key = vm_eval(vm, frame, expr->children[0]);
+    vm->met_dynamic = true;
     return vm->state ? value_copy(vm->arena, state_get(vm->state, key)) : VALUE_NULL;
 }
 
@@ -221,6 +222,7 @@ Value vm_eval(Vm *vm, Frame *frame, const Expr *expr) {
     case EXPR_SELF:
         return frame->closure->self;
     case EXPR_GLOBAL:
+        vm->met_dynamic |= expr->dynamic;
         return vm->globals[expr->slot];
     case EXPR_UNBOUND:
         return eval_unbound(vm, expr);
@@ -234,7 +236,9 @@ Value vm_eval(Vm *vm, Frame *frame, const Expr *expr) {
     case EXPR_FUNC:
         return vm_make_closure(vm, frame, expr);
     case EXPR_IMPORT:
-        vm_import(vm, frame, expr);
+        vm->met_dynamic = true;
+        if (!vm->is_static)
+            vm_import(vm, frame, expr);
         return VALUE_NULL;
     case EXPR_FOR:
         return eval_for(vm, frame, expr);

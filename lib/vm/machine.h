@@ -4,13 +4,15 @@
 
 #include "vm/vm.h"
 
-// A user function as a value: its code with what it captured. Lives as long as the frame it was made in.
+// A user function as a value: its code with what it captured. Lives as long as the frame, or the program if it was made
+// ahead.
 typedef struct Closure {
     Function base; // first: a Function * to a closure is a Closure *
     const FunctionCode *code;
     const Value *captures;
     const Value *defaults;
-    uint32_t active; // calls that have not returned
+    uint32_t active; // calls that have not returned, in evaluation `run`
+    uint64_t run;
     Value self;      // the vector of this one function
 } Closure;
 

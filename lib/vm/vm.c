@@ -14,8 +14,14 @@ static void builtin_log(void *host, Str text) {
     vm->host.log(vm->host.host, text);
 }
 
-void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes) {
-    *vm = (Vm){.arena = arena, .symbols = symbols, .host = host, .stack_bytes = stack_bytes};
+void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes, bool is_static) {
+    *vm = (Vm){.arena = arena,
+               .symbols = symbols,
+               .host = host,
+               .stack_bytes = stack_bytes,
+               .work_limit = is_static ? VM_STATIC_WORK_LIMIT : VM_WORK_LIMIT,
+               .run = is_static,
+               .is_static = is_static};
     arena_init(&vm->slots, "call frames", SIZE_MAX);
     vm->builtins = (BuiltinContext){
         .arena = arena, .symbols = symbols, .fault = builtin_fault_here, .log = builtin_log, .host = vm};
@@ -37,6 +43,7 @@ static void begin(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
     vm->slots.escape = vm->arena->escape;
     vm->stack_base = stack_base;
+    vm->run += 2;
     vm->depth = 0;
     vm->work = 0;
     vm->stopped = false;
@@ -57,22 +64,17 @@ Value vm_run(Vm *vm, const Program *program) {
     return vm->stopped ? VALUE_NULL : result;
 }
 
-// May be called while a program runs, when a module with an %include is loaded: leaves everything as it found it.
-Value vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size) {
-    Vm saved = *vm;
-    ArenaMark mark = arena_mark(&vm->slots);
-    if (!vm->imports)
-        begin(vm, __builtin_frame_address(0));
+bool vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size, Value *value) {
     vm->arena = vm->builtins.arena = arena;
-    vm->state = NULL;
+    begin(vm, __builtin_frame_address(0));
+    vm->met_dynamic = false;
     vm->builtins.directory = expr->source->directory;
     Frame frame = new_frame(vm, frame_size);
-    Value result = vm_eval(vm, &frame, expr);
-    arena_rewind(&vm->slots, mark);
-    Arena slots = vm->slots;
-    *vm = saved;
-    vm->slots = slots;
-    return result;
+    *value = vm_eval(vm, &frame, expr);
+    if (!vm->met_dynamic && !vm->stopped && vm->reported_count == 0)
+        return true;
+    *value = VALUE_NULL;
+    return false;
 }
 
 static bool being_imported(const Vm *vm, const Source *source) {

@@ -19,6 +19,8 @@ enum {
 // Calls and loop rounds that one frame may make: enough to go once through the longest vector, little enough that a
 // function calling itself twice ends within seconds.
 #define VM_WORK_LIMIT (UINT64_C(1) << 27)
+// The same for one expression that is evaluated ahead.
+#define VM_STATIC_WORK_LIMIT (UINT64_C(1) << 24)
 
 typedef struct VmHost {
     void *host;
@@ -47,7 +49,11 @@ typedef struct Vm {
     const Expr *calling; // the call that a built-in's fault belongs to
     uint32_t depth;
     uint64_t work;
+    uint64_t work_limit;
     bool stopped; // the work is used up
+    uint64_t run; // number of the evaluation, unique over a session's machines: closures may outlive a frame
+    bool is_static; // evaluating ahead: dynamic things have no value yet
+    bool met_dynamic; // … and one was met
     size_t stack_bytes; // of the C stack that evaluation may use
     const char *stack_base;
     const ImportLink *imports; // modules being evaluated, innermost first
@@ -56,13 +62,15 @@ typedef struct Vm {
 } Vm;
 
 // Prepares a machine; `stack_bytes` is what it may use of the caller's stack. Free with vm_free.
-void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes);
+// The runs of a machine made for static evaluation are numbered apart from those of the one for frames.
+void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes, bool is_static);
 void vm_free(Vm *vm);
 
 // Evaluates the main program: the composition of its statements.
 Value vm_run(Vm *vm, const Program *program);
-// Evaluates an expression without dynamic parts in a fresh frame of `frame_size` slots, outside any program; the value
-// lives in `arena`.
-Value vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size);
+// Evaluates an expression that reads no slot from outside in a fresh frame of `frame_size` slots; the value lives in
+// `arena`. False, and *value null, if that met anything dynamic (L17.2), a fault or a limit. For machines that run
+// nothing else.
+bool vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size, Value *value);
 
 #endif

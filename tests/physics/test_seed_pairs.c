@@ -159,9 +159,9 @@ static void test_distance(void **state) {
         {"nan counts as missing", LINK("minimum=nan min=6"), 1, "a'=-2", "bad-attribute"},
         {"an infinite minimum pushes without end", LINK("min=inf"), 1, "a'=0 a=0", 0},
         {"ids are vectors",
-         P1 " !particle id=:x;1;\"y\"\n !anchor id=0 position=4\n !particle id=:x position=9\n"
-            " !distance from=:x;1;\"y\" to=0 fixed=2\n",
-         1, "x'=0 :x;1;'y'=2", 0},
+         P1 " !particle id=:x;\"y\";1\n !anchor id=0 position=4\n !particle id=:x position=9\n"
+            " !distance from=:x;\"y\";1 to=0 fixed=2\n",
+         1, "x'=0 :x;'y';1=2", 0},
         {"an anchor stays", P1 " !anchor id=:a\n !particle id=:b position=4\n !distance from=:a to=:b fixed=2\n", 1,
          "a=0 b'=-2", 0},
         {"no mass: not moved",

@@ -17,8 +17,9 @@ static void test_composition(void **state) {
         {{"1;2", "'a'", "3"}, "1;2;'a';3", VALUE_MIXED},
         {{"'a'", "1;2"}, "'a';1;2", VALUE_MIXED},
         {{"!a", "!b", ":x"}, "(!a);(!b);:x", VALUE_MIXED},
-        {{"uniform:5"}, "null", VALUE_STREAM},
-        {{"null", "uniform:5", "null"}, "null", VALUE_STREAM}, // the only part: it survives
+        {{"uniform:5"}, "null", VALUE_STREAM}, // the only part: it survives
+        {{"null", "uniform:5"}, "null", VALUE_NUMBERS}, // null is a part too
+        {{"uniform:5", "null"}, "null", VALUE_NUMBERS},
         {{"uniform:5", "1"}, "1", VALUE_NUMBERS},
         {{"1", "uniform:5"}, "1", VALUE_NUMBERS},
         {{"uniform:5", "beta:5"}, "null", VALUE_NUMBERS},

@@ -1,0 +1,115 @@
+// fold.c: the simplifier: what does not depend on the frame is evaluated once, when the program is loaded.
+//
+// An expression can be evaluated ahead if nothing in it is dynamic and it reads no slot but its own, that is, none below
+// the slot that was free when it began: slots are handed out like a stack, so what it binds itself lies above. The
+// machine that runs the program does it, with the same functions; if on its way it meets something dynamic (inside a
+// function that is called, say), a fault or a limit, the expression stays as it is. So a value is the same with and
+// without the simplifier, to the last bit, and nothing is re-associated.
+//
+// A name bound to a constant is that constant from then on, which is how constants spread through a program, and how a
+// static particle tree comes to be one constant vector of nodes that all frames share.
+#include "program/compile.h"
+
+#include "value/seed.h"
+
+// More elements than this are worth the time of evaluating them again rather than the memory of keeping them.
+enum { MOST_ELEMENTS = 1 << 22 };
+
+void fold_describe(Expr *expr) {
+    expr->lowest = UINT32_MAX;
+    switch (expr->kind) {
+    case EXPR_SLOT:
+        expr->lowest = expr->slot;
+        break;
+    case EXPR_CAPTURE:
+    case EXPR_SELF:
+        expr->enclosed = true;
+        break;
+    case EXPR_LOOKUP:
+    case EXPR_IMPORT:
+    case EXPR_UNBOUND:
+        expr->dynamic = true;
+        break;
+    default:
+        break;
+    }
+    for (uint32_t i = 0; i < expr->count; i++) {
+        const Expr *child = expr->children[i];
+        expr->dynamic |= child->dynamic;
+        expr->enclosed |= child->enclosed;
+        if (child->lowest < expr->lowest)
+            expr->lowest = child->lowest;
+    }
+}
+
+// Kinds that act on the frame, are constants already, or are as quick as one.
+static bool is_candidate(const Compiler *compiler, const Expr *expr) {
+    switch (expr->kind) {
+    case EXPR_CONST:
+    case EXPR_BIND:
+    case EXPR_LET:
+    case EXPR_IMPORT:
+    case EXPR_SLOT:
+        return false;
+    case EXPR_FUNC:
+        // Each evaluation makes a closure that equals no other, so one that may be made several times is left alone.
+        return compiler->repeats == 0;
+    default:
+        return true;
+    }
+}
+
+// An `if` whose first test is known comes down to one branch or starts with the next test.
+static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
+    uint32_t skip = 0;
+    while (skip + 1 < expr->count && expr->children[skip]->kind == EXPR_CONST) {
+        if (value_true(expr->children[skip]->as.value))
+            return expr->children[skip + 1];
+        skip += 2;
+    }
+    if (skip == 0)
+        return expr;
+    if (skip + 1 == expr->count)
+        return expr->children[skip];
+    Expr *rest = arena_copy(compiler->arena, expr, sizeof *expr);
+    rest->children += skip;
+    rest->count -= skip;
+    if (rest->count == 0) {
+        rest->kind = EXPR_CONST;
+        rest->as.value = VALUE_NULL;
+    }
+    fold_describe(rest);
+    return rest;
+}
+
+const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
+    if (!compiler->options->simplify)
+        return expr;
+    const Expr *pruned = expr->kind == EXPR_IF ? prune_branches(compiler, expr) : expr;
+    if (pruned != expr)
+        return pruned;
+    if (expr->dynamic || expr->enclosed || expr->lowest < mark || !is_candidate(compiler, expr))
+        return expr;
+    const CompileHost *host = &compiler->options->host;
+    Value value;
+    if (!host->evaluate(host->host, expr, compiler->function->frame_size, &value) || value.len > MOST_ELEMENTS) {
+        expr->dynamic = true; // what encloses it need not try
+        return expr;
+    }
+    Expr *folded = arena_copy(compiler->arena, expr, sizeof *expr);
+    folded->kind = EXPR_CONST;
+    folded->count = 0;
+    folded->as.value = value;
+    fold_describe(folded);
+    return folded;
+}
+
+void compile_set_known(Compiler *compiler, uint32_t count, Value value) {
+    Binding *binding = compiler->function->scope;
+    for (uint32_t i = count; i > 0; i--, binding = binding->outer) {
+        binding->known = true;
+        binding->constant = count == 1                    ? value
+                            : value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i - 1))
+                                                         : value_element(compiler->arena, value, i - 1);
+    }
+}

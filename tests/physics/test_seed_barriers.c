@@ -1,0 +1,137 @@
+// test_seed_barriers.c: bounces and soft boundaries, worked out by hand, through scripts.
+#include "cases.h"
+
+// A bead at 2 with velocity -4: after one step it is at -2, half a step behind the contact.
+#define BEAD(attributes, barrier) P1 " !particle id=:a position=2 velocity=-4 " attributes "\n !barrier " barrier "\n"
+
+static void test_bounce(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"elastic by default", BEAD("", "normal=1"), 1, "a'=4 a=2", 0},
+        {"restitution 1", BEAD("", "normal=1 restitution=1"), 1, "a'=4 a=2", 0},
+        {"restitution 1/2", BEAD("", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
+        {"restitution 0: all absorbed", BEAD("", "normal=1 restitution=0"), 1, "a'=0 a=0", 0},
+        {"restitution above 1 is 1", BEAD("", "normal=1 restitution=3"), 1, "a'=4 a=2", 0},
+        {"restitution below 0 is 0", BEAD("", "normal=1 restitution=-1"), 1, "a'=0 a=0", 0},
+        {"the normal's length does not matter", BEAD("", "normal=8"), 1, "a'=4 a=2", 0},
+        {"the other side is the inside", BEAD("", "position=3 normal=-1"), 1, "a'=-4 a=-2", 0},
+        {"position", P1 " !particle id=:a position=12 velocity=-4\n !barrier position=10 normal=1\n", 1, "a'=4 a=12",
+         0},
+        {"the outer edge bounces", P1 " !particle id=:a position=3 velocity=-4 radius=1\n !barrier normal=1\n", 1,
+         "a'=4 a=3", 0},
+        {"not reached", P1 " !particle id=:a position=4 velocity=-4\n !barrier normal=1\n", 1, "a'=-4 a=0", 0},
+        {"whatever the mass", BEAD("mass=8", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
+        {"without mass too", BEAD("mass=0", "normal=1 restitution=0.5"), 1, "a'=2 a=1", 0},
+        {"anchors stay behind it", P1 " !anchor id=:a position=-3\n !barrier normal=1\n", 1, "a=-3 a'=0", 0},
+        {"a line: reflected in the normal", P2 " !particle id=:a position=0;2 velocity=8;-4\n !barrier normal=0;2\n", 1,
+         "a'=8;4 a=8;2", 0},
+        {"a line: the whole velocity times restitution",
+         P2 " !particle id=:a position=0;2 velocity=8;-4\n !barrier normal=0;2 restitution=0.5\n", 1, "a'=4;2 a=6;1",
+         0},
+        {"a plane", P3 " !particle id=:a position=5;2;7 velocity=1;-4;2\n !barrier normal=0;1;0\n", 1,
+         "a'=1;4;2 a=6;2;9", 0},
+        {"five dimensions", P5 " !particle id=:a position=0;0;0;0;2 velocity=1;2;3;4;-4\n !barrier normal=0;0;0;0;1\n",
+         1, "a'=1;2;3;4;4 a=1;2;3;4;2", 0},
+        {"two barriers, a corner",
+         P2 " !particle id=:a position=2;2 velocity=-4;-4\n !barrier normal=1;0\n"
+            " !barrier normal=0;1\n",
+         1, "a'=4;4 a=2;2", 0},
+        {"found behind it, moving away: put on the surface",
+         P1 " !particle id=:a position=-9 velocity=1 radius=2\n !barrier normal=1\n", 1, "a'=1 a=2", 0},
+        {"constrained for ever",
+         P1 " !particle id=:a position=1\n !constant force=-1\n !barrier normal=1 restitution=0\n", 50, "a=0", 0},
+    };
+    CHECK_CASES(cases);
+}
+
+// At 4 from a wall.
+#define SOFT(attributes) P1 " !particle id=:a position=4\n !barrier normal=1 " attributes "\n"
+
+static void test_soft(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"nearer than min", SOFT("min=6"), 1, "a'=2 a=6", 0},
+        {"further than max", SOFT("max=3"), 1, "a'=-1 a=3", 0},
+        {"max without min", SOFT("maximum=3"), 1, "a'=-1", 0},
+        {"between them", SOFT("min=3 max=5"), 1, "a'=0", 0},
+        {"fixed: pushed", SOFT("fixed=6"), 1, "a'=2", 0},
+        {"fixed: pulled", SOFT("fixed=2"), 1, "a'=-2 a=2", 0},
+        {"minimum over min", SOFT("min=9 minimum=6"), 1, "a'=2", 0},
+        {"maximum over max", SOFT("max=0 maximum=3"), 1, "a'=-1", 0},
+        {"fixed over all", SOFT("min=9 max=0 minimum=20 maximum=0 fixed=6"), 1, "a'=2", 0},
+        {"malformed minimum: min", SOFT("minimum=:x;1 min=6"), 1, "a'=2", "bad-attribute"},
+        {"malformed fixed: the others", SOFT("fixed=\"x\" min=6"), 1, "a'=2", "bad-attribute"},
+        {"min 0 does nothing", SOFT("min=0"), 1, "a'=0", 0},
+        {"power", SOFT("min=6 power=3"), 1, "a'=8", 0},
+        {"power 2 pulls back from beyond max", SOFT("max=2 power=2"), 1, "a'=-4", 0},
+        {"power below 0 is 0", SOFT("min=9 power=-1"), 1, "a'=1", 0},
+        {"strength", SOFT("min=6 strength=0.25"), 1, "a'=0.5", 0},
+        {"from the centre, whatever the radius", P1 " !particle id=:a position=4 radius=1\n !barrier normal=1 min=6\n",
+         1, "a'=2", 0},
+        {"along the normal", P2 " !particle id=:a position=7;4\n !barrier normal=0;-1 position=0;8 min=6\n", 1,
+         "a'=0;-2", 0},
+        {"a plane", P3 " !particle id=:a position=7;4;5\n !barrier normal=0;3;0 min=6\n", 1, "a'=0;2;0", 0},
+        {"five dimensions", P5 " !particle id=:a position=7;4;5;1;2\n !barrier normal=0;0;0;0;1 min=6\n", 1,
+         "a'=0;0;0;0;4", 0},
+        {"anchors do not feel it", P1 " !anchor id=:a position=4\n !barrier normal=1 min=6\n", 1, "a=4 a'=0", 0},
+        {"the hard bounce is there all the same",
+         P1 " !particle id=:a position=2 velocity=-4.5\n"
+            " !barrier normal=1 min=4 strength=0.25\n",
+         1, "a'=4.5 a=2.25", 0},
+        {"behind it there is no push, only the bounce", P1 " !particle id=:a position=-2\n !barrier normal=1 min=6\n",
+         1, "a'=0 a=0", 0},
+    };
+    CHECK_CASES(cases);
+}
+
+// What the step's acceleration adds before the contact does not come back: w' is taken at the contact (section 4.4).
+static void test_bounce_under_force(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        // v = -2 - 2 = -4, p = 2 - 4 = -2, half a step too far; at the contact v = -4 + 1 = -3, reflected 3, then half
+        // a
+        // step of the same force: 3 - 1 = 2.
+        {"elastic", P1 " !particle id=:a position=2 velocity=-2\n !constant force=-2\n !barrier normal=1\n", 1,
+         "a'=2 a=1", 0},
+        // The same with half of it: 1.5, less 1 in half a step: 0.5, p = 0.25.
+        {"half",
+         P1 " !particle id=:a position=2 velocity=-2\n !constant force=-2\n !barrier normal=1 restitution=0.5\n", 1,
+         "a'=0.5 a=0.25", 0},
+    };
+    CHECK_CASES(cases);
+}
+
+static void test_normals(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"none", BEAD("", "position=0"), 1, "a'=-4 a=-2", "bad-normal"},
+        {"zero", BEAD("", "normal=0"), 1, "a'=-4 a=-2", "bad-normal"},
+        {"infinite", BEAD("", "normal=inf"), 1, "a'=-4 a=-2", "bad-normal"},
+        {"overflowing", BEAD("", "normal=1e200"), 1, "a'=-4 a=-2", "bad-normal"},
+        {"nan", BEAD("", "normal=nan"), 1, "a'=-4 a=-2", "bad-normal"},
+    };
+    CHECK_CASES(cases);
+    World world;
+    world_open(&world, 1, P2 " !particle id=:a position=2;0 velocity=-4;0\n !barrier normal=1;2;3\n");
+    world_to(&world, 1);
+    EXPECT(&world, ":s;:a", -2, 0);
+    assert_int_equal(world_heard(&world, "bad-attribute"), 1);
+    world_close(&world);
+    // One number is repeated: a diagonal wall.
+    world_open(&world, 1, P2 " !particle id=:a position=2;0 velocity=-4;0\n !barrier normal=1\n");
+    world_to(&world, 1);
+    EXPECT_NEAR(&world, ":s;:a", 1e-14, 0, 2);
+    EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-14, 0, 4);
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_bounce),
+        cmocka_unit_test(test_soft),
+        cmocka_unit_test(test_bounce_under_force),
+        cmocka_unit_test(test_normals),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

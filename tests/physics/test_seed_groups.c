@@ -1,0 +1,131 @@
+// test_seed_groups.c: groups: whom a force acts on, who sees whom, through scripts.
+#include "cases.h"
+
+static void test_reach(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"a force at the top is for all",
+         P1 " !constant force=1\n !particle id=:a\n !group\n  !particle id=:b\n  !group\n   !particle id=:c\n", 1,
+         "a'=1 b'=1 c'=1", 0},
+        {"wherever it stands", P1 " !particle id=:a\n !group\n  !particle id=:b\n !constant force=1\n", 1, "a'=1 b'=1",
+         0},
+        {"a force in a group is for the group and its sub-groups",
+         P1 " !particle id=:a\n !group\n  !particle id=:b\n  !constant force=1\n  !group\n   !particle id=:c\n"
+            " !group\n  !particle id=:d\n",
+         1, "a'=0 b'=1 c'=1 d'=0", 0},
+        {"each single force",
+         P1 " !particle id=:a radius=1 charge=1 velocity=1\n !group\n"
+            "  !particle id=:b radius=1 charge=1 velocity=1\n  !field direction=1\n  !drag strength=0.5\n"
+            "  !buoyancy density=2\n",
+         1, "a'=1 b'=2.5", 0},
+        {"barriers too",
+         P1 " !particle id=:a position=2 velocity=-4\n !group\n  !particle id=:b position=2 velocity=-4\n"
+            "  !barrier normal=1\n",
+         1, "a'=-4 b'=4", 0},
+        {"soft ones too",
+         P1 " !particle id=:a position=2\n !group\n  !particle id=:b position=2\n"
+            "  !group\n   !particle id=:c position=2\n  !barrier normal=1 min=3\n",
+         1, "a'=0 b'=1 c'=1", 0},
+        {"attributes of a group mean nothing",
+         P1 " !group strength=5 force=3 mass=2\n  !particle id=:a\n"
+            "  !constant force=1\n",
+         1, "a'=1", 0},
+        {"a link may join any two",
+         P1 " !group\n  !particle id=:a\n !group\n  !particle id=:b position=4\n"
+            " !group\n  !distance from=:a to=:b fixed=2\n",
+         1, "a'=2 b'=-2", 0},
+        {"a link before its particles",
+         P1 " !distance from=:a to=:b fixed=2\n !particle id=:a\n"
+            " !group\n  !particle id=:b position=4\n",
+         1, "a'=2 b'=-2", 0},
+        {"an empty group", P1 " !group\n !particle id=:a\n !group\n  !constant force=1\n", 1, "a'=0", 0},
+    };
+    CHECK_CASES(cases);
+}
+
+// A tree of groups with one particle each at a power of two, and a force that depends on whom it comes from: gravity of
+// strength 1 on masses 1, so that each partner shows by the place it pulls towards.
+//
+//   top a=0 | A: b=16 | A.B: c=64 | C: d=256
+static const double places[] = {0, 16, 64, 256};
+
+static double pull(int i, unsigned partners) {
+    double sum = 0;
+    for (int j = 0; j < 4; j++) {
+        double d = places[j] - places[i];
+        if (partners & (1U << j))
+            sum += (d > 0 ? 1 : -1) / (d * d);
+    }
+    return sum;
+}
+
+static void check_sight(const char *script, const unsigned partners[4]) {
+    World world;
+    world_open(&world, 1, script);
+    world_to(&world, 1);
+    for (int i = 0; i < 4; i++) {
+        char key[64];
+        snprintf(key, sizeof key, ":s;:%c;:velocity", "abcd"[i]);
+        EXPECT_NEAR(&world, key, 1e-18, pull(i, partners[i]));
+    }
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+}
+
+static void test_sight(void **state) {
+    (void)state;
+    enum { A = 1, B = 2, C = 4, D = 8 };
+#define TREE(top, a, b, c)                                                                                             \
+    P1 " !particle id=:a position=0\n" top " !group\n  !particle id=:b position=16\n" a                                \
+       "  !group\n   !particle id=:c position=64\n" b " !group\n  !particle id=:d position=256\n" c
+    // At the top: all see their ancestors and descendants; d and the two of A are in sibling groups.
+    check_sight(TREE(" !gravity\n", "", "", ""), (const unsigned[]){B | C | D, A | C, A | B, A});
+    // In A: pairs of A and its sub-groups. The top's particle is not one of the force's.
+    check_sight(TREE("", "  !gravity\n", "", ""), (const unsigned[]){0, C, B, 0});
+    // In A.B and in C: nobody else is there.
+    check_sight(TREE("", "", "   !gravity\n", ""), (const unsigned[]){0, 0, 0, 0});
+    check_sight(TREE("", "", "", "  !gravity\n"), (const unsigned[]){0, 0, 0, 0});
+}
+
+// Sibling groups pass through each other under each pair force; a force in their parent sees the parent's particles.
+static void test_siblings(void **state) {
+    (void)state;
+    static const char *const forces[] = {"!collision", "!gravity", "!electrostatic", "!adhesion overlap=1"};
+    for (size_t i = 0; i < COUNT_OF(forces); i++) {
+        for (int shared = 0; shared < 2; shared++) {
+            World world;
+            char *script = text_of(P1 " !group\n  !particle id=:a radius=1 charge=1\n"
+                                      " %s!particle id=:b radius=1 charge=1 position=1.5\n %s\n",
+                                   shared ? "" : "!group\n  ", forces[i]);
+            world_open(&world, 1, script);
+            world_to(&world, 1);
+            if ((world_number(&world, ":s;:a;:velocity") != 0) != (shared == 1))
+                fail_msg("%s", script);
+            assert_true(world_number(&world, ":s;:b;:velocity") == -world_number(&world, ":s;:a;:velocity"));
+            world_close(&world);
+            free(script);
+        }
+    }
+}
+
+// Ids are unique over all groups: the first one in document order counts. Two kinds of node, two texts, each told once.
+static void test_ids_across_groups(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"the first one counts",
+         P1 " !group\n  !particle id=:a position=1\n !particle id=:a position=2\n"
+            " !group\n  !anchor id=:a position=3\n",
+         3, "a=1", "duplicate-id duplicate-id"},
+    };
+    CHECK_CASES(cases);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_reach),
+        cmocka_unit_test(test_sight),
+        cmocka_unit_test(test_siblings),
+        cmocka_unit_test(test_ids_across_groups),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,89 @@
+// parsing.h: programs given as text, their trees and their complaints as text.
+#ifndef PETRI_TESTS_PARSING_H
+#define PETRI_TESTS_PARSING_H
+
+#include "values.h"
+
+#include "syntax/parse.h"
+
+typedef struct Parsed {
+    const Source *source;
+    const Ast *ast; // NULL: rejected
+    DiagSink diags;
+} Parsed;
+
+// The caller frees parsed.diags with diag_sink_free.
+static inline Parsed parse_str(World *world, Str text) {
+    Parsed parsed = {.source = source_new(&world->arena, STR("t.fl"), STR("t.fl"), text),
+                     .diags = diag_sink_new(&world->arena, 50)};
+    parsed.ast = parse_program(&world->arena, &world->symbols, parsed.source, &parsed.diags);
+    return parsed;
+}
+
+static inline bool accepts_str(World *world, Str text) {
+    Parsed parsed = parse_str(world, text);
+    bool accepted = parsed.ast != NULL;
+    assert_true(accepted == (parsed.diags.error_count == 0)); // never rejected without a word
+    diag_sink_free(&parsed.diags);
+    return accepted;
+}
+
+static inline bool accepts(World *world, const char *text) {
+    return accepts_str(world, str_from(text));
+}
+
+// `(kind name child child)`, a literal as it prints, a missing child as `_`: the shape of a tree on one line.
+static inline void add_shape(World *world, Text *out, const Ast *ast) {
+    if (!ast) {
+        text_add_c(out, "_");
+        return;
+    }
+    if (ast->kind == AST_LITERAL) {
+        format_value(out, &world->symbols, ast->value);
+        return;
+    }
+    bool bare = ast->kind == AST_NAME && ast->count == 0;
+    if (!bare)
+        text_add_format(out, "(%s", ast_kind_name(ast->kind));
+    if (ast->name)
+        text_add_format(out, bare ? "%.*s" : " %.*s", (int)ast->name->name.len, ast->name->name.bytes);
+    for (uint32_t i = 0; i < ast->count; i++) {
+        text_add_char(out, ' ');
+        add_shape(world, out, ast->children[i]);
+    }
+    if (!bare)
+        text_add_char(out, ')');
+}
+
+// The statements' shapes, joined by spaces; "rejected" if the program is.
+static inline const char *shape(World *world, const char *program) {
+    Parsed parsed = parse_str(world, str_from(program));
+    Text out = text_new(&world->arena);
+    for (uint32_t i = 0; parsed.ast && i < parsed.ast->count; i++) {
+        if (i)
+            text_add_char(&out, ' ');
+        add_shape(world, &out, parsed.ast->children[i]);
+    }
+    if (!parsed.ast)
+        text_add_c(&out, "rejected");
+    diag_sink_free(&parsed.diags);
+    return text_c(&out);
+}
+
+// `line:column: text` of each complaint, with its hint after a `|`, one a line.
+static inline const char *complaints(World *world, Str program) {
+    Parsed parsed = parse_str(world, program);
+    Text out = text_new(&world->arena);
+    for (uint32_t i = 0; i < parsed.diags.count; i++) {
+        const Diag *diag = &parsed.diags.items[i];
+        SourcePlace place = source_locate(diag->source, diag->span.start);
+        text_add_format(&out, "%s%u:%u: ", i ? "\n" : "", place.line, place.column);
+        text_add(&out, diag->text);
+        if (diag->hint.len)
+            text_add_format(&out, " | %.*s", (int)diag->hint.len, diag->hint.bytes);
+    }
+    diag_sink_free(&parsed.diags);
+    return text_c(&out);
+}
+
+#endif
