@@ -37,10 +37,10 @@ typedef struct Run {
     int64_t frames;
     uint64_t physics_steps;
     double start;
-    bool to_terminal;   // standard output is a terminal
-    bool shown_last;    // the last diagnostic that was no note was shown
-    bool state_lost;    // the state file could not be read or written
-    double saved;       // when the state was saved last
+    bool to_terminal; // standard output is a terminal
+    bool shown_last;  // the last diagnostic that was no note was shown
+    bool state_lost;  // the state file could not be read or written
+    double saved;     // when the state was saved last
     Output output;
 } Run;
 

@@ -35,7 +35,8 @@ void arena_init(Arena *arena, const char *name, size_t budget);
 // Returns all blocks to the system.
 void arena_free(Arena *arena);
 
-// Drops everything allocated since the last reset but keeps the blocks. Unoptimised and sanitizer builds poison the bytes.
+// Drops everything allocated since the last reset but keeps the blocks. Unoptimised and sanitizer builds poison the
+// bytes.
 void arena_reset(Arena *arena);
 
 // `size` bytes, aligned to 16, not cleared. Size 0 gives a valid pointer that must not be read.

@@ -25,8 +25,8 @@ bool diag_report(DiagSink *sink, const Diag *diag) {
     }
     if (sink->count == sink->capacity) {
         uint32_t capacity = sink->capacity ? sink->capacity * 2 : 8;
-        sink->items = arena_grow(sink->arena, sink->items, sink->capacity * sizeof *sink->items,
-                                 capacity * sizeof *sink->items);
+        sink->items =
+            arena_grow(sink->arena, sink->items, sink->capacity * sizeof *sink->items, capacity * sizeof *sink->items);
         sink->capacity = capacity;
     }
     if (!index_add(&sink->index, hash, sink->count))
@@ -88,8 +88,8 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     SourcePlace place = {0};
     if (diag->source) {
         place = source_locate(diag->source, diag->span.start);
-        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, (int)diag->source->name.len, diag->source->name.bytes, place.line,
-                        place.column, plain);
+        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, (int)diag->source->name.len, diag->source->name.bytes,
+                        place.line, place.column, plain);
     }
     text_add_format(out, "%s%s:%s %.*s", tint, level_names[diag->level], plain, (int)diag->text.len, diag->text.bytes);
     if (diag->code)

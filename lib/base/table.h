@@ -10,7 +10,7 @@
 #include <stdint.h>
 
 typedef struct IndexSlot {
-    uint32_t hash; // upper half of the 64-bit hash
+    uint32_t hash;  // upper half of the 64-bit hash
     uint32_t entry; // position + 1; 0 is empty, INDEX_DELETED a removed one
 } IndexSlot;
 

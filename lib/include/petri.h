@@ -51,7 +51,8 @@ typedef struct PetriOptions {
     double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
     bool simplify;   // evaluate static parts once, when loading; results never depend on it. Default true
     bool colour;     // colour `rendered` with ANSI escapes
-    // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is enough.
+    // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
+    // enough.
     size_t stack_bytes;
     size_t memory_bytes; // for the values of one frame. Default 2 GiB
     int threads;         // worker threads, 0: as many as processors. Results never depend on it

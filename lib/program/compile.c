@@ -11,6 +11,9 @@ Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const 
                    .source = compiler->source,
                    .span = ast->span,
                    .children = arena_copy(compiler->arena, children, count * sizeof *children)};
+    for (uint32_t i = 0; kind == EXPR_COMPOSE && i < count; i++)
+        expr->slot +=
+            children[i]->kind != EXPR_BIND && children[i]->kind != EXPR_LET && children[i]->kind != EXPR_IMPORT;
     fold_describe(expr);
     return expr;
 }
@@ -90,8 +93,7 @@ static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_range(Compiler *compiler, const Ast *ast) {
     const Expr *parts[3];
     for (int i = 0; i < 3; i++)
-        parts[i] =
-            ast->children[i] ? compile_expr(compiler, ast->children[i]) : constant(compiler, ast, VALUE_NULL);
+        parts[i] = ast->children[i] ? compile_expr(compiler, ast->children[i]) : constant(compiler, ast, VALUE_NULL);
     return compile_expr_new(compiler, EXPR_RANGE, ast, parts, 3);
 }
 
@@ -418,8 +420,12 @@ static bool binds_only(const Ast *ast) {
 
 const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source *source, const Ast *ast,
                                const CompileOptions *options, DiagSink *diags) {
-    Compiler compiler = {
-        .arena = arena, .symbols = symbols, .source = source, .options = options, .diags = diags, .is_module = binds_only(ast)};
+    Compiler compiler = {.arena = arena,
+                         .symbols = symbols,
+                         .source = source,
+                         .options = options,
+                         .diags = diags,
+                         .is_module = binds_only(ast)};
     FunctionScope function;
     compile_function_open(&compiler, &function, NULL);
     Program *program = arena_alloc(arena, sizeof *program);

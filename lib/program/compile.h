@@ -50,7 +50,7 @@ typedef struct Compiler {
     DiagSink *diags;
     FunctionScope *function;
     uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
-    bool is_module; // the file only binds names: they are for others, so none is unused
+    bool is_module;   // the file only binds names: they are for others, so none is unused
 } Compiler;
 
 typedef struct ScopeMark {

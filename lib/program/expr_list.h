@@ -9,7 +9,7 @@ EXPR(CAPTURE, "capture")  // slot: a value that the running closure captured
 EXPR(SELF,    "self")     // the running closure
 EXPR(GLOBAL,  "global")   // slot: an EngineName
 EXPR(UNBOUND, "unbound")  // name: reported when reached; null
-EXPR(COMPOSE, "compose")  // part…
+EXPR(COMPOSE, "compose")  // part or binding…; slot: number of parts
 EXPR(BIND,    "bind")     // value; unpacked into slot_count slots from slot; null itself
 EXPR(LET,     "let")      // BIND…; null itself
 EXPR(FUNC,    "func")     // function: makes a closure

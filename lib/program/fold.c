@@ -1,9 +1,9 @@
 // fold.c: the simplifier: what does not depend on the frame is evaluated once, when the program is loaded.
 //
-// An expression can be evaluated ahead if nothing in it is dynamic and it reads no slot but its own, that is, none below
-// the slot that was free when it began: slots are handed out like a stack, so what it binds itself lies above. The
-// machine that runs the program does it, with the same functions; if on its way it meets something dynamic (inside a
-// function that is called, say), a fault or a limit, the expression stays as it is. So a value is the same with and
+// An expression can be evaluated ahead if nothing in it is dynamic and it reads no slot but its own, that is, none
+// below the slot that was free when it began: slots are handed out like a stack, so what it binds itself lies above.
+// The machine that runs the program does it, with the same functions; if on its way it meets something dynamic (inside
+// a function that is called, say), a fault or a limit, the expression stays as it is. So a value is the same with and
 // without the simplifier, to the last bit, and nothing is re-associated.
 //
 // A name bound to a constant is that constant from then on, which is how constants spread through a program, and how a
@@ -108,7 +108,7 @@ void compile_set_known(Compiler *compiler, uint32_t count, Value value) {
     Binding *binding = compiler->function->scope;
     for (uint32_t i = count; i > 0; i--, binding = binding->outer) {
         binding->known = true;
-        binding->constant = count == 1                    ? value
+        binding->constant = count == 1                   ? value
                             : value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i - 1))
                                                          : value_element(compiler->arena, value, i - 1);
     }

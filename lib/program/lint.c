@@ -32,14 +32,14 @@ static bool may_be_unused(const Binding *binding) {
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
     static const char *const kinds[] = {"let", "func", "parameter", "loop name", "import"};
     // A file that yields nothing is a module: its top-level names are for others.
-    if (!wanted(compiler) || (!compiler->function->outer && compiler->function->scope == scope && !end &&
-                              compiler->is_module))
+    if (!wanted(compiler) ||
+        (!compiler->function->outer && compiler->function->scope == scope && !end && compiler->is_module))
         return;
     for (const Binding *binding = scope; binding != end; binding = binding->outer)
         if (!binding->used && !may_be_unused(binding))
             warn(compiler, binding->span, "unused-name",
-                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind],
-                            (int)binding->name->name.len, binding->name->name.bytes));
+                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], (int)binding->name->name.len,
+                            binding->name->name.bytes));
 }
 
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {

@@ -99,9 +99,9 @@ static const Expr *capture(Compiler *compiler, FunctionScope *function, const As
         uint32_t old = function->capture_capacity, capacity = old ? old * 2 : 4;
         function->captures = arena_grow(compiler->arena, function->captures, old * sizeof *function->captures,
                                         capacity * sizeof *function->captures);
-        function->capture_names = arena_grow(compiler->arena, function->capture_names,
-                                             old * sizeof *function->capture_names,
-                                             capacity * sizeof *function->capture_names);
+        function->capture_names =
+            arena_grow(compiler->arena, function->capture_names, old * sizeof *function->capture_names,
+                       capacity * sizeof *function->capture_names);
         function->capture_capacity = capacity;
     }
     function->captures[function->capture_count] = outer;
@@ -235,15 +235,15 @@ const Expr *compile_name(Compiler *compiler, const Ast *ast) {
 }
 
 // Compiles and evaluates a syntax tree as it stands in `scope` of function `at`; sets *dynamic if it is not static.
-static Value evaluate_static(Compiler *compiler, FunctionScope *at, Binding *scope, const Ast *ast,
-                             bool *dynamic) {
+static Value evaluate_static(Compiler *compiler, FunctionScope *at, Binding *scope, const Ast *ast, bool *dynamic) {
     FunctionScope scratch, *outer = compiler->function;
     compile_function_open(compiler, &scratch, NULL);
     scratch.outer = NULL;
     scratch.static_outer = at;
     scratch.static_scope = scope;
     DiagSink *diags = compiler->diags;
-    DiagSink discarded = diag_sink_new(compiler->arena, 0); // what is wrong here is reported where it is really compiled
+    DiagSink discarded =
+        diag_sink_new(compiler->arena, 0); // what is wrong here is reported where it is really compiled
     compiler->diags = &discarded;
     CompileOptions plain = *compiler->options; // simplifying comes to nothing here: it is evaluated as a whole
     const CompileOptions *options = compiler->options;

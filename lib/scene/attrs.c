@@ -24,8 +24,11 @@ void schema_init(Schema *schema, SymbolTable *symbols, SceneHost host) {
     schema->host = host;
     for (int i = 0; i < KIND_COUNT_OF; i++)
         schema->kinds[i] = symbol_intern(symbols, str_from(kind_names[i]));
-    for (int i = 0; i < ROW_COUNT; i++)
+    for (int i = ROW_COUNT - 1; i >= 0; i--) {
         schema->attrs[i] = symbol_intern(symbols, str_from(rows[i].name));
+        schema->first_row[rows[i].kind] = i;
+        schema->row_count[rows[i].kind]++;
+    }
 }
 
 SceneKind schema_kind(const Schema *schema, const Node *node) {
@@ -56,10 +59,11 @@ void reader_report(const Reader *reader, DiagLevel level, const char *code, Str 
 }
 
 static bool has_attr(const Schema *schema, SceneKind kind, const Symbol *name) {
-    for (int i = 0; i < ROW_COUNT; i++)
-        if (rows[i].kind == kind && schema->attrs[i] == name)
-            return true;
-    return false;
+    const Symbol *const *attrs = schema->attrs + schema->first_row[kind];
+    int i = 0;
+    while (i < schema->row_count[kind] && attrs[i] != name)
+        i++;
+    return i < schema->row_count[kind];
 }
 
 static void report_unknown(const Reader *reader, SceneKind kind, const Symbol *name) {
@@ -136,8 +140,10 @@ const double *attr_vector(const Reader *reader, AttrRow row) {
             repeated[k] = v.as.number;
         return repeated;
     }
-    report_shape(reader, row, n == 1 ? "one number" : str_to_c(reader->arena, str_format(reader->arena,
-                 "one number or a vector of %u", n)), v);
+    report_shape(reader, row,
+                 n == 1 ? "one number"
+                        : str_to_c(reader->arena, str_format(reader->arena, "one number or a vector of %u", n)),
+                 v);
     return NULL;
 }
 

@@ -29,6 +29,8 @@ typedef struct Schema {
     SceneHost host;
     const Symbol *kinds[KIND_COUNT_OF];
     const Symbol *attrs[ROW_COUNT];
+    int first_row[KIND_COUNT_OF]; // the rows of a kind follow each other
+    int row_count[KIND_COUNT_OF];
 } Schema;
 
 void schema_init(Schema *schema, SymbolTable *symbols, SceneHost host);

@@ -49,15 +49,15 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Value initial = numbers_or(&reader, ROW_COUNTER_INITIAL, 0);
     Value low = bound(&reader, ROW_COUNTER_MINIMUM, ROW_COUNTER_MIN);
     Value high = bound(&reader, ROW_COUNTER_MAXIMUM, ROW_COUNTER_MAX);
-    bool start = !value_is_numeric(stored) || !value_is_numeric(last) ||
-                 value_true(attr_value(&reader, ROW_COUNTER_RESET));
+    bool start =
+        !value_is_numeric(stored) || !value_is_numeric(last) || value_true(attr_value(&reader, ROW_COUNTER_RESET));
     Value parts[] = {initial, rate, low, high, time, start ? VALUE_NULL : stored};
     uint32_t len = longest(parts, sizeof parts / sizeof parts[0]);
     double *values = arena_alloc_array(frame->arena, len, sizeof *values);
     bool finite = true;
     for (uint32_t i = 0; i < len; i++) {
-        double x = start ? element(initial, i)
-                         : element(stored, i) + (element(time, i) - element(last, i)) * element(rate, i);
+        double x =
+            start ? element(initial, i) : element(stored, i) + (element(time, i) - element(last, i)) * element(rate, i);
         if (low.len && x < element(low, i))
             x = element(low, i);
         if (high.len && x > element(high, i))
@@ -66,7 +66,8 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
         finite = finite && x - x == 0;
     }
     if (!finite) {
-        reader_report(&reader, DIAG_WARNING, "not-finite", STR("the value is not finite; the counter keeps its last one"));
+        reader_report(&reader, DIAG_WARNING, "not-finite",
+                      STR("the value is not finite; the counter keeps its last one"));
         return;
     }
     state_set(frame->state, key, value_numbers_view(values, len));

@@ -93,16 +93,17 @@ static void read_particle(PhysicsTree *tree, const Node *node, uint32_t group) {
     Body *body = add_body(tree, &reader, ROW_PARTICLE_ID, false);
     if (!body)
         return;
-    body->handle = phys_add_particle(tree->engine, group,
-                                     &(PhysParticle){
-                                         .position = stored_or_attr(tree, &reader, body->position, ROW_PARTICLE_POSITION),
-                                         .velocity = stored_or_attr(tree, &reader, body->velocity, ROW_PARTICLE_VELOCITY),
-                                         .force = attr_vector(&reader, ROW_PARTICLE_FORCE),
-                                         .ease = attr_float(&reader, ROW_PARTICLE_EASE),
-                                         .radius = clamp(attr_float(&reader, ROW_PARTICLE_RADIUS), 0, INFINITY),
-                                         .mass = clamp(attr_float(&reader, ROW_PARTICLE_MASS), 0, INFINITY),
-                                         .charge = attr_float(&reader, ROW_PARTICLE_CHARGE),
-                                     });
+    body->handle =
+        phys_add_particle(tree->engine, group,
+                          &(PhysParticle){
+                              .position = stored_or_attr(tree, &reader, body->position, ROW_PARTICLE_POSITION),
+                              .velocity = stored_or_attr(tree, &reader, body->velocity, ROW_PARTICLE_VELOCITY),
+                              .force = attr_vector(&reader, ROW_PARTICLE_FORCE),
+                              .ease = attr_float(&reader, ROW_PARTICLE_EASE),
+                              .radius = clamp(attr_float(&reader, ROW_PARTICLE_RADIUS), 0, INFINITY),
+                              .mass = clamp(attr_float(&reader, ROW_PARTICLE_MASS), 0, INFINITY),
+                              .charge = attr_float(&reader, ROW_PARTICLE_CHARGE),
+                          });
 }
 
 static void read_anchor(PhysicsTree *tree, const Node *node, uint32_t group) {
@@ -277,8 +278,8 @@ static bool read_force(const PhysicsTree *tree, const Reader *reader, SceneKind 
         *force = read_buoyancy(reader);
         return true;
     case KIND_COLLISION:
-        *force = pair_force(reader, PHYS_COLLISION, ROW_COLLISION_STRENGTH, ROW_COLLISION_EASE,
-                            ROW_COLLISION_MAX_DISTANCE);
+        *force =
+            pair_force(reader, PHYS_COLLISION, ROW_COLLISION_STRENGTH, ROW_COLLISION_EASE, ROW_COLLISION_MAX_DISTANCE);
         force->power = attr_float(reader, ROW_COLLISION_POWER);
         return true;
     case KIND_GRAVITY:
@@ -289,8 +290,7 @@ static bool read_force(const PhysicsTree *tree, const Reader *reader, SceneKind 
                             ROW_ELECTROSTATIC_MAX_DISTANCE);
         return true;
     case KIND_ADHESION:
-        *force =
-            pair_force(reader, PHYS_ADHESION, ROW_ADHESION_STRENGTH, ROW_ADHESION_EASE, ROW_ADHESION_MAX_DISTANCE);
+        *force = pair_force(reader, PHYS_ADHESION, ROW_ADHESION_STRENGTH, ROW_ADHESION_EASE, ROW_ADHESION_MAX_DISTANCE);
         force->overlap = clamp(attr_float(reader, ROW_ADHESION_OVERLAP), 0, 1);
         return true;
     case KIND_DISTANCE:

@@ -9,7 +9,7 @@
 typedef struct PhysicsSystem PhysicsSystem;
 struct PhysicsSystem {
     PhysicsSystem *next;
-    StateSlot start; // slot of the prefix itself: what identifies the system
+    StateSlot start;     // slot of the prefix itself: what identifies the system
     uint32_t occurrence; // 0, or 1, 2 … for further systems of the same prefix in one frame
     StateSlot run;
     StateSlot iteration;
@@ -55,9 +55,9 @@ typedef struct PhysicsTree {
     uint32_t body_count;
     uint32_t body_capacity;
     uint32_t particle_count; // bodies that are not anchors
-    Index by_slot; // bodies by the slot of their position; heap, freed by physics_tree_free
+    Index by_slot;           // bodies by the slot of their position; heap, freed by physics_tree_free
     PhysSystem *engine;
-    bool from_state;      // positions and velocities come from the state where it has them
+    bool from_state; // positions and velocities come from the state where it has them
     double run;
     double iteration;
     uint32_t next_group;

@@ -116,8 +116,9 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
 
 static void report_memory(PetriSession *session) {
     Diag diag = {.level = DIAG_ERROR,
-                 .text = str_format(&session->text_arena, "the frame needs more than its %zu MiB of memory; it is given up",
-                                    session->options.memory_bytes >> 20),
+                 .text =
+                     str_format(&session->text_arena, "the frame needs more than its %zu MiB of memory; it is given up",
+                                session->options.memory_bytes >> 20),
                  .code = "memory-limit"};
     session_tell(session, &diag);
 }

@@ -108,7 +108,8 @@ static bool told_same(const void *owner, uint32_t entry, const void *key) {
 // Remembers a text; false if it was told before or too many were.
 static bool told_add(PetriSession *session, Str text) {
     uint64_t hash = hash_bytes(0, text.bytes, text.len);
-    if (session->told_count >= MOST_TOLD || index_find(&session->told_index, hash, told_same, session, &hash) != INDEX_NONE)
+    if (session->told_count >= MOST_TOLD ||
+        index_find(&session->told_index, hash, told_same, session, &hash) != INDEX_NONE)
         return false;
     if (session->told_count == session->told_capacity) {
         uint32_t capacity = session->told_capacity ? session->told_capacity * 2 : 16;
@@ -209,8 +210,8 @@ PetriStatus petri_define(PetriSession *session, const char *definition) {
         session->define_capacity = capacity;
     }
     Str name = {definition, (size_t)(equals - definition)};
-    session->defines[session->define_count++] =
-        (Define){symbol_intern(&session->symbols, name), define_value(session, str_copy(&session->arena, str_from(equals + 1)))};
+    session->defines[session->define_count++] = (Define){
+        symbol_intern(&session->symbols, name), define_value(session, str_copy(&session->arena, str_from(equals + 1)))};
     return PETRI_OK;
 }
 

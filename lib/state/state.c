@@ -10,8 +10,8 @@
 
 typedef struct StateEntry {
     uint64_t hash;
-    Value key;       // owned: one heap block, or inline
-    Value value;     // owned likewise; null: the slot is empty
+    Value key;   // owned: one heap block, or inline
+    Value value; // owned likewise; null: the slot is empty
 } StateEntry;
 
 struct State {
@@ -99,8 +99,7 @@ bool state_key_valid(Value key) {
         return false;
     for (uint32_t i = 0; i < key.len; i++) {
         Item item = value_at(&key, i);
-        if (item.type == ITEM_NODE || item.type == ITEM_FUNCTION ||
-            (item.type == ITEM_NUMBER && isnan(item.as.number)))
+        if (item.type == ITEM_NODE || item.type == ITEM_FUNCTION || (item.type == ITEM_NUMBER && isnan(item.as.number)))
             return false;
     }
     return true;
@@ -116,9 +115,8 @@ static uint64_t key_hash(Value key) {
     uint64_t hash = RANDOM_HASH_START;
     for (uint32_t i = 0; i < key.len; i++) {
         Item item = value_at(&key, i);
-        uint64_t y = item.type == ITEM_NUMBER
-                         ? bits_of(item.as.number)
-                         : hash_bytes(1, item.as.string->text.bytes, item.as.string->text.len);
+        uint64_t y = item.type == ITEM_NUMBER ? bits_of(item.as.number)
+                                              : hash_bytes(1, item.as.string->text.bytes, item.as.string->text.len);
         hash = random_hash_step(hash, y);
     }
     return hash;

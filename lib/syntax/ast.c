@@ -12,8 +12,8 @@ AstList *ast_list_new(Arena *arena) {
 AstList *ast_list_add(AstList *list, Ast *item) {
     if (list->count == list->capacity) {
         uint32_t capacity = list->capacity ? list->capacity * 2 : 4;
-        list->items = arena_grow(list->arena, list->items, list->capacity * sizeof *list->items,
-                                 capacity * sizeof *list->items);
+        list->items =
+            arena_grow(list->arena, list->items, list->capacity * sizeof *list->items, capacity * sizeof *list->items);
         list->capacity = capacity;
     }
     list->items[list->count++] = item;

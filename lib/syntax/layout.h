@@ -21,15 +21,16 @@ typedef struct Layout {
     LayoutLevel levels[LAYOUT_MAX_DEPTH + 1];
     uint32_t paren_count;
     uint32_t parens[LAYOUT_MAX_DEPTH]; // offsets of the open ones
-    Span line;          // the newline token that is being turned into INDENT or DEDENTs
-    uint32_t indent;    // of the line after it
-    bool settling;      // INDENT or DEDENTs of `line` are still due
+    Span line;                         // the newline token that is being turned into INDENT or DEDENTs
+    uint32_t indent;                   // of the line after it
+    bool settling;                     // INDENT or DEDENTs of `line` are still due
 } Layout;
 
 void layout_init(Layout *layout, const Source *source);
 // The next token. A fault in the indentation or a limit is a token of kind GR_UNDEF with `error` set.
 Token layout_next(Layout *layout);
-// Scans again from `offset`, inside or before the last token returned, which must not have been a newline or parenthesis.
+// Scans again from `offset`, inside or before the last token returned, which must not have been a newline or
+// parenthesis.
 void layout_resume(Layout *layout, uint32_t offset);
 // After a syntax error at `token`: forgets open parentheses, so that the next line starts afresh, and a refused INDENT.
 void layout_recover(Layout *layout, const Token *token);

@@ -16,8 +16,12 @@ typedef struct Suffix {
 } Suffix;
 
 static const Suffix suffixes[] = {
-    {"deg", 1.0 / 360}, {"\xc2\xb0", 1.0 / 360}, {"\xc2\xb5", 1e-6}, {"p", 1e-12}, {"n", 1e-9}, {"u", 1e-6},
-    {"m", 1e-3},        {"k", 1e3},              {"M", 1e6},         {"G", 1e9},   {"T", 1e12},
+    {"deg", 1.0 / 360}, {"\xc2\xb0", 1.0 / 360},
+    {"\xc2\xb5", 1e-6}, {"p", 1e-12},
+    {"n", 1e-9},        {"u", 1e-6},
+    {"m", 1e-3},        {"k", 1e3},
+    {"M", 1e6},         {"G", 1e9},
+    {"T", 1e12},
 };
 
 static const Suffix *find_suffix(Str token) {

@@ -9,12 +9,10 @@
 
 static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     context->failed = true;
-    diag_report(context->diags, &(Diag){.level = DIAG_ERROR,
-                                        .source = context->source,
-                                        .span = span,
-                                        .text = text,
-                                        .hint = hint,
-                                        .code = code});
+    diag_report(
+        context->diags,
+        &(Diag){
+            .level = DIAG_ERROR, .source = context->source, .span = span, .text = text, .hint = hint, .code = code});
 }
 
 Ast *parse_checked(ParseContext *context, Ast *ast) {
@@ -37,9 +35,9 @@ static Str token_text(const ParseContext *context, Span span) {
 
 // Words like "end of line" describe a token; everything else is quoted.
 static void add_token_name(Text *out, const char *name) {
-    static const char *const described[] = {"name",        "number",      "time code",          "string", "symbol", "node",
-                                            "tag",         "end of file", "end of line",        "indentation",
-                                            "end of indentation"};
+    static const char *const described[] = {
+        "name",        "number",      "time code",         "string", "symbol", "node", "tag", "end of file",
+        "end of line", "indentation", "end of indentation"};
     bool quote = name[0] != '\'';
     for (size_t i = 0; i < sizeof described / sizeof described[0]; i++)
         if (strcmp(name, described[i]) == 0)
@@ -108,11 +106,14 @@ static void report_character(ParseContext *context, Span span) {
                STR("is this a text file?"));
     else if (c == ':' || c == '!' || c == '#')
         report(context, span, "syntax", str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
-               c == '#' ? STR("comments start with --") : c == '!' ? STR("to negate write not") : (Str){0});
+               c == '#'   ? STR("comments start with --")
+               : c == '!' ? STR("to negate write not")
+                          : (Str){0});
     else
-        report(context, span, "syntax",
-               str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
-               (Str){0});
+        report(
+            context, span, "syntax",
+            str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
+            (Str){0});
 }
 
 static void report_bad_token(ParseContext *context, const Token *token) {

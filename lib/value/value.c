@@ -123,6 +123,8 @@ bool value_contains(Value x, Value y) {
 }
 
 uint32_t value_wrap_index(double x, uint32_t n) {
+    if (x >= 0 && x < n)
+        return (uint32_t)x;
     if (!isfinite(x))
         x = -2147483648.0;
     double rest = fmod(floor(x), n); // exact, with the sign of x

@@ -77,9 +77,7 @@ static inline const double *value_numbers(const Value *v) {
 
 // Borrows `numbers` unless there is one element.
 static inline Value value_numbers_view(const double *numbers, uint32_t len) {
-    return len == 0   ? VALUE_NULL
-           : len == 1 ? value_number(numbers[0])
-                      : (Value){.len = len, .as.numbers = numbers};
+    return len == 0 ? VALUE_NULL : len == 1 ? value_number(numbers[0]) : (Value){.len = len, .as.numbers = numbers};
 }
 
 static inline Value value_stream(StreamKind kind, uint64_t key) {
@@ -132,7 +130,7 @@ typedef struct Vector {
     uint32_t len;
     uint32_t capacity;
     bool mixed;
-    bool overflow; // more than VALUE_MAX_LEN elements were added: the result is null and the caller reports it
+    bool overflow;  // more than VALUE_MAX_LEN elements were added: the result is null and the caller reports it
     uint32_t parts; // that are not null
     bool several;   // more than one part was added, null or not
     bool any;

@@ -61,7 +61,10 @@ void vector_add(Vector *vector, Value part) {
     }
     if (vector->parts == 2)
         append(vector, vector->first);
-    append(vector, part);
+    if (part.len == 1 && part.kind == VALUE_NUMBERS && !vector->mixed && vector->len < vector->capacity)
+        vector->as.numbers[vector->len++] = part.as.number;
+    else
+        append(vector, part);
 }
 
 void vector_add_number(Vector *vector, double x) {

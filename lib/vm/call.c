@@ -53,8 +53,8 @@ static bool may_enter(Vm *vm, const Closure *closure, const Expr *at) {
     if (!vm_work(vm, at))
         return false;
     if (limit)
-        vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s", (int)closure->base.name.len,
-                 closure->base.name.bytes, limit);
+        vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s",
+                 (int)closure->base.name.len, closure->base.name.bytes, limit);
     return !limit;
 }
 

@@ -13,7 +13,7 @@ typedef struct Closure {
     const Value *defaults;
     uint32_t active; // calls that have not returned, in evaluation `run`
     uint64_t run;
-    Value self;      // the vector of this one function
+    Value self; // the vector of this one function
 } Closure;
 
 // The running function: its slots and itself (NULL in the main program and in modules).

@@ -50,13 +50,13 @@ typedef struct Vm {
     uint32_t depth;
     uint64_t work;
     uint64_t work_limit;
-    bool stopped; // the work is used up
-    uint64_t run; // number of the evaluation, unique over a session's machines: closures may outlive a frame
-    bool is_static; // evaluating ahead: dynamic things have no value yet
-    bool met_dynamic; // … and one was met
+    bool stopped;       // the work is used up
+    uint64_t run;       // number of the evaluation, unique over a session's machines: closures may outlive a frame
+    bool is_static;     // evaluating ahead: dynamic things have no value yet
+    bool met_dynamic;   // … and one was met
     size_t stack_bytes; // of the C stack that evaluation may use
     const char *stack_base;
-    const ImportLink *imports; // modules being evaluated, innermost first
+    const ImportLink *imports;      // modules being evaluated, innermost first
     Reported reported[VM_REPORTED]; // hash set of the faults of this frame
     uint32_t reported_count;
 } Vm;

@@ -1,6 +1,253 @@
-// test_syntax_errors.c: what syntax errors say: text, place and hint (cli.md 3.5).
+// test_syntax_errors.c: what syntax errors say: place, text and `| hint` (cli.md 3.5).
 #include "parsing.h"
 
+static void check_complaints(World *world, const char *const (*rows)[2], size_t count) {
+    for (size_t i = 0; i < count; i++)
+        assert_text(rows[i][0], complaints(world, str_from(rows[i][0])), rows[i][1]);
+}
+
+static void test_slips(void **state) {
+    static const char *const rows[][2] = {
+        {"let x 5",
+         "1:7: unexpected number 5"},
+        {"if x = 3\n    !a",
+         "1:6: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
+        {"if x\n!a",
+         "2:1: unexpected node !a, expected an indented block | the line above needs an indented block under it"},
+        {"!a\n  !b\n    !c\n !d",
+         "4:2: this line's indentation matches none of the lines above"},
+        {"!a\n        !b\n\t  !c\n     !d",
+         "4:6: this line's indentation matches none of the lines above | a tab counts as eight spaces: do not mix the two"},
+        {"foo(1, 2",
+         "1:9: unexpected end of file | the parenthesis opened at line 1, column 4 is not closed"},
+        {"foo(1, 2\n!b\n!c",
+         "2:1: unexpected node !b | the parenthesis opened at line 1, column 4 is not closed"},
+        {"(1;2\n",
+         "1:5: unexpected end of file | the parenthesis opened at line 1, column 1 is not closed"},
+        {"[1;2;3]",
+         "1:1: unexpected '[' | vectors are written with semicolons: 1;2;3"},
+        {"1;2;",
+         "1:5: unexpected end of line | a vector may not end in a semicolon"},
+        {"!a x=",
+         "1:6: unexpected end of line"},
+        {"!a x=3,",
+         "1:7: unexpected ',', expected end of line or '<<'"},
+        {"'abc",
+         "1:1: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
+        {"\"abc",
+         "1:1: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
+        {"'''abc",
+         "1:3: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
+        {"'\\x4'",
+         "1:1: a \\x, \\u or \\U escape needs exactly 2, 4 or 8 hexadecimal digits"},
+        {"1__0",
+         "1:1: an underscore in a number must stand between two digits"},
+        {"1_",
+         "1:1: an underscore in a number must stand between two digits"},
+        {"2**-1",
+         "1:4: unexpected '-'"},
+        {"a<b<c",
+         "1:4: unexpected '<'"},
+        {"!",
+         "1:1: '!' must be directly followed by a name | to negate write not"},
+        {"#t",
+         "1:1: unexpected tag #t"},
+        {"# comment",
+         "1:1: '#' must be directly followed by a name | comments start with --"},
+        {"x = 3",
+         "1:3: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
+        {"x == ",
+         "1:6: unexpected end of line"},
+        {"for x y\n    z",
+         "1:7: unexpected name y"},
+        {"for in x\n    y",
+         "1:8: unexpected name x"},
+        {"for x in\n    y",
+         "1:9: unexpected end of line"},
+        {"import a 'x.fl'",
+         "1:10: unexpected string 'x.fl'"},
+        {"func f\n    x",
+         "1:7: unexpected end of line, expected '('"},
+        {"func f(\n",
+         "1:8: unexpected end of file, expected name or ')' | the parenthesis opened at line 1, column 7 is not closed"},
+        {"func f()\n!a",
+         "2:1: unexpected node !a, expected an indented block | the line above needs an indented block under it"},
+        {"let stable=1",
+         "1:11: unexpected '=', expected name | to compare write ==, to name a value write let NAME=…"},
+        {"let",
+         "1:4: unexpected end of line, expected name or 'stable'"},
+        {"let x=1 2",
+         "1:9: unexpected number 2"},
+        {"%pragma fps",
+         "1:12: unexpected end of line"},
+        {"%pragma fps x",
+         "1:13: unexpected name x"},
+        {"x\n%pragma fps 3",
+         "2:1: unexpected '%'"},
+        {"%include",
+         "1:9: unexpected end of line"},
+        {"!a & !b",
+         "1:4: no token starts with '&' (U+0026)"},
+        {"a² ",
+         "1:2: no token starts with '²' (U+00B2)"},
+        {"a ? b",
+         "1:3: no token starts with '?' (U+003F)"},
+        {"!a \\ ",
+         "1:4: a backslash outside a string must end its line"},
+        {"\x01",
+         "1:1: control character U+0001 | is this a text file?"},
+        {"f(x=1, 2)",
+         "1:8: unexpected number 2, expected name"},
+        {"1 or func(x) x",
+         "1:15: unexpected end of line, expected '='"},
+        {"!a <<",
+         "1:6: unexpected end of file"},
+        {"!a << \n    !b",
+         "2:5: unexpected indentation | only the line under a statement that takes a block is indented"},
+        {"x if y if z",
+         "1:8: unexpected 'if'"},
+        {"@f #t",
+         "1:4: unexpected tag #t, expected name or end of line"},
+        {"let a;=3",
+         "1:7: unexpected '=', expected name | to compare write ==, to name a value write let NAME=…"},
+        {"let 1=3",
+         "1:5: unexpected number 1, expected name or 'stable'"},
+        {")",
+         "1:1: unexpected ')'"},
+        {"!a)",
+         "1:3: unexpected ')', expected end of line or '<<'"},
+        {"f(1,)",
+         "1:5: unexpected ')'"},
+        {"not",
+         "1:4: unexpected end of line"},
+        {"1..2..3",
+         "1:5: unexpected '..'"},
+        {"$",
+         "1:2: unexpected end of line"},
+        {"x\n    y\n  z",
+         "3:3: this line's indentation matches none of the lines above"},
+        {"\ufeff" "!a",
+         "1:1: byte-order mark: save the file as UTF-8 without one"},
+        {"!a\n\t!b\n    !c\n",
+         "3:5: this line's indentation matches none of the lines above | a tab counts as eight spaces: do not mix the two"},
+        {"if x\n    !a (\nelse\n    !b )\n!c",
+         "4:5: unexpected node !b | the parenthesis opened at line 2, column 8 is not closed"},
+        {"for x of y\n    !a\n!b\n",
+         "1:7: unexpected name of"},
+    };
+    check_complaints(*state, rows, COUNT_OF(rows));
+}
+
+// Each mistake is told, and nothing that follows from it.
+static void test_several_errors(void **state) {
+    static const char *const rows[][2] = {
+        {"v[\n1]",
+         "1:3: unexpected end of line\n"
+         "2:2: unexpected ']', expected end of line or '<<'"},
+        {"!a\n!b x==1\n!c (2\n!d\n!e 'q\n!f",
+         "2:5: unexpected '==', expected '='\n"
+         "4:1: unexpected node !d | the parenthesis opened at line 3, column 4 is not closed\n"
+         "5:4: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
+        {"!a\n    !b\n  !c\n!d x==1\n",
+         "3:3: this line's indentation matches none of the lines above\n"
+         "4:5: unexpected '==', expected '='"},
+        {"!a +\n!b *\n!c\n!d ]\n",
+         "1:5: unexpected end of line\n"
+         "2:5: unexpected end of line\n"
+         "4:4: unexpected ']', expected end of line or '<<'"},
+        {"!a x=1 2\n    !b\n        !c 3 4\n    !d\n!e 5 6\n",
+         "1:8: unexpected number 2\n"
+         "3:12: unexpected number 3\n"
+         "5:4: unexpected number 5"},
+        {"!a ! b\n!c 'x\n!d 1__0\n!e @\n",
+         "1:4: '!' must be directly followed by a name | to negate write not\n"
+         "2:4: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines\n"
+         "3:4: an underscore in a number must stand between two digits\n"
+         "4:4: unexpected '@'"},
+    };
+    check_complaints(*state, rows, COUNT_OF(rows));
+}
+
+// Ill-formed UTF-8 is one complaint, whatever else is in the file.
+static void test_encoding(void **state) {
+    World *world = *state;
+    static const struct {
+        Str text;
+        const char *wanted;
+    } rows[] = {
+        {{"!a\n!b \xff\n!c )", 12}, "2:4: the file is not valid UTF-8 | is this a text file?"},
+        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | is this a text file?"},
+        {{"'\xed\xa0\x80'", 5}, "1:2: the file is not valid UTF-8 | is this a text file?"},
+        {{"-- \xe2\x82", 5}, "1:4: the file is not valid UTF-8 | is this a text file?"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        assert_text(rows[i].wanted, complaints(world, rows[i].text), rows[i].wanted);
+}
+
+// Two names whose symbols are the same number cannot be told apart: a load error (language.md L4.3).
+static void test_symbol_collision(void **state) {
+    World *world = *state;
+    // The number of :b is given to a by hand: real collisions are one in 2^52.
+    Symbol *a = (Symbol *)(uintptr_t)symbol_intern(&world->symbols, STR("a"));
+    a->number = symbol_number(STR("b"));
+    assert_text("collision", complaints(world, STR("!x y=:a\n!x y=:b\n")),
+                "2:6: this symbol has the same value as another symbol: rename one");
+    assert_text("names are no symbols", complaints(world, STR("!b b=b #b\n")), "");
+}
+
+// At most fifty are kept, and a file of nothing but mistakes ends.
+static void test_many_errors(void **state) {
+    World *world = *state;
+    Text text = text_new(&world->arena);
+    for (int i = 0; i < 5000; i++)
+        text_add_c(&text, "!a )\n");
+    Parsed parsed = parse_str(world, text_str(&text));
+    assert_null(parsed.ast);
+    assert_int_equal(parsed.diags.count, 50);
+    assert_int_equal(parsed.diags.count + parsed.diags.dropped, 5000);
+    diag_sink_free(&parsed.diags);
+}
+
+// No text whatever may crash the parser: mutations of a program that uses everything.
+static void test_mutations(void **state) {
+    World *world = *state;
+    static const char program[] =
+        "#!x\n%pragma fps 20\nlet a;b=1;2 c=\n    !a x=1 #t\nfunc f(x, y=2)\n    x+y*2 where y=x\n"
+        "for i;j in ..5|2, k in i\n    !q v=$(:a;i)[0] << f(1, y=2)\n        'a\\n'\nif a==1 and not b\n    @f x=1\n"
+        "elif 1:30 < 2.5e3k\n    1 if 0 else 2 for z in '''x\ny'''\nelse\n    %include 'q'\nimport u from 'v'\n-- end\n";
+    uint64_t seed = 11;
+    char text[sizeof program];
+    size_t accepted = 0;
+    for (int round = 0; round < 20000; round++) {
+        ArenaMark mark = arena_mark(&world->arena);
+        memcpy(text, program, sizeof program);
+        for (uint64_t changes = next_bits(&seed) % 4; changes > 0; changes--) {
+            size_t at = next_bits(&seed) % (sizeof program - 1), from = next_bits(&seed) % (sizeof program - 1);
+            text[at] = next_bits(&seed) % 3 ? program[from] : (char)(next_bits(&seed) % 127 + 1);
+        }
+        // Symbols must outlive the mark: a table of its own each time.
+        SymbolTable symbols = symbol_table_new(&world->arena);
+        DiagSink diags = diag_sink_new(&world->arena, 50);
+        const Source *source = source_new(&world->arena, STR("t"), STR("t"), (Str){text, sizeof program - 1});
+        const Ast *ast = parse_program(&world->arena, &symbols, source, &diags);
+        assert_true((ast != NULL) == (diags.error_count == 0));
+        accepted += ast != NULL;
+        for (uint32_t i = 0; i < diags.count; i++) {
+            Text out = text_new(&world->arena);
+            diag_format(&out, &diags.items[i], false);
+            assert_true(diags.items[i].span.start <= source->text.len && out.len > 0);
+        }
+        diag_sink_free(&diags);
+        symbol_table_free(&symbols);
+        arena_rewind(&world->arena, mark);
+    }
+    assert_true(accepted > 1000 && accepted < 19000);
+}
+
 int main(void) {
-    return 0;
+    const struct CMUnitTest tests[] = {
+        WORLD_TEST(test_slips),            WORLD_TEST(test_several_errors), WORLD_TEST(test_encoding),
+        WORLD_TEST(test_symbol_collision), WORLD_TEST(test_many_errors),    WORLD_TEST(test_mutations),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
 }

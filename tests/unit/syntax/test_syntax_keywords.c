@@ -164,7 +164,7 @@ static void test_names(void **state) {
         {"func f(a, ~)\n    b\n", NONE},
         {"func f(a, ~=1)\n    b\n", NONE},
         {"let g=func(~) x\n", NONE},
-        {"@f ~=1\n", NONE},
+        {"@f ~=1\n", K7}, // an operand too
     };
     check_points(*state, points, COUNT_OF(points));
 }

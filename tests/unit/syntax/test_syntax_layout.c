@@ -138,7 +138,7 @@ static void test_indentation_limit(void **state) {
 // Other nesting is limited by the height of the tree: each a complaint, never a crash.
 static void test_height_limit(void **state) {
     World *world = *state;
-    static const char *const rows[][2] = {{"-", ""}, {"not ", ""}, {"$", ""}, {"v[", "]"}, {"func(x) ", ""}, {"x if ", ""}};
+    static const char *const rows[][2] = {{"- ", ""}, {"not ", ""}, {"$", ""}, {"v[", "]"}, {"func(x) ", ""}, {"x if ", ""}};
     Text text = text_new(&world->arena);
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         nested(&text, rows[i][0], i == 5 ? 1 : 900, rows[i][1]);

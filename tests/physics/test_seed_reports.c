@@ -1,0 +1,239 @@
+// test_seed_reports.c: what is wrong with a system is told once, with the node, its id and what was found.
+#include "world.h"
+
+typedef struct Report {
+    const char *script;
+    const char *code;
+    const char *parts[4]; // that the message must contain
+} Report;
+
+static void check_report(const Report *row) {
+    World world;
+    world_open(&world, 1, row->script);
+    world_to(&world, 5);
+    check_told(&world, row->code, row->script, __FILE__, __LINE__);
+    assert_int_equal(petri_diagnostic_count(world.session, PETRI_WARNING), world.told_count);
+    for (int i = 0; i < 4 && row->parts[i]; i++)
+        if (!strstr(world.told[0].text, row->parts[i]))
+            fail_msg("'%s' does not say %s", world.told[0].text, row->parts[i]);
+    world_close(&world);
+}
+
+static void check_reports(const Report *rows, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        check_report(&rows[i]);
+}
+
+static void test_shapes(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P2 " !particle id=:a position=1;2;3\n", "bad-attribute", {"!particle", ":a", "position", "1;2;3"}},
+        {P2 " !particle id=:a;1 velocity=\"fast\"\n", "bad-attribute", {"!particle", ":a;1", "velocity", "fast"}},
+        {P2 " !particle id=:a force=1;\"x\"\n", "bad-attribute", {"!particle", ":a", "force", "1;'x'"}},
+        {P2 " !particle id=:a mass=1;2\n", "bad-attribute", {"!particle", ":a", "mass", "1;2"}},
+        {P2 " !particle id=:a radius=:big;1\n", "bad-attribute", {"radius", ":big;1"}},
+        {P2 " !particle id=:a charge=nan\n", "bad-attribute", {"charge", "nan"}},
+        {P2 " !particle id=:a ease=!node\n", "bad-attribute", {"ease", "node"}},
+        {P2 " !anchor id=:b position=1;2;3\n", "bad-attribute", {"!anchor", ":b", "position", "1;2;3"}},
+        {P2 " !constant strength=1;2\n", "bad-attribute", {"!constant", "strength", "1;2"}},
+        {P2 " !field direction=..5\n", "bad-attribute", {"!field", "direction", "0;1;2;3;4"}},
+        {P2 " !field direction=..5000\n", "bad-attribute", {"!field", "direction", "5000"}},
+        {P1 " !group\n  !collision power=1;2\n", "bad-attribute", {"!collision", "power"}},
+        {"!physics state=:s dimensions=2 run=:x;1\n", "bad-attribute", {"!physics", "run", ":x;1"}},
+        {"!physics state=:s dimensions=2 time=\"noon\"\n", "bad-attribute", {"!physics", "time", "noon"}},
+        {P1 " !particle id=:a mass=1;2\n !particle id=:b mass=1;2\n", "bad-attribute bad-attribute", {":a"}},
+        {P1 " !particle id=:a mass=1;2 radius=1;2\n", "bad-attribute bad-attribute", {":a"}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+}
+
+static void test_names(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P1 " !particle id=:a raduis=1\n", "unknown-attribute", {"!particle", ":a", "'raduis'", "'radius'"}},
+        {P1 " !particle id=:a acceleration=1\n", "unknown-attribute", {"!particle", "'acceleration'"}},
+        {P1 " !anchor id=:a postion=1\n", "unknown-attribute", {"!anchor", "'postion'", "'position'"}},
+        {P1 " !collision strenght=1\n", "unknown-attribute", {"!collision", "'strenght'", "'strength'"}},
+        {P1 " !gravity max_dist=1\n", "unknown-attribute", {"!gravity", "'max_dist'"}},
+        {P1 " !gravity maxdistance=1\n", "unknown-attribute", {"!gravity", "'max_distance'"}},
+        {P1 " !barrier normal=1 resitution=1\n", "unknown-attribute", {"!barrier", "'resitution'", "'restitution'"}},
+        {"!physics state=:s dimensions=1 speed_of_ligth=1\n", "unknown-attribute", {"!physics", "'speed_of_light'"}},
+        {P1 " !partcle id=:a\n", "unknown-node", {"!partcle", "!particle"}},
+        {P1 " !gravitiy\n", "unknown-node", {"!gravitiy", "!gravity"}},
+        {P1 " !group\n  !colision\n", "unknown-node", {"!colision", "!collision"}},
+        {P1 " !canvas\n", "unknown-node", {"!canvas"}},
+        {P1 " !physics state=:t dimensions=1\n", "unknown-node", {"!physics"}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+    // What is far from every name is told without a guess.
+    World world;
+    world_open(&world, 1, P1 " !particle id=:a zzzzzzzz=1\n !qqqqqqqqqqqq\n");
+    world_to(&world, 2);
+    EXPECT_TOLD(&world, "unknown-attribute unknown-node");
+    for (int i = 0; i < 2; i++)
+        assert_null(strstr(world.told[i].text, "did you mean"));
+    world_close(&world);
+    // What stands outside of systems is not their business.
+    world_open(&world, 1, "!particle raduis=1\n!canvas size=1\n!window\n !physics\n");
+    world_to(&world, 2);
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+}
+
+static void test_ids(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P1 " !particle position=1\n", "missing-id", {"!particle", "id"}},
+        {P1 " !anchor id=null\n", "missing-id", {"!anchor", "id"}},
+        {P1 " !particle id=!node\n", "missing-id", {"!particle", "id"}},
+        {P1 " !particle id=nan\n", "missing-id", {"!particle", "id"}},
+        {P1 " !particle id=:a\n !particle id=:a\n", "duplicate-id", {"!particle", ":a"}},
+        {P1 " !particle id=1;2\n !group\n  !anchor id=1;2\n", "duplicate-id", {"!anchor", "1;2"}},
+        {P1 " !particle id=:a\n !distance from=:a to=:b max=1\n", "no-such-particle", {"!distance", "to", ":b"}},
+        {P1 " !particle id=:b\n !distance from=:a to=:b max=1\n", "no-such-particle", {"!distance", "from", ":a"}},
+        {P1 " !particle id=:b\n !distance to=:b max=1\n", "no-such-particle", {"!distance", "from"}},
+        {P1 " !distance max=1\n", "no-such-particle", {"!distance"}},
+        {P1 " !particle id=:b\n !distance from=:velocity to=:b max=1\n", "no-such-particle", {":velocity"}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+    // Told or not, the others go on.
+    World world;
+    world_open(&world, 1, P1 " !particle velocity=1\n !particle id=:a velocity=2\n !particle id=:a velocity=3\n");
+    world_to(&world, 2);
+    EXPECT(&world, ":s;:a", 4);
+    EXPECT_TOLD(&world, "missing-id duplicate-id");
+    world_close(&world);
+}
+
+// The names of the system's own keys are no good as ids: told, and simulated all the same.
+static void test_reserved_ids(void **state) {
+    (void)state;
+    static const char *const names[] = {":last", ":clock", ":run", ":iteration"};
+    for (size_t i = 0; i < COUNT_OF(names); i++) {
+        for (int anchor = 0; anchor < 2; anchor++) {
+            const char *kind = anchor ? "!anchor" : "!particle";
+            char *script = text_of(P1 " %s id=%s velocity=1 radius=1 position=1.5\n"
+                                      " !particle id=:other radius=1\n !collision\n",
+                                   kind, names[i]);
+            const Report row = {script, "reserved-id", {kind, names[i]}};
+            check_report(&row);
+            World world;
+            char key[64];
+            world_open(&world, 1, script);
+            world_to(&world, 1);
+            snprintf(key, sizeof key, ":s;%s;:velocity", names[i]);
+            EXPECT(&world, key, anchor ? 0 : 1.5);
+            EXPECT(&world, ":s;:other;:velocity", -0.5);
+            world_close(&world);
+            free(script);
+        }
+    }
+    // Longer ids that only begin or end like them, and other names, are fine.
+    World world;
+    world_open(&world, 1,
+               P1 " !particle id=:last;1\n !particle id=1;:clock\n !particle id=:time\n !anchor id=\"run\"\n");
+    world_to(&world, 2);
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+}
+
+static void test_systems(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {"!physics dimensions=1\n !particle id=:a\n", "skipped-system", {"!physics", "state"}},
+        {"!physics state=null dimensions=1\n", "skipped-system", {"!physics", "state"}},
+        {"!physics state=!node dimensions=1\n", "skipped-system", {"!physics", "state"}},
+        {"!physics state=:s\n !particle id=:a\n", "skipped-system", {"!physics", ":s", "dimensions"}},
+        {"!physics state=:s dimensions=null\n", "skipped-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=0\n", "skipped-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=-1\n", "skipped-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=0.99\n", "skipped-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=inf\n", "skipped-system", {":s", "dimensions"}},
+        {"!physics state=:s dimensions=1 resolution=0\n", "skipped-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 resolution=-1\n", "skipped-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 resolution=inf\n", "skipped-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 resolution=-inf\n", "skipped-system", {":s", "resolution"}},
+        {"!physics state=:s dimensions=1 time=nan\n", "skipped-system", {":s", "time"}},
+        {"!physics state=:s dimensions=1 time=-inf\n", "skipped-system", {":s", "time"}},
+        {P1 "!physics state=:s dimensions=2\n", "shared-prefix", {"!physics", ":s"}},
+        {P1 P1 P1, "shared-prefix", {":s"}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+    // A skipped system changes nothing.
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        if (strcmp(rows[i].code, "skipped-system") != 0)
+            continue;
+        World world;
+        world_open(&world, 1, rows[i].script);
+        world_to(&world, 3);
+        assert_string_equal(world_state(&world), "");
+        world_close(&world);
+    }
+}
+
+// Wrong kinds of dimensions are told as such, and the system is skipped: one warning or both.
+static void test_malformed_dimensions(void **state) {
+    (void)state;
+    static const char *const forms[] = {"\"2\"", "1;2", "nan", "!node", ":two;1"};
+    for (size_t i = 0; i < COUNT_OF(forms); i++) {
+        World world;
+        char *script = text_of("!physics state=:s dimensions=%s\n !particle id=:a velocity=1\n", forms[i]);
+        world_open(&world, 1, script);
+        world_to(&world, 3);
+        assert_string_equal(world_state(&world), "");
+        assert_int_equal(world_heard(&world, "skipped-system"), 1);
+        assert_int_equal(world_heard(&world, "bad-attribute"), 1);
+        assert_int_equal(world.told_count, 2);
+        world_close(&world);
+        free(script);
+    }
+}
+
+static void test_barriers(void **state) {
+    (void)state;
+    static const Report rows[] = {
+        {P1 " !barrier\n", "bad-normal", {"!barrier", "normal"}},
+        {P2 " !barrier normal=0;0\n", "bad-normal", {"!barrier", "normal"}},
+        {P2 " !barrier normal=1;inf\n", "bad-normal", {"!barrier", "normal"}},
+        {P2 " !barrier normal=1;nan\n", "bad-normal", {"!barrier", "normal"}},
+    };
+    check_reports(rows, COUNT_OF(rows));
+}
+
+// A script in order says nothing.
+static void test_silence(void **state) {
+    (void)state;
+    World world;
+    world_open(
+        &world, 60,
+        "!physics state=:s dimensions=2 time=time resolution=1/60 run=0 speed_of_light=100\n"
+        " !anchor id=:o position=0;0 velocity=0 force=1 ease=1 radius=1 mass=1 charge=1\n"
+        " !particle id=:p position=5;1 velocity=1 force=1 ease=1 radius=1 mass=1 charge=1\n"
+        " !group\n"
+        "  !constant force=1 acceleration=1 strength=1 ease=1\n"
+        "  !random strength=1 ease=1\n"
+        "  !field direction=1 strength=1 ease=1\n"
+        "  !distance from=:o to=:p minimum=1 min=1 maximum=2 max=2 power=1 strength=1 ease=1\n"
+        "  !distance from=:o to=:p fixed=1\n"
+        "  !collision power=1 strength=1 ease=1 max_distance=9\n"
+        "  !gravity strength=1 ease=1 max_distance=9\n"
+        "  !electrostatic strength=1 ease=1 max_distance=9\n"
+        "  !adhesion overlap=1 strength=1 ease=1 max_distance=9\n"
+        "  !drag flow=1 strength=1 ease=1\n"
+        "  !buoyancy gravity=1 density=1 strength=1 ease=1\n"
+        "  !barrier position=-9 normal=1 restitution=1 minimum=1 min=1 maximum=2 max=2 power=1 strength=1 ease=1\n"
+        "  !barrier position=-9 normal=1 fixed=1\n");
+    world_to(&world, 10);
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_shapes),   cmocka_unit_test(test_names),
+        cmocka_unit_test(test_ids),      cmocka_unit_test(test_reserved_ids),
+        cmocka_unit_test(test_systems),  cmocka_unit_test(test_malformed_dimensions),
+        cmocka_unit_test(test_barriers), cmocka_unit_test(test_silence),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
