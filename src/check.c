@@ -6,11 +6,12 @@
 #include "petri.h"
 #include "scripts.h"
 
-enum { OPT_COLOR = 1, OPT_QUIET };
+enum { OPT_COLOR = 1, OPT_QUIET, OPT_WERROR };
 
 static const OptionSpec OPTIONS[] = {
     {"color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"},
     {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
+    {"werror", 0, OPT_WERROR, NULL, "exit with 1 if there was a warning, too"},
     {0},
 };
 
@@ -18,6 +19,7 @@ typedef struct Check {
     ScriptList scripts;
     bool colour;
     bool quiet;
+    bool warnings_count; // as errors, for the exit status
     bool shown_last;
     bool unreadable; // some path could not be read
 } Check;
@@ -42,6 +44,9 @@ static bool apply(Check *check, const Args *args, int id) {
         return args_colour(args, &check->colour);
     case OPT_QUIET:
         check->quiet = true;
+        return true;
+    case OPT_WERROR:
+        check->warnings_count = true;
         return true;
     default:
         return false;
@@ -68,7 +73,8 @@ static int check_all(Check *check, const Host *host) {
     petri_close(&session);
     message("%zu file%s checked: %" PRIu64 " error%s, %" PRIu64 " warning%s", check->scripts.count,
             check->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
-    return rejected > 0 || errors > 0 || check->unreadable ? STATUS_FAILED : STATUS_DONE;
+    bool clean = rejected == 0 && errors == 0 && !check->unreadable && !(check->warnings_count && warnings > 0);
+    return clean ? STATUS_DONE : STATUS_FAILED;
 }
 
 static int read_and_check(Check *check, const Host *host, Args *args) {
@@ -110,7 +116,8 @@ const Command CHECK_COMMAND = {
     .summary = "tell what is wrong with scripts without running them",
     .details =
         "Reads scripts, or each file named *.fl in a folder and the folders in it, and reports what is wrong with\n"
-        "them. Nothing is run. The exit status is 1 if there was an error.",
+        "them, and what is hardly meant: names that are unbound or unused, wrong numbers of arguments, unknown pragmas,\n"
+        "branches that are never reached. Nothing is run. The exit status is 1 if there was an error.",
     .options = OPTIONS,
     .run = check_run,
 };

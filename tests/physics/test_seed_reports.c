@@ -112,18 +112,19 @@ static void test_reserved_ids(void **state) {
     for (size_t i = 0; i < COUNT_OF(names); i++) {
         for (int anchor = 0; anchor < 2; anchor++) {
             const char *kind = anchor ? "!anchor" : "!particle";
-            char *script = text_of(P1 " %s id=%s velocity=1 radius=1 position=1.5\n"
+            char *script = text_of(P2 " %s id=%s velocity=1;0 radius=1 position=1.5;0\n"
                                       " !particle id=:other radius=1\n !collision\n",
                                    kind, names[i]);
             const Report row = {script, "reserved-id", {kind, names[i]}};
             check_report(&row);
+            // In one dimension the system's own number would be taken for the position.
             World world;
             char key[64];
             world_open(&world, 1, script);
             world_to(&world, 1);
             snprintf(key, sizeof key, ":s;%s;:velocity", names[i]);
-            EXPECT(&world, key, anchor ? 0 : 1.5);
-            EXPECT(&world, ":s;:other;:velocity", -0.5);
+            EXPECT(&world, key, anchor ? 0 : 1.5, 0);
+            EXPECT(&world, ":s;:other;:velocity", -0.5, 0);
             world_close(&world);
             free(script);
         }

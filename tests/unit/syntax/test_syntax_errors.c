@@ -212,7 +212,7 @@ static void test_many_errors(void **state) {
 static void test_mutations(void **state) {
     World *world = *state;
     static const char program[] =
-        "#!x\n%pragma fps 20\nlet a;b=1;2 c=\n    !a x=1 #t\nfunc f(x, y=2)\n    x+y*2 where y=x\n"
+        "#!x\n%pragma fps 20\nlet a;b=1;2\nlet c=\n    !a x=1 #t\nfunc f(x, y=2)\n    x+y*2 where y=x\n"
         "for i;j in ..5|2, k in i\n    !q v=$(:a;i)[0] << f(1, y=2)\n        'a\\n'\nif a==1 and not b\n    @f x=1\n"
         "elif 1:30 < 2.5e3k\n    1 if 0 else 2 for z in '''x\ny'''\nelse\n    %include 'q'\nimport u from 'v'\n-- end\n";
     uint64_t seed = 11;

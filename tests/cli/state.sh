@@ -1,0 +1,50 @@
+# state.sh: `petri run --state`: going on where another run ended. Part of run.sh.
+
+cat >world.fl <<'END'
+%pragma tempo 90
+!counter state=:turns rate=0.7;-0.3
+!physics state=:w dimensions=2 time=beat resolution=1/200
+    !anchor id=:hub position=polar($:turns[0] or 0)
+    for i in ..(6 if frame < 40 else 4)
+        !particle id=i;"cell" radius=1 charge=normal(:q)[i] position=5*polar(i/6) velocity=0.1;-0.2
+        !distance from=i;"cell" to=:hub max=6 strength=20
+    !electrostatic strength=3 ease=2
+    !collision strength=40
+    !random strength=2
+    !drag strength=0.01
+END
+petri run world.fl --frames 200 --every 199 --print state
+cp out whole
+petri run world.fl --frames 100 --state half.state
+check "a run with --state ends well" status_is 0
+check "… and leaves the state behind" has half.state "petri-state 1"
+petri run world.fl --frames 100 --every 199 --print state --state half.state
+sed -n '/^@199/,$p' whole >expected
+check "two runs of 100 frames are one of 200 to the last bit, time included" cmp -s out expected
+rm -f half.state
+petri run world.fl --frames 40 --state half.state
+petri run world.fl --frames 1 --print state --state half.state
+check "particles that vanish between two runs are forgotten" lacks out "(:w;5;'cell')"
+petri run world.fl --frames 3 --print state --state absent/half.state
+check "a state that cannot be written is an error" status_is 1
+check "… which names the file" has err "absent/half.state"
+
+petri run world.fl --frames 10 --state good.state
+for damage in cut edited version other empty; do
+    case $damage in
+    cut) head -c 200 good.state >bad.state ;;
+    edited) sed 's/= 0\./= 1./' good.state >bad.state ;;
+    version) sed 's/^petri-state 1/petri-state 99/' good.state >bad.state ;;
+    other) echo "something else" >bad.state ;;
+    empty) : >bad.state ;;
+    esac
+    cp bad.state before.state
+    petri run world.fl --frames 2 --print state --state bad.state
+    check "a state file that is bad ($damage) makes the run fail" status_is 1
+    check "… is told in one error ($damage)" count_is err "error: cannot take the state from 'bad.state'" 1
+    check "… is left alone ($damage)" cmp -s bad.state before.state
+    check "… and the run starts fresh ($damage)" has out "@0 time=0"
+done
+check "nothing is left beside the files" [ -z "$(find . -name '*.tmp')" ]
+petri run world.fl --frames 2 --state .
+check "a folder is no state file" status_is 1

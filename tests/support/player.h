@@ -1,0 +1,143 @@
+// player.h: a session with a notebook: loads scripts, makes frames, keeps diagnostics and printed text.
+#ifndef PETRI_TESTS_PLAYER_H
+#define PETRI_TESTS_PLAYER_H
+
+#include "check.h"
+
+#include "petri.h"
+
+#include <stdlib.h>
+
+typedef struct Notebook {
+    char *text;
+    size_t len;
+} Notebook;
+
+static inline bool note(void *host, const char *text, size_t len) {
+    Notebook *book = host;
+    book->text = realloc(book->text, book->len + len + 1);
+    assert_non_null(book->text);
+    memcpy(book->text + book->len, text, len);
+    book->len += len;
+    book->text[book->len] = 0;
+    return true;
+}
+
+typedef struct Player {
+    PetriSession *session;
+    Notebook told;  // `level file:line:column text [code]`, one line each; the place only if there is one
+    Notebook shown; // what was printed last
+} Player;
+
+static inline void player_tell(void *host, const PetriDiagnostic *diagnostic) {
+    static const char *const levels[] = {"error", "warning", "note"};
+    Player *player = host;
+    char line[4000], place[1000] = "";
+    if (diagnostic->file)
+        snprintf(place, sizeof place, "%s:%u:%u ", diagnostic->file, diagnostic->line, diagnostic->column);
+    assert_true(diagnostic->rendered[strlen(diagnostic->rendered) - 1] == '\n');
+    int len = snprintf(line, sizeof line, "%s %s%s [%s]\n", levels[diagnostic->level], place, diagnostic->text,
+                       diagnostic->code ? diagnostic->code : "");
+    note(&player->told, line, (size_t)len < sizeof line ? (size_t)len : sizeof line - 1);
+}
+
+static inline PetriOptions player_options(Player *player) {
+    PetriOptions options = petri_default_options();
+    options.diagnostic = player_tell;
+    options.host = player;
+    return options;
+}
+
+static inline void player_open_with(Player *player, const PetriOptions *options) {
+    *player = (Player){0};
+    note(&player->told, "", 0);
+    note(&player->shown, "", 0);
+    player->session = petri_open(options);
+    assert_non_null(player->session);
+}
+
+static inline void player_open(Player *player) {
+    PetriOptions options = player_options(player);
+    player_open_with(player, &options);
+}
+
+static inline void player_close(Player *player) {
+    petri_close(&player->session);
+    assert_null(player->session);
+    free(player->told.text);
+    free(player->shown.text);
+}
+
+static inline PetriStatus player_load(Player *player, const char *script) {
+    return petri_load_text(player->session, "t.fl", script, PETRI_Z);
+}
+
+// What has been told since this was asked last. Valid until the next diagnostic.
+static inline const char *player_told(Player *player) {
+    player->told.len = 0;
+    return player->told.text;
+}
+
+static inline void player_forget(Player *player) {
+    player->told.len = 0;
+    player->told.text[0] = 0;
+}
+
+// Sections of the frame, without the `@` line.
+static inline const char *player_print(Player *player, unsigned sections) {
+    player->shown.len = 0;
+    assert_int_equal(petri_print(player->session, sections, note, &player->shown), PETRI_OK);
+    return strchr(player->shown.text, '\n') + 1;
+}
+
+static inline const char *player_tree(Player *player) {
+    return player_print(player, PETRI_PRINT_TREE);
+}
+
+static inline const char *player_state(Player *player) {
+    return player_print(player, PETRI_PRINT_STATE);
+}
+
+static inline void player_step(Player *player, int frames) {
+    for (int i = 0; i < frames; i++)
+        assert_int_equal(petri_step(player->session), PETRI_OK);
+}
+
+// Loads a script that must be accepted and makes frames.
+static inline void player_run(Player *player, const char *script, int frames) {
+    if (player_load(player, script) != PETRI_OK) {
+        print_error("%s\n%s", script, player_told(player));
+        fail();
+    }
+    player_step(player, frames);
+}
+
+static inline int player_setup(void **state) {
+    Player *player = malloc(sizeof *player);
+    player_open(player);
+    *state = player;
+    return 0;
+}
+
+static inline int player_teardown(void **state) {
+    player_close(*state);
+    free(*state);
+    return 0;
+}
+
+#define PLAYER_TEST(function) cmocka_unit_test_setup_teardown(function, player_setup, player_teardown)
+
+typedef struct ScriptRow {
+    const char *script;
+    const char *wanted;
+} ScriptRow;
+
+// The tree of the last of `frames` frames of each script.
+static inline void check_trees(Player *player, const ScriptRow *rows, size_t count, int frames) {
+    for (size_t i = 0; i < count; i++) {
+        player_run(player, rows[i].script, frames);
+        assert_text(rows[i].script, player_tree(player), rows[i].wanted);
+    }
+}
+
+#endif

@@ -1,0 +1,2 @@
+#include "player.h"
+int main(void){return 0;}
