@@ -8,7 +8,7 @@ void layout_init(Layout *layout, const Source *source) {
     layout->level_count = 1;
     layout->levels[0] = (LayoutLevel){0};
     layout->paren_count = 0;
-    layout->settling = false;
+    layout->settling = layout->misplaced = false;
 }
 
 // Spaces plus eight times tabs after the last line end of a newline token: a sum, not tab stops.
@@ -19,8 +19,8 @@ static uint32_t indentation(const Source *source, Span newline) {
     return indent;
 }
 
-static Token fault(Span span, const char *error, bool fatal) {
-    return (Token){.kind = GR_UNDEF, .span = span, .error = error, .fatal = fatal};
+static Token fatal(Span span, const char *error) {
+    return (Token){.kind = GR_UNDEF, .span = span, .error = error, .fatal = true};
 }
 
 // What is still due for the newline in layout->line; a token of kind GR_EMPTY if nothing is.
@@ -33,8 +33,7 @@ static Token settle(Layout *layout) {
         if (layout->indent > top->indent) {
             // Between two levels: taken as the outer one, so that what follows still parses.
             layout->indent = top->indent;
-            layout->settling = true;
-            return fault(here, "this line's indentation matches none of the lines above", false);
+            layout->misplaced = true;
         }
         if (!silent)
             return (Token){.kind = DEDENT, .span = here};
@@ -43,7 +42,7 @@ static Token settle(Layout *layout) {
     if (layout->indent == top->indent)
         return (Token){.kind = GR_EMPTY};
     if (layout->level_count > LAYOUT_MAX_DEPTH)
-        return fault(here, "indented too deeply: the limit is 1000 levels", true);
+        return fatal(here, "indented too deeply: the limit is 1000 levels");
     layout->levels[layout->level_count++] = (LayoutLevel){.indent = layout->indent};
     return (Token){.kind = INDENT, .span = here};
 }
@@ -55,7 +54,7 @@ static Token newline(Layout *layout, Token token) {
     return token;
 }
 
-Token layout_next(Layout *layout) {
+static Token next(Layout *layout) {
     if (layout->settling) {
         Token token = settle(layout);
         if (token.kind != GR_EMPTY)
@@ -70,7 +69,7 @@ Token layout_next(Layout *layout) {
             return newline(layout, token);
         case '(':
             if (layout->paren_count == LAYOUT_MAX_DEPTH)
-                return fault(token.span, "parentheses nested too deeply: the limit is 1000", true);
+                return fatal(token.span, "parentheses nested too deeply: the limit is 1000");
             layout->parens[layout->paren_count++] = token.span.start;
             return token;
         case ')':
@@ -80,6 +79,14 @@ Token layout_next(Layout *layout) {
             return token;
         }
     }
+}
+
+Token layout_next(Layout *layout) {
+    Token token = next(layout);
+    if (layout->misplaced && !token.error)
+        token.error = "this line's indentation matches none of the lines above";
+    layout->misplaced = false;
+    return token;
 }
 
 void layout_resume(Layout *layout, uint32_t offset) {

@@ -24,10 +24,12 @@ typedef struct Layout {
     Span line;                         // the newline token that is being turned into INDENT or DEDENTs
     uint32_t indent;                   // of the line after it
     bool settling;                     // INDENT or DEDENTs of `line` are still due
+    bool misplaced;                    // … and then the complaint that it is indented like no line above
 } Layout;
 
 void layout_init(Layout *layout, const Source *source);
-// The next token. A fault in the indentation or a limit is a token of kind GR_UNDEF with `error` set.
+// The next token. A line that is indented like none above shows in the `error` of the token that it begins with; a
+// limit is a token of kind GR_UNDEF.
 Token layout_next(Layout *layout);
 // Scans again from `offset`, inside or before the last token returned, which must not have been a newline or
 // parenthesis.

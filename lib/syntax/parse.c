@@ -116,11 +116,7 @@ static void report_character(ParseContext *context, Span span) {
             (Str){0});
 }
 
-static void report_bad_token(ParseContext *context, const Token *token) {
-    if (!token->error) {
-        report_character(context, token->span);
-        return;
-    }
+static void report_layout(ParseContext *context, const Token *token) {
     SourcePlace place = source_locate(context->source, token->span.start);
     bool tabs = !token->fatal && memchr(place.text.bytes, '\t', place.text.len);
     report(context, token->span, "syntax", str_from(token->error),
@@ -228,12 +224,12 @@ static void add_paren_hint(ParseContext *context, const Layout *layout, const To
 
 // Pushes one token; tells whether the parser wants more, is done, or has given up.
 static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token *token) {
+    if (token->error)
+        report_layout(context, token);
     uint32_t errors_before = context->diags->count;
-    context->reported = false;
-    if (token->kind == GR_UNDEF) {
-        report_bad_token(context, token);
-        context->reported = true;
-    }
+    context->reported = token->kind == GR_UNDEF;
+    if (token->kind == GR_UNDEF && !token->error)
+        report_character(context, token->span);
     GR_STYPE semantic = token_value(context, token);
     Span span = token->span;
     int status = gr_push_parse(parser, token->kind, &semantic, &span, context);

@@ -9,7 +9,7 @@ typedef struct Token {
     int kind;    // a token of grammar/parser.y
     int keyword; // for a name spelled like a keyword: that keyword, else 0
     Span span;
-    const char *error; // of a GR_UNDEF from the layout: what is wrong; NULL: no token starts with this character
+    const char *error; // of the layout: what is wrong, besides the token or, if that is GR_UNDEF, with it
     bool fatal;        // … and a limit was reached: parsing stops
 } Token;
 

@@ -19,6 +19,10 @@ if [ $# -ne 2 ]; then
 fi
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 root=$2
+if [ ! -x "$petri" ]; then
+    echo "run.sh: no program $1" >&2
+    exit 2
+fi
 work=$(mktemp -d "${TMPDIR:-/tmp}/petri-docs.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP

@@ -63,8 +63,7 @@ static void test_momentum(void **state) {
         "!gravity",
         "!electrostatic",
         "!adhesion strength=9",
-        "for i in ..11\n  !distance from=i to=i+1 fixed=0.5 strength=20\n !collision power=1.5\n !gravity "
-        "max_distance=1",
+        "!collision power=1.5\n !gravity max_distance=1\n for i in ..11\n  !distance from=i to=i+1 fixed=0.5",
     };
     static const int dimensions[] = {1, 2, 3, 5};
     for (size_t i = 0; i < COUNT_OF(forces); i++)

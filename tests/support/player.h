@@ -72,6 +72,12 @@ static inline PetriStatus player_load(Player *player, const char *script) {
     return petri_load_text(player->session, "t.fl", script, PETRI_Z);
 }
 
+// A fresh session with other options.
+static inline void player_reopen(Player *player, const PetriOptions *options) {
+    player_close(player);
+    player_open_with(player, options);
+}
+
 // What has been told since this was asked last. Valid until the next diagnostic.
 static inline const char *player_told(Player *player) {
     player->told.len = 0;
@@ -132,11 +138,16 @@ typedef struct ScriptRow {
     const char *wanted;
 } ScriptRow;
 
-// The tree of the last of `frames` frames of each script.
+// The tree of the last of `frames` frames of each script, which is the same without the simplifier.
 static inline void check_trees(Player *player, const ScriptRow *rows, size_t count, int frames) {
-    for (size_t i = 0; i < count; i++) {
-        player_run(player, rows[i].script, frames);
-        assert_text(rows[i].script, player_tree(player), rows[i].wanted);
+    for (int simplify = 1; simplify >= 0; simplify--) {
+        PetriOptions options = player_options(player);
+        options.simplify = simplify;
+        player_reopen(player, &options);
+        for (size_t i = 0; i < count; i++) {
+            player_run(player, rows[i].script, frames);
+            assert_text(rows[i].script, player_tree(player), rows[i].wanted);
+        }
     }
 }
 

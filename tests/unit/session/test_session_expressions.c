@@ -13,7 +13,10 @@ static const char prelude[] = "let dz=frame*0 d1=1+dz d2=2+dz d3=3+dz\n"
                               "!counter state=\"str\" initial=7 rate=0\n"
                               "!counter state=3 initial=9 rate=0\n";
 
-static void check_all(Player *player, const Check *checks, size_t count) {
+static void check_all(Player *player, bool simplify, const Check *checks, size_t count) {
+    PetriOptions options = player_options(player);
+    options.simplify = simplify;
+    player_reopen(player, &options);
     for (size_t i = 0; i < count; i++) {
         Notebook script = {0};
         const char *const parts[] = {prelude, "!v v=(", checks[i].expression, ")\n"};
@@ -132,7 +135,8 @@ static void test_checks(void **state) {
         {"$null", "null"},
         {"$3.5", "null"},
     };
-    check_all(*state, checks, COUNT_OF(checks));
+    check_all(*state, true, checks, COUNT_OF(checks));
+    check_all(*state, false, checks, COUNT_OF(checks));
 }
 
 // What the text says beside its examples.
@@ -160,12 +164,13 @@ static void test_more(void **state) {
         {"..1e12", "null"},
         {"(sin;cos)(0)", "0;1"},
         {"(sin;'s';cos)(0.25)", "1;-0"},
-        {"x;y where x;y=uniform(1)", "0.3236437711805903;0.5057062674373606"},
+        {"(x;y) where x;y=uniform(1)", "0.3236437711805903;0.5057062674373606"},
         {"len(..3 for i in ..2)", "6"},
-        {"a;b;c for a;b;c in ..4", "0;1;2;3"},
+        {"(a;b;c) for a;b;c in ..4", "0;1;2;3"},
         {"x where x;x=(1;2)", "2"}, // a name twice: the last
     };
-    check_all(*state, checks, COUNT_OF(checks));
+    check_all(*state, true, checks, COUNT_OF(checks));
+    check_all(*state, false, checks, COUNT_OF(checks));
 }
 
 int main(void) {

@@ -1,0 +1,197 @@
+// test_determinism.c: the same bits from every build: whole states, hashed, against constants.
+//
+// A hash is FNV-1a of what `petri run --print state` prints for the last frame, every digit of it, so that one bit of
+// one coordinate changes it. The constants hold for gcc and clang, -O0 and -O3, any number of threads and any level of
+// processor. When a change of the specification changes them, run the program: it prints what it finds.
+#include "world.h"
+
+static uint64_t hash_of(const char *text) {
+    uint64_t hash = UINT64_C(0xcbf29ce484222325);
+    for (; *text; text++)
+        hash = (hash ^ (unsigned char)*text) * UINT64_C(0x100000001b3);
+    return hash;
+}
+
+// The seed's example: charged cells in a dish.
+static const char dish[] = "let CELLS=40 RADIUS=500 BEATS=10\n"
+                           "!physics state=:cells dimensions=2 time=beat resolution=tempo/60/fps\n"
+                           " !anchor id=:middle position=0;0\n"
+                           " for i in ..CELLS\n"
+                           "  let radius=10+5*beta(:size)[i]\n"
+                           "  !particle id=i charge=normal(:charge)[i] radius=radius mass=(radius/10)**2"
+                           " position=RADIUS*sqrt(uniform(:r)[i])*polar(uniform(:th)[i])\n"
+                           "  !distance from=i to=:middle max=RADIUS-radius strength=100\n"
+                           " !electrostatic strength=5e4 ease=BEATS\n"
+                           " !collision strength=200 ease=BEATS\n"
+                           " !drag strength=1e-3\n"
+                           " !random strength=200\n";
+
+// Groups in groups with all kinds of forces and powers.
+static const char groups[] =
+    "!physics state=:all dimensions=2 resolution=1/120 speed_of_light=40 run=3\n"
+    " !constant acceleration=0;-1 force=0.1;0 ease=0.2\n"
+    " !random strength=0.5\n"
+    " for g in ..3\n"
+    "  !group\n"
+    "   for i in ..6\n"
+    "    !particle id=g;i position=4*normal(:p;g;i)[..2] velocity=normal(:v;g;i)[..2] radius=0.2+0.1*(i%4) mass=1+0.3*i"
+    " charge=1-2*(i%2) force=0.3;-0.1 ease=0.4\n"
+    "   !gravity strength=2 max_distance=6\n"
+    "   !random strength=0.25 ease=0.5\n"
+    "   !group\n"
+    "    for i in ..3\n"
+    "     !particle id=g;:in;i position=3*normal(:q;g;i)[..2] radius=0.5 mass=(0;1;2.5)[i] charge=i\n"
+    "    !adhesion strength=4 overlap=0.3\n"
+    "    !drag strength=0.02 flow=1;0.5\n"
+    "    !buoyancy density=0.7 gravity=0;-3\n"
+    "   !distance from=g;0 to=g;:in;1 fixed=1.3 power=1.5 strength=3\n"
+    "   !distance from=g;1 to=(g+1)%3;2 min=2 max=3 power=0.5 strength=5\n"
+    " !anchor id=:sun position=2*polar(time/3) mass=6 radius=1 charge=-2\n"
+    " !electrostatic strength=1.5 ease=1\n"
+    " !collision strength=60 power=1.25\n"
+    " !field direction=0.3;0.4 strength=0.5\n";
+
+static const char space[] = "!physics state=:space dimensions=3 resolution=1/90\n"
+                            " for i in ..24\n"
+                            "  !particle id=i position=5*normal(:p;i)[..3] velocity=normal(:v;i)[..3] radius=0.3+i/60"
+                            " mass=1+i/7 charge=normal(:c)[i]\n"
+                            " !gravity strength=3\n !electrostatic strength=2 max_distance=4\n !collision strength=90\n"
+                            " !adhesion strength=2 overlap=0.2\n !drag strength=0.003\n !buoyancy density=0.9\n"
+                            " !barrier normal=0;0;1 position=-6 restitution=0.6\n";
+
+static const char wire[] = "!physics state=:wire dimensions=1\n"
+                           " !anchor id=:left position=-10\n !anchor id=:right position=10+0.5*sine(time)\n"
+                           " for i in ..10\n"
+                           "  !particle id=i position=-9+2*i radius=0.3+0.05*(i%4) mass=0.5+0.5*(i%3)"
+                           " velocity=4*sin(i*0.15)\n"
+                           "  if i\n   !distance from=i-1 to=i max=2.5 strength=6\n"
+                           " !distance from=:left to=0 max=1 strength=10 power=2\n"
+                           " !distance from=:right to=9 max=1 strength=10 power=0.7\n"
+                           " !collision strength=800\n !drag strength=0.1\n !random strength=0.3\n";
+
+static const char five[] = "!physics state=:five dimensions=5\n"
+                           " for i in ..12\n"
+                           "  !particle id=i position=2*normal(:p;i)[..5] velocity=normal(:v;i)[..5] radius=0.5+i/20"
+                           " mass=1+i/3 charge=(-1)**i\n"
+                           " !gravity strength=2\n !electrostatic\n !collision strength=30 power=1.1\n"
+                           " !drag strength=0.02 flow=0.1\n !buoyancy\n !random strength=0.1\n";
+
+static const char barriers[] = "!physics state=:box dimensions=2 resolution=1/240\n"
+                               " for i in ..15\n"
+                               "  !particle id=i position=(1;1)+8*uniform(:p;i)[..2] velocity=9*normal(:v;i)[..2]"
+                               " radius=0.1+i/50 mass=(i%5)/2\n"
+                               " !constant acceleration=0;-9.81\n !collision strength=300\n"
+                               " !barrier normal=0.2;1 restitution=0.8\n !barrier normal=1;0.1 restitution=0.9\n"
+                               " !barrier position=10 normal=-1;0.3 restitution=0\n"
+                               " !barrier position=0;9 normal=0;-2 min=1.5 strength=40 power=1.5 ease=0.3\n"
+                               " !barrier position=0;0 normal=1;1 max=9 strength=5\n";
+
+// Systems that read each other's state, with counters, particles that come and go and runs.
+static const char feedback[] = "let P=$(:lead;:a) or 0;0 T=$:turn or 0\n"
+                               "!counter state=:turn rate=0.7\n"
+                               "!physics state=:lead dimensions=2 run=time/0.7\n"
+                               " !particle id=:a velocity=3*polar(0.1) force=-2*P\n"
+                               " !random strength=2\n"
+                               "!physics state=:hunt dimensions=2 time=T resolution=0.01\n"
+                               " !anchor id=:bait position=P\n"
+                               " for i in floor(T*5)..floor(T*5)+6\n"
+                               "  !particle id=i position=5*polar(i/7) radius=0.4 mass=1+i%3\n"
+                               "  !distance from=i to=:bait max=0.5 strength=8 power=1.5\n"
+                               " !collision strength=50\n !drag strength=0.2\n";
+
+static const struct {
+    const char *name;
+    const char *script;
+    int frames;
+    uint64_t hash;
+} scenes[] = {
+    {"dish", dish, 120, 0}, {"groups", groups, 90, 0},      {"space", space, 90, 0},        {"wire", wire, 200, 0},
+    {"five", five, 120, 0}, {"barriers", barriers, 120, 0}, {"feedback", feedback, 150, 0},
+};
+
+// How the work can be done; the hash must not depend on it. Levels of processors come here as further rows, with
+// whatever option of petri.h chooses them.
+static const struct {
+    const char *name;
+    int threads;
+} ways[] = {
+    {"1 thread", 1}, {"2 threads", 2}, {"3 threads", 3}, {"8 threads", 8}, {"as many threads as processors", 0},
+};
+
+static uint64_t run(size_t scene, int threads) {
+    World world;
+    PetriOptions options = petri_default_options();
+    options.threads = threads;
+    world_open_with(&world, options, scenes[scene].script);
+    world_to(&world, scenes[scene].frames);
+    EXPECT_TOLD(&world, "");
+    uint64_t hash = hash_of(world_text(&world));
+    world_close(&world);
+    return hash;
+}
+
+static void test_constants(void **state) {
+    (void)state;
+    bool same = true;
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        uint64_t hash = run(i, 1);
+        if (hash != scenes[i].hash) {
+            same = false;
+            print_error("%s: found 0x%016llx, wanted 0x%016llx\n", scenes[i].name, (unsigned long long)hash,
+                        (unsigned long long)scenes[i].hash);
+        }
+    }
+    assert_true(same);
+}
+
+static void test_ways(void **state) {
+    (void)state;
+    for (size_t i = 0; i < COUNT_OF(scenes); i++)
+        for (size_t k = 0; k < COUNT_OF(ways); k++)
+            if (run(i, ways[k].threads) != run(i, 1))
+                fail_msg("%s: not the same with %s", scenes[i].name, ways[k].name);
+}
+
+// Two sessions at a time, frame by frame, do not disturb each other; nor does printing in between.
+static void test_sessions_side_by_side(void **state) {
+    (void)state;
+    World worlds[COUNT_OF(scenes)];
+    for (size_t i = 0; i < COUNT_OF(scenes); i++)
+        world_open(&worlds[i], 60, scenes[i].script);
+    for (int frame = 0; frame <= 200; frame++)
+        for (size_t i = 0; i < COUNT_OF(scenes); i++)
+            if (frame <= scenes[i].frames) {
+                world_to(&worlds[i], frame);
+                if (frame % 16 == 0)
+                    world_text(&worlds[i]);
+            }
+    for (size_t i = 0; i < COUNT_OF(scenes); i++) {
+        assert_true(hash_of(world_text(&worlds[i])) == scenes[i].hash);
+        world_close(&worlds[i]);
+    }
+}
+
+// The hash does its work: the last digit of one number of a scene changes it.
+static void test_sensitive(void **state) {
+    (void)state;
+    World world;
+    char *script = text_of("%s", wire);
+    char *place = strstr(script, "velocity=4");
+    assert_non_null(place);
+    memcpy(place, "velocity=5", strlen("velocity=5"));
+    world_open(&world, 60, script);
+    world_to(&world, 200);
+    assert_true(hash_of(world_text(&world)) != scenes[3].hash);
+    world_close(&world);
+    free(script);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_constants),
+        cmocka_unit_test(test_ways),
+        cmocka_unit_test(test_sessions_side_by_side),
+        cmocka_unit_test(test_sensitive),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

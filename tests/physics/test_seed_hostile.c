@@ -1,0 +1,325 @@
+// test_seed_hostile.c: input that no sane script gives: bounded, told once, and nothing that is not finite in the
+// state.
+#include "cases.h"
+
+// Runs a script for some frames: none of them may fail, nothing that is not finite may be stored, and no more than
+// `told` things may be said.
+static void survive(const char *script, int64_t frame, int told) {
+    World world;
+    world_open(&world, 60, script);
+    for (int64_t at = 0; at <= frame; at++) {
+        world_to(&world, at);
+        if (strstr(world_state(&world), "nan") || strstr(world_state(&world), "inf"))
+            fail_msg("%s\n%s", script, world_state(&world));
+    }
+    if (world.told_count > told) {
+        print_error("%.400s\n", script);
+        world_print_told(&world);
+        fail();
+    }
+    world_close(&world);
+}
+
+static const char *const odd_numbers[] = {"nan",   "inf",    "-inf",   "-1",     "0", "-0",
+                                          "1e308", "-1e308", "5e-324", "1e-200", ":x"};
+
+// Every number of every node, odd. (A nan is told, and a normal that is no direction.)
+static void test_odd_numbers(void **state) {
+    (void)state;
+    static const char *const nodes[][2] = {
+        {"!particle id=:p position=1;2 velocity=1 radius=1 charge=1 force=1",
+         "mass radius charge ease position velocity force"},
+        {"!anchor id=:p position=1;2 radius=1 charge=1", "mass radius charge ease position velocity force"},
+        {"!constant force=1", "force acceleration strength ease"},
+        {"!random", "strength ease"},
+        {"!field direction=1", "direction strength ease"},
+        {"!distance from=:a to=:b fixed=3", "fixed power strength ease"},
+        {"!distance from=:a to=:b", "min max minimum maximum"},
+        {"!distance from=:a to=:b max=0.5 power=0.5", "min power strength"},
+        {"!collision", "power strength ease max_distance"},
+        {"!gravity", "strength ease max_distance"},
+        {"!electrostatic", "strength ease max_distance"},
+        {"!adhesion", "overlap strength ease max_distance"},
+        {"!drag", "flow strength ease"},
+        {"!buoyancy", "gravity density strength ease"},
+        {"!barrier normal=1;2 min=3 max=2",
+         "position normal restitution min max minimum maximum fixed power strength ease"},
+    };
+    for (size_t i = 0; i < COUNT_OF(nodes); i++) {
+        for (const char *at = nodes[i][1]; *at; at += strspn(at, " ")) {
+            size_t len = strcspn(at, " ");
+            for (size_t k = 0; k < COUNT_OF(odd_numbers); k++) {
+                char *script = text_of(P2 " !particle id=:a radius=1 charge=1 velocity=-1;2\n"
+                                          " !particle id=:b position=1;1 radius=1 mass=2 charge=-3\n"
+                                          " !collision\n !gravity\n !electrostatic\n !drag\n"
+                                          " %s %.*s=%s\n",
+                                       nodes[i][0], (int)len, at, odd_numbers[k]);
+                survive(script, 4, 1);
+                free(script);
+            }
+            at += len;
+        }
+    }
+    for (size_t k = 0; k < COUNT_OF(odd_numbers); k++) {
+        static const char *const attributes[] = {"speed_of_light", "run", "dimensions", "time"};
+        for (size_t i = 0; i < COUNT_OF(attributes); i++) {
+            char *script = text_of("!physics state=:s dimensions=2 %s=%s\n !particle id=:a velocity=1 force=1\n",
+                                   attributes[i], odd_numbers[k]);
+            // A nan as dimensions is told twice: as what it is, and that nothing can be done.
+            survive(script, 4, 2);
+            free(script);
+        }
+    }
+}
+
+static void test_dimensions(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"2.5 is 2", "!physics state=:s dimensions=2.5\n !particle id=:a velocity=1;2\n", 1, "a=1;2", 0},
+        {"0", "!physics state=:s dimensions=0\n !particle id=:a velocity=1;2\n", 1, "$=none a=none", "skipped-system"},
+        {"-1", "!physics state=:s dimensions=-1\n !particle id=:a velocity=1;2\n", 1, "$=none a=none",
+         "skipped-system"},
+        {"null", "!physics state=:s dimensions=null\n !particle id=:a\n", 1, "$=none a=none", "skipped-system"},
+        {"1e9", "!physics state=:s dimensions=1e9\n !particle id=:a\n", 2, "a=none", "skipped-system"},
+        {"1e9, much inside",
+         "!physics state=:s dimensions=1e9\n for i in ..100\n  !particle id=i position=i\n !collision\n"
+         " !drag\n !barrier normal=1\n",
+         2, "a=none", "skipped-system"},
+        {"1e9 + 1", "!physics state=:s dimensions=1e9+1\n", 2, "$=none", "skipped-system"},
+        {"1e300", "!physics state=:s dimensions=1e300\n !particle id=:a\n", 2, "$=none", "skipped-system"},
+        {"inf", "!physics state=:s dimensions=inf\n !particle id=:a\n", 2, "$=none", "skipped-system"},
+    };
+    CHECK_CASES(cases);
+    // Nothing is there that would need 1e9 numbers: either way, but at most one message.
+    survive("!physics state=:s dimensions=1e9\n", 2, 1);
+    // A thousand dimensions are no trouble.
+    World world;
+    world_open(&world, 1,
+               "!physics state=:s dimensions=1000\n !particle id=:a velocity=..1000 radius=1\n"
+               " !particle id=:b position=1 radius=20\n !collision\n !gravity\n !drag\n !barrier normal=1\n");
+    world_to(&world, 2);
+    EXPECT_TOLD(&world, "");
+    const char *value = world_find(&world, ":s;:a");
+    int elements = 1;
+    for (; *value != '\n'; value++)
+        elements += *value == ';';
+    assert_int_equal(elements, 1000);
+    world_close(&world);
+}
+
+// A resolution so small that a frame has no end: a million steps, then the frame ends, and it is told once.
+static void test_endless_steps(void **state) {
+    (void)state;
+    World world;
+    world_open(&world, 1, "!physics state=:s dimensions=1 resolution=1e-12\n !particle id=:a velocity=1\n");
+    for (int frame = 1; frame <= 3; frame++) {
+        world_to(&world, frame);
+        assert_int_equal(petri_frame(world.session).physics_steps, 1000000);
+        EXPECT_NEAR(&world, ":s;:clock", 1e-15, frame * 1e-6);
+        EXPECT_NEAR(&world, ":s;:a", 1e-15, frame * 1e-6);
+        EXPECT(&world, ":s;:last", frame);
+    }
+    EXPECT_TOLD(&world, "dropped-time");
+    world_close(&world);
+    // Steps so small that time does not move: none is made.
+    world_open(&world, 1,
+               "!physics state=:s dimensions=1 time=5+time resolution=5e-324\n !particle id=:a velocity=1\n");
+    world_to(&world, 4);
+    assert_int_equal(petri_frame(world.session).physics_steps, 0);
+    EXPECT(&world, ":s;:clock", 0);
+    EXPECT(&world, ":s;:last", 9);
+    EXPECT_TOLD(&world, "dropped-time");
+    world_close(&world);
+}
+
+// Time that jumps: as many steps as are allowed, the rest is dropped, and the next frame is an ordinary one.
+static void test_jumps(void **state) {
+    (void)state;
+    World world;
+    world_open(&world, 1,
+               "!physics state=:s dimensions=1 time=(0;1;1e9;1e9+1;1e9+2)[frame]\n !particle id=:a velocity=1\n");
+    world_to(&world, 2);
+    assert_int_equal(petri_frame(world.session).physics_steps, 1000000);
+    EXPECT(&world, ":s;:clock", 1000001);
+    EXPECT(&world, ":s;:last", 1e9);
+    EXPECT(&world, ":s;:a", 1000001);
+    world_to(&world, 4);
+    assert_int_equal(petri_frame(world.session).physics_steps, 1);
+    EXPECT(&world, ":s;:a", 1000003);
+    EXPECT_TOLD(&world, "dropped-time");
+    world_close(&world);
+    static const Case cases[] = {
+        {"in one step", "!physics state=:s dimensions=1 time=frame*1e9 resolution=1e9\n !particle id=:a velocity=1\n",
+         2, "a=2000000000 :clock=2000000000", 0},
+        {"back by 1e9", "!physics state=:s dimensions=1 time=(0;1;-1e9;1-1e9)[frame]\n !particle id=:a velocity=1\n", 3,
+         "a=2 :clock=2", 0},
+    };
+    CHECK_CASES(cases);
+}
+
+// 1e5 forces of a kind on the same two particles add up.
+static void test_many_forces(void **state) {
+    (void)state;
+    static const struct {
+        const char *node;
+        double force; // of one of them, on :a
+    } rows[] = {
+        {"!distance from=:a to=:b max=3", 1},
+        {"!distance from=:b to=:a fixed=5", -1},
+        {"!collision", -0.5},
+        {"!gravity", 0.0625},
+        {"!electrostatic", -0.0625},
+        {"!constant force=0.25", 0.25},
+        {"!field direction=0.25", 0.25},
+        {"!barrier position=-1 normal=1 min=2", 1},
+        {"!group\n   !constant force=1\n", 0},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        char *script =
+            text_of(P1 " !particle id=:a charge=1 radius=0.5\n !particle id=:b position=4 charge=1 radius=4\n"
+                       " for i in ..100000\n  %s\n",
+                    rows[i].node);
+        World world;
+        world_open(&world, 1, script);
+        world_to(&world, 1);
+        double force = rows[i].force;
+        if (strstr(rows[i].node, "gravity") || strstr(rows[i].node, "electro"))
+            force = copysign(1 / (4.5 * 4.5), force); // the radii overlap
+        EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-6 * fabs(force * 1e5), force * 1e5);
+        EXPECT_TOLD(&world, "");
+        world_close(&world);
+        free(script);
+    }
+}
+
+// Forces that lead round in circles, from a particle to itself, and against each other.
+static void test_cycles(void **state) {
+    (void)state;
+    static const Case cases[] = {
+        {"to itself", P1 " !particle id=:a position=2\n !distance from=:a to=:a fixed=5\n", 2, "a=2 a'=0", 0},
+        {"both ways",
+         P1 " !particle id=:a\n !particle id=:b position=4\n !distance from=:a to=:b fixed=2\n"
+            " !distance from=:b to=:a fixed=2\n",
+         1, "a'=4 b'=-4", 0},
+        {"a ring",
+         P2 " !particle id=:a\n !particle id=:b position=4;0\n !particle id=:c position=2;0\n"
+            " !distance from=:a to=:b max=2\n !distance from=:b to=:c max=1\n !distance from=:c to=:a max=1\n",
+         1, "a'=3;0 b'=-3;0 c'=0;0", 0},
+    };
+    CHECK_CASES(cases);
+}
+
+// Particles at one place: there is no direction, hence no force between them; others see them all.
+static void test_same_place(void **state) {
+    (void)state;
+    for (int n = 1; n <= 5; n += 2) {
+        char *script = text_of("!physics state=:s dimensions=%d\n"
+                               " for i in ..40\n  !particle id=i position=3 radius=1+i charge=1 mass=2\n"
+                               " !collision strength=1e6\n !gravity\n !electrostatic\n !adhesion\n !drag\n"
+                               " for i in ..39\n  !distance from=i to=i+1 fixed=5\n",
+                               n);
+        World world;
+        world_open(&world, 60, script);
+        world_to(&world, 20);
+        for (int i = 0; i < 40; i++) {
+            char key[64];
+            double v[WORLD_MOST_NUMBERS];
+            snprintf(key, sizeof key, ":s;%d;:velocity", i);
+            assert_int_equal(world_numbers(&world, key, v), n);
+            for (int k = 0; k < n; k++)
+                NEAR(v[k], 0, 0);
+            snprintf(key, sizeof key, ":s;%d", i);
+            assert_int_equal(world_numbers(&world, key, v), n);
+            for (int k = 0; k < n; k++)
+                NEAR(v[k], 3, 0);
+        }
+        EXPECT_TOLD(&world, "");
+        world_close(&world);
+        free(script);
+    }
+    // So close that the inverse of the distance overflows.
+    survive(P2 " !particle id=:a charge=1 radius=1\n !particle id=:b position=5e-324;0 charge=1 radius=1\n !collision\n"
+               " !gravity\n !electrostatic\n !adhesion\n !distance from=:a to=:b fixed=3\n",
+            5, 0);
+    survive(P2
+            " !particle id=:a charge=1\n !particle id=:b position=1e-160;1e-170 charge=1\n !gravity\n !electrostatic\n",
+            5, 0);
+}
+
+// Groups `depth` deep, made by wrapping; a particle at the bottom feels what the top declares.
+static char *nested(int wraps, int rounds) {
+    size_t size = 4096 + (size_t)rounds * 32;
+    char *lets = malloc(size);
+    assert_non_null(lets);
+    size_t len = 0;
+    for (int i = 0; i < rounds; i++)
+        len += (size_t)snprintf(lets + len, size - len, "let g=wrap(g, %d)\n", wraps);
+    char *script = text_of("func wrap(inner, n)\n (!group << (wrap(inner, n-1) if n > 1 else inner))\n"
+                           "let g=(!particle id=:deep radius=1)\n%s" P1
+                           " g\n !particle id=:top radius=1 position=1.5\n !collision\n !constant force=1\n"
+                           " !barrier position=-100 normal=1\n",
+                           lets);
+    free(lets);
+    return script;
+}
+
+static void test_deep_groups(void **state) {
+    (void)state;
+    char *script = nested(400, 25); // 1e4
+    World world;
+    world_open(&world, 1, script);
+    world_to(&world, 1);
+    EXPECT(&world, ":s;:deep;:velocity", 0.5);
+    EXPECT(&world, ":s;:top;:velocity", 1.5);
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+    free(script);
+    // 1e6 are more than a tree may have: refused with one message, and the rest goes on.
+    script = nested(400, 2500);
+    world_open(&world, 1, script);
+    world_to(&world, 1);
+    assert_int_equal(world.told_count, 1);
+    EXPECT(&world, ":s;:top;:velocity", 1);
+    world_close(&world);
+    free(script);
+}
+
+static void test_many_groups(void **state) {
+    (void)state;
+    World world;
+    world_open(&world, 1, P1 " for i in ..1000000\n  !group\n !particle id=:a\n !constant force=1\n");
+    world_to(&world, 1);
+    EXPECT(&world, ":s;:a;:velocity", 1);
+    EXPECT_TOLD(&world, "");
+    world_close(&world);
+}
+
+// Keys of a million elements.
+static void test_long_keys(void **state) {
+    (void)state;
+    static const char *const scripts[] = {
+        P1 " !particle id=..1000000 velocity=1\n !particle id=:a velocity=1\n !distance from=..1000000 to=:a min=9\n",
+        P1 " !particle id=:a velocity=1\n !distance from=..1000000 to=:a min=9\n",
+        "!physics state=..1000000 dimensions=1\n !particle id=:a\n" P1 " !particle id=:a velocity=1\n",
+    };
+    for (size_t i = 0; i < COUNT_OF(scripts); i++) {
+        World world;
+        world_open(&world, 1, scripts[i]);
+        world_to(&world, 1);
+        // In the first case the two are pushed apart.
+        if (i > 0)
+            EXPECT(&world, ":s;:a", 1);
+        assert_true(world.told_count <= 1);
+        world_close(&world);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_odd_numbers), cmocka_unit_test(test_dimensions),  cmocka_unit_test(test_endless_steps),
+        cmocka_unit_test(test_jumps),       cmocka_unit_test(test_many_forces), cmocka_unit_test(test_cycles),
+        cmocka_unit_test(test_same_place),  cmocka_unit_test(test_deep_groups), cmocka_unit_test(test_many_groups),
+        cmocka_unit_test(test_long_keys),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
