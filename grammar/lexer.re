@@ -16,7 +16,7 @@ Lexer lexer_new(const Source *source) {
     while (text[at] == ' ' || text[at] == '\t')
         at++;
     if (text[at] == '#' && text[at + 1] == '!')
-        lexer.at = at + (uint32_t)(strchr(text + at, '\n') - (text + at)) + 1;
+        lexer.at = (uint32_t)((const char *)memchr(text + at, '\n', source->text.len - at) - text) + 1;
     return lexer;
 }
 

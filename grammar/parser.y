@@ -103,7 +103,7 @@ static AstList *prepend(ParseContext *context, Ast *first, const AstList *rest) 
 
 program:
     opt_newline pragmas items {
-        context->program = NODE_OF(AST_SUITE, @$, NULL, ast_list_add_all($pragmas, $items));
+        context->program = NODE_OF(AST_SUITE, ((Span){0, @items.end}), NULL, ast_list_add_all($pragmas, $items));
     }
   ;
 

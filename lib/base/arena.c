@@ -117,7 +117,7 @@ static void arena_next_block(Arena *arena, size_t size) {
 }
 
 void *arena_alloc(Arena *arena, size_t size) {
-    if (size > arena->budget || arena->used > arena->budget - size)
+    if (size > SIZE_MAX / 2 || size > arena->budget || arena->used > arena->budget - size)
         arena_exhausted(arena);
     size_t rounded = (size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
     ArenaBlock *block = arena->current;

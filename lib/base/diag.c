@@ -58,7 +58,7 @@ static Str excerpt(Str line, uint32_t *column) {
     return (Str){line.bytes + start, end - start};
 }
 
-static void format_caret_line(Text *out, Str line, uint32_t column, size_t width) {
+static void format_caret_line(Text *out, Str line, uint32_t column, size_t width, const char *plain) {
     size_t at = 0;
     // Tabs stay tabs, so that the caret stands under its column however wide the terminal shows them.
     for (uint32_t i = 1; i < column; i++)
@@ -67,6 +67,7 @@ static void format_caret_line(Text *out, Str line, uint32_t column, size_t width
     size_t most = at < line.len ? utf8_length((Str){line.bytes + at, line.len - at}) : 0;
     for (size_t i = 1; i < width && i < most; i++)
         text_add_char(out, '~');
+    text_add_c(out, plain);
     text_add_char(out, '\n');
 }
 
@@ -104,8 +105,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         text_add_c(out, "    ");
         add_printable(out, line);
         text_add_format(out, "    %s", tint);
-        format_caret_line(out, line, column, width);
-        text_add_c(out, plain);
+        format_caret_line(out, line, column, width, plain);
     }
     if (diag->hint.len)
         text_add_format(out, "    %.*s\n", (int)diag->hint.len, diag->hint.bytes);

@@ -20,7 +20,9 @@ typedef enum AttrRow {
 
 typedef struct SceneHost {
     void *host;
-    void (*report)(void *host, DiagLevel level, const char *code, Str text); // keeps each text once
+    // What is wrong with which node; `key` tells apart what may be wrong with one node, while the text may go on to
+    // tell what was found and change from frame to frame.
+    void (*report)(void *host, DiagLevel level, const char *code, Str node, Str key, Str text);
 } SceneHost;
 
 // The schema with its names interned in a session's symbol table.
@@ -45,8 +47,8 @@ typedef struct Reader {
     uint32_t dimensions; // n of vectors
 } Reader;
 
-// Reports "!kind id=…: text".
-void reader_report(const Reader *reader, DiagLevel level, const char *code, Str text);
+// Reports "!kind id=…: text", a warning, once for each code and key.
+void reader_report(const Reader *reader, const char *code, const char *key, Str text);
 // Reports attributes that the node's kind does not have.
 void reader_check_names(const Reader *reader, SceneKind kind);
 

@@ -39,7 +39,7 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     reader_check_names(&reader, KIND_COUNTER);
     Value key = attr_value(&reader, ROW_COUNTER_STATE);
     if (key.len == 0 || !state_key_valid(key)) {
-        reader_report(&reader, DIAG_WARNING, "skipped-system", STR("no usable state key; the counter is skipped"));
+        reader_report(&reader, "skipped-system", "", STR("no usable state key; the counter is skipped"));
         return;
     }
     Value time_key = scene_key(frame->arena, key, VALUE_NULL, scene->key_time);
@@ -66,8 +66,7 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
         finite = finite && x - x == 0;
     }
     if (!finite) {
-        reader_report(&reader, DIAG_WARNING, "not-finite",
-                      STR("the value is not finite; the counter keeps its last one"));
+        reader_report(&reader, "not-finite", "", STR("the value is not finite; the counter keeps its last one"));
         return;
     }
     state_set(frame->state, key, value_numbers_view(values, len));

@@ -19,6 +19,19 @@ double scene_number(const State *state, StateSlot slot, double fallback) {
     return v.kind == VALUE_NUMBERS && v.len == 1 ? v.as.number : fallback;
 }
 
+// The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
+static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence) {
+    *occurrence = 0;
+    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        if (system->start != start)
+            continue;
+        if (system->seen != scene->frame_number)
+            return system;
+        ++*occurrence;
+    }
+    return NULL;
+}
+
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
     PhysicsSystem *system = calloc(1, sizeof *system);
     if (!system)
@@ -31,6 +44,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     *system = (PhysicsSystem){
         .start = start,
         .occurrence = occurrence,
+        .seen = scene->frame_number - 1,
         .run = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_run)),
         .iteration = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_iteration)),
         .clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock)),
@@ -45,15 +59,13 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     StateSlot start = state_slot(frame->state, prefix);
     if (start == STATE_NO_SLOT)
         return NULL;
-    uint32_t occurrence = 0;
-    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
-        if (system->start != start)
-            continue;
-        if (system->seen != scene->frame_number)
-            return system;
-        occurrence++;
-    }
-    return new_system(scene, start, occurrence, frame);
+    uint32_t occurrence;
+    PhysicsSystem *system = known_system(scene, start, &occurrence);
+    if (!system)
+        return new_system(scene, start, occurrence, frame);
+    if (system->seen + 1 != scene->frame_number)
+        system->slot_count = 0; // it was absent: its keys stay, and it has no last tree
+    return system;
 }
 
 // Keeps a copy of the slots of a tree's particles.
@@ -83,7 +95,10 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
 
 bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFrame *frame) {
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
-    return system && keep_slots(system, saved->slots, saved->slot_count);
+    if (!system || !keep_slots(system, saved->slots, saved->slot_count))
+        return false;
+    system->seen = scene->frame_number; // the next update is that of the frame after
+    return true;
 }
 
 static void set_number(const SceneFrame *frame, StateSlot slot, double x) {
@@ -174,7 +189,7 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, Setting
     else if (!(settings->resolution > 0) || !isfinite(settings->resolution))
         why = "resolution must be above 0 and finite; the system is skipped";
     if (why)
-        reader_report(reader, DIAG_WARNING, "skipped-system", str_from(why));
+        reader_report(reader, "skipped-system", "", str_from(why));
     return !why;
 }
 
@@ -193,7 +208,7 @@ static bool fits_in_memory(const Reader *reader, const Settings *settings) {
     double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
-    reader_report(reader, DIAG_WARNING, "skipped-system",
+    reader_report(reader, "skipped-system", "",
                   STR("too many dimensions for so many nodes (limit 1 GiB); the system is skipped"));
     return false;
 }
@@ -211,10 +226,10 @@ static double simulate(const PhysicsTree *tree, const Reader *reader, const Sett
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
     if (result.status == PHYS_NO_MEMORY)
-        reader_report(reader, DIAG_WARNING, "physics-memory",
+        reader_report(reader, "physics-memory", "",
                       STR("not enough memory for the system's particles; nothing is simulated"));
     else if (result.status == PHYS_DROPPED_TIME)
-        reader_report(reader, DIAG_WARNING, "dropped-time",
+        reader_report(reader, "dropped-time", "",
                       STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
     store(tree, result.status != PHYS_NO_MEMORY);
     return result.status == PHYS_NO_MEMORY ? clock : result.clock;
@@ -255,27 +270,38 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     if (settings->time > last)
         clock = simulate(&tree, reader, settings, last, clock, &steps);
     else if (tree.particle_count > 0)
-        store(&tree, false);
+        store(&tree, false); // anchors; the recorded language cases leave out those of a system without particles
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     index_free(&tree.by_slot);
     return steps;
 }
 
+// A system that is skipped in a frame is not absent: it keeps its list of particles.
+static void keep_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
+    uint32_t occurrence;
+    StateSlot start = state_find(frame->state, prefix);
+    PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence);
+    if (system)
+        system->seen = scene->frame_number;
+}
+
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Reader reader = {&scene->schema, frame->arena, node, 1};
     Settings settings;
     reader_check_names(&reader, KIND_PHYSICS);
-    if (!read_settings(&reader, frame, &settings) || !fits_in_memory(&reader, &settings))
+    if (!read_settings(&reader, frame, &settings) || !fits_in_memory(&reader, &settings)) {
+        keep_skipped(scene, attr_value(&reader, ROW_PHYSICS_STATE), frame);
         return 0;
+    }
     reader.dimensions = (uint32_t)settings.dimensions;
     PhysicsSystem *system = find_system(scene, attr_value(&reader, ROW_PHYSICS_STATE), frame);
     if (!system || !system->engine) {
-        reader_report(&reader, DIAG_WARNING, "physics-memory", STR("not enough memory; the system is skipped"));
+        reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
         return 0;
     }
     if (system->occurrence > 0)
-        reader_report(&reader, DIAG_WARNING, "shared-prefix", STR("another system has the same state prefix"));
+        reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
     return update(scene, system, &reader, &settings, frame);
 }

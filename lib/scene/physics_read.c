@@ -37,8 +37,7 @@ static void check_reserved(const PhysicsTree *tree, const Reader *reader, Value 
     const Symbol *const reserved[] = {scene->key_last, scene->key_clock, scene->key_run, scene->key_iteration};
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
         if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number)
-            reader_report(reader, DIAG_WARNING, "reserved-id",
-                          STR("the system keeps a value of its own under this id"));
+            reader_report(reader, "reserved-id", "", STR("the system keeps a value of its own under this id"));
 }
 
 // Remembers a body; NULL (reported) if it has no usable id or one that was seen already.
@@ -47,12 +46,12 @@ static Body *add_body(PhysicsTree *tree, const Reader *reader, AttrRow id_row, b
     Value id = attr_value(reader, id_row);
     StateSlot slot = id.len ? state_slot(tree->frame->state, scene_key(arena, tree->prefix, id, NULL)) : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT) {
-        reader_report(reader, DIAG_WARNING, "missing-id",
+        reader_report(reader, "missing-id", "",
                       id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
         return NULL;
     }
     if (physics_find_slot(tree, slot)) {
-        reader_report(reader, DIAG_WARNING, "duplicate-id", STR("a particle with this id is there already; ignored"));
+        reader_report(reader, "duplicate-id", "", STR("a particle with this id is there already; ignored"));
         return NULL;
     }
     check_reserved(tree, reader, id);
@@ -87,7 +86,7 @@ static const double *stored_or_attr(const PhysicsTree *tree, const Reader *reade
     return attr_vector(reader, row);
 }
 
-static void read_particle(PhysicsTree *tree, const Node *node, uint32_t group) {
+__attribute__((noinline)) static void read_particle(PhysicsTree *tree, const Node *node, uint32_t group) {
     Reader reader = reader_of(tree, node);
     reader_check_names(&reader, KIND_PARTICLE);
     Body *body = add_body(tree, &reader, ROW_PARTICLE_ID, false);
@@ -106,7 +105,7 @@ static void read_particle(PhysicsTree *tree, const Node *node, uint32_t group) {
                           });
 }
 
-static void read_anchor(PhysicsTree *tree, const Node *node, uint32_t group) {
+__attribute__((noinline)) static void read_anchor(PhysicsTree *tree, const Node *node, uint32_t group) {
     Reader reader = reader_of(tree, node);
     reader_check_names(&reader, KIND_ANCHOR);
     Body *body = add_body(tree, &reader, ROW_ANCHOR_ID, true);
@@ -170,7 +169,7 @@ static bool read_distance(const PhysicsTree *tree, const Reader *reader, PhysFor
         text_add_format(&text, "%s=", first ? "to" : "from");
         format_value(&text, reader->schema->symbols, first ? to : from);
         text_add_c(&text, " names no particle; ignored");
-        reader_report(reader, DIAG_WARNING, "no-such-particle", text_str(&text));
+        reader_report(reader, "no-such-particle", str_to_c(reader->arena, text_str(&text)), text_str(&text));
         return false;
     }
     *force = (PhysForce){.kind = PHYS_DISTANCE,
@@ -191,7 +190,7 @@ static const double *unit_normal(const Reader *reader) {
         sum += normal[k] * normal[k];
     double length = sqrt(sum);
     if (!(length > 0) || !isfinite(length)) {
-        reader_report(reader, DIAG_WARNING, "bad-normal", STR("normal is no direction; the barrier is ignored"));
+        reader_report(reader, "bad-normal", "", STR("normal is no direction; the barrier is ignored"));
         return NULL;
     }
     double *unit = arena_alloc_array(reader->arena, reader->dimensions, sizeof *unit);
@@ -316,33 +315,37 @@ static void report_unknown_kind(const Reader *reader) {
     text_add_c(&out, "no such node inside !physics; ignored");
     if (nearest)
         text_add_format(&out, ", did you mean !%.*s?", (int)nearest->name.len, nearest->name.bytes);
-    reader_report(reader, DIAG_WARNING, "unknown-node", text_str(&out));
+    reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
 static bool is_inside_physics(SceneKind kind) {
     return kind > KIND_PHYSICS && kind <= KIND_BARRIER;
 }
 
+// One child of a group that is no particle and no group. Kept out of the recursion, whose frames must stay small.
+__attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, SceneKind kind, uint32_t group,
+                                                   uint32_t randoms) {
+    Reader reader = reader_of(tree, node);
+    PhysForce force;
+    if (!is_inside_physics(kind)) {
+        report_unknown_kind(&reader);
+        return;
+    }
+    reader_check_names(&reader, kind);
+    if (read_force(tree, &reader, kind, randoms, &force))
+        phys_add_force(tree->engine, group, &force);
+}
+
 static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t group, uint32_t randoms) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
         SceneKind kind = schema_kind(&tree->scene->schema, child);
-        Reader reader = reader_of(tree, child);
-        PhysForce force;
-        if (kind == KIND_PARTICLE || kind == KIND_ANCHOR)
-            continue;
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
-            continue;
+        } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {
+            read_applier(tree, child, kind, group, randoms);
+            randoms += kind == KIND_RANDOM;
         }
-        if (!is_inside_physics(kind)) {
-            report_unknown_kind(&reader);
-            continue;
-        }
-        reader_check_names(&reader, kind);
-        if (read_force(tree, &reader, kind, randoms, &force))
-            phys_add_force(tree->engine, group, &force);
-        randoms += kind == KIND_RANDOM;
     }
 }
 

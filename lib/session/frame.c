@@ -10,41 +10,52 @@ static double now(clockid_t clock) {
     return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-// The value of a pragma that must be a positive number: a number, or a string that reads as one (L12).
-static bool pragma_number(PetriSession *session, const Pragma *pragma, double *x) {
+// The value of a pragma: a number, or a string that reads as one (L12); tempo and fps must be above 0.
+static bool pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double *x) {
     Value v = pragma->value;
     double number = NAN;
     if (v.kind == VALUE_NUMBERS && v.len == 1 && !symbol_of_number(&session->symbols, v.as.number))
         number = v.as.number;
     else if (v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
         petri_read_number(str_to_c(&session->text_arena, v.as.items[0].as.string->text), &number);
-    if (number > 0 && isfinite(number)) {
+    if (positive ? number > 0 && isfinite(number) : !isnan(number)) {
         *x = number;
         return true;
     }
     Diag diag = {.level = DIAG_WARNING,
                  .source = pragma->source,
                  .span = pragma->span,
-                 .text = STR("a pragma's value must be a number above 0; ignored"),
+                 .text = positive ? STR("this pragma's value must be a number above 0; ignored")
+                                  : STR("this pragma's value must be a number; ignored"),
                  .code = "bad-pragma"};
     session_tell(session, &diag);
     return false;
 }
 
+static void clear_frame(PetriSession *session) {
+    session->tree = VALUE_NULL;
+    diag_sink_free(&session->log);
+    diag_sink_free(&session->errors);
+    arena_reset(&session->frame_arena);
+    arena_reset(&session->scene_arena);
+    arena_reset(&session->text_arena);
+    session_free_retired(session);
+}
+
 void session_start(PetriSession *session, const Program *program) {
+    clear_frame(session);
     double fps = session->options.fps, tempo = 120, quantum = 4;
     for (uint32_t i = 0; i < program->pragma_count; i++) {
         const Pragma *pragma = &program->pragmas[i];
         if (str_equal(pragma->name->name, STR("fps")))
-            pragma_number(session, pragma, &fps);
+            pragma_number(session, pragma, true, &fps);
         else if (str_equal(pragma->name->name, STR("tempo")))
-            pragma_number(session, pragma, &tempo);
+            pragma_number(session, pragma, true, &tempo);
         else if (str_equal(pragma->name->name, STR("quantum")))
-            pragma_number(session, pragma, &quantum);
+            pragma_number(session, pragma, false, &quantum);
     }
     session->frame = (PetriFrame){.number = -1, .fps = fps, .tempo = tempo};
     session->quantum = quantum;
-    session->tree = VALUE_NULL;
     session->delta = 0;
     session->start = 0;
     session->performance = session->options.realtime ? 1 : 2;
@@ -132,7 +143,7 @@ static void evaluate(PetriSession *session) {
 
 static void update_systems(PetriSession *session) {
     SceneFrame frame = {.state = session->state,
-                        .arena = &session->frame_arena,
+                        .arena = &session->scene_arena,
                         .time = session->frame.time,
                         .fps = session->frame.fps,
                         .performance = session->performance,
@@ -143,7 +154,7 @@ static void update_systems(PetriSession *session) {
 // Runs one stage; false if it used up the frame's memory.
 static bool run_stage(PetriSession *session, void (*stage)(PetriSession *)) {
     jmp_buf escape;
-    session->frame_arena.escape = &escape;
+    session->frame_arena.escape = session->scene_arena.escape = &escape;
     if (setjmp(escape) != 0)
         return false;
     stage(session);
@@ -153,19 +164,10 @@ static bool run_stage(PetriSession *session, void (*stage)(PetriSession *)) {
 static bool guarded(PetriSession *session, void (*stage)(PetriSession *), double *seconds) {
     double start = now(CLOCK_MONOTONIC);
     bool done = run_stage(session, stage);
-    session->frame_arena.escape = NULL;
+    session->frame_arena.escape = session->scene_arena.escape = NULL;
     session->in_frame = false;
     *seconds = now(CLOCK_MONOTONIC) - start;
     return done;
-}
-
-static void clear_frame(PetriSession *session) {
-    session->tree = VALUE_NULL;
-    diag_sink_free(&session->log);
-    diag_sink_free(&session->errors);
-    arena_reset(&session->frame_arena);
-    arena_reset(&session->text_arena);
-    session_free_retired(session);
 }
 
 PetriStatus petri_step(PetriSession *session) {
@@ -184,11 +186,7 @@ PetriStatus petri_step(PetriSession *session) {
     // A frame that was cut short would look to the systems as if everything had vanished.
     if (session->vm.stopped)
         return PETRI_LIMIT;
-    if (!guarded(session, update_systems, &session->frame.physics_seconds)) {
-        report_memory(session);
-        return PETRI_LIMIT;
-    }
-    return PETRI_OK;
+    return guarded(session, update_systems, &session->frame.physics_seconds) ? PETRI_OK : PETRI_MEMORY;
 }
 
 PetriFrame petri_frame(const PetriSession *session) {

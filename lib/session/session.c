@@ -20,11 +20,16 @@ PetriOptions petri_default_options(void) {
                           .cookie = COOKIE};
 }
 
-static void tell_scene(void *host, DiagLevel level, const char *code, Str text) {
+static void tell_once(PetriSession *session, const Diag *diag, Str key);
+
+static void tell_scene(void *host, DiagLevel level, const char *code, Str node, Str key, Str text) {
     PetriSession *session = host;
-    Diag diag = {.level = level, .text = text, .code = code};
+    Arena *arena = &session->scene_arena;
+    Str whole = str_format(arena, "%.*s: %.*s", (int)node.len, node.bytes, (int)text.len, text.bytes);
+    Diag diag = {.level = level, .text = whole, .code = code};
     diag_report(&session->errors, &diag);
-    session_tell(session, &diag);
+    tell_once(session, &diag,
+              str_format(arena, "%s %.*s %.*s", code, (int)node.len, node.bytes, (int)key.len, key.bytes));
 }
 
 static void tell_machine(void *host, const Diag *diag) {
@@ -54,6 +59,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->options = *options;
     arena_init(&session->arena, "session", SIZE_MAX);
     arena_init(&session->frame_arena, "frame", options->memory_bytes);
+    arena_init(&session->scene_arena, "systems", SIZE_MAX);
     arena_init(&session->text_arena, "text", SIZE_MAX);
     session->symbols = symbol_table_new(&session->arena);
     session->log = diag_sink_new(&session->frame_arena, MOST_LINES);
@@ -96,6 +102,7 @@ void petri_close(PetriSession **handle) {
     free(session->told);
     symbol_table_free(&session->symbols);
     arena_free(&session->frame_arena);
+    arena_free(&session->scene_arena);
     arena_free(&session->text_arena);
     arena_free(&session->arena);
     free(session);
@@ -141,11 +148,12 @@ static void give(PetriSession *session, const Diag *diag, Str rendered) {
     session->options.diagnostic(session->options.host, &public_diag);
 }
 
-void session_tell(PetriSession *session, const Diag *diag) {
+// Gives a diagnostic unless one of this key was given before; an empty key stands for the whole text.
+static void tell_once(PetriSession *session, const Diag *diag, Str key) {
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, diag, session->options.colour);
-    if (told_add(session, text_str(&rendered))) {
+    if (told_add(session, key.len ? key : text_str(&rendered))) {
         give(session, diag, text_str(&rendered));
         if (session->told_count == MOST_TOLD) {
             Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics were given; no more are shown")};
@@ -155,6 +163,10 @@ void session_tell(PetriSession *session, const Diag *diag) {
         }
     }
     arena_rewind(&session->text_arena, mark);
+}
+
+void session_tell(PetriSession *session, const Diag *diag) {
+    tell_once(session, diag, (Str){0});
 }
 
 void session_tell_text(PetriSession *session, DiagLevel level, const char *code, Str text) {
@@ -242,6 +254,8 @@ static void report_too_large(PetriSession *session) {
 static PetriStatus load(PetriSession *session, const LoadRequest *request, bool keep) {
     Unit *unit = NULL;
     PetriStatus status = PETRI_OK;
+    session->told_count = 0; // each thing once per load
+    index_clear(&session->told_index);
     if (!load_guarded(session, request, &unit) || !unit) {
         report_too_large(session);
         return PETRI_MEMORY;

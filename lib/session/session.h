@@ -52,6 +52,8 @@ struct PetriSession {
 
     // The present frame; values live in frame_arena until the next step.
     Arena frame_arena;
+    Arena
+        scene_arena;  // what the systems need in a frame: outside the script's budget, so that no update stops half-way
     Arena text_arena; // formatting, reset by each use
     Value tree;
     DiagSink log;    // texts of debug(), each once

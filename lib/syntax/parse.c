@@ -116,11 +116,22 @@ static void report_character(ParseContext *context, Span span) {
             (Str){0});
 }
 
+// Are some lines indented with tabs and some with spaces?
+static bool mixes_tabs(Str text) {
+    bool tabs = false, spaces = false, leading = true;
+    for (size_t i = 0; i < text.len; i++) {
+        char c = text.bytes[i];
+        leading = c == '\n' || (leading && (c == ' ' || c == '\t'));
+        tabs |= leading && c == '\t';
+        spaces |= leading && c == ' ';
+    }
+    return tabs && spaces;
+}
+
 static void report_layout(ParseContext *context, const Token *token) {
-    SourcePlace place = source_locate(context->source, token->span.start);
-    bool tabs = !token->fatal && memchr(place.text.bytes, '\t', place.text.len);
     report(context, token->span, "syntax", str_from(token->error),
-           tabs ? STR("a tab counts as eight spaces: do not mix the two") : (Str){0});
+           !token->fatal && mixes_tabs(context->source->text) ? STR("a tab counts as eight spaces: do not mix the two")
+                                                              : (Str){0});
     context->too_deep |= token->fatal;
 }
 

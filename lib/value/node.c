@@ -36,7 +36,26 @@ static uint32_t attr_find(const Attr *attrs, uint32_t count, const Symbol *name)
     return i;
 }
 
+// The greatest height of the nodes in a vector, and *count of them.
+static uint32_t highest(Value v, uint32_t *count) {
+    uint32_t height = 0;
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
+        if (v.as.items[i].type == ITEM_NODE) {
+            if (v.as.items[i].as.node->height > height)
+                height = v.as.items[i].as.node->height;
+            ++*count;
+        }
+    return height;
+}
+
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t set_count) {
+    uint32_t height = node->height, nodes = 0;
+    for (uint32_t i = 0; i < set_count; i++) {
+        uint32_t inner = highest(set[i].value, &nodes) + 1;
+        height = inner > height ? inner : height;
+    }
+    if (height > NODE_MAX_HEIGHT)
+        return NULL;
     Node *copy = node_clone(arena, node);
     Attr *attrs = arena_alloc_array(arena, node->attr_count + set_count, sizeof *attrs);
     if (node->attr_count)
@@ -54,17 +73,14 @@ Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t s
     }
     copy->attrs = attrs;
     copy->attr_count = count;
+    copy->height = height;
     return copy;
 }
 
 Node *node_append(Arena *arena, const Node *node, Value children) {
-    uint32_t more = 0, height = node->height;
-    for (uint32_t i = 0; children.kind == VALUE_MIXED && i < children.len; i++)
-        if (children.as.items[i].type == ITEM_NODE) {
-            uint32_t child_height = children.as.items[i].as.node->height;
-            height = child_height + 1 > height ? child_height + 1 : height;
-            more++;
-        }
+    uint32_t more = 0, height = highest(children, &more) + 1;
+    if (height < node->height)
+        height = node->height;
     if (height > NODE_MAX_HEIGHT)
         return NULL;
     Node *copy = node_clone(arena, node);
@@ -137,13 +153,21 @@ Value value_add_tag(Arena *arena, Value v, const Symbol *tag) {
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
-Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count) {
+// Puts the extended node in the place of an item, if it could be extended.
+static void replace_node(Item *item, const Node *extended, bool *too_high) {
+    if (extended)
+        item->as.node = extended;
+    else
+        *too_high = true;
+}
+
+Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high) {
     if (v.kind != VALUE_MIXED)
         return v;
     Item *items = items_clone(arena, v);
     for (uint32_t i = 0; i < v.len; i++)
         if (items[i].type == ITEM_NODE)
-            items[i].as.node = node_set_attrs(arena, items[i].as.node, attrs, count);
+            replace_node(&items[i], node_set_attrs(arena, items[i].as.node, attrs, count), too_high);
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
@@ -152,12 +176,7 @@ Value value_append(Arena *arena, Value v, Value children, bool *too_high) {
         return v;
     Item *items = items_clone(arena, v);
     for (uint32_t i = 0; i < v.len; i++)
-        if (items[i].type == ITEM_NODE) {
-            const Node *extended = node_append(arena, items[i].as.node, children);
-            if (extended)
-                items[i].as.node = extended;
-            else
-                *too_high = true;
-        }
+        if (items[i].type == ITEM_NODE)
+            replace_node(&items[i], node_append(arena, items[i].as.node, children), too_high);
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }

@@ -19,7 +19,7 @@ struct Node {
     uint32_t tag_count;
     uint32_t attr_count;
     uint32_t child_count;
-    uint32_t height; // 1 + the greatest height of a child
+    uint32_t height; // 1 + the greatest height of a child or of a node in an attribute
 };
 
 enum { NODE_MAX_HEIGHT = 16384 }; // deeper trees are refused, so that walking one never exhausts the stack
@@ -32,7 +32,7 @@ struct Function {
 
 Node *node_new(Arena *arena, const Symbol *kind);
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
-// Sets attributes in order; a null or stream value removes one (L7.2).
+// Sets attributes in order; a null or stream value removes one (L7.2). NULL if the tree would be too high.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
 // Appends the nodes of `children`; other elements are ignored. NULL if the tree would be too high.
 Node *node_append(Arena *arena, const Node *node, Value children);
@@ -44,8 +44,8 @@ const Node *node_copy(Arena *arena, const Node *node);
 
 // The same over every node element of a vector, other elements untouched.
 Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
-Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count);
-// *too_high is set if a node could not be extended and was left as it was.
+// In these two *too_high is set if a node could not be extended and was left as it was.
+Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);
 Value value_append(Arena *arena, Value v, Value children, bool *too_high);
 
 #endif

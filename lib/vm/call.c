@@ -81,10 +81,8 @@ static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const
 
 static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at) {
     if (item.type != ITEM_FUNCTION) {
-        vm_fault(vm, at, "not-callable", "not callable: %s",
-                 item.type == ITEM_NUMBER   ? "a number"
-                 : item.type == ITEM_STRING ? "a string"
-                                            : "a node");
+        static const char *const texts[] = {"not callable: a number", "not callable: a string", "not callable: a node"};
+        vm_fault_text(vm, at, "not-callable", str_from(texts[item.type]));
         return VALUE_NULL;
     }
     const Builtin *builtin = item.as.function->builtin;

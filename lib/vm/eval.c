@@ -8,28 +8,37 @@
 // vm_eval is a switch and nothing else: with the forms inlined into it, every evaluation would save their registers.
 #define NOINLINE __attribute__((noinline))
 
-static bool first_fault(Vm *vm, const Expr *at, const char *code) {
+static bool first_fault(Vm *vm, const Expr *at, uint64_t what) {
     if (vm->reported_count >= VM_REPORTED / 2)
         return false;
-    uint32_t i = (uint32_t)hash_mix((uint64_t)(uintptr_t)at ^ (uint64_t)(uintptr_t)code << 1) % VM_REPORTED;
+    uint32_t i = (uint32_t)hash_mix((uint64_t)(uintptr_t)at ^ what << 1) % VM_REPORTED;
     for (; vm->reported[i].at; i = (i + 1) % VM_REPORTED)
-        if (vm->reported[i].at == at && vm->reported[i].code == code)
+        if (vm->reported[i].at == at && vm->reported[i].what == what)
             return false;
-    vm->reported[i] = (Reported){at, code};
+    vm->reported[i] = (Reported){at, what};
     vm->reported_count++;
     return true;
 }
 
+static void report(Vm *vm, const Expr *at, const char *code, Str text) {
+    Diag diag = {.level = DIAG_WARNING, .source = at->source, .span = at->span, .text = text, .code = code};
+    vm->host.report(vm->host.host, &diag);
+}
+
+void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text) {
+    if (first_fault(vm, at, hash_bytes(0, text.bytes, text.len)))
+        report(vm, at, code, text);
+}
+
 void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) {
-    if (!first_fault(vm, at, code))
+    if (!first_fault(vm, at, (uint64_t)(uintptr_t)format))
         return;
     va_list args;
     va_start(args, format);
     Text text = text_new(vm->arena);
     text_add_va(&text, format, args);
     va_end(args);
-    Diag diag = {.level = DIAG_WARNING, .source = at->source, .span = at->span, .text = text_str(&text), .code = code};
-    vm->host.report(vm->host.host, &diag);
+    report(vm, at, code, text_str(&text));
 }
 
 bool vm_work(Vm *vm, const Expr *at) {
@@ -172,7 +181,12 @@ NOINLINE static Value eval_decorate(Vm *vm, Frame *frame, const Expr *expr) {
         attrs[i] = (Attr){code->names[i], vm_eval(vm, frame, expr->children[i + 1])};
     for (uint32_t i = 0; i < code->tag_count; i++)
         subject = value_add_tag(vm->arena, subject, code->tags[i]);
-    return code->attr_count ? value_set_attrs(vm->arena, subject, attrs, code->attr_count) : subject;
+    bool too_high = false;
+    if (code->attr_count)
+        subject = value_set_attrs(vm->arena, subject, attrs, code->attr_count, &too_high);
+    if (too_high)
+        vm_fault(vm, expr, "too-deep", "nodes in attributes too deep: the limit is 16384 levels; not set");
+    return subject;
 }
 
 NOINLINE static Value eval_range(Vm *vm, Frame *frame, const Expr *expr) {

@@ -34,9 +34,11 @@ void vm_import(Vm *vm, Frame *frame, const Expr *expr);
 
 // Stores a value in `count` slots from `slot` on, unpacking it if there are several (L8.3).
 void vm_bind(Vm *vm, Frame *frame, uint32_t slot, uint32_t count, Value value);
-// Reports a run-time fault at an expression: of each kind (`code`, a literal) the first at that place in the frame.
+// Reports a run-time fault at an expression: of each kind (`format`, a literal) the first at that place in the frame.
 // The text is made up only then: a recursion that runs into its limit does so a million times.
 void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) __attribute__((format(printf, 4, 5)));
+// The same for a text that is there already: each text once at that place in the frame.
+void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text);
 // Counts one call or loop round; false once the frame's work is used up (reported once).
 bool vm_work(Vm *vm, const Expr *at);
 // Is there enough of the C stack left for one more call?

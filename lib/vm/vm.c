@@ -6,7 +6,7 @@
 // A built-in's own complaint belongs to the call that is being made.
 static void builtin_fault_here(void *host, Str text) {
     Vm *vm = host;
-    vm_fault(vm, vm->calling, "bad-call", "%.*s", (int)text.len, text.bytes);
+    vm_fault_text(vm, vm->calling, "bad-call", text);
 }
 
 static void builtin_log(void *host, Str text) {

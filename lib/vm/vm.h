@@ -35,7 +35,7 @@ typedef struct ImportLink ImportLink;
 // A place and the kind of its fault.
 typedef struct Reported {
     const Expr *at;
-    const char *code;
+    uint64_t what;
 } Reported;
 
 typedef struct Vm {

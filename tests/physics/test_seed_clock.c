@@ -69,8 +69,10 @@ static void test_real_time(void **state) {
     for (int frame = 1; frame <= 8; frame++) {
         world_to(&world, frame);
         assert_int_equal(petri_frame(world.session).physics_steps, 1);
-        EXPECT(&world, ":s;:clock", frame / 1024.0);
-        EXPECT(&world, ":s;:a;:velocity", 1 + 2 * frame / 1024.0);
+        // A frame after one that came late may be shorter than a step; it is never longer.
+        double clock = world_number(&world, ":s;:clock");
+        assert_true(clock > 0 && clock <= frame / 1024.0);
+        EXPECT_NEAR(&world, ":s;:a;:velocity", 1e-12, 1 + 2 * clock);
         assert_true(world_number(&world, ":s;:last") - world_number(&world, ":s") >= frame * 0.004);
     }
     EXPECT_TOLD(&world, "");

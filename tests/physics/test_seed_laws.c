@@ -322,6 +322,48 @@ static void test_collision(void **state) {
     assert_true(nearest[0] < nearest[1] && nearest[1] < nearest[2]);
 }
 
+// A stiff spring explodes in steps of a frame; with a small enough resolution it swings.
+static void test_resolution_tames(void **state) {
+    (void)state;
+    for (int fine = 0; fine < 2; fine++) {
+        char *script = text_of("!physics state=:s dimensions=1 %s\n !anchor id=:o\n !particle id=:a position=1.5\n"
+                               " !distance from=:o to=:a fixed=1 strength=20000\n",
+                               fine ? "resolution=1/1000" : "");
+        World world;
+        double most = 0;
+        world_open(&world, 60, script);
+        for (int frame = 1; frame < 100; frame++) {
+            world_to(&world, frame);
+            most = fmax(most, fabs(world_number(&world, ":s;:a")));
+        }
+        assert_true(fine ? most < 1.55 : most > 10);
+        world_close(&world);
+        free(script);
+    }
+}
+
+// Gravity within the radii is constant, so two that fall through each other stay slow; points do not.
+static void test_radii_tame_gravity(void **state) {
+    (void)state;
+    double most[2] = {0, 0};
+    for (int points = 0; points < 2; points++) {
+        char *script = text_of("!physics state=:s dimensions=1\n !particle id=:a position=-1 radius=%s\n"
+                               " !particle id=:b position=1.003 radius=%s\n !gravity\n",
+                               points ? "0" : "0.25", points ? "0" : "0.25");
+        World world;
+        world_open(&world, 60, script);
+        for (int frame = 1; frame < 600; frame++) {
+            world_to(&world, frame);
+            most[points] = fmax(most[points], fabs(world_number(&world, ":s;:a;:velocity")));
+        }
+        world_close(&world);
+        free(script);
+    }
+    // From 2 to 1/2 apart the potential falls by 3/2, then by 4 · 1/2: v² = 3.5 at the most.
+    NEAR(most[0], sqrt(3.5), 0.05);
+    assert_true(most[1] > 3 * most[0]);
+}
+
 // Without drag the energy of bouncing goes on; drag takes it out.
 static void test_drag_takes_energy(void **state) {
     (void)state;
@@ -368,6 +410,8 @@ int main(void) {
         cmocka_unit_test(test_drag_never_reverses),
         cmocka_unit_test(test_ease),
         cmocka_unit_test(test_collision),
+        cmocka_unit_test(test_resolution_tames),
+        cmocka_unit_test(test_radii_tame_gravity),
         cmocka_unit_test(test_drag_takes_energy),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

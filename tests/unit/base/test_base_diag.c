@@ -42,7 +42,7 @@ static void test_carets(void **state) {
         {"let x=1", {4, 5}, "a.fl:1:5: error: bad\n    let x=1\n        ^\n"},
         {"let abc=1", {4, 7}, "a.fl:1:5: error: bad\n    let abc=1\n        ^~~\n"},
         {"x\n  yy\n", {4, 6}, "a.fl:2:3: error: bad\n      yy\n      ^~\n"},
-        {"é😀ab", {6, 8}, "a.fl:1:3: error: bad\n    é😀ab\n      ^~\n"},   // columns are characters
+        {"é😀ab", {6, 8}, "a.fl:1:3: error: bad\n    é😀ab\n      ^~\n"},       // columns are characters
         {"\t\tab", {2, 4}, "a.fl:1:3: error: bad\n    \t\tab\n    \t\t^~\n"}, // tabs stay tabs
         {"x\ty", {2, 3}, "a.fl:1:3: error: bad\n    x\ty\n     \t^\n"},
         {"ab\ncd", {1, 5}, "a.fl:1:2: error: bad\n    ab\n     ^\n"}, // clipped to the line
@@ -94,7 +94,8 @@ static void test_long_lines(void **state) {
 }
 
 static bool tell(const Source *source, uint32_t start, const char *text) {
-    return diag_report(&sink, &(Diag){.level = DIAG_ERROR, .source = source, .span = {start, start + 1}, .text = str_from(text)});
+    return diag_report(
+        &sink, &(Diag){.level = DIAG_ERROR, .source = source, .span = {start, start + 1}, .text = str_from(text)});
 }
 
 static void test_once_per_place(void **state) {
@@ -145,8 +146,8 @@ static void test_one_line(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DIAG_TEST(test_carets),           DIAG_TEST(test_levels_codes_hints), DIAG_TEST(test_long_lines),
-        DIAG_TEST(test_once_per_place),   DIAG_TEST(test_texts_are_copied),   DIAG_TEST(test_limit),
+        DIAG_TEST(test_carets),         DIAG_TEST(test_levels_codes_hints), DIAG_TEST(test_long_lines),
+        DIAG_TEST(test_once_per_place), DIAG_TEST(test_texts_are_copied),   DIAG_TEST(test_limit),
         DIAG_TEST(test_one_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

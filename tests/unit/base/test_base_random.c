@@ -19,9 +19,14 @@ static void test_hash(void **state) {
     static const struct {
         double x;
         uint64_t bits;
-    } rows[] = {{1, 0x3ff0000000000000},  {1.9, 0x3ff0000000000000},      {-0.3, 0xbff0000000000000},
-                {0, 0},                   {-0.0, 0x8000000000000000},     {INFINITY, 0x7ff0000000000000},
-                {0.5, 0},                 {-INFINITY, 0xfff0000000000000}};
+    } rows[] = {{1, 0x3ff0000000000000},
+                {1.9, 0x3ff0000000000000},
+                {-0.3, 0xbff0000000000000},
+                {0, 0},
+                {-0.0, 0x8000000000000000},
+                {INFINITY, 0x7ff0000000000000},
+                {0.5, 0},
+                {-INFINITY, 0xfff0000000000000}};
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_true(random_hash_number(rows[i].x) == rows[i].bits);
 }
@@ -80,10 +85,8 @@ static void test_quarter_turns(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_raw),
-        cmocka_unit_test(test_hash),
-        cmocka_unit_test(test_uniform),
-        cmocka_unit_test(test_beta_and_normal),
+        cmocka_unit_test(test_raw),           cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_uniform),       cmocka_unit_test(test_beta_and_normal),
         cmocka_unit_test(test_quarter_turns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

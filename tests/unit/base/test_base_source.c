@@ -55,9 +55,10 @@ static void test_places(void **state) {
         uint32_t offset, line, column;
         const char *text;
     } rows[] = {
-        {0, 1, 1, "let é=1"},  {4, 1, 5, "let é=1"},  {6, 1, 6, "let é=1"},   {8, 1, 8, "let é=1"},
-        {9, 2, 1, ""},         {10, 3, 1, "\t😀x"},   {11, 3, 2, "\t😀x"},    {15, 3, 3, "\t😀x"},
-        {16, 3, 4, "\t😀x"},   {17, 4, 1, "last"},    {20, 4, 4, "last"},     {21, 4, 5, "last"},
+        {0, 1, 1, "let é=1"},       {4, 1, 5, "let é=1"}, {6, 1, 6, "let é=1"},
+        {8, 1, 8, "let é=1"},       {9, 2, 1, ""},        {10, 3, 1, "\t😀x"},
+        {11, 3, 2, "\t😀x"},         {15, 3, 3, "\t😀x"},   {16, 3, 4, "\t😀x"},
+        {17, 4, 1, "last"},         {20, 4, 4, "last"},   {21, 4, 5, "last"},
         {22, 4, 5, "last"}, // beyond the end: where the text ends
         {4000000000, 4, 5, "last"},
     };
@@ -111,8 +112,8 @@ static void test_paths(void **state) {
     static const struct {
         const char *directory, *path, *joined;
     } joins[] = {
-        {"", "a.fl", "a.fl"},       {"x/", "a.fl", "x/a.fl"}, {"x", "a.fl", "x/a.fl"},
-        {"x/", "/a.fl", "/a.fl"},   {"/", "a.fl", "/a.fl"},   {"x/", "../a.fl", "x/../a.fl"},
+        {"", "a.fl", "a.fl"},           {"x/", "a.fl", "x/a.fl"}, {"x", "a.fl", "x/a.fl"},
+        {"x/", "/a.fl", "/a.fl"},       {"/", "a.fl", "/a.fl"},   {"x/", "../a.fl", "x/../a.fl"},
         {"", "/abs/a.fl", "/abs/a.fl"},
     };
     for (size_t i = 0; i < COUNT_OF(joins); i++)

@@ -85,9 +85,8 @@ static void test_compare(void **state) {
     static const struct {
         const char *a, *b;
         int order;
-    } rows[] = {{"", "", 0},     {"", "a", -1}, {"a", "a", 0},   {"a", "b", -1},
-                {"ab", "a", 1},  {"B", "a", -1}, {"é", "z", 1},   {"\x7f", "é", -1},
-                {"ﬀ", "😀", -1}, {"a", "", 1},   {"abc", "abd", -1}};
+    } rows[] = {{"", "", 0},   {"", "a", -1},     {"a", "a", 0},  {"a", "b", -1}, {"ab", "a", 1},    {"B", "a", -1},
+                {"é", "z", 1}, {"\x7f", "é", -1}, {"ﬀ", "😀", -1}, {"a", "", 1},   {"abc", "abd", -1}};
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         assert_claim(rows[i].a, str_compare(str_from(rows[i].a), str_from(rows[i].b)) == rows[i].order);
         assert_claim(rows[i].a, str_equal(str_from(rows[i].a), str_from(rows[i].b)) == (rows[i].order == 0));
@@ -117,9 +116,18 @@ static void test_distance(void **state) {
         const char *a, *b;
         int distance;
     } rows[] = {
-        {"", "", 0},           {"abc", "abc", 0},    {"", "abc", 3},       {"abc", "", 3},
-        {"mass", "mas", 1},    {"mass", "masss", 1}, {"mass", "muss", 1},  {"mass", "amss", 1},
-        {"ab", "ba", 1},       {"ca", "abc", 3},     {"kitten", "sitting", 3}, {"strenght", "strength", 1},
+        {"", "", 0},
+        {"abc", "abc", 0},
+        {"", "abc", 3},
+        {"abc", "", 3},
+        {"mass", "mas", 1},
+        {"mass", "masss", 1},
+        {"mass", "muss", 1},
+        {"mass", "amss", 1},
+        {"ab", "ba", 1},
+        {"ca", "abc", 3},
+        {"kitten", "sitting", 3},
+        {"strenght", "strength", 1},
         {"radius", "charge", 6},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {

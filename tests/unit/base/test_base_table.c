@@ -68,22 +68,22 @@ static void test_add_and_find(void **state) {
 
 // Random additions, removals and moves; after each change all keys are found where the model has them.
 static void churn(bool weak, uint32_t keys, int rounds) {
-    enum { NOWHERE = UINT32_MAX };
+    const uint32_t nowhere = UINT32_MAX;
     Owner owner = {.weak = weak};
     uint32_t place[KEYS], live = 0;
     uint64_t seed = 42;
     for (uint32_t k = 0; k < keys; k++)
-        place[k] = NOWHERE;
+        place[k] = nowhere;
     for (int round = 0; round < rounds; round++) {
         uint32_t key = (uint32_t)(next_bits(&seed) % keys);
-        if (place[key] == NOWHERE) {
+        if (place[key] == nowhere) {
             place[key] = live;
             add(&owner, live++, key);
         } else {
             // Remove, and fill the hole with the last entry, as a dense owner does.
             uint32_t hole = place[key], last = --live, moved = owner.entries[last];
             index_remove(&owner.index, hash_of(&owner, key), hole);
-            place[key] = NOWHERE;
+            place[key] = nowhere;
             if (hole != last) {
                 index_move(&owner.index, hash_of(&owner, moved), last, hole);
                 owner.entries[hole] = moved;
@@ -93,7 +93,7 @@ static void churn(bool weak, uint32_t keys, int rounds) {
         assert_int_equal(owner.index.live, live);
         assert_true(owner.index.used >= live && owner.index.used <= owner.index.mask);
         for (uint32_t k = 0; k < keys; k += round % 50 ? 41 : 1)
-            assert_int_equal(find(&owner, k), place[k] == NOWHERE ? INDEX_NONE : place[k]);
+            assert_int_equal(find(&owner, k), place[k] == nowhere ? INDEX_NONE : place[k]);
     }
     index_free(&owner.index);
 }
@@ -128,8 +128,10 @@ static void test_hash(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_empty),           cmocka_unit_test(test_add_and_find),
-        cmocka_unit_test(test_add_remove_move), cmocka_unit_test(test_deleted_slots_are_reclaimed),
+        cmocka_unit_test(test_empty),
+        cmocka_unit_test(test_add_and_find),
+        cmocka_unit_test(test_add_remove_move),
+        cmocka_unit_test(test_deleted_slots_are_reclaimed),
         cmocka_unit_test(test_hash),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -43,8 +43,8 @@ static void test_printable(void **state) {
     (void)state;
     static const uint32_t printable[] = {' ', '~', 0xa1, 0xe9, 0x300, 0xb2, 0xfffd, 0x1f600, 0x4e00};
     // Cc, Cf, Cs, Co, Cn, Zl, Zp, and Zs other than the space.
-    static const uint32_t unprintable[] = {0,      9,      0x1f,   0x7f,   0x80,   0x9f,   0xa0,   0xad,
-                                           0x2003, 0x3000, 0x2028, 0x2029, 0xfeff, 0xd800, 0xe000, 0x378, 0x10ffff};
+    static const uint32_t unprintable[] = {0,      9,      0x1f,   0x7f,   0x80,   0x9f,   0xa0,  0xad,    0x2003,
+                                           0x3000, 0x2028, 0x2029, 0xfeff, 0xd800, 0xe000, 0x378, 0x10ffff};
     for (size_t i = 0; i < COUNT_OF(printable); i++)
         assert_true(unicode_is_printable(printable[i]));
     for (size_t i = 0; i < COUNT_OF(unprintable); i++)

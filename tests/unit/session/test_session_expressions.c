@@ -126,8 +126,10 @@ static void test_checks(void **state) {
         {"not null;not 0;not \"\";not (0;\"\");not (0;1);not nan;not !a;not sin;not uniform()", "1;1;1;1;0;0;0;0;0"},
         {"1 if 0", "null"},
         {"concat(1/3;:a;1e20;-0;1e-7)", "'0.333333333a1e+20-01e-07'"},
-        {"concat(\"a\";null;1.0;2.50;true;1e9;1e8;123456789;1234567890;0.1+0.2)", "'a12.511e+091000000001234567891.23456789e+090.3'"},
-        {"concat(12345678.95;\"/\";1e-4;\"/\";1e-5;\"/\";nan;\"/\";0/0;\"/\";-inf)", "'12345678.9/0.0001/1e-05/nan/nan/-inf'"},
+        {"concat(\"a\";null;1.0;2.50;true;1e9;1e8;123456789;1234567890;0.1+0.2)",
+         "'a12.511e+091000000001234567891.23456789e+090.3'"},
+        {"concat(12345678.95;\"/\";1e-4;\"/\";1e-5;\"/\";nan;\"/\";0/0;\"/\";-inf)",
+         "'12345678.9/0.0001/1e-05/nan/nan/-inf'"},
         {"concat(!foo;func(x) x)", "'foo<anon>'"},
         {"concat(:a+0)", "'a'"},
         {"$:k;$(:a;1);$\"str\";$(1+2);$:k+1", "5;1;2;7;9;6"},
@@ -142,7 +144,7 @@ static void test_checks(void **state) {
 // What the text says beside its examples.
 static void test_more(void **state) {
     static const Check checks[] = {
-        {"x<=x where x=(0/0;1)", "1"},                  // the same object (L5.5 rule 1)
+        {"x<=x where x=(0/0;1)", "1"}, // the same object (L5.5 rule 1)
         {"uniform(:a)", "null"},
         {"1 if uniform(:a)", "1"},
         {"(uniform(:a);null)[0]", "null"},              // composed with something else: dropped
@@ -153,7 +155,7 @@ static void test_more(void **state) {
         {"null!=uniform(:a)", "0"},
         {"uniform(:a)<1", "1"},
         {"-uniform(:a)", "null"},
-        {"(null)(1);3(1);uniform(:a)(1)", "null"},      // called in silence
+        {"(null)(1);3(1);uniform(:a)(1)", "null"}, // called in silence
         {"$(:a;1;2);$:nothing;$(!a);$sin", "null"},
         {"$(0-0)", "null"},
         {"(!a x=1 y=2)==(!a y=2 x=1);(!a x=1 x=null)==!a;!a==(!a #t)", "1;1;0"},

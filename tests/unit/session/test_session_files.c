@@ -1,2 +1,203 @@
+// test_session_files.c: scripts, modules and includes in files (language.md L13, L14).
+#include "folder.h"
 #include "player.h"
-int main(void){return 0;}
+
+typedef struct Desk {
+    Player player;
+    Folder folder;
+} Desk;
+
+static int setup(void **state) {
+    Desk *desk = malloc(sizeof *desk);
+    player_open(&desk->player);
+    folder_open(&desk->folder);
+    *state = desk;
+    return 0;
+}
+
+static int teardown(void **state) {
+    Desk *desk = *state;
+    player_close(&desk->player);
+    folder_close(&desk->folder);
+    free(desk);
+    return 0;
+}
+
+#define DESK_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
+
+static void load(Desk *desk, const char *script) {
+    folder_write(&desk->folder, "main.fl", script);
+    player_forget(&desk->player);
+    PetriStatus status = petri_load(desk->player.session, folder_file(&desk->folder, "main.fl"));
+    if (status != PETRI_OK)
+        print_error("%s", player_told(&desk->player));
+    assert_int_equal(status, PETRI_OK);
+}
+
+static void check_run(Desk *desk, const char *script, const char *tree) {
+    load(desk, script);
+    player_step(&desk->player, 1);
+    assert_text(script, player_tree(&desk->player), tree);
+}
+
+static void check_told(Desk *desk, const char *part) {
+    const char *told = player_told(&desk->player);
+    if (!strstr(told, part))
+        assert_text("told", told, part);
+}
+
+static void test_import(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "m.fl", "%pragma fps 3\nlet a=1 b=2\nfunc twice(x)\n    x*k\nlet k=2 a=10\n!ignored\n");
+    check_run(desk, "import a;b from 'm.fl'\n!x v=a;b f=fps\n", "!x v=10;2 f=60\n"); // the last binding, and no pragmas
+    check_run(desk, "let k=5\nimport twice from 'm.fl'\n!x v=twice(2)\n", "!x\n");   // k comes after it there
+    check_run(desk, "for n in 'm';'none'\n    import a from n;'.fl'\n    !x v=a\n", "!x v=10\n!x\n");
+    check_told(desk, "cannot import");
+    check_run(desk, "import a;c from 'm.fl'\n!x v=a;c\n", "!x v=10\n");
+    check_told(desk, "[no-such-name]");
+    folder_write(&desk->folder, "n.fl", "import a from 'm.fl'\nlet z=a+1\n"); // names that it imports are its own
+    check_run(desk, "import a;z from 'n.fl'\n!x v=a;z\n", "!x v=10;11\n");
+    char script[500];
+    snprintf(script, sizeof script, "import a from '%s/m.fl'\n!x v=a\n", desk->folder.path);
+    assert_int_equal(player_load(&desk->player, script), PETRI_OK); // an absolute path is used as it is
+    player_step(&desk->player, 1);
+    assert_text("absolute", player_tree(&desk->player), "!x v=10\n");
+}
+
+// A module sees built-ins only; its functions see the caller's state.
+static void test_module_names(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "m.fl", "let v=frame;d;$:c w=sin(0.25)\nfunc look(k)\n    $k\n");
+    assert_int_equal(petri_define(desk->player.session, "d=3"), PETRI_OK);
+    load(desk, "import v;w;look from 'm.fl'\n!counter state=:c initial=7 rate=0\n!x v=v w=w s=look(:c) d=d\n");
+    player_step(&desk->player, 2);
+    assert_text("tree", strstr(player_tree(&desk->player), "!x"), "!x w=1 s=7 d=3\n");
+    check_told(desk, "m.fl:1:7 unbound name 'frame' is null [unbound-name]");
+}
+
+static void test_changed_module(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "m.fl", "let a=1\n");
+    load(desk, "import a from 'm.fl'\n!x v=a\n");
+    static const char *const versions[][2] = {
+        {"let a=2\n", "!x v=2\n"}, {"let a=(\n", "!x\n"}, {"let b=3\n", "!x\n"}, {"let a=4\n", "!x v=4\n"}};
+    player_step(&desk->player, 2);
+    assert_text("first", player_tree(&desk->player), "!x v=1\n");
+    for (size_t i = 0; i < COUNT_OF(versions); i++) {
+        folder_write(&desk->folder, "m.fl", versions[i][0]);
+        player_step(&desk->player, 1);
+        assert_text(versions[i][0], player_tree(&desk->player), versions[i][1]);
+        player_step(&desk->player, 1);
+        assert_text(versions[i][0], player_tree(&desk->player), versions[i][1]);
+    }
+    remove(folder_file(&desk->folder, "m.fl"));
+    player_step(&desk->player, 1);
+    assert_text("gone", player_tree(&desk->player), "!x\n");
+}
+
+static void test_cycles(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "a.fl", "import y from 'b.fl'\nlet x=1;y\n");
+    folder_write(&desk->folder, "b.fl", "import x from 'a.fl'\nlet y=2;x\n");
+    check_run(desk, "import x from 'a.fl'\n!x v=x\n", "!x v=1;2\n");
+    check_told(desk, "circular import");
+    check_run(desk, "let q=1\nimport q from 'main.fl'\n!x v=q\n", "!x\n");
+    check_told(desk, "circular import");
+    folder_write(&desk->folder, "s.fl", "let q=1\nimport q from 's.fl'\n");
+    check_run(desk, "import q from 's.fl'\n!x v=q\n", "!x\n");
+    check_told(desk, "circular import");
+}
+
+static void test_import_of_what_is_no_script(void **state) {
+    Desk *desk = *state;
+    static const char *const files[] = {"'none.fl'", "''", "null", "'.'", "!a", "'bad.fl'", "'dir'"};
+    folder_write(&desk->folder, "bad.fl", "let a=\xff\n");
+    assert_int_equal(mkdir(folder_file(&desk->folder, "dir"), 0700), 0);
+    for (size_t i = 0; i < COUNT_OF(files); i++) {
+        char script[100];
+        snprintf(script, sizeof script, "import a from %s\n!x v=a\n", files[i]);
+        check_run(desk, script, "!x\n");
+        check_told(desk, "cannot import");
+    }
+}
+
+static void test_include(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "i.fl", "%pragma fps 7\n!i k=k\nlet k=5\n!i k=k\n");
+    check_run(desk, "let k=2\n!a\n    %include 'i.fl'\n    !b k=k\n!f v=fps\n",
+              "!a\n    !i k=2\n    !i k=5\n    !b k=2\n!f v=60\n");
+    check_run(desk, "for k in ..2\n    %include 'i.fl'\n", "!i k=0\n!i k=5\n!i k=1\n!i k=5\n");
+    check_run(desk, "func f(k)\n    %include 'i.fl'\nf(1)\nf(2)\n", "!i k=1\n!i k=5\n!i k=2\n!i k=5\n");
+    check_run(desk, "let k=1 n='i'\n%include n;'.fl'\n", "!i k=1\n!i k=5\n"); // static names and operators
+    check_run(desk, "%include null\n!a\n", "!a\n");
+    assert_string_equal(player_told(&desk->player), "");
+    check_run(desk, "let k=1\n%include 'i.fl'\n%include 'i.fl'\n", "!i k=1\n!i k=5\n");
+    check_told(desk, "main.fl:3:10 cannot include");
+    check_run(desk, "%include 'main.fl'\n!a\n", "!a\n");
+    check_told(desk, "included already");
+    check_run(desk, "%include 'none.fl'\n!a\n", "!a\n");
+    check_told(desk, "cannot include");
+    check_run(desk, "%include frame;'.fl'\n!a\n", "!a\n");
+    check_told(desk, "must be known when the program is loaded");
+    folder_write(&desk->folder, "bad.fl", "!a )\n");
+    check_run(desk, "%include 'bad.fl'\n!a\n", "!a\n");
+    check_told(desk, "bad.fl:1:4 unexpected ')'");
+    check_run(desk, "import k from 'j.fl'\n!a k=k\n", "!a\n");
+    folder_write(&desk->folder, "k.fl", "let k=77\n!k\n");
+    folder_write(&desk->folder, "j.fl", "let k=3\n%include 'k.fl'\n"); // names bound in it are not visible after it
+    check_run(desk, "import k from 'j.fl'\n!a k=k\n", "!a k=3\n");
+}
+
+static void test_define_names_an_include(void **state) {
+    Desk *desk = *state;
+    folder_write(&desk->folder, "i.fl", "!i\n");
+    assert_int_equal(petri_define(desk->player.session, "which=i.fl"), PETRI_OK);
+    check_run(desk, "%include which\n", "!i\n");
+}
+
+static void test_what_cannot_be_loaded(void **state) {
+    Desk *desk = *state;
+    PetriSession *session = desk->player.session;
+    assert_int_equal(petri_load(session, folder_file(&desk->folder, "none.fl")), PETRI_INVALID);
+    check_told(desk, "error cannot read '");
+    player_forget(&desk->player);
+    assert_int_equal(petri_load(session, desk->folder.path), PETRI_INVALID);
+    check_told(desk, "directory");
+    folder_write(&desk->folder, "empty.fl", "");
+    assert_int_equal(petri_load(session, folder_file(&desk->folder, "empty.fl")), PETRI_OK);
+    player_step(&desk->player, 1);
+    assert_text("empty", player_tree(&desk->player), "");
+}
+
+static void test_check(void **state) {
+    Desk *desk = *state;
+    PetriSession *session = desk->player.session;
+    load(desk, "!a\n");
+    player_step(&desk->player, 1);
+    folder_write(&desk->folder, "bad.fl", "!a )\n!b\nlet\n!c (\n");
+    player_forget(&desk->player);
+    assert_int_equal(petri_check(session, folder_file(&desk->folder, "bad.fl")), PETRI_INVALID);
+    assert_int_equal(petri_diagnostic_count(session, PETRI_ERROR), 3);
+    check_told(desk, "bad.fl:4:5 ");
+    folder_write(&desk->folder, "good.fl", "!z v=unknown\n");
+    assert_int_equal(petri_check(session, folder_file(&desk->folder, "good.fl")), PETRI_OK);
+    assert_true(petri_diagnostic_count(session, PETRI_WARNING) >= 1);
+    player_step(&desk->player, 1); // the loaded script runs on
+    assert_text("still", player_tree(&desk->player), "!a\n");
+    assert_int_equal(petri_frame(session).number, 1);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        DESK_TEST(test_import),
+        DESK_TEST(test_module_names),
+        DESK_TEST(test_changed_module),
+        DESK_TEST(test_cycles),
+        DESK_TEST(test_import_of_what_is_no_script),
+        DESK_TEST(test_include),
+        DESK_TEST(test_define_names_an_include),
+        DESK_TEST(test_what_cannot_be_loaded),
+        DESK_TEST(test_check),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

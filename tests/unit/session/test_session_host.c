@@ -1,2 +1,258 @@
+// test_session_host.c: what petri.h promises to the host.
 #include "player.h"
-int main(void){return 0;}
+
+static void test_options(void **state) {
+    (void)state;
+    PetriOptions options;
+    memset(&options, 0, sizeof options);
+    assert_null(petri_open(&options)); // not from petri_default_options
+    memset(&options, 0xff, sizeof options);
+    assert_null(petri_open(&options));
+    assert_null(petri_open(NULL));
+    options = petri_default_options();
+    assert_number("fps", options.fps, 60);
+    assert_false(options.realtime);
+    assert_true(isnan(options.run_time));
+    assert_int_equal(options.stack_bytes, 4 << 20);
+    assert_int_equal(options.memory_bytes, (size_t)2 << 30);
+    PetriSession *session = petri_open(&options); // without a callback
+    assert_non_null(session);
+    assert_int_equal(petri_load_text(session, "t.fl", "!a )", PETRI_Z), PETRI_INVALID);
+    assert_int_equal(petri_diagnostic_count(session, PETRI_ERROR), 1);
+    petri_close(&session);
+    assert_null(session);
+    petri_close(&session); // NULL already: fine
+}
+
+static void test_without_a_script(void **state) {
+    Player *player = *state;
+    assert_int_equal(petri_step(player->session), PETRI_INVALID);
+    assert_int_equal(petri_frame(player->session).number, -1);
+    assert_int_equal(petri_dump(player->session, PETRI_DUMP_AST, note, &player->shown), PETRI_INVALID);
+    assert_text("nothing", player_print(player, 15), "");
+    assert_string_equal(player->shown.text, "@-1 time=0 beat=0\n");
+}
+
+static void test_text_lengths(void **state) {
+    Player *player = *state;
+    assert_int_equal(petri_load_text(player->session, "t.fl", "!a !b )", 2), PETRI_OK);
+    player_step(player, 1);
+    assert_text("two bytes", player_tree(player), "!a\n");
+    assert_int_equal(petri_load_text(player->session, "t.fl", "", 0), PETRI_OK);
+    char text[] = "!a x='s'";
+    assert_int_equal(petri_load_text(player->session, "t.fl", text, PETRI_Z), PETRI_OK);
+    memset(text, '!', sizeof text - 1); // the text need only live until the call returns
+    player_step(player, 2);
+    assert_text("copied", player_tree(player), "!a x='s'\n");
+}
+
+static void test_print(void **state) {
+    Player *player = *state;
+    player_run(player,
+               "%pragma fps 4\n%pragma tempo 60\n!counter state=:c;'k' initial=1;2\n!counter state='it\\'s' rate=0 "
+               "initial=:a\n"
+               "debug(frame)\ndebug('x')\ndebug('x')\n!a v='s'(1)\n'b'\n    !lost\n",
+               2);
+    static const struct {
+        unsigned sections;
+        const char *wanted;
+    } rows[] = {
+        {0, "@1 time=0.25 beat=0.25\n"},
+        {PETRI_PRINT_TREE, "@1 time=0.25 beat=0.25\n"
+                           "!counter state=:c;'k' initial=1;2\n!counter state=\"it's\" rate=0 initial=:a\n!a\n"},
+        {PETRI_PRINT_STATE,
+         "@1 time=0.25 beat=0.25\n"
+         "$(:c;'k') = 1.25;2.25\n$(:c;'k';:time) = 0.25\n$\"it's\" = :a\n$(\"it's\";:time) = 0.25\n"},
+        {PETRI_PRINT_LOG, "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n"},
+        {PETRI_PRINT_ERROR, "@1 time=0.25 beat=0.25\n? not callable: a string (t.fl:8)\n"},
+        {PETRI_PRINT_LOG | PETRI_PRINT_ERROR,
+         "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n? not callable: a string (t.fl:8)\n"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        player_print(player, rows[i].sections);
+        assert_text("sections", player->shown.text, rows[i].wanted);
+    }
+    player->shown.len = 0;
+    assert_int_equal(petri_print_log(player->session, note, &player->shown), PETRI_OK);
+    assert_text("log", player->shown.text, "> 1\n> 'x'\n");
+}
+
+static bool refuse(void *host, const char *text, size_t len) {
+    (void)text;
+    (void)len;
+    return ++*(int *)host < 1;
+}
+
+static void test_writer_says_stop(void **state) {
+    Player *player = *state;
+    player_run(player, "for i in ..30000\n    !a v=i\n", 1);
+    int calls = 0;
+    assert_int_equal(petri_print(player->session, PETRI_PRINT_TREE, refuse, &calls), PETRI_INVALID);
+    assert_int_equal(calls, 1);
+    assert_true(strlen(player_tree(player)) > 200000); // and all of it to one that goes on
+}
+
+static void test_dumps(void **state) {
+    Player *player = *state;
+    player_run(player, "let x=frame\n!a v=x\n", 1);
+    player->shown.len = 0;
+    assert_int_equal(petri_dump(player->session, PETRI_DUMP_AST, note, &player->shown), PETRI_OK);
+    assert_non_null(strstr(player->shown.text, "attr v  @2:4"));
+    player->shown.len = 0;
+    assert_int_equal(petri_dump(player->session, PETRI_DUMP_CODE, note, &player->shown), PETRI_OK);
+    assert_non_null(strstr(player->shown.text, "frame"));
+}
+
+static void test_failed_load_keeps_the_script(void **state) {
+    Player *player = *state;
+    player_run(player, "!a v=frame\n!counter state=:c\n", 3);
+    static const char *const bad[] = {"!b )", "let", "\xff", "'x", "!a\n  !b\n !c\n"};
+    for (size_t i = 0; i < COUNT_OF(bad); i++) {
+        player_forget(player);
+        assert_claim(bad[i], player_load(player, bad[i]) == PETRI_INVALID);
+        assert_claim(bad[i], strstr(player_told(player), "error t.fl:") != NULL);
+        assert_text("the frame is still there", player_tree(player)[1] == 'a' ? "!a" : "?", "!a");
+        player_step(player, 1);
+        assert_int_equal(petri_frame(player->session).number, 3 + i);
+    }
+    assert_text("goes on", player_tree(player), "!a v=7\n!counter state=:c\n");
+}
+
+// Each thing once per place and load.
+static void test_once_per_place_and_load(void **state) {
+    Player *player = *state;
+    static const char script[] = "!a v='s'(1);nothing\n!physics state=:s dimensions=1 colour=1\n";
+    static const char wanted[] = "warning t.fl:1:13 unbound name 'nothing' is null [unbound-name]\n"
+                                 "warning t.fl:1:6 not callable: a string [not-callable]\n"
+                                 "warning !physics state=:s: unknown attribute 'colour' [unknown-attribute]\n";
+    player_run(player, script, 5);
+    assert_text("first load", player_told(player), wanted);
+    player_forget(player);
+    player_step(player, 5);
+    assert_text("no more", player_told(player), "");
+    player_run(player, script, 5);
+    assert_text("second load", player_told(player), wanted);
+    for (int i = 0; i < 2; i++) {
+        player_forget(player);
+        assert_int_equal(player_load(player, "!a )\n"), PETRI_INVALID);
+        assert_text("an error is told at every try", player_told(player),
+                    "error t.fl:1:4 unexpected ')', expected end of line or '<<' [syntax]\n");
+    }
+}
+
+// Two texts at one place are two things (language.md L15.1).
+static void test_several_texts_at_one_place(void **state) {
+    Player *player = *state;
+    player_run(player, "!a v=(read(f) for f in ('missing1';'missing2'))\n", 1);
+    assert_text("frame", player_print(player, PETRI_PRINT_ERROR),
+                "? read: cannot read 'missing1': there is no such file (t.fl:1)\n"
+                "? read: cannot read 'missing2': there is no such file (t.fl:1)\n");
+}
+
+// Between a load and its first frame nothing of the old script is left, neither shown nor read.
+static void test_print_after_load(void **state) {
+    Player *player = *state;
+    player_run(player, "!a v='s'(1)\ndebug('old')\n", 1);
+    assert_int_equal(player_load(player, "!b\n"), PETRI_OK);
+    player_print(player, 15);
+    assert_text("nothing", player->shown.text, "@-1 time=0 beat=0\n");
+}
+
+static void test_no_more_than_a_thousand(void **state) {
+    Player *player = *state;
+    Notebook script = {0};
+    for (int i = 0; i < 300; i++) {
+        char line[80];
+        int len = snprintf(line, sizeof line, "!physics state=:s%d dimensions=0\n    !q a=1\n", i);
+        note(&script, line, (size_t)len);
+    }
+    player_run(player, script.text, 2);
+    uint64_t count = petri_diagnostic_count(player->session, PETRI_WARNING);
+    assert_int_equal(count, 300);
+    script.len = 0;
+    for (int i = 0; i < 1500; i++) {
+        char line[80];
+        int len = snprintf(line, sizeof line, "!counter state=:c%d qqqq=1\n", i);
+        note(&script, line, (size_t)len);
+    }
+    player_run(player, script.text, 2);
+    assert_non_null(strstr(player_told(player), "no more are shown"));
+    count = petri_diagnostic_count(player->session, PETRI_WARNING);
+    player_step(player, 1);
+    assert_int_equal(petri_diagnostic_count(player->session, PETRI_WARNING), count);
+    free(script.text);
+}
+
+static void test_two_sessions(void **state) {
+    Player *first = *state, second;
+    player_open(&second);
+    assert_int_equal(petri_define(first->session, "d=1"), PETRI_OK);
+    player_run(first, "%pragma fps 10\n!a v=frame;fps;d\n!counter state=:c\n", 1);
+    player_run(&second, "!b v=frame;fps;d;$:c\n", 1);
+    for (int i = 0; i < 3; i++) {
+        player_step(first, 2);
+        player_step(&second, 1);
+    }
+    assert_text("first", player_tree(first), "!a v=6;10;1\n!counter state=:c\n");
+    assert_text("second", player_tree(&second), "!b v=3;60\n");
+    assert_text("told", player_told(first), "");
+    assert_non_null(strstr(player_told(&second), "unbound name 'd'"));
+    // A symbol known to one session only is a number in the other.
+    player_run(first, "!a v=:spring\n", 1);
+    player_run(&second, "!a v=:sprung+0\n", 1);
+    assert_text("symbol", player_tree(first), "!a v=:spring\n");
+    player_close(&second);
+    player_step(first, 1);
+}
+
+static void test_rendered(void **state) {
+    (void)state;
+    Player player;
+    PetriOptions options = player_options(&player);
+    options.colour = true;
+    player_open_with(&player, &options);
+    assert_int_equal(player_load(&player, "!a )"), PETRI_INVALID);
+    assert_text("colour is in `rendered` only", player_told(&player),
+                "error t.fl:1:4 unexpected ')', expected end of line or '<<' [syntax]\n");
+    player_close(&player);
+}
+
+static void test_helpers(void **state) {
+    (void)state;
+    PetriBuiltin builtin;
+    size_t count = 0;
+    for (; petri_builtin(count, &builtin); count++) {
+        assert_true(strlen(builtin.name) > 0);
+        assert_non_null(builtin.parameters);
+        assert_true(strlen(builtin.help) > 0);
+    }
+    assert_true(count > 60);
+    assert_false(petri_builtin(count + 1000, &builtin));
+    double x = 0;
+    assert_true(petri_read_number("1:30", &x));
+    assert_number("time code", x, 90);
+    assert_true(petri_read_number("10m", &x));
+    assert_number("suffix", x, 0.01);
+    assert_false(petri_read_number("soon", &x));
+    assert_true(strlen(petri_version()) > 0);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_options),
+        PLAYER_TEST(test_without_a_script),
+        PLAYER_TEST(test_text_lengths),
+        PLAYER_TEST(test_print),
+        PLAYER_TEST(test_writer_says_stop),
+        PLAYER_TEST(test_dumps),
+        PLAYER_TEST(test_failed_load_keeps_the_script),
+        PLAYER_TEST(test_once_per_place_and_load),
+        PLAYER_TEST(test_several_texts_at_one_place),
+        PLAYER_TEST(test_no_more_than_a_thousand),
+        PLAYER_TEST(test_two_sessions),
+        cmocka_unit_test(test_rendered),
+        cmocka_unit_test(test_helpers),
+        PLAYER_TEST(test_print_after_load), // last: it used to read freed memory
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

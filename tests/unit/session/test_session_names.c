@@ -15,7 +15,7 @@ static void test_scopes(void **state) {
         {"let a;a=1;2\n!r a=a\n", "!r a=2\n"},
         {"let q=\n    1\n    2 if 0\n    3\n!q q=q\n", "!q q=1;3\n"},
         {"let stable e;f=4;5\n!e e=e f=f\n", "!e e=4 f=5\n"},
-        {"let sin=3\n!a v=sin\n", "!a v=3\n"},   // built-ins and engine names may be rebound
+        {"let sin=3\n!a v=sin\n", "!a v=3\n"}, // built-ins and engine names may be rebound
         {"let frame=7\n!a v=frame\n", "!a v=7\n"},
         {"let pi=4 true=0\n!a v=pi;true\n", "!a v=4;0\n"},
         {"!a v=inf;true;false;pi;tau;π;𝜏\n",
@@ -33,14 +33,15 @@ static void test_functions(void **state) {
         {"func f(a, b=5, c)\n    !f a=a b=b c=c\nf(1)\nf(1, c=3, c=4, q=9)\nf(null, b=2)\nf(1, 2, 3, 4, a=7)\n",
          "!f a=1 b=5\n!f a=1 b=5 c=4\n!f b=2\n!f a=1 b=2 c=3\n"},
         {"let d=1\nfunc f(a, b=d+1)\n    a+b\nlet d=100\n!f v=f(1)\n", "!f v=3\n"}, // defaults at the definition
-        {"func f(a, b=a)\n    b\n!f v=f(1)\n", "!f\n"},                            // which see no parameters
-        {"func f(f)\n    f\n!f v=f(3)\n", "!f v=3\n"},  // a parameter hides the function's name
+        {"func f(a, b=a)\n    b\n!f v=f(1)\n", "!f\n"},                             // which see no parameters
+        {"func f(f)\n    f\n!f v=f(3)\n", "!f v=3\n"}, // a parameter hides the function's name
         {"func f(a, a)\n    a\n!f v=f(1, 2)\n", "!f v=2\n"},
         {"func f(n)\n    n*f(n-1) if n>1 else 1\n!f v=f(10)\n", "!f v=3628800\n"},
         {"let f=func(x) func(y) x-y\n!f v=f(3)(4)\n", "!f v=-1\n"},
         {"func ()\n    1\n!f v=2\n", "!f v=2\n"},
         {"let g=\n    func (x)\n        x+1\n!f v=g(1)\n", "!f v=2\n"},
-        {"func a(f, n)\n    (f(a, n-1);n) if n>0\nfunc b(f, n)\n    (f(b, n-1);-n) if n>0\n!f v=a(b, 2)\n", "!f v=-1;2\n"},
+        {"func a(f, n)\n    (f(a, n-1);n) if n>0\nfunc b(f, n)\n    (f(b, n-1);-n) if n>0\n!f v=a(b, 2)\n",
+         "!f v=-1;2\n"},
         {"func f(x)\n    let y=x*2\n    y+1\n!f v=(f;f)(3)\n", "!f v=7;7\n"},
         {"!f v=(func(x) x)==(func(x) x);(f==f where f=(func(x) x))\n", "!f v=0;1\n"},
         {"func f(x)\n    x\n!f v=f;(func(x) x);sin\n", "!f v=(f);(<anon>);(sin)\n"},
@@ -118,14 +119,12 @@ static void test_diagnostics(void **state) {
     Player *player = *state;
     static const ScriptRow rows[] = {
         {"let mass=1\n!a x=mas\n", "warning t.fl:2:6 unbound name 'mas' is null [unbound-name]\n"},
-        {"!a\n    !b v=foo+bar\n",
-         "warning t.fl:2:10 unbound name 'foo' is null [unbound-name]\n"
-         "warning t.fl:2:14 unbound name 'bar' is null [unbound-name]\n"},
+        {"!a\n    !b v=foo+bar\n", "warning t.fl:2:10 unbound name 'foo' is null [unbound-name]\n"
+                                   "warning t.fl:2:14 unbound name 'bar' is null [unbound-name]\n"},
         {"let x=x\n", "warning t.fl:1:7 unbound name 'x' is null [unbound-name]\n"},
-        {"!a v=(sin;'s';1;!n)(0)\n",
-         "warning t.fl:1:6 not callable: a string [not-callable]\n"
-         "warning t.fl:1:6 not callable: a number [not-callable]\n"
-         "warning t.fl:1:6 not callable: a node [not-callable]\n"},
+        {"!a v=(sin;'s';1;!n)(0)\n", "warning t.fl:1:6 not callable: a string [not-callable]\n"
+                                     "warning t.fl:1:6 not callable: a number [not-callable]\n"
+                                     "warning t.fl:1:6 not callable: a node [not-callable]\n"},
         {"!a v=1(2);null(3)\n", ""},
         {"!a v='a'+1;[]\n", NULL},
         {"!a v='a'+1;(1;2)[null];1<'a'\n3 x=1\n", ""}, // mistakes of type are silent
@@ -143,8 +142,8 @@ static void test_diagnostics(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_scopes), PLAYER_TEST(test_functions), PLAYER_TEST(test_templates),
-        PLAYER_TEST(test_control), PLAYER_TEST(test_nodes),    PLAYER_TEST(test_order_of_evaluation),
+        PLAYER_TEST(test_scopes),      PLAYER_TEST(test_functions), PLAYER_TEST(test_templates),
+        PLAYER_TEST(test_control),     PLAYER_TEST(test_nodes),     PLAYER_TEST(test_order_of_evaluation),
         PLAYER_TEST(test_diagnostics),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -1,2 +1,140 @@
+// test_session_settings.c: pragmas, -D definitions and engine names (language.md L12, L16).
 #include "player.h"
-int main(void){return 0;}
+
+static void test_pragmas(void **state) {
+    static const ScriptRow rows[] = {
+        {"!a v=tempo;quantum;fps\n", "!a v=120;4;60\n"},
+        {"%pragma tempo 90\n%pragma quantum 3\n%pragma fps 7\n!a v=tempo;quantum;fps\n", "!a v=90;3;7\n"},
+        {"%pragma fps 10\n%pragma fps 20\n!a v=fps\n", "!a v=20\n"},
+        {"%pragma tempo 1:30\n!a v=tempo\n", "!a v=90\n"},
+        {"%pragma fps '25'\n!a v=fps\n", "!a v=25\n"},
+        {"%pragma fps ' 0.05k '\n!a v=fps\n", "!a v=50\n"},
+        {"%pragma fps 'fast'\n!a v=fps\n", "!a v=60\n"},
+        {"%pragma fps 0\n!a v=fps\n", "!a v=60\n"},
+        {"%pragma fps 1e400\n!a v=fps\n", "!a v=60\n"},
+        {"%pragma fps '-5'\n!a v=fps\n", "!a v=60\n"},
+        {"%pragma fps :a\n!a v=fps\n", "!a v=60\n"},
+        {"%pragma tempo !a\n!a v=tempo\n", "!a v=120\n"},
+        {"%pragma tempo 'nan'\n!a v=tempo\n", "!a v=120\n"},
+        {"%pragma other 3\n!a v=fps\n", "!a v=60\n"},
+        {"%pragma quantum 0\n!a v=quantum\n", "!a v=0\n"}, // only tempo and fps must be above 0
+        {"%pragma quantum '-3'\n!a v=quantum\n", "!a v=-3\n"},
+    };
+    check_trees(*state, rows, COUNT_OF(rows), 1);
+}
+
+static void test_pragma_warnings(void **state) {
+    Player *player = *state;
+    player_run(player, "%pragma fps 0\n%pragma tempo 'x'\n%pragma quantum !a\n%pragma other 'y'\n!a\n", 2);
+    assert_text("told", player_told(player),
+                "warning t.fl:1:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
+                "warning t.fl:2:1 this pragma's value must be a number above 0; ignored [bad-pragma]\n"
+                "warning t.fl:3:1 this pragma's value must be a number; ignored [bad-pragma]\n");
+}
+
+// L16.3
+static void test_definitions(void **state) {
+    Player *player = *state;
+    static const struct {
+        const char *definition, *wanted;
+    } rows[] = {
+        {"d=1", "!a d=1\n"},
+        {"d=-1.5;+2k;1_000", "!a d=-1.5;2000;1000\n"},
+        {"d= 3 ;inf;-inf;nan", "!a d=3;inf;-inf;nan\n"},
+        {"d=1:30;100:00:00", "!a d=90;360000\n"},
+        {"d=:sym;:é", "!a d=:sym;:é\n"},
+        {"d=hello world", "!a d='hello world'\n"},
+        {"d=", "!a d=''\n"},
+        {"d=;", "!a d='';''\n"},
+        {"d=:", "!a d=':'\n"},
+        {"d=x=y", "!a d='x=y'\n"},
+        {"d=1x;1:60;0x10;1 2", "!a d='1x';'1:60';'0x10';'1 2'\n"},
+        {"d=1;a;:b;2", "!a d=1;'a';:b;2\n"},
+        {"d=it's", "!a d=\"it's\"\n"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK); // the last one counts
+        player_run(player, "!a d=d\n", 1);
+        assert_text(rows[i].definition, player_tree(player), rows[i].wanted);
+    }
+    static const char *const bad[] = {"", "d", "=1", "=", "d=\xff", "\xff=1"};
+    for (size_t i = 0; i < COUNT_OF(bad); i++)
+        assert_claim(bad[i], petri_define(player->session, bad[i]) == PETRI_INVALID);
+    player_run(player, "!a d=d\n", 1);
+    assert_text("as it was", player_tree(player), "!a d=\"it's\"\n");
+}
+
+// Engine names, then -D names, then built-ins; let goes over all of them.
+static void test_precedence(void **state) {
+    Player *player = *state;
+    assert_int_equal(petri_define(player->session, "fps=1"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "sin=2"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "pi=3"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "frame=4"), PETRI_OK);
+    player_run(player, "!a v=fps;sin;pi;frame\nlet fps=5 sin=6\n!b v=fps;sin\n", 1);
+    assert_text("names", player_tree(player), "!a v=60;2;3;0\n!b v=5;6\n");
+}
+
+static void test_engine_names(void **state) {
+    Player *player = *state;
+    player_run(player,
+               "%pragma tempo 90\n%pragma quantum 3\n%pragma fps 7\n"
+               "!t v=frame;time;beat;delta\n"
+               "!c v=tempo;quantum;performance;slow_frame;clock;realtime;screen;fullscreen;vsync;offscreen;opengl_es\n"
+               "!r v=run_time\n",
+               1);
+    static const char constant[] = "!c v=90;3;2;0;0;0;0;0;0;1;0\n!r\n";
+    static const char *const times[] = {
+        "!t v=0;0;0;0\n",
+        "!t v=1;0.14285714285714285;0.21428571428571427;0.21428571428571427\n",
+        "!t v=2;0.2857142857142857;0.42857142857142855;0.21428571428571427\n",
+    };
+    for (size_t i = 0; i < COUNT_OF(times); i++) {
+        if (i)
+            player_step(player, 1);
+        char wanted[300];
+        snprintf(wanted, sizeof wanted, "%s%s", times[i], constant);
+        assert_text("engine names", player_tree(player), wanted);
+        assert_int_equal(petri_frame(player->session).number, i);
+    }
+    PetriFrame frame = petri_frame(player->session);
+    assert_number("time", frame.time, 2 / 7.0);
+    assert_number("beat", frame.beat, 2 / 7.0 / (60 / 90.0));
+    assert_number("fps", frame.fps, 7);
+    assert_number("tempo", frame.tempo, 90);
+}
+
+static void test_options(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.fps = 24;
+    options.run_time = 2.5;
+    player_reopen(player, &options);
+    player_run(player, "!a v=fps;run_time;time\n", 13);
+    assert_text("options", player_tree(player), "!a v=24;2.5;0.5\n");
+    options = player_options(player);
+    options.realtime = true;
+    options.fps = 1000;
+    player_reopen(player, &options);
+    player_run(player, "!a v=realtime;frame;(clock>1e9);(performance>=0.5 and performance<=2);(time>0)\n", 3);
+    assert_text("realtime", player_tree(player), "!a v=1;2;1;1;1\n");
+    player_run(player, "!a v=beat;delta;performance\n", 1);
+    assert_text("frame 0", player_tree(player), "!a v=0;0;1\n");
+}
+
+static void test_load_starts_again(void **state) {
+    Player *player = *state;
+    player_run(player, "%pragma fps 10\n!a v=frame;fps\n!counter state=:c\n", 5);
+    assert_text("fifth", player_print(player, PETRI_PRINT_STATE), "$:c = 0.4\n$(:c;:time) = 0.4\n");
+    player_run(player, "!a v=frame;fps;delta;$:c\n", 1);
+    assert_text("pragmas are the script's own, the state stays", player_tree(player), "!a v=0;60;0;0.4\n");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings), PLAYER_TEST(test_definitions),
+        PLAYER_TEST(test_precedence),        PLAYER_TEST(test_engine_names),    PLAYER_TEST(test_options),
+        PLAYER_TEST(test_load_starts_again),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

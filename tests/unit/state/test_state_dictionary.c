@@ -80,8 +80,8 @@ static void test_insertion_order(void **state) {
 static void test_key_equality(void **state) {
     Fixture *fixture = *state;
     static const char *const keys[] = {
-        "0", "-0", "1", "1.5", "1;2", "2;1", "1;2;3", "'1'", "'a'", ":a", ":a;'b'", "'a';:b", "''", "'a';'b'", "'ab'",
-        "inf", "-inf", "null",
+        "0",  "-0",     "1",      "1.5", "1;2",     "2;1",  "1;2;3", "'1'",  "'a'",
+        ":a", ":a;'b'", "'a';:b", "''",  "'a';'b'", "'ab'", "inf",   "-inf", "null",
     };
     char text[20];
     for (size_t i = 0; i < COUNT_OF(keys); i++) {
@@ -119,10 +119,21 @@ static void test_equal_values_stay(void **state) {
     static const struct {
         const char *first, *then, *wanted;
     } rows[] = {
-        {"0", "-0", "0"},         {"-0", "0", "-0"},           {"0;1", "-0;1", "0;1"}, {"0;1", "-0;2", "-0;2"},
-        {"nan", "1", "1"},        {"1", "nan", "nan"},         {"1;2", "3", "3"},      {"3", "1;2", "1;2"},
-        {"1;2", "1;2;3", "1;2;3"}, {"1", "'a'", "'a'"},        {"'a'", "1", "1"},      {"'a';1", "'b';2", "'b';2"},
-        {"1;2", "null", "null"},  {"'a';0", "'a';-0", "'a';0"}, {"'a'", "uniform:1", "null"},
+        {"0", "-0", "0"},
+        {"-0", "0", "-0"},
+        {"0;1", "-0;1", "0;1"},
+        {"0;1", "-0;2", "-0;2"},
+        {"nan", "1", "1"},
+        {"1", "nan", "nan"},
+        {"1;2", "3", "3"},
+        {"3", "1;2", "1;2"},
+        {"1;2", "1;2;3", "1;2;3"},
+        {"1", "'a'", "'a'"},
+        {"'a'", "1", "1"},
+        {"'a';1", "'b';2", "'b';2"},
+        {"1;2", "null", "null"},
+        {"'a';0", "'a';-0", "'a';0"},
+        {"'a'", "uniform:1", "null"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         put(fixture, ":k", rows[i].first);
@@ -220,14 +231,21 @@ static void test_against_a_model(void **state) {
         assert_int_equal(state_count(fixture->state), count);
     }
     for (uint32_t k = 0; k < KEYS; k++)
-        assert_true(value_equal(state_get(fixture->state, value_number(k)), model[k] != 0 ? value_number(model[k]) : VALUE_NULL));
+        assert_true(value_equal(state_get(fixture->state, value_number(k)),
+                                model[k] != 0 ? value_number(model[k]) : VALUE_NULL));
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        STATE_TEST(test_empty),         STATE_TEST(test_insertion_order), STATE_TEST(test_key_equality),
-        STATE_TEST(test_invalid_keys),  STATE_TEST(test_equal_values_stay), STATE_TEST(test_in_place),
-        STATE_TEST(test_slots),         STATE_TEST(test_copies),          STATE_TEST(test_clear),
+        STATE_TEST(test_empty),
+        STATE_TEST(test_insertion_order),
+        STATE_TEST(test_key_equality),
+        STATE_TEST(test_invalid_keys),
+        STATE_TEST(test_equal_values_stay),
+        STATE_TEST(test_in_place),
+        STATE_TEST(test_slots),
+        STATE_TEST(test_copies),
+        STATE_TEST(test_clear),
         STATE_TEST(test_against_a_model),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

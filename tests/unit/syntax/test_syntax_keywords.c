@@ -105,14 +105,12 @@ static void test_compositions(void **state) {
 
 static void test_operands(void **state) {
     static const Point points[] = {
-        {"x for y in ~\n", K5}, {"x if y else ~\n", K5}, {"x where y=~\n", K5}, {"x if ~\n", K5},
-        {"x or ~\n", K5},       {"x xor ~\n", K5},       {"x and ~\n", K5},     {"not ~\n", K5},
-        {"x == ~\n", NONE},     {"x != ~\n", NONE},      {"x < ~\n", NONE},     {"x > ~\n", NONE},
-        {"x <= ~\n", NONE},     {"x >= ~\n", NONE},      {"x in ~\n", NONE},    {"x..~\n", NONE},
-        {"..~\n", NONE},        {"..1|~\n", NONE},       {"x + ~\n", NONE},     {"x - ~\n", NONE},
-        {"x * ~\n", NONE},      {"x / ~\n", NONE},       {"x // ~\n", NONE},    {"x % ~\n", NONE},
-        {"x ** ~\n", NONE},     {"$~\n", NONE},          {"@~\n", NONE},        {"-~\n", NONE},
-        {"+~\n", NONE},         {"x - -~\n", NONE},
+        {"x for y in ~\n", K5}, {"x if y else ~\n", K5}, {"x where y=~\n", K5}, {"x if ~\n", K5},   {"x or ~\n", K5},
+        {"x xor ~\n", K5},      {"x and ~\n", K5},       {"not ~\n", K5},       {"x == ~\n", NONE}, {"x != ~\n", NONE},
+        {"x < ~\n", NONE},      {"x > ~\n", NONE},       {"x <= ~\n", NONE},    {"x >= ~\n", NONE}, {"x in ~\n", NONE},
+        {"x..~\n", NONE},       {"..~\n", NONE},         {"..1|~\n", NONE},     {"x + ~\n", NONE},  {"x - ~\n", NONE},
+        {"x * ~\n", NONE},      {"x / ~\n", NONE},       {"x // ~\n", NONE},    {"x % ~\n", NONE},  {"x ** ~\n", NONE},
+        {"$~\n", NONE},         {"@~\n", NONE},          {"-~\n", NONE},        {"+~\n", NONE},     {"x - -~\n", NONE},
     };
     check_points(*state, points, COUNT_OF(points));
 }
@@ -133,7 +131,7 @@ static void test_after_operands(void **state) {
         {"f(x+y ~=1)\n", K7},
         {"f((x) ~=1)\n", K7},
         {"let x=1 ~=2\n", K7},
-        {"!a #t ~=1\n", NONE},      // K8
+        {"!a #t ~=1\n", NONE}, // K8
         {"!a x=1 #t ~=1\n", NONE},
         {"f(!a #t ~=1)\n", NONE},
         // Directly after a name that begins an argument, `else` is a name.
@@ -217,8 +215,8 @@ static void test_pragma_and_include(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_statements),     WORLD_TEST(test_compositions), WORLD_TEST(test_operands),
-        WORLD_TEST(test_after_operands), WORLD_TEST(test_names),        WORLD_TEST(test_in_and_from),
+        WORLD_TEST(test_statements),         WORLD_TEST(test_compositions), WORLD_TEST(test_operands),
+        WORLD_TEST(test_after_operands),     WORLD_TEST(test_names),        WORLD_TEST(test_in_and_from),
         WORLD_TEST(test_pragma_and_include),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -108,9 +108,11 @@ static void test_parentheses_limit(void **state) {
     nested(&text, "(", 1001, ")");
     assert_text("1001", complaints(world, text_str(&text)), "1:1001: parentheses nested too deeply: the limit is 1000");
     nested(&text, "(", 100000, ")");
-    assert_text("100000", complaints(world, text_str(&text)), "1:1001: parentheses nested too deeply: the limit is 1000");
+    assert_text("100000", complaints(world, text_str(&text)),
+                "1:1001: parentheses nested too deeply: the limit is 1000");
     nested(&text, "(", 100000, "");
-    assert_text("unclosed", complaints(world, text_str(&text)), "1:1001: parentheses nested too deeply: the limit is 1000");
+    assert_text("unclosed", complaints(world, text_str(&text)),
+                "1:1001: parentheses nested too deeply: the limit is 1000");
 }
 
 static void indented(Text *text, int levels) {
@@ -138,7 +140,8 @@ static void test_indentation_limit(void **state) {
 // Other nesting is limited by the height of the tree: each a complaint, never a crash.
 static void test_height_limit(void **state) {
     World *world = *state;
-    static const char *const rows[][2] = {{"- ", ""}, {"not ", ""}, {"$", ""}, {"v[", "]"}, {"func(x) ", ""}, {"x if ", ""}};
+    static const char *const rows[][2] = {{"- ", ""},  {"not ", ""},     {"$", ""},
+                                          {"v[", "]"}, {"func(x) ", ""}, {"x if ", ""}};
     Text text = text_new(&world->arena);
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         nested(&text, rows[i][0], i == 5 ? 1 : 900, rows[i][1]);
@@ -164,8 +167,8 @@ static void test_height_limit(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_layout),           WORLD_TEST(test_parentheses_limit), WORLD_TEST(test_indentation_limit),
-        WORLD_TEST(test_height_limit),     WORLD_TEST(test_nul_bytes), // last: it used to read out of bounds
+        WORLD_TEST(test_layout),       WORLD_TEST(test_parentheses_limit), WORLD_TEST(test_indentation_limit),
+        WORLD_TEST(test_height_limit), WORLD_TEST(test_nul_bytes), // last: it used to read out of bounds
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

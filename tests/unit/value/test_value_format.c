@@ -79,9 +79,9 @@ static void test_debug(void **state) {
     } rows[] = {
         {"null", "null"},
         {"0.3333333333333333;:a;'hi';1e20", "0.333333333;:a;'hi';1e+20"},
-        {"-0;1", "0;1"},         // a zero in a numeric vector shows no sign
+        {"-0;1", "0;1"}, // a zero in a numeric vector shows no sign
         {"-0", "0"},
-        {"-0;'a'", "-0;'a'"},    // in a mixed one it does
+        {"-0;'a'", "-0;'a'"}, // in a mixed one it does
         {"1234567890", "1.23456789e+09"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
@@ -97,13 +97,14 @@ static void test_debug(void **state) {
 static void test_key_order(void **state) {
     World *world = *state;
     static const char *const ascending[] = {
-        "null",  ":B",    ":a",    ":a;:a", ":a;:clock", ":a;-1", ":a;0", ":a;0;:velocity", ":a;2", ":a;10", ":a;''", ":a;'x'",
-        ":b",    ":é",    "-inf",  "-1.5",  "0",        "0;:a", "7",     "inf",            "''",   "'10'",  "'2'",   "'a'",
-        "'a';1", "'ab'", "'é'",
+        "null",  ":B",     ":a",  ":a;:a", ":a;:clock", ":a;-1", ":a;0", ":a;0;:velocity", ":a;2", ":a;10",
+        ":a;''", ":a;'x'", ":b",  ":é",    "-inf",      "-1.5",  "0",    "0;:a",           "7",    "inf",
+        "''",    "'10'",   "'2'", "'a'",   "'a';1",     "'ab'",  "'é'",
     };
     for (size_t i = 0; i < COUNT_OF(ascending); i++)
         for (size_t k = 0; k < COUNT_OF(ascending); k++) {
-            int order = format_key_compare(&world->symbols, read_value(world, ascending[i]), read_value(world, ascending[k]));
+            int order =
+                format_key_compare(&world->symbols, read_value(world, ascending[i]), read_value(world, ascending[k]));
             assert_claim(ascending[i], order == (i > k) - (i < k));
         }
 }

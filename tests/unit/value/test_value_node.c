@@ -19,7 +19,8 @@ static const Node *with_attrs(World *world, const Node *node, const char *names,
     Attr attrs[8];
     uint32_t count = 0;
     for (; names[count]; count++)
-        attrs[count] = (Attr){symbol_intern(&world->symbols, (Str){names + count, 1}), read_value(world, values[count])};
+        attrs[count] =
+            (Attr){symbol_intern(&world->symbols, (Str){names + count, 1}), read_value(world, values[count])};
     return node_set_attrs(&world->arena, node, attrs, count);
 }
 
@@ -96,7 +97,8 @@ static void test_equality(void **state) {
         {"nan", with_attr(world, a, "x", "nan"), with_attr(world, a, "x", "nan"), false},
         {"tags in any order", tu, ut, true},
         {"fewer tags", tu, node_add_tag(arena, a, t), false},
-        {"children", ab, node_append(arena, node_append(arena, a, read_value(world, "!b")), read_value(world, "!c")), true},
+        {"children", ab, node_append(arena, node_append(arena, a, read_value(world, "!b")), read_value(world, "!c")),
+         true},
         {"children's order", ab, node_append(arena, a, read_value(world, "!c;!b")), false},
         {"fewer children", ab, node_append(arena, a, read_value(world, "!b")), false},
     };
@@ -140,6 +142,14 @@ static void test_attributes_count_as_height(void **state) {
     for (int i = 0; i < 100; i++)
         node = node_set_attrs(arena, fresh(world, "a"), &(Attr){name_of(world, "x"), value_node(arena, node)}, 1);
     assert_int_equal(node->height, 101);
+    while (node->height < NODE_MAX_HEIGHT)
+        node = node_append(arena, fresh(world, "a"), value_node(arena, node));
+    Attr higher = {name_of(world, "x"), value_node(arena, node)};
+    assert_null(node_set_attrs(arena, fresh(world, "p"), &higher, 1));
+    bool too_high = false;
+    Value left = value_set_attrs(arena, node_of(world, "p"), &higher, 1, &too_high);
+    assert_true(too_high);
+    assert_text("left as it was", tree(world, left.as.items[0].as.node), "!p\n");
 }
 
 static void test_over_vectors(void **state) {
@@ -147,8 +157,8 @@ static void test_over_vectors(void **state) {
     Arena *arena = &world->arena;
     Value v = read_value(world, "!a;3;!b;'s'");
     v = value_add_tag(arena, v, name_of(world, "t"));
-    v = value_set_attrs(arena, v, &(Attr){name_of(world, "x"), value_number(1)}, 1);
     bool too_high = false;
+    v = value_set_attrs(arena, v, &(Attr){name_of(world, "x"), value_number(1)}, 1, &too_high);
     v = value_append(arena, v, read_value(world, "!c"), &too_high);
     assert_false(too_high);
     assert_text("the others stay", show(world, v), "(!a);3;(!b);'s'");
@@ -179,9 +189,15 @@ static void test_copy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_fresh),        WORLD_TEST(test_attribute_order), WORLD_TEST(test_tags),
-        WORLD_TEST(test_append),       WORLD_TEST(test_equality),        WORLD_TEST(test_height_limit),
-        WORLD_TEST(test_over_vectors), WORLD_TEST(test_copy),            WORLD_TEST(test_attributes_count_as_height),
+        WORLD_TEST(test_fresh),
+        WORLD_TEST(test_attribute_order),
+        WORLD_TEST(test_tags),
+        WORLD_TEST(test_append),
+        WORLD_TEST(test_equality),
+        WORLD_TEST(test_height_limit),
+        WORLD_TEST(test_over_vectors),
+        WORLD_TEST(test_copy),
+        WORLD_TEST(test_attributes_count_as_height),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -63,7 +63,8 @@ static void test_lengths(void **state) {
         numbers[i] = 1 + i * i;
     for (uint32_t n = 1; n <= 12; n++)
         for (uint32_t m = 1; m <= 12; m++) {
-            Value result = op_arith(&world->arena, ARITH_SUB, value_numbers_view(numbers, n), value_numbers_view(numbers, m));
+            Value result =
+                op_arith(&world->arena, ARITH_SUB, value_numbers_view(numbers, n), value_numbers_view(numbers, m));
             assert_int_equal(result.len, n > m ? n : m);
             for (uint32_t i = 0; i < result.len; i++)
                 assert_number("element", value_numbers(&result)[i], numbers[i % n] - numbers[i % m]);
@@ -75,9 +76,9 @@ static void test_unary(void **state) {
     static const struct {
         const char *v, *minus, *plus;
     } rows[] = {
-        {"0", "-0", "0"},           {"1;-2;nan;inf", "-1;2;nan;-inf", "1;-2;nan;inf"},
-        {"null", "null", "null"},   {"'a'", "null", "null"},
-        {"1;'a'", "null", "null"},  {"beta:5", "null", "null"},
+        {"0", "-0", "0"},          {"1;-2;nan;inf", "-1;2;nan;-inf", "1;-2;nan;inf"},
+        {"null", "null", "null"},  {"'a'", "null", "null"},
+        {"1;'a'", "null", "null"}, {"beta:5", "null", "null"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Value v = read_value(world, rows[i].v);
@@ -94,8 +95,7 @@ static void test_ranges(void **state) {
         {"null", "5", "null", "0;1;2;3;4"},
         {"3", "25", "7", "3;10;17;24"},
         {"2", "1", "-0.3", "2;1.7;1.4;1.1"},
-        {"0", "1", "0.1",
-         "0;0.1;0.2;0.30000000000000004;0.4;0.5;0.6000000000000001;0.7000000000000001;0.8;0.9"},
+        {"0", "1", "0.1", "0;0.1;0.2;0.30000000000000004;0.4;0.5;0.6000000000000001;0.7000000000000001;0.8;0.9"},
         {"null", "2.5", "null", "0;1;2"},
         {"0.5", "3", "null", "0.5;1.5;2.5"},
         {"5", "0", "null", "null"},

@@ -10,10 +10,8 @@ static void test_numbers(void **state) {
         uint64_t hash;
         double number;
     } rows[] = {
-        {"a", 0xaf63dc4c8601ec8c, -1.514662081452513e+308},
-        {"foo", 0xdcb27518fed9d577, -1.6737404350843107e+308},
-        {"x", 0xaf63f54c86021707, -1.5146634208382725e+308},
-        {"hello", 0xa430d84680aabd0b, -1.4753400716276727e+308},
+        {"a", 0xaf63dc4c8601ec8c, -1.514662081452513e+308},  {"foo", 0xdcb27518fed9d577, -1.6737404350843107e+308},
+        {"x", 0xaf63f54c86021707, -1.5146634208382725e+308}, {"hello", 0xa430d84680aabd0b, -1.4753400716276727e+308},
         {"é", 0xaf64644c8602d3a4, -1.5146693677110448e+308}, // over code points, not bytes
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -60,9 +58,9 @@ static void test_seed_hashes(void **state) {
         const char *seed;
         uint64_t key;
     } rows[] = {
-        {"null", 0xe220a8397b1dcdaf}, {"1", 0x03953eea0e693074},          {"1.9", 0x03953eea0e693074},
-        {"-0.3", 0xc91d005ca9fb5ada}, {"-1", 0xc91d005ca9fb5ada},         {":x", 0x4c2c02a3df8a536a},
-        {"'x'", 0x846a330c8ce81a06},  {":a;1.5", 0x411d8fab0f723c90},     {":seed", 0x903c2f031ff55b1b},
+        {"null", 0xe220a8397b1dcdaf},       {"1", 0x03953eea0e693074},      {"1.9", 0x03953eea0e693074},
+        {"-0.3", 0xc91d005ca9fb5ada},       {"-1", 0xc91d005ca9fb5ada},     {":x", 0x4c2c02a3df8a536a},
+        {"'x'", 0x846a330c8ce81a06},        {":a;1.5", 0x411d8fab0f723c90}, {":seed", 0x903c2f031ff55b1b},
         {"uniform:77", 0xe220a8397b1dcdaf}, // a stream counts as null
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
@@ -82,7 +80,8 @@ static void test_node_seeds(void **state) {
     const Symbol *x = name_of(world, "x"), *y = name_of(world, "y");
     Attr both[] = {{x, read_value(world, "1;2")}, {y, text_of(world, "q")}}, swapped[] = {both[1], both[0]};
     const Node *tagged = node_add_tag(arena, node_add_tag(arena, a, name_of(world, "z")), name_of(world, "b"));
-    const Node *parent = node_append(arena, node_set_attrs(arena, a, &(Attr){x, value_number(1)}, 1), value_node(arena, b));
+    const Node *parent =
+        node_append(arena, node_set_attrs(arena, a, &(Attr){x, value_number(1)}, 1), value_node(arena, b));
     const struct {
         const Node *node;
         double item;

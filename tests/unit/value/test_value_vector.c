@@ -17,7 +17,7 @@ static void test_composition(void **state) {
         {{"1;2", "'a'", "3"}, "1;2;'a';3", VALUE_MIXED},
         {{"'a'", "1;2"}, "'a';1;2", VALUE_MIXED},
         {{"!a", "!b", ":x"}, "(!a);(!b);:x", VALUE_MIXED},
-        {{"uniform:5"}, "null", VALUE_STREAM}, // the only part: it survives
+        {{"uniform:5"}, "null", VALUE_STREAM},          // the only part: it survives
         {{"null", "uniform:5"}, "null", VALUE_NUMBERS}, // null is a part too
         {{"uniform:5", "null"}, "null", VALUE_NUMBERS},
         {{"uniform:5", "1"}, "1", VALUE_NUMBERS},
@@ -73,9 +73,9 @@ static void test_truth(void **state) {
         const char *v;
         bool wanted;
     } rows[] = {
-        {"null", false}, {"0", false}, {"-0", false},     {"0;0", false}, {"0;1", true},   {"nan", true},
-        {"''", false},   {"'a'", true}, {"0;''", false},  {"!a", true},   {"0;!a", true},  {"uniform:0", true},
-        {":a", true},    {"inf", true}, {"1e-300", true},
+        {"null", false}, {"0", false},        {"-0", false}, {"0;0", false},  {"0;1", true},
+        {"nan", true},   {"''", false},       {"'a'", true}, {"0;''", false}, {"!a", true},
+        {"0;!a", true},  {"uniform:0", true}, {":a", true},  {"inf", true},   {"1e-300", true},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_claim(rows[i].v, value_true(read_value(world, rows[i].v)) == rows[i].wanted);
@@ -89,14 +89,29 @@ static void test_equality(void **state) {
         const char *a, *b;
         bool wanted;
     } rows[] = {
-        {"1;2", "1;2", true},     {"1;2", "1", false},         {"1", "1;2", false},
-        {"0", "-0", true},        {"nan", "nan", false},       {"null", "null", true},
-        {"null", "0", false},     {"'a'", ":a", false},        {"'a'", "'a'", true},
-        {"1;'a'", "1;'a'", true}, {"1;'a'", "1;'b'", false},   {"1;'a'", "1;2", false},
-        {"!a", "!a", true},       {"!a", "!b", false},         {"!a", "'a'", false},
-        {"!a", "1", false},       {"uniform:1", "uniform:1", true}, {"uniform:1", "uniform:2", false},
-        {"uniform:1", "beta:1", false}, {"uniform:1", "null", false}, {"uniform:1", "1", false},
-        {"inf", "inf", true},     {"inf", "-inf", false},
+        {"1;2", "1;2", true},
+        {"1;2", "1", false},
+        {"1", "1;2", false},
+        {"0", "-0", true},
+        {"nan", "nan", false},
+        {"null", "null", true},
+        {"null", "0", false},
+        {"'a'", ":a", false},
+        {"'a'", "'a'", true},
+        {"1;'a'", "1;'a'", true},
+        {"1;'a'", "1;'b'", false},
+        {"1;'a'", "1;2", false},
+        {"!a", "!a", true},
+        {"!a", "!b", false},
+        {"!a", "'a'", false},
+        {"!a", "1", false},
+        {"uniform:1", "uniform:1", true},
+        {"uniform:1", "uniform:2", false},
+        {"uniform:1", "beta:1", false},
+        {"uniform:1", "null", false},
+        {"uniform:1", "1", false},
+        {"inf", "inf", true},
+        {"inf", "-inf", false},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Value a = read_value(world, rows[i].a), b = read_value(world, rows[i].b);
@@ -123,15 +138,33 @@ static void test_order(void **state) {
         const char *a, *b;
         int wanted;
     } rows[] = {
-        {"1;2", "1;3", LESS},       {"1;2", "1;2;0", LESS},     {"3", "2;9", GREATER},
-        {"'B'", "'a'", LESS},       {"'ab'", "'b'", LESS},      {"'é'", "'z'", GREATER},
-        {"null", "0", LESS},        {"0", "null", GREATER},     {"null", "null", SAME_ORDER},
-        {"1", "'a'", NONE},         {"1;'a'", "2;'a'", LESS},   {"1;'a'", "1;'b'", LESS},
-        {"1;'a'", "1;2", NONE},     {"nan", "1", GREATER},      {"1", "nan", GREATER},
-        {"1;nan", "2;0", LESS},     {"1;2", "1;2", SAME_ORDER}, {"1;'a'", "1;'a'", SAME_ORDER},
-        {"1;'a'", "1;'a';0", LESS}, {"'a'", "!a", NONE},        {"!a", "!b", NONE},
-        {"!a", "!a", SAME_ORDER},   {"!a;1", "!a;2", LESS},     {"uniform:1", "0", LESS},
-        {"uniform:1", "null", SAME_ORDER}, {"'a'", "null", GREATER}, {"0", "-0", SAME_ORDER},
+        {"1;2", "1;3", LESS},
+        {"1;2", "1;2;0", LESS},
+        {"3", "2;9", GREATER},
+        {"'B'", "'a'", LESS},
+        {"'ab'", "'b'", LESS},
+        {"'é'", "'z'", GREATER},
+        {"null", "0", LESS},
+        {"0", "null", GREATER},
+        {"null", "null", SAME_ORDER},
+        {"1", "'a'", NONE},
+        {"1;'a'", "2;'a'", LESS},
+        {"1;'a'", "1;'b'", LESS},
+        {"1;'a'", "1;2", NONE},
+        {"nan", "1", GREATER},
+        {"1", "nan", GREATER},
+        {"1;nan", "2;0", LESS},
+        {"1;2", "1;2", SAME_ORDER},
+        {"1;'a'", "1;'a'", SAME_ORDER},
+        {"1;'a'", "1;'a';0", LESS},
+        {"'a'", "!a", NONE},
+        {"!a", "!b", NONE},
+        {"!a", "!a", SAME_ORDER},
+        {"!a;1", "!a;2", LESS},
+        {"uniform:1", "0", LESS},
+        {"uniform:1", "null", SAME_ORDER},
+        {"'a'", "null", GREATER},
+        {"0", "-0", SAME_ORDER},
         {"1;'a'", "'a';1", NONE},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
@@ -149,14 +182,15 @@ static void test_containment(void **state) {
         const char *x, *y;
         bool wanted;
     } rows[] = {
-        {"2", "1;2;3", true},      {"2;3", "1;2;3", true},   {"1;3", "1;2;3", false}, {"null", "3", true},
-        {"3", "null", false},      {"null", "null", true},   {"1", "1;'b'", true},    {"'b'", "1;'b'", true},
-        {"1;'b'", "1;'b';2", true}, {"'a'", "1;2", false},   {"nan", "nan", false},   {"1;1;2", "1;1;1;2", true},
+        {"2", "1;2;3", true},        {"2;3", "1;2;3", true},   {"1;3", "1;2;3", false},   {"null", "3", true},
+        {"3", "null", false},        {"null", "null", true},   {"1", "1;'b'", true},      {"'b'", "1;'b'", true},
+        {"1;'b'", "1;'b';2", true},  {"'a'", "1;2", false},    {"nan", "nan", false},     {"1;1;2", "1;1;1;2", true},
         {"1;2;3;4", "1;2;3", false}, {"uniform:1", "3", true}, {"1", "uniform:1", false}, {"null", "uniform:1", true},
-        {"!a", "!b;!a", true},     {"0", "-0", true},
+        {"!a", "!b;!a", true},       {"0", "-0", true},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
-        assert_claim(rows[i].x, value_contains(read_value(world, rows[i].x), read_value(world, rows[i].y)) == rows[i].wanted);
+        assert_claim(rows[i].x,
+                     value_contains(read_value(world, rows[i].x), read_value(world, rows[i].y)) == rows[i].wanted);
 }
 
 static void test_indexing(void **state) {
@@ -164,11 +198,12 @@ static void test_indexing(void **state) {
     static const struct {
         const char *v, *index, *wanted;
     } rows[] = {
-        {"1;2;3", "0", "1"},        {"1;2;3", "-1", "3"},       {"1;2;3", "3;4;-4", "1;2;3"}, {"1;2;3", "1.9", "2"},
-        {"1;2;3", "-0.5", "3"},     {"1;2;3", "null", "null"},  {"1;2;3", "0;'a'", "null"},   {"null", "0", "null"},
-        {"'a';1;2", "1;2", "1;2"},  {"5", "0;1;2;3", "5;5;5;5"}, {"'abc'", "0", "'abc'"},     {"'a';1", "0;0", "'a';'a'"},
-        {"1;2;3", "1e18", "2"},     {"1;2;3", "-1e18", "3"},    {"1;2;3", "uniform:1", "null"},
-        {"1;2;3", "nan", "2"},      {"1;2;3", "inf;-inf", "2;2"}, // as -2147483648 would (D8)
+        {"1;2;3", "0", "1"},         {"1;2;3", "-1", "3"},         {"1;2;3", "3;4;-4", "1;2;3"},
+        {"1;2;3", "1.9", "2"},       {"1;2;3", "-0.5", "3"},       {"1;2;3", "null", "null"},
+        {"1;2;3", "0;'a'", "null"},  {"null", "0", "null"},        {"'a';1;2", "1;2", "1;2"},
+        {"5", "0;1;2;3", "5;5;5;5"}, {"'abc'", "0", "'abc'"},      {"'a';1", "0;0", "'a';'a'"},
+        {"1;2;3", "1e18", "2"},      {"1;2;3", "-1e18", "3"},      {"1;2;3", "uniform:1", "null"},
+        {"1;2;3", "nan", "2"},       {"1;2;3", "inf;-inf", "2;2"}, // as -2147483648 would (D8)
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         Value found = value_index(&world->arena, read_value(world, rows[i].v), read_value(world, rows[i].index));
@@ -202,8 +237,8 @@ static void test_copy(void **state) {
     arena_init(&other, "other", SIZE_MAX);
     Value inner = read_value(world, "1;2;3");
     Node *node = node_set_attrs(&other, node_new(&other, name_of(world, "k")), &(Attr){name_of(world, "x"), inner}, 1);
-    Value values[] = {read_value(world, "1"), value_numbers_view(inner.as.numbers, 3), value_string(&other, STR("text")),
-                      value_node(&other, node), value_stream(STREAM_BETA, 9)};
+    Value values[] = {read_value(world, "1"), value_numbers_view(inner.as.numbers, 3),
+                      value_string(&other, STR("text")), value_node(&other, node), value_stream(STREAM_BETA, 9)};
     static const char *const wanted[] = {"1", "1;2;3", "'text'", "(!k)", "null"};
     for (size_t i = 0; i < COUNT_OF(values); i++)
         values[i] = value_copy(&world->arena, values[i]);
@@ -237,10 +272,12 @@ static void test_text_conversion(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_composition),       WORLD_TEST(test_builder_turns_mixed), WORLD_TEST(test_builder_overflow),
-        WORLD_TEST(test_truth),             WORLD_TEST(test_equality),            WORLD_TEST(test_order),
-        WORLD_TEST(test_containment),       WORLD_TEST(test_indexing),            WORLD_TEST(test_element_and_slice),
-        WORLD_TEST(test_copy),              WORLD_TEST(test_text_conversion),
+        WORLD_TEST(test_composition),       WORLD_TEST(test_builder_turns_mixed),
+        WORLD_TEST(test_builder_overflow),  WORLD_TEST(test_truth),
+        WORLD_TEST(test_equality),          WORLD_TEST(test_order),
+        WORLD_TEST(test_containment),       WORLD_TEST(test_indexing),
+        WORLD_TEST(test_element_and_slice), WORLD_TEST(test_copy),
+        WORLD_TEST(test_text_conversion),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,30 @@
+#!/bin/sh
+# check_headers.sh SOURCE_ROOT BUILD_ROOT: each header compiles alone, as C17 and, for petri.h, as C++ too if there is a
+# compiler for it. Lists of rows (X-macros) are no headers of their own.
+set -eu
+build=$2
+cd "$1"
+faults=0
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+for header in lib/*/*.h src/*.h tests/support/*.h; do
+    case $header in *_list.h | */engine_names.h) continue ;; esac
+    # Included from a file, so that nothing is taken for a main file with unused definitions.
+    printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"
+    if ! ${CC:-cc} -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Wno-unused-variable \
+        -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Itests/support \
+        -I"$build/grammar" "$scratch/alone.c"; then
+        echo "$header does not compile alone"
+        faults=1
+    fi
+done
+
+if command -v "${CXX:-c++}" >/dev/null 2>&1; then
+    printf '#include "petri.h"\nint main() { return petri_version() == nullptr; }\n' >"$scratch/alone.cc"
+    if ! "${CXX:-c++}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror -Ilib/include "$scratch/alone.cc"; then
+        echo "petri.h does not compile as C++"
+        faults=1
+    fi
+fi
+exit $faults

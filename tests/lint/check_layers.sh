@@ -1,0 +1,67 @@
+#!/bin/sh
+# check_layers.sh SOURCE_ROOT: reads every #include "…" of lib/, grammar/ and src/ against layers.txt.
+set -eu
+cd "$1"
+
+awk '
+function complain(text) {
+    printf "%s:%d: %s\n", FILENAME, FNR, text
+    faults++
+}
+
+# The rooms of the table, then the names of all files: headers beside a file may be included by their bare name.
+BEGIN {
+    for (i = 2; i < ARGC; i++)
+        is_file[ARGV[i]] = 1
+}
+
+FILENAME == ARGV[1] {
+    if ($0 ~ /^#/ || NF == 0)
+        next
+    room = $1
+    sub(/:$/, "", room)
+    is_room[room] = 1
+    may[room, room] = 1
+    for (i = 2; i <= NF; i++)
+        may[room, $i] = 1
+    next
+}
+
+FNR == 1 {
+    files++
+    parts = split(FILENAME, part, "/")
+    room = part[parts - 1]
+    folder = substr(FILENAME, 1, length(FILENAME) - length(part[parts]))
+    if (!(room in is_room) && room != "include")
+        complain("layers.txt does not know the room " room)
+}
+
+/^[ \t]*#[ \t]*include[ \t]*"/ {
+    split($0, quoted, "\"")
+    header = quoted[2]
+    includes++
+    if (header ~ /^\.|\/\.\./)
+        complain("include \"" header "\" goes by a relative path; write \"room/file.h\"")
+    else if (header ~ /\//)
+        target = substr(header, 1, index(header, "/") - 1)
+    else if (header == "petri.h")
+        target = "petri"
+    else if (header == "parser.h")
+        target = "grammar"
+    else if (room == "src" && ((folder header) in is_file))
+        target = room
+    else
+        complain("include \"" header "\" names no room")
+    if (target != "" && !((room, target) in may))
+        complain("room " room " may not include " target " (\"" header "\")")
+    target = ""
+}
+
+END {
+    if (files == 0 || includes == 0) {
+        print "no file to check"
+        faults++
+    }
+    exit faults > 0
+}
+' tests/lint/layers.txt lib/*/*.[ch] grammar/*.re grammar/*.y src/*.[ch]

@@ -1,0 +1,137 @@
+// test_scene_counters.c: `!counter`: value₀ = clamp(initial), then clamp(value + (time − last time)·rate).
+#include "player.h"
+
+// The state lines of `:c` after `frames` frames of ten a second, without the `:time` line.
+static const char *counter(Player *player, const char *script, int frames) {
+    PetriOptions options = player_options(player);
+    options.fps = 10;
+    player_reopen(player, &options);
+    player_run(player, script, frames);
+    const char *state = player_state(player);
+    char *end = strstr(state, "\n$(:c;:time)");
+    if (!end)
+        return state;
+    *end = 0;
+    return state + strlen("$:c = ");
+}
+
+typedef struct CounterRow {
+    const char *attributes;
+    int frames;
+    const char *value;
+} CounterRow;
+
+static void test_values(void **state) {
+    static const CounterRow rows[] = {
+        {"", 1, "0"},
+        {"", 2, "0.1"},
+        {"", 3, "0.2"},
+        {"initial=5", 1, "5"},
+        {"initial=5 rate=-2", 3, "4.6"},
+        {"rate=0", 5, "0"},
+        // Element by element, the shorter repeated.
+        {"initial=1;2;3", 2, "1.1;2.1;3.1"},
+        {"rate=1;10", 3, "0.2;2"},
+        {"initial=0;1;2;3 rate=1;-1", 2, "0.1;0.9;2.1;2.9"},
+        // Clamps, also of the initial value.
+        {"initial=5 maximum=3", 1, "3"},
+        {"initial=-5 minimum=-3", 1, "-3"},
+        {"rate=100 maximum=4", 3, "4"},
+        {"rate=-100 minimum=-4", 3, "-4"},
+        {"rate=100 max=4", 3, "4"},
+        {"rate=-100 min=-4", 3, "-4"},
+        {"rate=100 max=4 maximum=5", 3, "5"}, // the long name wins
+        {"rate=-100 min=-4 minimum=-5", 3, "-5"},
+        {"rate=100 max=4 maximum='x'", 3, "4"}, // malformed: the next
+        {"rate=100;-100 maximum=4 minimum=-4", 3, "4;-4"},
+        {"initial=0;0 rate=100 maximum=1;2", 2, "1;2"},
+        {"maximum=0", 3, "0"},
+        // Its own time.
+        {"time=frame*5", 3, "10"},
+        {"time=frame*5 rate=2", 3, "20"},
+        {"time=10-frame", 3, "-2"},
+        {"time=frame;frame*2", 3, "2;4"},
+        // Reset: initial again, as long as it is true.
+        {"initial=7 reset=frame==2", 3, "7"},
+        {"initial=7 reset=frame==2", 4, "7.1"},
+        {"initial=7 reset=1", 4, "7"},
+        {"initial=7 reset=null", 2, "7.1"},
+        {"initial=7 reset='x'", 2, "7"},
+        {"initial=frame", 3, "0.2"}, // only the first frame's counts
+        // Attributes of the wrong shape are missing.
+        {"initial='x' rate=!a", 2, "0.1"},
+        {"time='x'", 2, "0.1"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        char script[200];
+        snprintf(script, sizeof script, "!counter state=:c %s\n", rows[i].attributes);
+        assert_text(script, counter(*state, script, rows[i].frames), rows[i].value);
+    }
+}
+
+static void test_keys(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.fps = 10;
+    player_reopen(player, &options);
+    player_run(player, "!counter state=:a;1 initial=3\n!counter state='s'\n!counter state=0 time=7\n", 2);
+    assert_text("keys", player_state(player),
+                "$(:a;1) = 3.1\n$(:a;1;:time) = 0.1\n$0 = 0\n$(0;:time) = 7\n$'s' = 0.1\n$('s';:time) = 0.1\n");
+}
+
+static void test_read_in_the_next_frame(void **state) {
+    Player *player = *state;
+    player_run(player, "%pragma fps 10\n!counter state=:c initial=1\n!a v=$:c t=$(:c;:time)\n", 1);
+    assert_text("first", player_tree(player), "!counter state=:c initial=1\n!a\n");
+    player_step(player, 2);
+    assert_text("third", player_tree(player), "!counter state=:c initial=1\n!a v=1.1 t=0.1\n");
+}
+
+// A rate that changes counts for the time that has passed since the last frame.
+static void test_rate_changes(void **state) {
+    assert_text("rate", counter(*state, "!counter state=:c rate=frame\n", 4), "0.6");
+}
+
+// A counter that is absent keeps its value; when it returns the time between counts.
+static void test_absence(void **state) {
+    static const char script[] = "if frame<2 or frame>3\n    !counter state=:c\n";
+    assert_text("absent", counter(*state, script, 4), "0.1");
+    assert_text("back", counter(*state, script, 5), "0.4");
+}
+
+static void test_two_of_one_key(void **state) {
+    // The second sees what the first has written: no time has passed for it.
+    assert_text("two", counter(*state, "!counter state=:c\n!counter state=:c rate=100\n", 3), "0.2");
+}
+
+static void test_complaints(void **state) {
+    Player *player = *state;
+    static const ScriptRow rows[] = {
+        {"!counter\n", "warning !counter: no usable state key; the counter is skipped [skipped-system]\n"},
+        {"!counter state=0/0\n",
+         "warning !counter state=nan: no usable state key; the counter is skipped [skipped-system]\n"},
+        {"!counter state=!a\n",
+         "warning !counter state=(!a): no usable state key; the counter is skipped [skipped-system]\n"},
+        {"!counter state=:c rat=2\n",
+         "warning !counter state=:c: unknown attribute 'rat', did you mean 'rate'? [unknown-attribute]\n"},
+        {"!counter state=:c zzzzz=2\n", "warning !counter state=:c: unknown attribute 'zzzzz' [unknown-attribute]\n"},
+        {"!counter state=:c rate='x'\n",
+         "warning !counter state=:c: rate should be one number, not 'x' [bad-attribute]\n"},
+        {"!a\n    !counter state=:c\n", ""}, // only top-level nodes are systems
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        PetriOptions options = player_options(player);
+        player_reopen(player, &options);
+        player_run(player, rows[i].script, 3);
+        assert_text(rows[i].script, player_told(player), rows[i].wanted);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_values),       PLAYER_TEST(test_keys),    PLAYER_TEST(test_read_in_the_next_frame),
+        PLAYER_TEST(test_rate_changes), PLAYER_TEST(test_absence), PLAYER_TEST(test_two_of_one_key),
+        PLAYER_TEST(test_complaints),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
