@@ -33,11 +33,11 @@ char *str_to_c(Arena *arena, Str text) {
 }
 
 bool str_starts_with(Str text, Str prefix) {
-    return text.len >= prefix.len && memcmp(text.bytes, prefix.bytes, prefix.len) == 0;
+    return text.len >= prefix.len && str_equal((Str){text.bytes, prefix.len}, prefix);
 }
 
 bool str_ends_with(Str text, Str suffix) {
-    return text.len >= suffix.len && memcmp(text.bytes + text.len - suffix.len, suffix.bytes, suffix.len) == 0;
+    return text.len >= suffix.len && str_equal((Str){text.bytes + (text.len - suffix.len), suffix.len}, suffix);
 }
 
 static bool is_space(char c) {

@@ -1,0 +1,105 @@
+// test_base_file.c: whole files in and out.
+#include "folder.h"
+
+#include "base/file.h"
+
+static Arena arena;
+static Folder folder;
+
+static int setup(void **state) {
+    (void)state;
+    arena_init(&arena, "test", SIZE_MAX);
+    folder_open(&folder);
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    folder_close(&folder);
+    arena_free(&arena);
+    return 0;
+}
+
+#define FILE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
+
+static const char *content(const char *name, size_t limit) {
+    Str bytes;
+    const char *problem = NULL;
+    if (!file_read(&arena, folder_file(&folder, name), limit, &bytes, NULL, &problem)) {
+        assert_non_null(problem);
+        return NULL;
+    }
+    assert_int_equal(bytes.bytes[bytes.len], 0); // a NUL byte follows
+    return bytes.bytes;
+}
+
+static void test_read(void **state) {
+    (void)state;
+    folder_write(&folder, "a", "some text\n");
+    assert_string_equal(content("a", 1000), "some text\n");
+    assert_string_equal(content("a", 10), "some text\n");
+    assert_null(content("a", 9)); // larger than allowed
+    folder_write(&folder, "empty", "");
+    assert_string_equal(content("empty", 1000), "");
+    assert_null(content("none", 1000));
+    assert_null(content(".", 1000)); // a folder
+}
+
+static void test_version(void **state) {
+    (void)state;
+    Str first, second, third, read_version, bytes;
+    const char *problem;
+    folder_write(&folder, "a", "1");
+    const char *path = folder_file(&folder, "a");
+    assert_true(file_version(&arena, path, &first));
+    assert_true(file_version(&arena, path, &second));
+    assert_true(str_equal(first, second));
+    assert_true(file_read(&arena, path, 100, &bytes, &read_version, &problem));
+    assert_true(str_equal(first, read_version));
+    folder_write(&folder, "a", "2");
+    assert_true(file_version(&arena, folder_file(&folder, "a"), &third));
+    assert_false(str_equal(first, third));
+    assert_false(file_version(&arena, folder_file(&folder, "none"), &third));
+}
+
+static void test_replace(void **state) {
+    (void)state;
+    const char *problem = NULL;
+    assert_true(file_replace(&arena, folder_file(&folder, "new"), STR("one"), &problem));
+    assert_string_equal(content("new", 100), "one");
+    assert_true(file_replace(&arena, folder_file(&folder, "new"), STR(""), &problem));
+    assert_string_equal(content("new", 100), "");
+    assert_true(file_replace(&arena, folder_file(&folder, "new"), STR("a longer text"), &problem));
+    assert_string_equal(content("new", 100), "a longer text");
+    int files = 0;
+    DIR *entries = opendir(folder.path);
+    for (struct dirent *entry; (entry = readdir(entries));)
+        files += entry->d_name[0] != '.';
+    closedir(entries);
+    assert_int_equal(files, 1); // nothing is left beside it
+    assert_false(file_replace(&arena, folder_file(&folder, "no/such/folder"), STR("x"), &problem));
+    assert_non_null(problem);
+}
+
+static void test_canonical(void **state) {
+    (void)state;
+    folder_write(&folder, "a", "");
+    char plain[600], dotted[800];
+    snprintf(plain, sizeof plain, "%s", folder_file(&folder, "a"));
+    snprintf(dotted, sizeof dotted, "%s/./../%s/a", folder.path, strrchr(folder.path, '/') + 1);
+    Str straight = file_canonical(&arena, plain);
+    assert_true(str_equal(file_canonical(&arena, dotted), straight));
+    assert_int_equal(symlink(plain, folder_file(&folder, "link")), 0);
+    assert_true(str_equal(file_canonical(&arena, folder_file(&folder, "link")), straight));
+    assert_true(str_equal(file_canonical(&arena, "no/such/file"), STR("no/such/file")));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        FILE_TEST(test_read),
+        FILE_TEST(test_version),
+        FILE_TEST(test_replace),
+        FILE_TEST(test_canonical),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
