@@ -116,7 +116,8 @@ const Command CHECK_COMMAND = {
     .summary = "tell what is wrong with scripts without running them",
     .details =
         "Reads scripts, or each file named *.fl in a folder and the folders in it, and reports what is wrong with\n"
-        "them, and what is hardly meant: names that are unbound or unused, wrong numbers of arguments, unknown pragmas,\n"
+        "them, and what is hardly meant: names that are unbound or unused, wrong numbers of arguments, unknown "
+        "pragmas,\n"
         "branches that are never reached. Nothing is run. The exit status is 1 if there was an error.",
     .options = OPTIONS,
     .run = check_run,
