@@ -354,7 +354,7 @@ bool gr_accepts(const gr_pstate *parser, int token) {
 }
 
 static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) {
-    enum { MOST = 3 };
+    enum { MOST = 4 };
     yysymbol_kind_t expected[MOST];
     int count = yypcontext_expected_tokens(at, expected, MOST);
     const char *names[MOST];

@@ -37,7 +37,8 @@ bool str_starts_with(Str text, Str prefix) {
 }
 
 bool str_ends_with(Str text, Str suffix) {
-    return text.len >= suffix.len && str_equal((Str){text.bytes + (text.len - suffix.len), suffix.len}, suffix);
+    return suffix.len == 0 ||
+           (text.len >= suffix.len && str_equal((Str){text.bytes + (text.len - suffix.len), suffix.len}, suffix));
 }
 
 static bool is_space(char c) {

@@ -63,7 +63,7 @@ typedef struct PetriOptions {
 
 PetriOptions petri_default_options(void);
 
-// A session without a script, or NULL if memory is used up.
+// A session without a script, or NULL if memory is used up or the options were not initialised or make no sense.
 PetriSession *petri_open(const PetriOptions *options);
 // Frees the session and sets the handle to NULL. A handle that is NULL already is fine.
 void petri_close(PetriSession **session);

@@ -294,6 +294,10 @@ static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     const Expr *null = constant(compiler, ast, VALUE_NULL);
     Str path;
+    if (compiler->ahead) { // the directive belongs to the place where it is really compiled
+        compiler->function->dynamic = true;
+        return null;
+    }
     if (!compile_include_path(compiler, ast->children[0], &path))
         return null;
     const Source *source;

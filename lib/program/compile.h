@@ -49,6 +49,7 @@ typedef struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
+    bool ahead;       // compiling a syntax tree once more, for its static value
     uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
     bool is_module;   // the file only binds names: they are for others, so none is unused
 } Compiler;

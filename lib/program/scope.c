@@ -248,9 +248,12 @@ static Value evaluate_static(Compiler *compiler, FunctionScope *at, Binding *sco
     CompileOptions plain = *compiler->options; // simplifying comes to nothing here: it is evaluated as a whole
     const CompileOptions *options = compiler->options;
     plain.simplify = plain.lint = false;
+    bool ahead = compiler->ahead;
     compiler->options = &plain;
+    compiler->ahead = true;
     const Expr *expr = ast->kind == AST_FUNC ? compile_closure(compiler, ast) : compile_expr(compiler, ast);
     compiler->options = options;
+    compiler->ahead = ahead;
     compiler->diags = diags;
     compiler->function = outer;
     Value value = VALUE_NULL;

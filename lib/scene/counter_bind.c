@@ -14,12 +14,17 @@ static Value numbers_or(const Reader *reader, AttrRow row, double fallback) {
     return value_number(fallback);
 }
 
-// The first given of two attributes.
+// The first well-formed of two attributes, or null.
 static Value bound(const Reader *reader, AttrRow full, AttrRow brief) {
-    Value v = attr_value(reader, full);
-    if (!value_is_numeric(v))
-        v = attr_value(reader, brief);
-    return value_is_numeric(v) ? v : VALUE_NULL;
+    const AttrRow rows[] = {full, brief};
+    for (int i = 0; i < 2; i++) {
+        Value v = attr_value(reader, rows[i]);
+        if (value_is_numeric(v))
+            return v;
+        if (v.len > 0)
+            attr_float(reader, rows[i]); // reports the shape
+    }
+    return VALUE_NULL;
 }
 
 static double element(Value v, uint32_t i) {

@@ -4,6 +4,7 @@
 #include "scene/systems.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 Scene *scene_new(SymbolTable *symbols, SceneHost host) {
     Scene *scene = calloc(1, sizeof *scene);
@@ -35,6 +36,40 @@ void scene_free(Scene *scene) {
     free(scene);
 }
 
+// The slots that a system holds besides its list.
+enum { OWN_SLOTS = 5 };
+static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
+    StateSlot *const all[OWN_SLOTS] = {&system->start, &system->run, &system->iteration, &system->clock, &system->last};
+    memcpy(slots, all, sizeof all);
+}
+
+// Drops slots of the state that nothing needs any more, once they are many: ids that come and go would fill it.
+static void tidy_state(Scene *scene, const SceneFrame *frame) {
+    enum { MANY = 4096 };
+    uint32_t count = state_slot_count(frame->state);
+    if (count < MANY || count / 2 < state_count(frame->state))
+        return;
+    uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
+    StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
+    memset(used, 0, count);
+    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        own_slots(system, own);
+        for (int i = 0; i < OWN_SLOTS; i++)
+            used[*own[i]] = 1;
+        for (uint32_t i = 0; i < system->slot_count; i++)
+            used[system->slots[i]] = 1;
+    }
+    if (!state_compact(frame->state, used, moved))
+        return;
+    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        own_slots(system, own);
+        for (int i = 0; i < OWN_SLOTS; i++)
+            *own[i] = moved[*own[i]];
+        for (uint32_t i = 0; i < system->slot_count; i++)
+            system->slots[i] = moved[system->slots[i]];
+    }
+}
+
 static uint64_t update_kind(Scene *scene, SceneKind kind, Value tree, uint32_t from, const SceneFrame *frame) {
     uint64_t steps = 0;
     for (uint32_t i = from; i < tree.len; i++) {
@@ -53,6 +88,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     bool done[KIND_COUNT_OF] = {false};
     uint64_t steps = 0;
     scene->frame_number++;
+    tidy_state(scene, frame);
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         if (tree.as.items[i].type != ITEM_NODE)
             continue;

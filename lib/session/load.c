@@ -20,9 +20,16 @@ static Unit *unit_new(PetriSession *session) {
 }
 
 void unit_free(Unit *unit) {
-    if (unit)
+    if (unit) {
+        diag_sink_free(&unit->sink);
         arena_free(&unit->arena);
+    }
     free(unit);
+}
+
+static void unit_tell(PetriSession *session, Unit *unit) {
+    session_tell_all(session, &unit->sink);
+    diag_sink_free(&unit->sink);
 }
 
 // True if this is the first %include of the path in the unit.
@@ -37,10 +44,11 @@ static bool take_include(Unit *unit, Str path) {
 }
 
 static const Ast *parse(PetriSession *session, Unit *unit, const Source *source) {
-    DiagSink sink = diag_sink_new(&unit->arena, MOST_ERRORS);
-    const Ast *ast = parse_program(&unit->arena, &session->symbols, source, &sink);
-    session_tell_all(session, &sink);
-    diag_sink_free(&sink);
+    DiagSink outer = unit->sink; // an included file is parsed while its includer is compiled
+    unit->sink = diag_sink_new(&unit->arena, MOST_ERRORS);
+    const Ast *ast = parse_program(&unit->arena, &session->symbols, source, &unit->sink);
+    unit_tell(session, unit);
+    unit->sink = outer;
     return ast;
 }
 
@@ -115,7 +123,7 @@ static void sort_by_place(DiagSink *sink) {
 }
 
 static void compile(PetriSession *session, Unit *unit, bool module) {
-    DiagSink sink = diag_sink_new(&unit->arena, MOST_ERRORS);
+    unit->sink = diag_sink_new(&unit->arena, MOST_ERRORS);
     CompileOptions options = {.module = module,
                               .lint = session->lint,
                               .simplify = session->options.simplify,
@@ -124,11 +132,10 @@ static void compile(PetriSession *session, Unit *unit, bool module) {
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loading;
     session->loading = unit;
-    unit->program = program_compile(&unit->arena, &session->symbols, unit->source, unit->ast, &options, &sink);
+    unit->program = program_compile(&unit->arena, &session->symbols, unit->source, unit->ast, &options, &unit->sink);
     session->loading = outer;
-    sort_by_place(&sink);
-    session_tell_all(session, &sink);
-    diag_sink_free(&sink);
+    sort_by_place(&unit->sink);
+    unit_tell(session, unit);
 }
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
@@ -141,7 +148,7 @@ static void load_text(PetriSession *session, Unit *unit, Str name, Str text, boo
 }
 
 Unit *unit_load_text(PetriSession *session, Str name, Str text) {
-    Unit *unit = unit_new(session);
+    Unit *unit = session->fresh = unit_new(session);
     if (unit) {
         unit->path = name;
         load_text(session, unit, name, text, false);
@@ -156,6 +163,8 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
     if (module) { // on the list at once: an escape while loading must not lose it
         unit->next = session->modules;
         session->modules = unit;
+    } else {
+        session->fresh = unit;
     }
     Str text;
     const char *problem;

@@ -51,7 +51,7 @@ static void log_machine(void *host, Str text) {
 }
 
 PetriSession *petri_open(const PetriOptions *options) {
-    if (!options || options->cookie != COOKIE)
+    if (!options || options->cookie != COOKIE || !(options->fps > 0) || !isfinite(options->fps))
         return NULL;
     PetriSession *session = calloc(1, sizeof *session);
     if (!session)
@@ -256,7 +256,9 @@ static PetriStatus load(PetriSession *session, const LoadRequest *request, bool 
     PetriStatus status = PETRI_OK;
     session->told_count = 0; // each thing once per load
     index_clear(&session->told_index);
+    session->fresh = NULL;
     if (!load_guarded(session, request, &unit) || !unit) {
+        unit_free(session->fresh);
         report_too_large(session);
         return PETRI_MEMORY;
     }

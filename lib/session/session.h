@@ -22,7 +22,8 @@ struct Unit {
     Str why;                // … for this reason
     Str *included;          // canonical paths that an %include has taken
     uint32_t included_count;
-    bool retired; // replaced; freed when no frame can refer to it any more
+    DiagSink sink; // of the parse or compilation that is under way
+    bool retired;  // replaced; freed when no frame can refer to it any more
 };
 
 struct PetriSession {
@@ -38,6 +39,7 @@ struct PetriSession {
     uint32_t define_capacity;
     Unit *program; // the loaded script, or NULL
     Unit *modules; // list
+    Unit *fresh;   // the script that was begun to be loaded last, for when its memory runs out
     Unit *loading; // whose compiler calls back
     bool lint;     // petri_check is at work
     Vm vm;

@@ -228,6 +228,33 @@ bool state_set(State *state, Value key, Value value) {
     return slot != STATE_NO_SLOT && state_slot_set(state, slot, value);
 }
 
+uint32_t state_slot_count(const State *state) {
+    return state->count;
+}
+
+bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
+    Index index = {0};
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < state->count; i++) {
+        bool kept = used[i] || state->entries[i].value.len > 0;
+        moved[i] = kept ? count : STATE_NO_SLOT;
+        if (kept && !index_add(&index, state->entries[i].hash, count++)) {
+            index_free(&index);
+            return false;
+        }
+    }
+    for (uint32_t i = 0; i < state->count; i++) {
+        if (moved[i] == STATE_NO_SLOT)
+            disown(&state->entries[i].key);
+        else
+            state->entries[moved[i]] = state->entries[i];
+    }
+    index_free(&state->index);
+    state->index = index;
+    state->count = count;
+    return true;
+}
+
 bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value) {
     while (*cursor < state->count) {
         const StateEntry *entry = &state->entries[(*cursor)++];

@@ -1,7 +1,7 @@
 // state.h: the state dictionary (spec language.md L11).
 //
 // A mapping from key vectors to non-null vectors that lives as long as the session. Scripts only read it; engine
-// systems write it between evaluations. Entries keep the order in which they were first stored, and a slot is a stable
+// systems write it between evaluations. Entries keep the order in which their slots were made, and a slot is a stable
 // number, so a system finds a key once and then reads and writes its slot without hashing.
 #ifndef PETRI_STATE_STATE_H
 #define PETRI_STATE_STATE_H
@@ -38,7 +38,14 @@ Value state_slot_key(const State *state, StateSlot slot);
 // As state_set. Numbers of unchanged length are overwritten in place.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 
-// Entries that have a value, in order of first storing: `*cursor` starts at 0; false at the end.
+// How many slots there are, with and without a value. Slots of removed keys stay until state_compact.
+uint32_t state_slot_count(const State *state);
+// Drops the slots that have neither a value nor a mark in `used` (one byte a slot), and moves the others together in
+// order. `moved[slot]` becomes the new number of each, STATE_NO_SLOT for a dropped one. False, with nothing changed, if
+// memory is used up.
+bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
+
+// Entries that have a value, in the order of their slots: `*cursor` starts at 0; false at the end.
 bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value);
 uint32_t state_count(const State *state);
 

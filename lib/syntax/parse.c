@@ -7,6 +7,8 @@
 
 #include <string.h>
 
+enum { MOST_EXPECTED = 3 }; // more alternatives than this say nothing
+
 static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     context->failed = true;
     diag_report(
@@ -62,9 +64,34 @@ static Str syntax_hint(const ParseContext *context, Span span, const char *found
     return (Str){0};
 }
 
+// In a list of names the tables cannot tell what it is a list for; the word that its line begins with can.
+static const char *after_names(const ParseContext *context, Span span, const char *const *expected, int count) {
+    static const struct {
+        const char *word;
+        const char *wanted;
+    } statements[] = {{"let", "'='"}, {"for", "in"}, {"import", "from"}};
+    bool in = false, from = false;
+    for (int i = 0; i < count; i++) {
+        in |= strcmp(expected[i], "in") == 0;
+        from |= strcmp(expected[i], "from") == 0;
+    }
+    Str line = str_trim(source_locate(context->source, span.start).text);
+    for (size_t i = 0; in && from && i < sizeof statements / sizeof statements[0]; i++)
+        if (str_starts_with(line, str_from(statements[i].word)))
+            return statements[i].wanted;
+    return NULL;
+}
+
 void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count) {
     if (context->reported)
         return;
+    const char *wanted = after_names(context, span, expected, count);
+    if (wanted) {
+        expected = &wanted;
+        count = 1;
+    } else if (count > MOST_EXPECTED) {
+        count = 0;
+    }
     bool wants_block = count == 1 && strcmp(expected[0], "indentation") == 0;
     Text text = text_new(context->arena);
     Str word = token_text(context, span);

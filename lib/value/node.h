@@ -22,7 +22,7 @@ struct Node {
     uint32_t height; // 1 + the greatest height of a child or of a node in an attribute
 };
 
-enum { NODE_MAX_HEIGHT = 16384 }; // deeper trees are refused, so that walking one never exhausts the stack
+enum { NODE_MAX_HEIGHT = 12000 }; // deeper trees are refused, so that walking one never exhausts the stack
 
 // What a function value is. The machine extends it for closures, whose identity is the address.
 struct Function {

@@ -115,5 +115,5 @@ Value vm_call_expr(Vm *vm, Frame *frame, const Expr *expr) {
     Vector vector = vector_new(vm->arena);
     for (uint32_t i = 0; i < callee.len; i++)
         vector_add(&vector, call_item(vm, callee.as.items[i], &args, expr));
-    return vector_finish(&vector);
+    return vm_finish(vm, expr, &vector);
 }

@@ -51,7 +51,7 @@ bool vm_work(Vm *vm, const Expr *at) {
     return false;
 }
 
-static Value finish(Vm *vm, const Expr *at, Vector *vector) {
+Value vm_finish(Vm *vm, const Expr *at, Vector *vector) {
     if (vector->overflow)
         vm_fault(vm, at, "too-long", "vector too long: the limit is 134217728 elements");
     return vector_finish(vector);
@@ -110,14 +110,14 @@ NOINLINE static Value eval_compose(Vm *vm, Frame *frame, const Expr *expr) {
             return result;
         for (uint32_t i = 0; i < count; i++)
             vector_add(&vector, few[i]);
-        return finish(vm, expr, &vector);
+        return vm_finish(vm, expr, &vector);
     }
     for (uint32_t i = 0; i < expr->count; i++) {
         Value part = vm_eval(vm, frame, expr->children[i]);
         if (!only_binds(expr->children[i]))
             vector_add(&vector, part);
     }
-    return finish(vm, expr, &vector);
+    return vm_finish(vm, expr, &vector);
 }
 
 NOINLINE static Value eval_bind(Vm *vm, Frame *frame, const Expr *expr) {
@@ -152,7 +152,7 @@ NOINLINE static Value eval_for(Vm *vm, Frame *frame, const Expr *expr) {
         if (vector.overflow)
             break;
     }
-    return finish(vm, expr, &vector);
+    return vm_finish(vm, expr, &vector);
 }
 
 NOINLINE static Value eval_if(Vm *vm, Frame *frame, const Expr *expr) {
@@ -169,7 +169,7 @@ NOINLINE static Value eval_append(Vm *vm, Frame *frame, const Expr *expr) {
     bool too_high = false;
     Value result = value_append(vm->arena, parent, children, &too_high);
     if (too_high)
-        vm_fault(vm, expr, "too-deep", "node tree too deep: the limit is 16384 levels; not appended");
+        vm_fault(vm, expr, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
     return result;
 }
 
@@ -185,7 +185,7 @@ NOINLINE static Value eval_decorate(Vm *vm, Frame *frame, const Expr *expr) {
     if (code->attr_count)
         subject = value_set_attrs(vm->arena, subject, attrs, code->attr_count, &too_high);
     if (too_high)
-        vm_fault(vm, expr, "too-deep", "nodes in attributes too deep: the limit is 16384 levels; not set");
+        vm_fault(vm, expr, "too-deep", "nodes in attributes too deep: the limit is 12000 levels; not set");
     return subject;
 }
 

@@ -39,6 +39,8 @@ void vm_bind(Vm *vm, Frame *frame, uint32_t slot, uint32_t count, Value value);
 void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) __attribute__((format(printf, 4, 5)));
 // The same for a text that is there already: each text once at that place in the frame.
 void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text);
+// vector_finish, with a report if the vector was too long.
+Value vm_finish(Vm *vm, const Expr *at, Vector *vector);
 // Counts one call or loop round; false once the frame's work is used up (reported once).
 bool vm_work(Vm *vm, const Expr *at);
 // Is there enough of the C stack left for one more call?

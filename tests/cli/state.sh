@@ -48,3 +48,18 @@ done
 check "nothing is left beside the files" [ -z "$(find . -name '*.tmp')" ]
 petri run world.fl --frames 2 --state .
 check "a folder is no state file" status_is 1
+
+# ids that are new in each frame must not fill the state
+cat >fresh.fl <<'END'
+!physics state=:s dimensions=1
+    for i in ..100
+        !particle id=frame;i velocity=1
+    !particle id=:stays velocity=1
+!physics state=:t dimensions=2
+    !particle id=:x velocity=1
+END
+petri run fresh.fl --frames 300 --every 299 --print state
+check "the state of particles with ever new ids holds the present ones only" [ "$(grep -c '^\$(:s;299;' out)" -eq 200 ]
+check "… and no former one" lacks out '(:s;298'
+check "… and those that stay" has out '$(:s;:stays) = '
+check "… with their systems" has out '$(:t;:iteration) = 299'

@@ -69,7 +69,7 @@ static void test_deep_nodes(void **state) {
                                "!c v=deep==same;uniform(deep)[0]==uniform(same)[0]\n";
     player_run(player, make, 1);
     assert_text("children", player_tree(player), "!c v=1;1\n");
-    assert_non_null(strstr(player_told(player), "the limit is 16384 levels"));
+    assert_non_null(strstr(player_told(player), "the limit is 12000 levels"));
     Notebook script = {0};
     const char *at = strstr(make, "(!a << v)");
     note(&script, make, (size_t)(at - make));

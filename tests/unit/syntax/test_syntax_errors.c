@@ -8,7 +8,7 @@ static void check_complaints(World *world, const char *const (*rows)[2], size_t 
 
 static void test_slips(void **state) {
     static const char *const rows[][2] = {
-        {"let x 5", "1:7: unexpected number 5"},
+        {"let x 5", "1:7: unexpected number 5, expected '='"},
         {"if x = 3\n    !a", "1:6: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
         {"if x\n!a",
          "2:1: unexpected node !a, expected an indented block | the line above needs an indented block under it"},
@@ -35,7 +35,7 @@ static void test_slips(void **state) {
         {"# comment", "1:1: '#' must be directly followed by a name | comments start with --"},
         {"x = 3", "1:3: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
         {"x == ", "1:6: unexpected end of line"},
-        {"for x y\n    z", "1:7: unexpected name y"},
+        {"for x y\n    z", "1:7: unexpected name y, expected 'in'"},
         {"for in x\n    y", "1:8: unexpected name x"},
         {"for x in\n    y", "1:9: unexpected end of line"},
         {"import a 'x.fl'", "1:10: unexpected string 'x.fl'"},

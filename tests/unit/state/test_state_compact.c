@@ -1,0 +1,78 @@
+// test_state_compact.c: dropping the slots of keys that are gone.
+#include <setjmp.h>
+#include <stdarg.h>
+#include <stddef.h>
+#include <stdint.h>
+
+#include <cmocka.h>
+
+#include "state/state.h"
+
+enum { COUNT = 300 };
+
+static State *filled(void) {
+    State *state = state_new();
+    for (int i = 0; i < COUNT; i++) {
+        const double pair[2] = {i, i + 0.5};
+        assert_true(state_set(state, value_number(i), value_numbers_view(pair, 2)));
+    }
+    return state;
+}
+
+static double second_of(const State *state, double key) {
+    Value v = state_get(state, value_number(key));
+    return v.len == 2 ? v.as.numbers[1] : -1;
+}
+
+// Every third key goes; of the slots that become free, one is still held by somebody.
+static void test_compact(void **unused) {
+    (void)unused;
+    State *state = filled();
+    for (int i = 0; i < COUNT; i += 3)
+        state_set(state, value_number(i), VALUE_NULL);
+    StateSlot held = state_find(state, value_number(30)), other = state_find(state, value_number(31));
+    uint8_t used[COUNT] = {0};
+    StateSlot moved[COUNT];
+    used[held] = 1;
+    assert_int_equal(state_slot_count(state), COUNT);
+    assert_true(state_compact(state, used, moved));
+    assert_int_equal(state_slot_count(state), COUNT - COUNT / 3 + 1);
+    assert_int_equal(state_count(state), COUNT - COUNT / 3);
+    assert_int_equal(moved[0], STATE_NO_SLOT);
+    assert_int_equal(state_find(state, value_number(0)), STATE_NO_SLOT);
+    assert_int_equal(state_find(state, value_number(30)), moved[held]);
+    assert_int_equal(state_find(state, value_number(31)), moved[other]);
+    for (int i = 0; i < COUNT; i++)
+        assert_true(second_of(state, i) == (i % 3 ? i + 0.5 : -1));
+    // The order is the old one, and new keys come after it.
+    assert_true(state_set(state, value_number(-1), value_number(7)));
+    uint32_t cursor = 0;
+    double last = 0;
+    int seen = 0;
+    for (Value key, value; state_next(state, &cursor, &key, &value); seen++) {
+        assert_true(key.as.number > last || key.as.number == -1);
+        last = key.as.number;
+    }
+    assert_int_equal(seen, COUNT - COUNT / 3 + 1);
+    assert_true(last == -1);
+    state_free(state);
+}
+
+static void test_compact_everything(void **unused) {
+    (void)unused;
+    State *state = filled();
+    for (int i = 0; i < COUNT; i++)
+        state_set(state, value_number(i), VALUE_NULL);
+    uint8_t used[COUNT] = {0};
+    StateSlot moved[COUNT];
+    assert_true(state_compact(state, used, moved));
+    assert_int_equal(state_slot_count(state), 0);
+    assert_true(state_set(state, value_number(5), value_number(6)));
+    assert_true(state_get(state, value_number(5)).as.number == 6);
+    state_free(state);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_compact), cmocka_unit_test(test_compact_everything)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
