@@ -36,9 +36,9 @@ static void test_slips(void **state) {
         {"x = 3", "1:3: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
         {"x == ", "1:6: unexpected end of line"},
         {"for x y\n    z", "1:7: unexpected name y, expected 'in'"},
-        {"for in x\n    y", "1:8: unexpected name x"},
+        {"for in x\n    y", "1:8: unexpected name x, expected 'in'"},
         {"for x in\n    y", "1:9: unexpected end of line"},
-        {"import a 'x.fl'", "1:10: unexpected string 'x.fl'"},
+        {"import a 'x.fl'", "1:10: unexpected string 'x.fl', expected 'from'"},
         {"func f\n    x", "1:7: unexpected end of line, expected '('"},
         {"func f(\n", "1:8: unexpected end of file, expected name or ')' | the parenthesis opened at line 1, column 7 "
                       "is not closed"},
