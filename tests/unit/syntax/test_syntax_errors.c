@@ -79,7 +79,7 @@ static void test_slips(void **state) {
                                "spaces: do not mix the two"},
         {"if x\n    !a (\nelse\n    !b )\n!c",
          "4:5: unexpected node !b | the parenthesis opened at line 2, column 8 is not closed"},
-        {"for x of y\n    !a\n!b\n", "1:7: unexpected name of"},
+        {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in'"},
     };
     check_complaints(*state, rows, COUNT_OF(rows));
 }
