@@ -83,6 +83,7 @@ struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // capacity of all buffers together
     bool failed;    // memory was used up since phys_begin
+    PhysOptions options;
     // description
     uint32_t dimensions;
     uint32_t group_count;

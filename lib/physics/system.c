@@ -22,6 +22,7 @@ PhysSystem *phys_new(void) {
     PhysSystem *system = arena_alloc(&home, sizeof *system);
     home.escape = NULL;
     *system = (PhysSystem){.home = home};
+    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detect()});
     phys_begin(system, 1);
     return system;
 }
@@ -35,6 +36,15 @@ void phys_free(PhysSystem *system) {
         phys_buffer_free(buffers[i]);
     Arena home = system->home; // the struct goes with it
     arena_free(&home);
+}
+
+void phys_set_options(PhysSystem *system, const PhysOptions *options) {
+    CpuLevel best = cpu_detect();
+    system->options = *options;
+    if (options->threads <= 0)
+        system->options.threads = cpu_count();
+    if (options->cpu > best)
+        system->options.cpu = best;
 }
 
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
