@@ -2,7 +2,7 @@
 //
 // A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
 // particle a row of 3 n doubles (position, velocity, force), which is also where results are read. To simulate, it is
-// arranged: particles go into columns, component k of particle i at [k * count + i], in pre-order of their groups, each
+// arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups, each
 // group's own first; forces are sorted by group and by the stage in which they act. Then
 //
 //   - the particles of a group are one contiguous range, and so are those of a group with all its sub-groups;
@@ -65,6 +65,7 @@ typedef struct Force {
 typedef struct Columns {
     size_t dimensions;
     uint32_t count;
+    size_t stride; // >= count
     double *position;
     double *velocity;
     double *thrust; // the particle's own force

@@ -1,5 +1,6 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
 #include "physics/internal.h"
+#include "physics/kernels.h"
 
 // Points the columns into their memory.
 static bool reserve_columns(PhysSystem *system) {
@@ -10,17 +11,21 @@ static bool reserve_columns(PhysSystem *system) {
                           &columns->charge, &columns->section, &columns->volume};
     enum { VECTORS = sizeof vectors / sizeof *vectors, SCALARS = sizeof scalars / sizeof *scalars, SCRATCH = 3 };
     // n * count is bounded by the rows, which exist already. Without particles nothing is needed, however large n is.
-    uint64_t doubles = VECTORS * n * count + SCALARS * count + (count ? SCRATCH * n : 0);
+    // Vector kernels want columns that begin at a cache line, and may read one vector beyond the last.
+    enum { LINE = 8 };
+    uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + LINE - 1) / LINE * LINE : count;
+    uint64_t doubles = VECTORS * n * stride + SCALARS * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
     uint64_t flags = (count + sizeof(double) - 1) / sizeof(double);
     if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)))
         return false;
-    *columns = (Columns){.dimensions = n, .count = system->particle_count};
+    *columns = (Columns){.dimensions = n, .count = system->particle_count, .stride = stride};
     if (!count)
         return true;
-    double *next = system->column_data.bytes;
-    for (int i = 0; i < VECTORS; i++, next += n * count)
+    uintptr_t line = LINE * sizeof(double), address = (uintptr_t)system->column_data.bytes;
+    double *next = (double *)((address + line - 1) / line * line);
+    for (int i = 0; i < VECTORS; i++, next += n * stride)
         *vectors[i] = next;
-    for (int i = 0; i < SCALARS; i++, next += count)
+    for (int i = 0; i < SCALARS; i++, next += stride)
         *scalars[i] = next;
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
@@ -47,8 +52,8 @@ bool phys_load(PhysSystem *system) {
         return false;
     const Columns *columns = &system->columns;
     const ParticleRecord *particles = system->particles.bytes;
-    size_t n = columns->dimensions, count = columns->count;
-    for (size_t i = 0; i < count; i++) {
+    size_t n = columns->dimensions, stride = columns->stride;
+    for (size_t i = 0; i < columns->count; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = &particles[handle];
         columns->ease[i] = particle->ease;
@@ -58,9 +63,9 @@ bool phys_load(PhysSystem *system) {
         columns->anchor[i] = particle->anchor;
         const double *row = (const double *)system->rows.bytes + 3 * n * handle;
         for (size_t k = 0; k < n; k++) {
-            columns->position[k * count + i] = row[k];
-            columns->velocity[k * count + i] = row[n + k];
-            columns->thrust[k * count + i] = row[2 * n + k];
+            columns->position[k * stride + i] = row[k];
+            columns->velocity[k * stride + i] = row[n + k];
+            columns->thrust[k * stride + i] = row[2 * n + k];
         }
     }
     compute_radius_powers(system, columns);
@@ -69,12 +74,12 @@ bool phys_load(PhysSystem *system) {
 
 void phys_store(PhysSystem *system) {
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, count = columns->count;
-    for (size_t i = 0; i < count; i++) {
+    size_t n = columns->dimensions, stride = columns->stride;
+    for (size_t i = 0; i < columns->count; i++) {
         double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
         for (size_t k = 0; k < n; k++) {
-            row[k] = columns->position[k * count + i];
-            row[n + k] = columns->velocity[k * count + i];
+            row[k] = columns->position[k * stride + i];
+            row[n + k] = columns->velocity[k * stride + i];
         }
     }
 }

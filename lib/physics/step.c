@@ -10,11 +10,11 @@ static void ease_strengths(const PhysSystem *system, double clock) {
 
 // The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
 static void start_forces(const Columns *columns, double clock) {
-    size_t n = columns->dimensions, count = columns->count;
-    for (size_t i = 0; i < count; i++) {
+    size_t n = columns->dimensions, stride = columns->stride;
+    for (size_t i = 0; i < columns->count; i++) {
         double factor = phys_ramp(columns->ease[i], clock);
         for (size_t k = 0; k < n; k++)
-            columns->force[k * count + i] = columns->thrust[k * count + i] * factor;
+            columns->force[k * stride + i] = columns->thrust[k * stride + i] * factor;
     }
 }
 

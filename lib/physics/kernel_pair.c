@@ -1,0 +1,204 @@
+// kernel_pair.c: all pairs of a pass, each computed once, in tiles of LANES x LANES.
+//
+// A tile has LANES targets in the lanes (its rows) and takes LANES partners (its columns) one after the other. The
+// terms are added to the rows' sums as they come: ascending partner. Then the tile is transposed, and the terms are
+// subtracted from the columns' sums: ascending row. Tiles go row by row, so every particle still sums its partners in
+// ascending order, as force_pair.c does.
+#include "physics/pair_terms.h"
+
+// Terms of one tile on their way to its columns, by component and column.
+typedef struct Tile {
+    Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
+    Real rest[PHYS_MOST_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
+    unsigned hits; // forces that have written to `rest`
+} Tile;
+
+static const Tile *const NO_TILE = NULL; // inside the diagonal every particle is a row
+
+// Adds a force where it applies; what the column gets is +0.0 elsewhere.
+KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
+                     Real (*column)[LANES], size_t k) {
+    for (size_t m = 0; m < shape.dimensions; m++) {
+        Real f = real_mul(pair->unit[m], coefficient);
+        sum[m] = real_add_where(applies, sum[m], f);
+        if (column)
+            column[m][k] = real_keep(applies, f);
+    }
+}
+
+static void clear_terms(Real (*column)[LANES]) {
+    for (size_t m = 0; m < PHYS_VECTOR_DIMENSIONS; m++)
+        for (size_t k = 0; k < LANES; k++)
+            column[m][k] = real_zero();
+}
+
+// The forces after the leading one.
+KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
+                     const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
+    Mask touch = pair_touch(pair, target, partner);
+    if (shape.rest == REST_TOUCH && !mask_any(touch))
+        return;
+    for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
+        Real coefficient;
+        Mask applies = pair_term(&pass->terms[t], pair, target, partner, shape, touch, &coefficient);
+        if (!mask_any(applies))
+            continue;
+        if (tile && !(tile->hits >> t & 1)) {
+            clear_terms(tile->rest[t]);
+            tile->hits |= 1u << t;
+        }
+        add_term(shape, pair, applies, coefficient, sum, tile ? tile->rest[t] : NULL, k);
+    }
+}
+
+// All forces between the rows and one column.
+KERNEL void add_column(const PairPass *pass, PairShape shape, const PairEnd *target, size_t j, Mask live, Real *sum,
+                       Tile *tile, size_t k) {
+    PairEnd partner = pair_partner(pass, shape, j);
+    PairGeometry pair;
+    if (!pair_geometry(shape, target, &partner, live, &pair))
+        return;
+    if (shape.lead != LEAD_NONE) {
+        Real coefficient;
+        Mask applies = pair_lead(pass, shape, &pair, target, &partner, &coefficient);
+        add_term(shape, &pair, applies, coefficient, sum, tile ? tile->lead : NULL, k);
+    }
+    if (shape.rest != REST_NONE)
+        add_rest(pass, shape, &pair, target, &partner, sum, tile, k);
+}
+
+// Gives a tile's terms to its columns.
+KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_t j, size_t columns) {
+    if (shape.lead == LEAD_NONE && !tile->hits)
+        return;
+    for (size_t m = 0; m < shape.dimensions; m++) {
+        double *force = pass->force + m * pass->stride + j;
+        Real total = real_load(force);
+        if (shape.lead != LEAD_NONE)
+            real_transpose(tile->lead[m]);
+        for (size_t t = 0; t < pass->term_count; t++)
+            if (tile->hits >> t & 1)
+                real_transpose(tile->rest[t][m]);
+#pragma GCC unroll 8
+        for (size_t k = 0; k < LANES; k++) {
+            if (shape.lead != LEAD_NONE)
+                total = real_sub(total, tile->lead[m][k]);
+            if (shape.rest != REST_NONE && tile->hits)
+                for (size_t t = 0; t < pass->term_count; t++)
+                    if (tile->hits >> t & 1)
+                        total = real_sub(total, tile->rest[t][m][k]);
+        }
+        if (columns == LANES)
+            real_store(force, total);
+        else
+            real_store_where(mask_first(columns), force, total);
+    }
+}
+
+KERNEL void full_tile(const PairPass *pass, PairShape shape, const PairEnd *target, Mask live, Real *sum, size_t j) {
+    Tile tile;
+    tile.hits = 0;
+#pragma GCC unroll 8
+    for (size_t k = 0; k < LANES; k++)
+        add_column(pass, shape, target, j + k, live, sum, &tile, k);
+    finish_tile(pass, shape, &tile, j, LANES);
+}
+
+KERNEL void partial_tile(const PairPass *pass, PairShape shape, const PairEnd *target, Mask live, Real *sum, size_t j,
+                         size_t columns) {
+    Tile tile;
+    tile.hits = 0;
+    if (shape.lead != LEAD_NONE)
+        clear_terms(tile.lead);
+    for (size_t k = 0; k < columns; k++)
+        add_column(pass, shape, target, j + k, live, sum, &tile, k);
+    finish_tile(pass, shape, &tile, j, columns);
+}
+
+// The tile on the diagonal: each of its particles is a row and takes all the others.
+KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, const PairEnd *target, Real *sum, size_t i,
+                          size_t rows) {
+    for (size_t k = 0; k < rows; k++) {
+        Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
+        Mask live = mask_and(mask_first(rows), mask_not(self));
+        add_column(pass, shape, target, i + k, live, sum, (Tile *)NO_TILE, 0);
+    }
+}
+
+// LANES rows against all their columns; those of a triangle begin right of the diagonal.
+KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t rows, size_t column, size_t column_end,
+                     bool triangle) {
+    PairEnd target = pair_targets(pass, shape, i);
+    Mask live = mask_first(rows);
+    Real sum[PHYS_VECTOR_DIMENSIONS];
+    for (size_t m = 0; m < shape.dimensions; m++)
+        sum[m] = real_load(pass->force + m * pass->stride + i);
+    if (triangle)
+        diagonal_tile(pass, shape, &target, sum, i, rows);
+    size_t j = triangle ? i + rows : column;
+    for (; j + LANES <= column_end; j += LANES)
+        full_tile(pass, shape, &target, live, sum, j);
+    if (j < column_end)
+        partial_tile(pass, shape, &target, live, sum, j, column_end - j);
+    for (size_t m = 0; m < shape.dimensions; m++)
+        real_store_where(live, pass->force + m * pass->stride + i, sum[m]);
+}
+
+KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t row_end, size_t column,
+                      size_t column_end, bool triangle) {
+    for (size_t i = row; i < row_end; i += LANES)
+        tile_row(pass, shape, i, row_end - i < LANES ? row_end - i : LANES, column, column_end, triangle);
+}
+
+// The kernels themselves. dimensions, lead and rest are constants in each.
+#define PAIR_KERNEL(n, lead, rest)                                                                                     \
+    static void triangle_##n##lead##rest(const PairPass *pass, size_t first, size_t end) {                             \
+        tile_rows(pass, (PairShape){n, lead, rest}, first, end, 0, end, true);                                         \
+    }                                                                                                                  \
+    static void tiles_##n##lead##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                 \
+                                      size_t column_end) {                                                             \
+        tile_rows(pass, (PairShape){n, lead, rest}, row, row_end, column, column_end, false);                          \
+    }
+#define PAIR_KERNELS(n)                                                                                                \
+    PAIR_KERNEL(n, LEAD_GRAVITY, REST_NONE)                                                                            \
+    PAIR_KERNEL(n, LEAD_GRAVITY, REST_TOUCH)                                                                           \
+    PAIR_KERNEL(n, LEAD_ELECTROSTATIC, REST_NONE)                                                                      \
+    PAIR_KERNEL(n, LEAD_ELECTROSTATIC, REST_TOUCH)                                                                     \
+    PAIR_KERNEL(n, LEAD_NONE, REST_TOUCH)                                                                              \
+    PAIR_KERNEL(n, LEAD_NONE, REST_ANY)
+PAIR_KERNELS(1)
+PAIR_KERNELS(2)
+PAIR_KERNELS(3)
+
+#define PAIR_ENTRY(n, lead, rest) [n - 1][lead][rest] = {triangle_##n##lead##rest, tiles_##n##lead##rest}
+#define PAIR_ENTRIES(n)                                                                                                \
+    PAIR_ENTRY(n, LEAD_GRAVITY, REST_NONE), PAIR_ENTRY(n, LEAD_GRAVITY, REST_TOUCH),                                   \
+        PAIR_ENTRY(n, LEAD_ELECTROSTATIC, REST_NONE), PAIR_ENTRY(n, LEAD_ELECTROSTATIC, REST_TOUCH),                   \
+        PAIR_ENTRY(n, LEAD_NONE, REST_TOUCH), PAIR_ENTRY(n, LEAD_NONE, REST_ANY)
+static const PairKernel pair_kernels[PHYS_VECTOR_DIMENSIONS][LEAD_ELECTROSTATIC + 1][REST_ANY + 1] = {
+    PAIR_ENTRIES(1),
+    PAIR_ENTRIES(2),
+    PAIR_ENTRIES(3),
+};
+
+static bool needs_contact(const PairTerm *term) {
+    return term->kind == TERM_COLLISION || term->kind == TERM_ADHESION;
+}
+
+static const PairKernel *pair_kernel(const PairPass *pass) {
+    const PairTerm *first = pass->terms;
+    PairLead lead = LEAD_NONE;
+    if (!needs_contact(first) && !(first->bound < INFINITY))
+        lead = first->kind == TERM_GRAVITY ? LEAD_GRAVITY : LEAD_ELECTROSTATIC;
+    size_t others = lead != LEAD_NONE;
+    PairRest rest = pass->term_count == others ? REST_NONE : REST_TOUCH;
+    for (size_t t = others; t < pass->term_count; t++)
+        if (!needs_contact(&pass->terms[t]))
+            return &pair_kernels[pass->dimensions - 1][LEAD_NONE][REST_ANY];
+    return &pair_kernels[pass->dimensions - 1][lead][rest];
+}
+
+const Kernels PER_ISA(phys_kernels) = {
+    .lanes = LANES,
+    .pair = pair_kernel,
+};
