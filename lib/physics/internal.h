@@ -2,8 +2,8 @@
 //
 // A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
 // particle a row of 3 n doubles (position, velocity, force), which is also where results are read. To simulate, it is
-// arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups, each
-// group's own first; forces are sorted by group and by the stage in which they act. Then
+// arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups,
+// each group's own first; forces are sorted by group and by the stage in which they act. Then
 //
 //   - the particles of a group are one contiguous range, and so are those of a group with all its sub-groups;
 //   - what a particle sees in a pass over pairs is its own range and one range for each enclosing group;

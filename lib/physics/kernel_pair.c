@@ -35,8 +35,10 @@ static void clear_terms(Real (*column)[LANES]) {
 // The forces after the leading one.
 KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
                      const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
-    Mask touch = pair_touch(pair, target, partner);
-    if (shape.rest == REST_TOUCH && !mask_any(touch))
+    Mask touch = pair_touch(pair);
+    if (mask_any(touch))
+        touch = both_there(touch, target->radius, partner->radius);
+    else if (shape.rest == REST_TOUCH)
         return;
     for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
         Real coefficient;
@@ -51,42 +53,64 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
     }
 }
 
-// All forces between the rows and one column.
-KERNEL void add_column(const PairPass *pass, PairShape shape, const PairEnd *target, size_t j, Mask live, Real *sum,
-                       Tile *tile, size_t k) {
+// The rows of a tile.
+typedef struct Rows {
+    PairEnd target;
+    Mask live;
+    Mask lead; // rows that the leading force can act on
+    Real sum[PHYS_VECTOR_DIMENSIONS];
+} Rows;
+
+// All forces between the rows that are `live` and one column. `whole`: the leading force acts on the column.
+KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool whole, Tile *tile,
+                       size_t k) {
+    const PairEnd *target = &rows->target;
     PairEnd partner = pair_partner(pass, shape, j);
     PairGeometry pair;
     if (!pair_geometry(shape, target, &partner, live, &pair))
         return;
     if (shape.lead != LEAD_NONE) {
-        Real coefficient;
-        Mask applies = pair_lead(pass, shape, &pair, target, &partner, &coefficient);
-        add_term(shape, &pair, applies, coefficient, sum, tile ? tile->lead : NULL, k);
+        Real a = lead_source(shape, target), b = lead_source(shape, &partner);
+        Mask applies = mask_and(pair.valid, rows->lead);
+        if (!whole)
+            applies = real_differs_where(applies, b, real_zero());
+        Real coefficient = inverse_square(&pass->terms[0], &pair, a, b);
+        add_term(shape, &pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
     }
     if (shape.rest != REST_NONE)
-        add_rest(pass, shape, &pair, target, &partner, sum, tile, k);
+        add_rest(pass, shape, &pair, target, &partner, rows->sum, tile, k);
+}
+
+// Gives the terms of forces that are not the leading one to the columns, each after those that precede it.
+static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, Real *total) {
+    for (size_t t = 0; t < pass->term_count; t++)
+        if (tile->hits >> t & 1)
+            real_transpose(tile->rest[t][m]);
+    for (size_t k = 0; k < LANES; k++) {
+        if (lead)
+            *total = real_sub(*total, tile->lead[m][k]);
+        for (size_t t = 0; t < pass->term_count; t++)
+            if (tile->hits >> t & 1)
+                *total = real_sub(*total, tile->rest[t][m][k]);
+    }
 }
 
 // Gives a tile's terms to its columns.
 KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_t j, size_t columns) {
-    if (shape.lead == LEAD_NONE && !tile->hits)
+    bool lead = shape.lead != LEAD_NONE, mixed = shape.rest != REST_NONE && tile->hits;
+    if (!lead && !mixed)
         return;
     for (size_t m = 0; m < shape.dimensions; m++) {
         double *force = pass->force + m * pass->stride + j;
         Real total = real_load(force);
-        if (shape.lead != LEAD_NONE)
+        if (lead)
             real_transpose(tile->lead[m]);
-        for (size_t t = 0; t < pass->term_count; t++)
-            if (tile->hits >> t & 1)
-                real_transpose(tile->rest[t][m]);
+        if (mixed) {
+            finish_mixed(pass, tile, lead, m, &total);
+        } else {
 #pragma GCC unroll 8
-        for (size_t k = 0; k < LANES; k++) {
-            if (shape.lead != LEAD_NONE)
+            for (size_t k = 0; k < LANES; k++)
                 total = real_sub(total, tile->lead[m][k]);
-            if (shape.rest != REST_NONE && tile->hits)
-                for (size_t t = 0; t < pass->term_count; t++)
-                    if (tile->hits >> t & 1)
-                        total = real_sub(total, tile->rest[t][m][k]);
         }
         if (columns == LANES)
             real_store(force, total);
@@ -95,53 +119,60 @@ KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_
     }
 }
 
-KERNEL void full_tile(const PairPass *pass, PairShape shape, const PairEnd *target, Mask live, Real *sum, size_t j) {
+// Does the leading force act on all of LANES columns?
+KERNEL bool all_led(const PairPass *pass, PairShape shape, size_t j) {
+    if (shape.lead == LEAD_NONE)
+        return true;
+    Real source = real_load((shape.lead == LEAD_GRAVITY ? pass->mass : pass->charge) + j);
+    return mask_bits(real_differs_where(mask_first(LANES), source, real_zero())) == (1u << LANES) - 1;
+}
+
+KERNEL void full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j) {
     Tile tile;
     tile.hits = 0;
 #pragma GCC unroll 8
     for (size_t k = 0; k < LANES; k++)
-        add_column(pass, shape, target, j + k, live, sum, &tile, k);
+        add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
     finish_tile(pass, shape, &tile, j, LANES);
 }
 
-KERNEL void partial_tile(const PairPass *pass, PairShape shape, const PairEnd *target, Mask live, Real *sum, size_t j,
-                         size_t columns) {
+// A tile that is not full or in which the leading force leaves out columns.
+KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j, size_t columns) {
     Tile tile;
     tile.hits = 0;
     if (shape.lead != LEAD_NONE)
         clear_terms(tile.lead);
     for (size_t k = 0; k < columns; k++)
-        add_column(pass, shape, target, j + k, live, sum, &tile, k);
+        add_column(pass, shape, rows, rows->live, j + k, false, &tile, k);
     finish_tile(pass, shape, &tile, j, columns);
 }
 
 // The tile on the diagonal: each of its particles is a row and takes all the others.
-KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, const PairEnd *target, Real *sum, size_t i,
-                          size_t rows) {
-    for (size_t k = 0; k < rows; k++) {
+KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
+    for (size_t k = 0; k < count; k++) {
         Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
-        Mask live = mask_and(mask_first(rows), mask_not(self));
-        add_column(pass, shape, target, i + k, live, sum, (Tile *)NO_TILE, 0);
+        add_column(pass, shape, rows, mask_and(rows->live, mask_not(self)), i + k, false, (Tile *)NO_TILE, 0);
     }
 }
 
 // LANES rows against all their columns; those of a triangle begin right of the diagonal.
-KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t rows, size_t column, size_t column_end,
+KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t count, size_t column, size_t column_end,
                      bool triangle) {
-    PairEnd target = pair_targets(pass, shape, i);
-    Mask live = mask_first(rows);
-    Real sum[PHYS_VECTOR_DIMENSIONS];
+    Rows rows = {.target = pair_targets(pass, shape, i), .live = mask_first(count)};
+    rows.lead = real_differs_where(rows.live, lead_source(shape, &rows.target), real_zero());
     for (size_t m = 0; m < shape.dimensions; m++)
-        sum[m] = real_load(pass->force + m * pass->stride + i);
+        rows.sum[m] = real_load(pass->force + m * pass->stride + i);
     if (triangle)
-        diagonal_tile(pass, shape, &target, sum, i, rows);
-    size_t j = triangle ? i + rows : column;
-    for (; j + LANES <= column_end; j += LANES)
-        full_tile(pass, shape, &target, live, sum, j);
-    if (j < column_end)
-        partial_tile(pass, shape, &target, live, sum, j, column_end - j);
+        diagonal_tile(pass, shape, &rows, i, count);
+    size_t j = triangle ? i + count : column;
+    for (; j < column_end; j += LANES) {
+        if (j + LANES <= column_end && all_led(pass, shape, j))
+            full_tile(pass, shape, &rows, j);
+        else
+            partial_tile(pass, shape, &rows, j, column_end - j < LANES ? column_end - j : LANES);
+    }
     for (size_t m = 0; m < shape.dimensions; m++)
-        real_store_where(live, pass->force + m * pass->stride + i, sum[m]);
+        real_store_where(rows.live, pass->force + m * pass->stride + i, rows.sum[m]);
 }
 
 KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t row_end, size_t column,

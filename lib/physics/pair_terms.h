@@ -46,11 +46,6 @@ typedef struct PairGeometry {
     Mask valid; // l is neither 0 nor not finite
 } PairGeometry;
 
-KERNEL bool needs_radius(PairShape shape) {
-    (void)shape;
-    return true; // D needs it too
-}
-
 KERNEL bool needs_mass(PairShape shape) {
     return shape.lead == LEAD_GRAVITY || shape.rest == REST_ANY;
 }
@@ -83,13 +78,14 @@ KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
 
 // Forces that need contact: pairs that surely have none are dropped before the square root. The filter is a hair too
 // wide, so that rounding cannot drop a pair with l < r₁+r₂, however small the numbers are.
-KERNEL Mask pair_near(Real square, Real reach) {
+KERNEL Mask pair_near(Mask live, Real square, Real reach) {
     Real wide = real_mul(real_mul(reach, reach), real_set(1 + 0x1p-48));
-    return real_less(square, real_add(wide, real_set(DBL_MIN)));
+    return real_less_where(live, square, real_add(wide, real_set(DBL_MIN)));
 }
 
 // False if none of the pairs `live` can have a force.
-KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live, PairGeometry *pair) {
+KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live,
+                          PairGeometry *pair) {
     Real square = real_zero();
     for (size_t k = 0; k < shape.dimensions; k++) {
         pair->unit[k] = real_sub(partner->place[k], target->place[k]);
@@ -98,28 +94,32 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     }
     pair->reach = real_add(target->radius, partner->radius);
     if (shape.lead == LEAD_NONE && shape.rest == REST_TOUCH) {
-        live = mask_and(live, pair_near(square, pair->reach));
+        live = pair_near(live, square, pair->reach);
         if (!mask_any(live))
             return false;
     }
     pair->length = real_sqrt(square);
-    pair->valid = mask_and(live, mask_and(real_less(real_zero(), square), real_at_most(square, real_set(DBL_MAX))));
+    pair->valid = real_at_most_where(real_less_where(live, real_zero(), square), square, real_set(DBL_MAX));
     Real inverse = real_div(real_set(1), pair->length);
     for (size_t k = 0; k < shape.dimensions; k++)
         pair->unit[k] = real_mul(pair->unit[k], inverse);
     return true;
 }
 
-// gravity, electrostatic
-KERNEL Mask inverse_square(const PairTerm *term, const PairGeometry *pair, Real a, Real b, Real *coefficient) {
-    Real distance = real_larger(pair->reach, pair->length);
-    *coefficient = real_div(real_mul(real_set(term->strength), real_mul(a, b)), real_mul(distance, distance));
-    return mask_and(pair->valid, mask_and(real_differs(a, real_zero()), real_differs(b, real_zero())));
+// Lanes in which neither of two quantities is 0.
+KERNEL Mask both_there(Mask mask, Real a, Real b) {
+    return real_differs_where(real_differs_where(mask, a, real_zero()), b, real_zero());
 }
 
-KERNEL Mask pair_touch(const PairGeometry *pair, const PairEnd *target, const PairEnd *partner) {
-    Mask sized = mask_and(real_differs(target->radius, real_zero()), real_differs(partner->radius, real_zero()));
-    return mask_and(mask_and(pair->valid, sized), real_less(pair->length, pair->reach));
+// gravity, electrostatic
+KERNEL Real inverse_square(const PairTerm *term, const PairGeometry *pair, Real a, Real b) {
+    Real distance = real_larger(pair->reach, pair->length);
+    return real_div(real_mul(real_set(term->strength), real_mul(a, b)), real_mul(distance, distance));
+}
+
+// Lanes with contact. Radii of 0 are left to both_there: few pairs get so far.
+KERNEL Mask pair_touch(const PairGeometry *pair) {
+    return real_less_where(pair->valid, pair->length, pair->reach);
 }
 
 // C pow, lane by lane.
@@ -145,34 +145,31 @@ KERNEL Real collision(const PairTerm *term, const PairGeometry *pair, Mask touch
 KERNEL Real adhesion(const PairTerm *term, const PairGeometry *pair, const PairEnd *target, const PairEnd *partner) {
     Real depth = real_sub(pair->reach, pair->length);
     Real difference = real_absolute(real_sub(target->radius, partner->radius));
-    Real rest = real_add(real_mul(difference, real_set(term->overlap)),
-                         real_mul(pair->reach, real_set(1 - term->overlap)));
+    Real rest =
+        real_add(real_mul(difference, real_set(term->overlap)), real_mul(pair->reach, real_set(1 - term->overlap)));
     return real_mul(real_mul(real_set(term->strength), depth), real_sub(pair->length, rest));
 }
 
-// Coefficient of the force that leads, and where it applies.
-KERNEL Mask pair_lead(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
-                      const PairEnd *partner, Real *coefficient) {
-    if (shape.lead == LEAD_GRAVITY)
-        return inverse_square(&pass->terms[0], pair, target->mass, partner->mass, coefficient);
-    return inverse_square(&pass->terms[0], pair, target->charge, partner->charge, coefficient);
+// What the force that leads works on.
+KERNEL Real lead_source(PairShape shape, const PairEnd *end) {
+    return shape.lead == LEAD_GRAVITY ? end->mass : end->charge;
 }
 
-// The same for one of the others; `touch` is what pair_touch gave.
+// Coefficient of one of the other forces, and where it applies. `touch` has the lanes with contact.
 KERNEL Mask pair_term(const PairTerm *term, const PairGeometry *pair, const PairEnd *target, const PairEnd *partner,
                       PairShape shape, Mask touch, Real *coefficient) {
     Mask applies = touch;
-    if (term->kind == TERM_COLLISION)
+    if (term->kind == TERM_COLLISION) {
         *coefficient = collision(term, pair, touch);
-    else if (term->kind == TERM_ADHESION || shape.rest == REST_TOUCH)
+    } else if (term->kind == TERM_ADHESION || shape.rest == REST_TOUCH) {
         *coefficient = adhesion(term, pair, target, partner);
-    else if (term->kind == TERM_GRAVITY)
-        applies = inverse_square(term, pair, target->mass, partner->mass, coefficient);
-    else
-        applies = inverse_square(term, pair, target->charge, partner->charge, coefficient);
-    if (term->bound < INFINITY)
-        applies = mask_and(applies, real_less(pair->length, real_set(term->bound)));
-    return applies;
+    } else {
+        bool gravity = term->kind == TERM_GRAVITY;
+        Real a = gravity ? target->mass : target->charge, b = gravity ? partner->mass : partner->charge;
+        *coefficient = inverse_square(term, pair, a, b);
+        applies = both_there(pair->valid, a, b);
+    }
+    return term->bound < INFINITY ? real_less_where(applies, pair->length, real_set(term->bound)) : applies;
 }
 
 #endif

@@ -35,12 +35,16 @@ KERNEL unsigned mask_bits(Mask a) {
 KERNEL Mask real_less(Real a, Real b) {
     return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
 }
-KERNEL Mask real_at_most(Real a, Real b) {
-    return _mm512_cmp_pd_mask(a, b, _CMP_LE_OQ);
+// mask and a < b, and so on
+KERNEL Mask real_less_where(Mask mask, Real a, Real b) {
+    return _mm512_mask_cmp_pd_mask(mask, a, b, _CMP_LT_OQ);
+}
+KERNEL Mask real_at_most_where(Mask mask, Real a, Real b) {
+    return _mm512_mask_cmp_pd_mask(mask, a, b, _CMP_LE_OQ);
 }
 // NaN differs from everything.
-KERNEL Mask real_differs(Real a, Real b) {
-    return _mm512_cmp_pd_mask(a, b, _CMP_NEQ_UQ);
+KERNEL Mask real_differs_where(Mask mask, Real a, Real b) {
+    return _mm512_mask_cmp_pd_mask(mask, a, b, _CMP_NEQ_UQ);
 }
 // mask ? a : b
 KERNEL Real real_select(Mask mask, Real a, Real b) {
@@ -104,11 +108,14 @@ KERNEL unsigned mask_bits(Mask a) {
 KERNEL Mask real_less(Real a, Real b) {
     return _mm256_cmp_pd(a, b, _CMP_LT_OQ);
 }
-KERNEL Mask real_at_most(Real a, Real b) {
-    return _mm256_cmp_pd(a, b, _CMP_LE_OQ);
+KERNEL Mask real_less_where(Mask mask, Real a, Real b) {
+    return _mm256_and_pd(mask, _mm256_cmp_pd(a, b, _CMP_LT_OQ));
 }
-KERNEL Mask real_differs(Real a, Real b) {
-    return _mm256_cmp_pd(a, b, _CMP_NEQ_UQ);
+KERNEL Mask real_at_most_where(Mask mask, Real a, Real b) {
+    return _mm256_and_pd(mask, _mm256_cmp_pd(a, b, _CMP_LE_OQ));
+}
+KERNEL Mask real_differs_where(Mask mask, Real a, Real b) {
+    return _mm256_and_pd(mask, _mm256_cmp_pd(a, b, _CMP_NEQ_UQ));
 }
 KERNEL Real real_select(Mask mask, Real a, Real b) {
     return _mm256_blendv_pd(b, a, mask);
