@@ -10,7 +10,7 @@
 // Every K is symmetric in the two particles, so action equals reaction to the last bit, and a kernel that computes one
 // target at a time gives the same sums as this one, which resolves each pair once.
 #include "physics/internal.h"
-#include "physics/kernels.h"
+#include "physics/neighbours.h"
 
 #include <float.h>
 
@@ -145,6 +145,7 @@ typedef struct Pass {
     const Columns *columns;
     ForceRange forces;
     PairRow *row;
+    const Kernels *kernels;
     const PairKernel *kernel; // NULL: rows only
     size_t lanes;
     PairPass vector; // what the kernel is given
@@ -208,6 +209,7 @@ static void choose_kernel(const PhysSystem *system, Pass *pass) {
     };
     for (size_t t = 0; t < terms; t++)
         pass->vector.terms[t] = pair_term_of(&pass->forces.begin[t]);
+    pass->kernels = kernels;
     pass->kernel = kernels->pair(&pass->vector);
     pass->lanes = kernels->lanes;
 }
@@ -243,12 +245,14 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
 
 // The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later
 // ones of its group, then the particles of the enclosing groups up to `level`.
-static void pair_pass(const PhysSystem *system, const Group *group, uint32_t level) {
+static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     const Group *groups = system->groups.bytes;
     uint32_t number = (uint32_t)(group - groups);
     Pass pass = {.columns = &system->columns, .forces = phys_forces(system, level, STAGE_PAIR)};
     pass.row = row_for(pass.columns->dimensions);
     choose_kernel(system, &pass);
+    if (pass.kernel && phys_neighbour_pass(system, pass.kernels, &pass.vector, number, level))
+        return;
     size_t first = group->first, end = first + group->count;
     pass_triangle(&pass, first, end);
     // Numbers ascend from parent to child, so on the way up those below `level` are beyond it.
@@ -258,7 +262,7 @@ static void pair_pass(const PhysSystem *system, const Group *group, uint32_t lev
     }
 }
 
-void phys_apply_pairs(const PhysSystem *system, const Group *group) {
+void phys_apply_pairs(PhysSystem *system, const Group *group) {
     const Group *groups = system->groups.bytes;
     for (uint32_t level = group->nearest[STAGE_PAIR]; level != NO_GROUP;
          level = phys_next_above(groups, level, STAGE_PAIR))

@@ -31,6 +31,13 @@ typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_
 
 #define NO_GROUP UINT32_MAX
 
+enum {
+    PHYS_MOST_THREADS = 64,
+    PHYS_MOST_LISTS = 8,       // passes that have neighbour lists
+    PHYS_MOST_RANGES = 8,      // groups whose particles take part in such a pass
+    PHYS_FEW_PARTICLES = 1500, // for which one thread is enough, if the work for each is small
+};
+
 typedef struct Group {
     uint32_t parent; // the top is its own parent
     uint32_t first;  // own particles are columns first … first + count - 1
@@ -104,6 +111,9 @@ struct PhysSystem {
     uint32_t *place;    // handle -> column
     uint32_t *starts;   // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
     Columns columns;
+    // kept from step to step and from frame to frame
+    uint64_t frame; // number of this frame
+    struct Neighbours *lists;
 };
 
 // A run of forces.
@@ -129,7 +139,7 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);
-void phys_apply_pairs(const PhysSystem *system, const Group *group);
+void phys_apply_pairs(PhysSystem *system, const Group *group);
 void phys_apply_singles(const Columns *columns, const Group *group, ForceRange forces, double delta);
 void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces);
 // integrate.c: moves particle i (4.3) and leaves its acceleration in phys_acceleration().

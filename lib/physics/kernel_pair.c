@@ -4,54 +4,7 @@
 // terms are added to the rows' sums as they come: ascending partner. Then the tile is transposed, and the terms are
 // subtracted from the columns' sums: ascending row. Tiles go row by row, so every particle still sums its partners in
 // ascending order, as force_pair.c does.
-#include "physics/pair_terms.h"
-
-// Terms of one tile on their way to its columns, by component and column.
-typedef struct Tile {
-    Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
-    Real rest[PHYS_MOST_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
-    unsigned hits; // forces that have written to `rest`
-} Tile;
-
-static const Tile *const NO_TILE = NULL; // inside the diagonal every particle is a row
-
-// Adds a force where it applies; what the column gets is +0.0 elsewhere.
-KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
-                     Real (*column)[LANES], size_t k) {
-    for (size_t m = 0; m < shape.dimensions; m++) {
-        Real f = real_mul(pair->unit[m], coefficient);
-        sum[m] = real_add_where(applies, sum[m], f);
-        if (column)
-            column[m][k] = real_keep(applies, f);
-    }
-}
-
-static void clear_terms(Real (*column)[LANES]) {
-    for (size_t m = 0; m < PHYS_VECTOR_DIMENSIONS; m++)
-        for (size_t k = 0; k < LANES; k++)
-            column[m][k] = real_zero();
-}
-
-// The forces after the leading one.
-KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
-                     const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
-    Mask touch = pair_touch(pair);
-    if (mask_any(touch))
-        touch = both_there(touch, target->radius, partner->radius);
-    else if (shape.rest == REST_TOUCH)
-        return;
-    for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
-        Real coefficient;
-        Mask applies = pair_term(&pass->terms[t], pair, target, partner, shape, touch, &coefficient);
-        if (!mask_any(applies))
-            continue;
-        if (tile && !(tile->hits >> t & 1)) {
-            clear_terms(tile->rest[t]);
-            tile->hits |= 1u << t;
-        }
-        add_term(shape, pair, applies, coefficient, sum, tile ? tile->rest[t] : NULL, k);
-    }
-}
+#include "physics/pair_sum.h"
 
 // The rows of a tile.
 typedef struct Rows {
@@ -151,7 +104,7 @@ KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size
 KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
     for (size_t k = 0; k < count; k++) {
         Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
-        add_column(pass, shape, rows, mask_and(rows->live, mask_not(self)), i + k, false, (Tile *)NO_TILE, 0);
+        add_column(pass, shape, rows, mask_and(rows->live, mask_not(self)), i + k, false, NULL, 0);
     }
 }
 
@@ -232,4 +185,8 @@ static const PairKernel *pair_kernel(const PairPass *pass) {
 const Kernels PER_ISA(phys_kernels) = {
     .lanes = LANES,
     .pair = pair_kernel,
+    .list_refresh = PER_ISA(list_refresh),
+    .list_near = PER_ISA(list_near),
+    .list_forces = PER_ISA(list_forces),
+    .list_crowd = PER_ISA(list_crowd),
 };

@@ -53,12 +53,55 @@ typedef struct PairKernel {
     PairTiles *tiles;
 } PairKernel;
 
+// Neighbour lists as the kernels see them (neighbours.c builds them). A place is the number of a particle in the order
+// of the grid: first the regular ones, by cell, then a few that are much larger than the others.
+typedef struct ListView {
+    uint32_t regular;
+    uint32_t listed;                       // regular and large ones
+    uint32_t *column;                      // by place; readable for LANES beyond the last
+    double *built[PHYS_VECTOR_DIMENSIONS]; // positions for which the lists were made
+    double *radius;                        // and radii
+    double *quads;     // position and radius now, four doubles for each place; the place after the last is a dummy
+    double *sources;   // mass and charge, two doubles for each place, if a force needs them
+    double moved;      // the lists hold while no particle is farther than this, squared, from where it was built
+    uint32_t *entries; // partners of LANES regular places side by side: [k][lane], places in order, then dummies
+    uint64_t *at;      // by block of LANES places: where its entries begin
+    uint32_t *most;    // and the longest of its lists
+} ListView;
+
+// Which places a target must list: those nearer than max(radius + radius, bound) + skin, and not `self`.
+typedef struct NearQuery {
+    double place[PHYS_VECTOR_DIMENSIONS];
+    double radius;
+    double bound;
+    double skin;
+    uint32_t self;
+} NearQuery;
+
 typedef struct Kernels {
     size_t lanes;
     // Fastest kernels for the forces of a pass.
     const PairKernel *(*pair)(const PairPass *pass);
+    // Brings the quads of places first … end - 1 up to date. False if one of them has moved too far or changed size.
+    bool (*list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end);
+    // Appends the places among first … end - 1 that a target must list. `to` has room for LANES more than there are.
+    size_t (*list_near)(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
+                        uint32_t *to);
+    // Forces on the regular places of some blocks.
+    void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
+    // Forces on at most LANES particles from all of one range. `targets` holds LANES columns.
+    void (*list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
 } Kernels;
 
+// kernel_list.c and kernel_pair.c, once for each instruction set.
+#define LIST_KERNELS(isa)                                                                                              \
+    bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
+    size_t list_near_##isa(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,  \
+                           uint32_t *to);                                                                              \
+    void list_forces_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                      \
+    void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
+LIST_KERNELS(avx2)
+LIST_KERNELS(avx512)
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;
 

@@ -144,6 +144,81 @@ KERNEL void real_transpose(Real *r) {
 
 #endif
 
+// Index is as many column or place numbers as there are lanes.
+KERNEL Real real_gather(const double *from, const uint32_t *index) {
+#if LANES == 8
+    return _mm512_i32gather_pd(_mm256_loadu_si256((const __m256i *)index), from, 8);
+#else
+    return _mm256_i32gather_pd(from, _mm_loadu_si128((const __m128i *)index), 8);
+#endif
+}
+
+KERNEL void real_scatter_where(Mask mask, double *to, const uint32_t *index, Real a) {
+#if LANES == 8
+    _mm512_mask_i32scatter_pd(to, mask, _mm256_loadu_si256((const __m256i *)index), a, 8);
+#else
+    double lanes[LANES];
+    _mm256_storeu_pd(lanes, a);
+    for (unsigned bits = (unsigned)_mm256_movemask_pd(mask), lane = 0; lane < LANES; lane++)
+        if (bits >> lane & 1)
+            to[index[lane]] = lanes[lane];
+#endif
+}
+
+// Element m of quad `index[lane]` to lane of parts[m]. Quads are four doubles each, side by side: one load per lane.
+KERNEL void real_load_quads(const double *quads, const uint32_t *index, Real *parts) {
+#define QUAD(lane) _mm256_loadu_pd(quads + 4 * (size_t)index[lane])
+#if LANES == 8
+#define PAIR(lane) _mm512_insertf64x4(_mm512_castpd256_pd512(QUAD(lane)), QUAD(lane + 4), 1)
+    Real a = PAIR(0), b = PAIR(1), c = PAIR(2), d = PAIR(3);
+    Real even_ab = SIMD(unpacklo)(a, b), even_cd = SIMD(unpacklo)(c, d);
+    Real odd_ab = SIMD(unpackhi)(a, b), odd_cd = SIMD(unpackhi)(c, d);
+    __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+    parts[0] = _mm512_permutex2var_pd(even_ab, low, even_cd);
+    parts[1] = _mm512_permutex2var_pd(odd_ab, low, odd_cd);
+    parts[2] = _mm512_permutex2var_pd(even_ab, high, even_cd);
+    parts[3] = _mm512_permutex2var_pd(odd_ab, high, odd_cd);
+#undef PAIR
+#else
+    for (int lane = 0; lane < LANES; lane++)
+        parts[lane] = QUAD(lane);
+    real_transpose(parts);
+#endif
+#undef QUAD
+}
+
+// LANES quads from their parts.
+KERNEL void real_store_quads(double *quads, const Real *parts) {
+    double lanes[4][LANES];
+    for (int m = 0; m < 4; m++)
+        SIMD(storeu)(lanes[m], parts[m]);
+    for (int half = 0; half < LANES; half += 4) {
+        __m256d x = _mm256_loadu_pd(lanes[0] + half), y = _mm256_loadu_pd(lanes[1] + half);
+        __m256d z = _mm256_loadu_pd(lanes[2] + half), w = _mm256_loadu_pd(lanes[3] + half);
+        __m256d a = _mm256_unpacklo_pd(x, y), b = _mm256_unpackhi_pd(x, y);
+        __m256d c = _mm256_unpacklo_pd(z, w), d = _mm256_unpackhi_pd(z, w);
+        _mm256_storeu_pd(quads + 4 * half, _mm256_permute2f128_pd(a, c, 0x20));
+        _mm256_storeu_pd(quads + 4 * half + 4, _mm256_permute2f128_pd(b, d, 0x20));
+        _mm256_storeu_pd(quads + 4 * half + 8, _mm256_permute2f128_pd(a, c, 0x31));
+        _mm256_storeu_pd(quads + 4 * half + 12, _mm256_permute2f128_pd(b, d, 0x31));
+    }
+}
+
+// Writes base + lane for the lanes of a mask side by side and returns how many. `to` has room for LANES.
+KERNEL size_t mask_numbers(Mask mask, uint32_t base, uint32_t *to) {
+    unsigned bits = mask_bits(mask);
+#if LANES == 8
+    __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32((int)base), _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0));
+    _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32(mask, numbers));
+    return (size_t)__builtin_popcount(bits);
+#else
+    size_t count = 0;
+    for (; bits; bits &= bits - 1)
+        to[count++] = base + (uint32_t)__builtin_ctz(bits);
+    return count;
+#endif
+}
+
 KERNEL bool mask_any(Mask a) {
     return mask_bits(a) != 0;
 }

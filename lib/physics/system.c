@@ -1,5 +1,6 @@
 // system.c: the description of a system (see system.h).
 #include "physics/internal.h"
+#include "physics/neighbours.h"
 
 #include <assert.h>
 #include <string.h>
@@ -19,9 +20,15 @@ PhysSystem *phys_new(void) {
     home.escape = &escape;
     if (setjmp(escape))
         return NULL;
-    PhysSystem *system = arena_alloc(&home, sizeof *system);
+    struct {
+        PhysSystem system;
+        Neighbours lists[PHYS_MOST_LISTS];
+    } *memory = arena_alloc(&home, sizeof *memory); // one block, so that nothing is left if there is none
     home.escape = NULL;
-    *system = (PhysSystem){.home = home};
+    PhysSystem *system = &memory->system;
+    Neighbours *lists = memory->lists;
+    *system = (PhysSystem){.home = home, .lists = lists};
+    memset(lists, 0, PHYS_MOST_LISTS * sizeof *lists);
     phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detect()});
     phys_begin(system, 1);
     return system;
@@ -34,6 +41,8 @@ void phys_free(PhysSystem *system) {
                          &system->vectors, &system->indices,   &system->forces, &system->column_data};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
+    for (int i = 0; i < PHYS_MOST_LISTS; i++)
+        phys_neighbours_free(&system->lists[i]);
     Arena home = system->home; // the struct goes with it
     arena_free(&home);
 }
@@ -43,12 +52,15 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
     system->options = *options;
     if (options->threads <= 0)
         system->options.threads = cpu_count();
+    if (system->options.threads > PHYS_MOST_THREADS)
+        system->options.threads = PHYS_MOST_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
 }
 
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->failed = false;
+    system->frame++;
     system->dimensions = dimensions;
     system->group_count = 0;
     system->particle_count = 0;
