@@ -11,6 +11,7 @@
 // target at a time gives the same sums as this one, which resolves each pair once.
 #include "physics/internal.h"
 #include "physics/neighbours.h"
+#include "physics/pair_wave.h"
 
 #include <float.h>
 
@@ -140,6 +141,8 @@ static PairRow *row_for(size_t dimensions) {
     }
 }
 
+enum { PAIRS_FOR_THREADS = 30000 }; // fewer are done before another thread is awake
+
 // One pass on its way through the groups.
 typedef struct Pass {
     const Columns *columns;
@@ -148,6 +151,7 @@ typedef struct Pass {
     const Kernels *kernels;
     const PairKernel *kernel; // NULL: rows only
     size_t lanes;
+    int threads;
     PairPass vector; // what the kernel is given
 } Pass;
 
@@ -174,24 +178,8 @@ static PairTerm pair_term_of(const Force *force) {
     return term;
 }
 
-static const Kernels *kernels_of(const PhysSystem *system) {
-#ifdef PETRI_X86
-    switch (system->options.cpu) {
-    case CPU_AVX512:
-        return &phys_kernels_avx512;
-    case CPU_AVX2:
-        return &phys_kernels_avx2;
-    default:
-        return NULL;
-    }
-#else
-    (void)system;
-    return NULL;
-#endif
-}
-
 static void choose_kernel(const PhysSystem *system, Pass *pass) {
-    const Kernels *kernels = kernels_of(system);
+    const Kernels *kernels = phys_kernels(system);
     const Columns *columns = pass->columns;
     size_t terms = (size_t)(pass->forces.end - pass->forces.begin);
     enum { FEW = 4 }; // particles that are not worth a vector
@@ -212,11 +200,18 @@ static void choose_kernel(const PhysSystem *system, Pass *pass) {
     pass->kernels = kernels;
     pass->kernel = kernels->pair(&pass->vector);
     pass->lanes = kernels->lanes;
+    pass->threads = system->options.threads;
 }
 
 // All pairs inside one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
-    if (pass->kernel && end - first > 2) {
+    size_t count = end - first;
+    if (pass->kernel && pass->threads > 1 && count * count / 2 >= PAIRS_FOR_THREADS) {
+        PairWave wave = {pass->kernel, &pass->vector, true, first, end, first, end};
+        phys_pair_wave(&wave, pass->threads);
+        return;
+    }
+    if (pass->kernel && count > 2) {
         pass->kernel->triangle(&pass->vector, first, end);
         return;
     }
@@ -237,10 +232,13 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
             pass->row(pass->columns, pass->forces, i, other, other_end);
         return;
     }
-    if (vectors(pass, rows, columns) <= vectors(pass, columns, rows))
-        pass->kernel->tiles(&pass->vector, first, end, other, other_end);
+    PairWave wave = {pass->kernel, &pass->vector, false, first, end, other, other_end};
+    if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
+        wave = (PairWave){pass->kernel, &pass->vector, false, other, other_end, first, end};
+    if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
+        phys_pair_wave(&wave, pass->threads);
     else
-        pass->kernel->tiles(&pass->vector, other, other_end, first, end);
+        pass->kernel->tiles(&pass->vector, wave.row, wave.row_end, wave.column, wave.column_end);
 }
 
 // The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later

@@ -122,6 +122,9 @@ typedef struct ForceRange {
     Force *end;
 } ForceRange;
 
+// system.c: the vector kernels of the chosen level; NULL: there are none.
+const struct Kernels *phys_kernels(const PhysSystem *system);
+
 // buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
 // `system->failed` set, if memory is used up.
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size);

@@ -189,4 +189,5 @@ const Kernels PER_ISA(phys_kernels) = {
     .list_near = PER_ISA(list_near),
     .list_forces = PER_ISA(list_forces),
     .list_crowd = PER_ISA(list_crowd),
+    .sweep = PER_ISA(sweep_all),
 };

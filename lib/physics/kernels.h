@@ -78,6 +78,8 @@ typedef struct NearQuery {
     uint32_t self;
 } NearQuery;
 
+struct SweepPass; // sweep.h
+
 typedef struct Kernels {
     size_t lanes;
     // Fastest kernels for the forces of a pass.
@@ -91,17 +93,20 @@ typedef struct Kernels {
     void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
     // Forces on at most LANES particles from all of one range. `targets` holds LANES columns.
     void (*list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
+    // Single-particle forces, barriers and motion of some particles.
+    void (*sweep)(struct SweepPass *pass, size_t first, size_t end);
 } Kernels;
 
-// kernel_list.c and kernel_pair.c, once for each instruction set.
-#define LIST_KERNELS(isa)                                                                                              \
+// kernel_list.c, kernel_sweep.c and kernel_pair.c, once for each instruction set.
+#define ISA_KERNELS(isa)                                                                                               \
     bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
     size_t list_near_##isa(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,  \
                            uint32_t *to);                                                                              \
     void list_forces_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                      \
-    void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
-LIST_KERNELS(avx2)
-LIST_KERNELS(avx512)
+    void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);      \
+    void sweep_all_##isa(struct SweepPass *pass, size_t first, size_t end);
+ISA_KERNELS(avx2)
+ISA_KERNELS(avx512)
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;
 

@@ -26,6 +26,9 @@ KERNEL Mask mask_first(size_t count) {
 KERNEL Mask mask_and(Mask a, Mask b) {
     return a & b;
 }
+KERNEL Mask mask_or(Mask a, Mask b) {
+    return a | b;
+}
 KERNEL Mask mask_not(Mask a) {
     return (Mask)~a;
 }
@@ -57,6 +60,10 @@ KERNEL Real real_keep(Mask mask, Real a) {
 // mask ? sum + a : sum
 KERNEL Real real_add_where(Mask mask, Real sum, Real a) {
     return _mm512_mask_add_pd(sum, mask, sum, a);
+}
+// mask ? sum - a : sum
+KERNEL Real real_sub_where(Mask mask, Real sum, Real a) {
+    return _mm512_mask_sub_pd(sum, mask, sum, a);
 }
 KERNEL void real_store_where(Mask mask, double *to, Real a) {
     _mm512_mask_storeu_pd(to, mask, a);
@@ -99,6 +106,9 @@ KERNEL Mask mask_first(size_t count) {
 KERNEL Mask mask_and(Mask a, Mask b) {
     return _mm256_and_pd(a, b);
 }
+KERNEL Mask mask_or(Mask a, Mask b) {
+    return _mm256_or_pd(a, b);
+}
 KERNEL Mask mask_not(Mask a) {
     return _mm256_xor_pd(a, _mm256_castsi256_pd(_mm256_set1_epi64x(-1)));
 }
@@ -125,6 +135,9 @@ KERNEL Real real_keep(Mask mask, Real a) {
 }
 KERNEL Real real_add_where(Mask mask, Real sum, Real a) {
     return _mm256_add_pd(sum, _mm256_blendv_pd(_mm256_set1_pd(-0.0), a, mask));
+}
+KERNEL Real real_sub_where(Mask mask, Real sum, Real a) {
+    return _mm256_sub_pd(sum, _mm256_and_pd(mask, a));
 }
 KERNEL void real_store_where(Mask mask, double *to, Real a) {
     _mm256_maskstore_pd(to, _mm256_castpd_si256(mask), a);

@@ -1,5 +1,5 @@
 // step.c: one step as the ordered list of stages of section 4.
-#include "physics/internal.h"
+#include "physics/sweep.h"
 
 // Strength of every force applier and barrier: `strength`, times (clock / ease) while ease > 0 and clock < ease.
 static void ease_strengths(const PhysSystem *system, double clock) {
@@ -53,7 +53,7 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     }
     // 2. What happens to each particle alone.
     for (uint32_t g = 0; g < system->group_count; g++) {
-        if (!groups[g].count)
+        if (!groups[g].count || phys_sweep(system, g, delta, speed_of_light))
             continue;
         apply_singles_and_barriers(system, g, delta);
         for (size_t i = groups[g].first, end = i + groups[g].count; i < end; i++)

@@ -58,6 +58,17 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         system->options.cpu = best;
 }
 
+const Kernels *phys_kernels(const PhysSystem *system) {
+#ifdef PETRI_X86
+    static const Kernels *const levels[CPU_LEVELS] = {
+        [CPU_AVX2] = &phys_kernels_avx2, [CPU_AVX512] = &phys_kernels_avx512};
+    return levels[system->options.cpu];
+#else
+    (void)system;
+    return NULL;
+#endif
+}
+
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->failed = false;
     system->frame++;

@@ -2,16 +2,22 @@
 // small random systems those of the reference, large ones those of the scalar code on one thread.
 #include "random_model.h"
 
-static const int thread_counts[] = {1, 2, 3, 8};
-
 typedef void Check(const PhysOptions *options, void *context);
 
-// Calls `check` for each way to compute.
+// Calls `check` for each level with all values of the other options, though not with all combinations of these. The
+// scalar level takes its time and has no other ways.
 static void for_each_variant(Check *check, void *context) {
+    static const PhysOptions options[] = {
+        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER},  {.threads = 3, .neighbours = PHYS_NEIGHBOURS_NEVER},
+        {.threads = 1, .neighbours = PHYS_NEIGHBOURS_ALWAYS}, {.threads = 8, .neighbours = PHYS_NEIGHBOURS_ALWAYS},
+        {.threads = 2, .neighbours = PHYS_NEIGHBOURS_AUTO},
+    };
     for (int cpu = 0; cpu <= (int)cpu_detect(); cpu++)
-        for (int neighbours = 0; neighbours <= PHYS_NEIGHBOURS_ALWAYS; neighbours++)
-            for (size_t t = 0; t < COUNT_OF(thread_counts); t++)
-                check(&(PhysOptions){thread_counts[t], (CpuLevel)cpu, (PhysNeighbours)neighbours}, context);
+        for (size_t i = cpu == CPU_SCALAR ? COUNT_OF(options) - 1 : 0; i < COUNT_OF(options); i++) {
+            PhysOptions variant = options[i];
+            variant.cpu = (CpuLevel)cpu;
+            check(&variant, context);
+        }
 }
 
 static void check_small(const PhysOptions *options, void *context) {
