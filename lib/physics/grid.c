@@ -39,7 +39,9 @@ typedef struct Survey {
 // Squares of lengths that a list deals with must be normal numbers.
 #define SHORTEST 1e-100
 
-enum { IDLE = UINT32_MAX, LARGE = UINT32_MAX - 1 }; // instead of a cell
+// Instead of a cell.
+#define IDLE UINT32_MAX
+#define LARGE (UINT32_MAX - 1)
 
 static void sort_doubles(double *values, size_t count) {
     for (size_t gap = count / 2; gap; gap /= 2)

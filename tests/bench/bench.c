@@ -1,6 +1,7 @@
 // bench.c: the speed of lib/physics on the workloads of the specification, against the limit of this processor.
 //
-//   bench_physics [--csv] [--quick] [--cpu=scalar|avx2|avx512] [--neighbours=auto|never|always] [--only=NAME]
+//   bench_physics [--csv] [--quick] [--cpu=scalar|avx2|avx512] [--neighbours=auto|never|always] [--threads=N]
+//                 [--only=NAME]
 //
 // All ratios come from one run. The hash at the end of a row stands for the bits of all positions: it must not depend
 // on anything but the workload.
@@ -27,6 +28,7 @@ static const Case cases[] = {
 
 typedef struct Settings {
     bool csv, quick;
+    int threads; // 0: measure with 1 and with 2
     const char *only;
     PhysOptions options;
 } Settings;
@@ -106,6 +108,8 @@ static bool read_option(const char *text, Settings *settings) {
     }
     if (!strncmp(text, "--cpu=", 6))
         return cpu_choose(text + 6, &settings->options.cpu);
+    if (!strncmp(text, "--threads=", 10))
+        return (settings->threads = atoi(text + 10)) > 0;
     for (int i = 0; i < 3; i++)
         if (!strncmp(text, "--neighbours=", 13) && !strcmp(text + 13, neighbours[i])) {
             settings->options.neighbours = (PhysNeighbours)i;
@@ -134,7 +138,8 @@ int main(int argc, char **argv) {
         if (settings.only ? strcmp(settings.only, workload_name(c->kind)) != 0 : settings.quick && c->n > 20000)
             continue;
         double limit = limit_of(c);
-        for (int threads = 1; threads <= 2; threads++)
+        int first = settings.threads ? settings.threads : 1, last = settings.threads ? settings.threads : 2;
+        for (int threads = first; threads <= last; threads++)
             run(c, &settings, threads, limit);
     }
     return 0;

@@ -184,9 +184,9 @@ static PhysForce pair_force(PhysForceKind kind, double strength, double power, d
 static void test_contact(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
-        const double sizes[] = {0, 700, 35, 9};
+        const double sizes[] = {0, 350, 25, 7};
         Scene scene = {
-            .name = "contact", .dimensions = n, .count = 1000 + n, .groups = 1, .size = sizes[n], .frames = 10};
+            .name = "contact", .dimensions = n, .count = 500 + n, .groups = 1, .size = sizes[n], .frames = 8};
         scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 300, 1, 0);
         check_scene(&scene);
         scene.forces[scene.force_count++] = pair_force(PHYS_ADHESION, 20, 1, 0.7);
@@ -198,9 +198,9 @@ static void test_contact(void **state) {
 static void test_bounded(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
-        const double sizes[] = {0, 700, 35, 9};
+        const double sizes[] = {0, 350, 25, 7};
         Scene scene = {
-            .name = "bounded", .dimensions = n, .count = 700 + n, .groups = 1, .size = sizes[n], .frames = 9};
+            .name = "bounded", .dimensions = n, .count = 400 + n, .groups = 1, .size = sizes[n], .frames = 8};
         scene.forces[scene.force_count++] = pair_force(PHYS_ELECTROSTATIC, 2, 1, 1.7);
         scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 30, 2, 0);
         scene.forces[scene.force_count++] = pair_force(PHYS_GRAVITY, 0.5, 1, 2.5);
@@ -214,7 +214,7 @@ static void test_unbounded(void **state) {
     for (uint32_t n = 1; n <= 3; n++)
         for (size_t lead = 0; lead < COUNT_OF(leads); lead++) {
             Scene scene = {
-                .name = "unbounded", .dimensions = n, .count = 500 + n, .groups = 1, .size = 30, .frames = 3};
+                .name = "unbounded", .dimensions = n, .count = 300 + n, .groups = 1, .size = 30, .frames = 2};
             scene.forces[scene.force_count++] = pair_force(leads[lead], 3, 1, 0);
             scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 30, 2, 0);
             if (lead == 2)
@@ -226,7 +226,7 @@ static void test_unbounded(void **state) {
 // Nested groups with forces at several levels: passes over several ranges.
 static void test_nested(void **state) {
     (void)state;
-    Scene scene = {.name = "nested", .dimensions = 2, .count = 1200, .groups = 5, .size = 38, .frames = 10};
+    Scene scene = {.name = "nested", .dimensions = 2, .count = 700, .groups = 5, .size = 29, .frames = 8};
     scene.force_count = 4;
     scene.forces[0] = pair_force(PHYS_COLLISION, 300, 1, 0);
     scene.forces[1] = pair_force(PHYS_ADHESION, 30, 1, 0);
@@ -244,7 +244,7 @@ static void test_strange(void **state) {
     for (size_t s = 0; s < COUNT_OF(shares); s++)
         for (int layout = 0; layout < LAYOUTS; layout++) {
             Scene scene = {
-                .name = "strange", .dimensions = 2 + (uint32_t)(s & 1), .count = 400, .groups = 2, .size = 20};
+                .name = "strange", .dimensions = 2 + (uint32_t)(s & 1), .count = 250, .groups = 2, .size = 16};
             scene.layout = (Layout)layout;
             scene.extremes = shares[s];
             scene.frames = 9;
