@@ -85,6 +85,7 @@ typedef struct Columns {
     double *volume;  // radius^n, likewise
     double *scratch; // 3 n doubles for the kernel that is running
     bool *anchor;
+    bool eased; // some particle has an ease of its own
 } Columns;
 
 struct PhysSystem {

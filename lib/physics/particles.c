@@ -32,7 +32,13 @@ static bool reserve_columns(PhysSystem *system) {
     return true;
 }
 
-// radius^(n-1) and radius^n are wanted at every step, and pow is slow.
+// C pow of all radii; equal ones often stand side by side, and pow is slow.
+static void raise_radii(const Columns *columns, double power, double *to) {
+    for (size_t i = 0; i < columns->count; i++)
+        to[i] = i && columns->radius[i] == columns->radius[i - 1] ? to[i - 1] : pow(columns->radius[i], power);
+}
+
+// radius^(n-1) and radius^n are wanted at every step.
 static void compute_radius_powers(const PhysSystem *system, const Columns *columns) {
     const Force *forces = system->forces.bytes;
     bool drag = false, buoyancy = false;
@@ -41,10 +47,10 @@ static void compute_radius_powers(const PhysSystem *system, const Columns *colum
         buoyancy |= forces[i].given.kind == PHYS_BUOYANCY;
     }
     double n = (double)columns->dimensions;
-    for (size_t i = 0; drag && i < columns->count; i++)
-        columns->section[i] = pow(columns->radius[i], n - 1);
-    for (size_t i = 0; buoyancy && i < columns->count; i++)
-        columns->volume[i] = pow(columns->radius[i], n);
+    if (drag)
+        raise_radii(columns, n - 1, columns->section);
+    if (buoyancy)
+        raise_radii(columns, n, columns->volume);
 }
 
 bool phys_load(PhysSystem *system) {
@@ -53,10 +59,12 @@ bool phys_load(PhysSystem *system) {
     const Columns *columns = &system->columns;
     const ParticleRecord *particles = system->particles.bytes;
     size_t n = columns->dimensions, stride = columns->stride;
+    system->columns.eased = false;
     for (size_t i = 0; i < columns->count; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = &particles[handle];
         columns->ease[i] = particle->ease;
+        system->columns.eased |= particle->ease > 0;
         columns->radius[i] = particle->radius;
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;

@@ -1,6 +1,8 @@
 // step.c: one step as the ordered list of stages of section 4.
 #include "physics/sweep.h"
 
+#include <string.h>
+
 // Strength of every force applier and barrier: `strength`, times (clock / ease) while ease > 0 and clock < ease.
 static void ease_strengths(const PhysSystem *system, double clock) {
     Force *forces = system->forces.bytes;
@@ -11,6 +13,11 @@ static void ease_strengths(const PhysSystem *system, double clock) {
 // The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
 static void start_forces(const Columns *columns, double clock) {
     size_t n = columns->dimensions, stride = columns->stride;
+    if (!columns->eased) {
+        if (columns->count)
+            memcpy(columns->force, columns->thrust, n * stride * sizeof(double));
+        return;
+    }
     for (size_t i = 0; i < columns->count; i++) {
         double factor = phys_ramp(columns->ease[i], clock);
         for (size_t k = 0; k < n; k++)
