@@ -85,7 +85,6 @@ typedef struct Columns {
     double *volume;  // radius^n, likewise
     double *scratch; // 3 n doubles for the kernel that is running
     bool *anchor;
-    bool eased; // some particle has an ease of its own
 } Columns;
 
 struct PhysSystem {
@@ -98,6 +97,7 @@ struct PhysSystem {
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
+    bool eased;              // the own force of some particle is eased in
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     Buffer particles;        // ParticleRecord by handle

@@ -1,6 +1,7 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
 #include "physics/internal.h"
 #include "physics/kernels.h"
+#include "physics/threads.h"
 
 // Points the columns into their memory.
 static bool reserve_columns(PhysSystem *system) {
@@ -53,18 +54,15 @@ static void compute_radius_powers(const PhysSystem *system, const Columns *colum
         raise_radii(columns, n, columns->volume);
 }
 
-bool phys_load(PhysSystem *system) {
-    if (!reserve_columns(system))
-        return false;
+static void load_share(void *context, int worker, int workers) {
+    PhysSystem *system = context;
     const Columns *columns = &system->columns;
     const ParticleRecord *particles = system->particles.bytes;
-    size_t n = columns->dimensions, stride = columns->stride;
-    system->columns.eased = false;
-    for (size_t i = 0; i < columns->count; i++) {
+    size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
+    for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = &particles[handle];
         columns->ease[i] = particle->ease;
-        system->columns.eased |= particle->ease > 0;
         columns->radius[i] = particle->radius;
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;
@@ -76,18 +74,34 @@ bool phys_load(PhysSystem *system) {
             columns->thrust[k * stride + i] = row[2 * n + k];
         }
     }
-    compute_radius_powers(system, columns);
-    return true;
 }
 
-void phys_store(PhysSystem *system) {
+static void store_share(void *context, int worker, int workers) {
+    PhysSystem *system = context;
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, stride = columns->stride;
-    for (size_t i = 0; i < columns->count; i++) {
+    size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
+    for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
         double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
         for (size_t k = 0; k < n; k++) {
             row[k] = columns->position[k * stride + i];
             row[n + k] = columns->velocity[k * stride + i];
         }
     }
+}
+
+static int threads_for(const PhysSystem *system) {
+    enum { MANY = 10000 }; // particles whose copies are worth a second thread
+    return system->particle_count < MANY ? 1 : system->options.threads;
+}
+
+bool phys_load(PhysSystem *system) {
+    if (!reserve_columns(system))
+        return false;
+    phys_parallel(threads_for(system), load_share, system);
+    compute_radius_powers(system, &system->columns);
+    return true;
+}
+
+void phys_store(PhysSystem *system) {
+    phys_parallel(threads_for(system), store_share, system);
 }

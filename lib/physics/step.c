@@ -11,9 +11,10 @@ static void ease_strengths(const PhysSystem *system, double clock) {
 }
 
 // The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
-static void start_forces(const Columns *columns, double clock) {
+static void start_forces(const PhysSystem *system, double clock) {
+    const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride;
-    if (!columns->eased) {
+    if (!system->eased) {
         if (columns->count)
             memcpy(columns->force, columns->thrust, n * stride * sizeof(double));
         return;
@@ -51,7 +52,7 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     const Group *groups = system->groups.bytes;
     const Columns *columns = &system->columns;
     ease_strengths(system, clock);
-    start_forces(columns, clock);
+    start_forces(system, clock);
     // 1. Forces between particles, all of them before anything moves.
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));

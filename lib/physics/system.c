@@ -76,6 +76,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->group_count = 0;
     system->particle_count = 0;
     system->force_count = 0;
+    system->eased = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
 }
@@ -120,6 +121,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
     copy_vector(row + 2 * n, particle->anchor ? NULL : particle->force, n);
+    system->eased |= particle->ease > 0;
     system->particle_count++;
     return handle;
 }
