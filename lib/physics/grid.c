@@ -128,12 +128,12 @@ static void choose_cells(const Survey *survey, double width, Grid *grid) {
     double span[PHYS_VECTOR_DIMENSIONS];
     for (size_t k = 0; k < grid->dimensions; k++) {
         const double *sample = survey->sample[k];
-        size_t edge = survey->samples / 16;
+        size_t edge = survey->samples / 4;
         double low = survey->samples ? sample[edge] : 0,
                high = survey->samples ? sample[survey->samples - 1 - edge] : 0;
         double usual = high - low;
-        low = fmax(survey->low[k], low - usual);
-        high = fmin(survey->high[k], high + usual);
+        low = fmax(survey->low[k], low - 1.5 * usual);
+        high = fmin(survey->high[k], high + 1.5 * usual);
         grid->low[k] = low;
         span[k] = high - low;
         product *= fmax(span[k] / width, 1);
@@ -325,8 +325,11 @@ static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
     search->padded = padded;
     uint64_t first = (uint64_t)ENTRIES_FIRST * list->total + NEAR_MOST * LANES_MOST;
     uint64_t most = (uint64_t)ENTRIES_MOST * list->total + NEAR_MOST * LANES_MOST;
-    search->capacity =
-        list->entries.capacity / sizeof(uint32_t) > first ? list->entries.capacity / sizeof(uint32_t) : first;
+    if (system->options.neighbours == PHYS_NEIGHBOURS_AUTO && most > phys_entries_that_pay(list))
+        most = phys_entries_that_pay(list);
+    uint64_t room = list->entries.capacity / sizeof(uint32_t);
+    search->capacity = room > first ? room : first;
+    search->capacity = search->capacity < most ? search->capacity : most;
     for (;;) {
         if (!phys_buffer_reserve(system, &list->entries, 0, search->capacity, sizeof(uint32_t)))
             return false;
@@ -347,6 +350,7 @@ static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
         if (search->capacity >= most)
             return false;
         search->capacity += search->capacity / 2;
+        search->capacity = search->capacity < most ? search->capacity : most;
     }
 }
 

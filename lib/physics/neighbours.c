@@ -6,7 +6,7 @@
 
 enum {
     FEW = 160,       // particles for which lists never pay
-    REST_FIRST = 32, // steps without lists after they did not pay; doubled each time
+    REST_FIRST = 64, // steps without lists after they did not pay; doubled each time
     REST_LONGEST = 1024,
     LIFE_FIRST = 8, // steps that a list is expected to serve at first
 };
@@ -139,14 +139,26 @@ static void adapt_skin(Neighbours *list) {
         list->skin = fmax(list->skin / 1.15, 0.05 * list->base);
 }
 
-// Nanoseconds, roughly, of a step with lists and of one with all pairs.
+// Nanoseconds, roughly, of an entry and of a pair, with eight lanes: where only contact counts, few pairs get as far as
+// a square root.
+#define ENTRY_COST 0.9
+#define PAIR_COST(touch_only) ((touch_only) ? 0.15 : 0.9)
+
+static double all_pairs_cost(const Neighbours *list) {
+    double n = (double)phys_ranges_total(&list->ranges), own = list->ranges.at[0].count;
+    return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->touch_only);
+}
+
+uint64_t phys_entries_that_pay(const Neighbours *list) {
+    return (uint64_t)(all_pairs_cost(list) / ENTRY_COST) + 1;
+}
+
+// Is a step with lists cheaper than one with all pairs?
 static bool pays(const Neighbours *list) {
-    double life = list->life ? list->life : LIFE_FIRST, n = list->total, own = list->ranges.at[0].count;
-    double pairs = own * (own - 1) / 2 + own * (n - own), width = (double)list->lanes / 8;
-    double with = n * (40 / life + 5) + (double)list->scanned * 0.3 / width / life + (double)list->padded * 0.9 / width;
-    with += (double)(list->view.listed - list->view.regular) * n * 0.3 / width;
-    double without = pairs * (list->touch_only ? 0.15 : 0.9) / width;
-    return with < without;
+    double life = list->life ? list->life : LIFE_FIRST, n = list->total, width = (double)list->lanes / 8;
+    double each = n * (40 / life + 5), scan = (double)list->scanned * 0.3 / life;
+    double large = (double)(list->view.listed - list->view.regular) * n * 0.3;
+    return each + (scan + large + (double)list->padded * ENTRY_COST) / width < all_pairs_cost(list) / width;
 }
 
 static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {

@@ -63,6 +63,9 @@ void phys_neighbours_free(Neighbours *list);
 // the particles do not lie in a way that a grid can sort.
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list);
 
+// neighbours.c: the number of entries with which lists cost as much as all pairs.
+uint64_t phys_entries_that_pay(const Neighbours *list);
+
 static inline uint64_t phys_ranges_total(const PassRanges *ranges) {
     uint64_t total = 0;
     for (uint32_t r = 0; r < ranges->count; r++)
