@@ -3,19 +3,19 @@
 
 // start + Σ (p_k − position_k) · normal_k
 static double height_above(const Columns *columns, size_t i, const PhysForce *barrier, double start) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     double sum = start;
     for (size_t k = 0; k < n; k++)
-        sum += (columns->position[k * count + i] - phys_at(barrier->vector, k)) * phys_at(barrier->vector2, k);
+        sum += (columns->position[k * stride + i] - phys_at(barrier->vector, k)) * phys_at(barrier->vector2, k);
     return sum;
 }
 
 // Σ v_k · normal_k
 static double velocity_along(const Columns *columns, size_t i, const PhysForce *barrier) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     double sum = 0;
     for (size_t k = 0; k < n; k++)
-        sum += columns->velocity[k * count + i] * phys_at(barrier->vector2, k);
+        sum += columns->velocity[k * stride + i] * phys_at(barrier->vector2, k);
     return sum;
 }
 
@@ -31,9 +31,9 @@ static void constrain(const Columns *columns, size_t i, const Force *force) {
         coefficient = -(phys_power(s - barrier->maximum, barrier->power) * force->strength);
     else
         return;
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++)
-        columns->force[k * count + i] += phys_at(barrier->vector2, k) * coefficient;
+        columns->force[k * stride + i] += phys_at(barrier->vector2, k) * coefficient;
 }
 
 void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces) {
@@ -48,27 +48,27 @@ void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange 
 
 // p_k = p_k − x · normal_k
 static void put_on_surface(const Columns *columns, size_t i, const PhysForce *barrier, double x) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++)
-        columns->position[k * count + i] -= x * phys_at(barrier->vector2, k);
+        columns->position[k * stride + i] -= x * phys_at(barrier->vector2, k);
 }
 
 // p_k = p_k − τ · v_k;  v_k = (v_k − τ · a_k) · restitution
 static void back_to_contact(const Columns *columns, size_t i, double tau, double restitution) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     const double *acceleration = phys_acceleration(columns);
     for (size_t k = 0; k < n; k++) {
-        double *v = &columns->velocity[k * count + i];
-        columns->position[k * count + i] -= tau * *v;
+        double *v = &columns->velocity[k * stride + i];
+        columns->position[k * stride + i] -= tau * *v;
         *v = (*v - tau * acceleration[k]) * restitution;
     }
 }
 
 // v_k = v_k − (2 · w) · normal_k
 static void reflect(const Columns *columns, size_t i, const PhysForce *barrier, double w) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++)
-        columns->velocity[k * count + i] -= 2 * w * phys_at(barrier->vector2, k);
+        columns->velocity[k * stride + i] -= 2 * w * phys_at(barrier->vector2, k);
 }
 
 // b = Σ a_k · normal_k

@@ -18,14 +18,14 @@ static bool arena_with_block(Arena *arena, uint64_t size, void **bytes) {
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size) {
     if (system->failed)
         return false;
+    uint64_t needed;
+    if (!__builtin_mul_overflow(count, size, &needed) && needed <= buffer->capacity)
+        return true; // nearly always, and for every particle
     uint64_t others = system->bytes - buffer->capacity;
     if (size && count > (PHYS_MAX_BYTES - others) / size) {
         system->failed = true;
         return false;
     }
-    uint64_t needed = count * size;
-    if (needed <= buffer->capacity)
-        return true;
     if (!kept) // the old block first, so that both need not fit into memory
         phys_buffer_free(buffer);
     // Twice as much as before keeps the cost of growing by single elements linear.

@@ -8,10 +8,10 @@
 #include <float.h>
 
 static double link_length(const Columns *columns, size_t from, size_t to) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     double square = 0;
     for (size_t k = 0; k < n; k++) {
-        double d = columns->position[k * count + to] - columns->position[k * count + from];
+        double d = columns->position[k * stride + to] - columns->position[k * stride + from];
         square += d * d;
     }
     return sqrt(square);
@@ -32,9 +32,9 @@ static void apply_link(const Columns *columns, const Force *force) {
     else
         return;
     double inverse = 1 / length;
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++) {
-        size_t from = k * count + link->from, to = k * count + link->to;
+        size_t from = k * stride + link->from, to = k * stride + link->to;
         double f = (columns->position[to] - columns->position[from]) * inverse * coefficient;
         columns->force[from] += f;
         columns->force[to] -= f;

@@ -10,6 +10,8 @@
 // Every K is symmetric in the two particles, so action equals reaction to the last bit, and a kernel that computes one
 // target at a time gives the same sums as this one, which resolves each pair once.
 #include "physics/internal.h"
+#include "physics/neighbours.h"
+#include "physics/pair_wave.h"
 
 #include <float.h>
 
@@ -68,16 +70,16 @@ ALWAYS_INLINE void pair_row(const Columns *columns, ForceRange forces, size_t i,
                             double *here, double *sum, double *unit) {
     const double *restrict position = columns->position;
     double *restrict force = columns->force;
-    const size_t count = columns->count;
+    const size_t stride = columns->stride;
     const Body a = body_at(columns, i);
     for (size_t k = 0; k < n; k++) {
-        here[k] = position[k * count + i];
-        sum[k] = force[k * count + i];
+        here[k] = position[k * stride + i];
+        sum[k] = force[k * stride + i];
     }
     for (size_t j = first; j < end; j++) {
         double square = 0;
         for (size_t k = 0; k < n; k++) {
-            unit[k] = position[k * count + j] - here[k];
+            unit[k] = position[k * stride + j] - here[k];
             square += unit[k] * unit[k];
         }
         double length = sqrt(square);
@@ -94,12 +96,12 @@ ALWAYS_INLINE void pair_row(const Columns *columns, ForceRange forces, size_t i,
             for (size_t k = 0; k < n; k++) {
                 double f = unit[k] * coefficient;
                 sum[k] += f;
-                force[k * count + j] -= f;
+                force[k * stride + j] -= f;
             }
         }
     }
     for (size_t k = 0; k < n; k++)
-        force[k * count + i] = sum[k];
+        force[k * stride + i] = sum[k];
 }
 
 // The row with everything unrolled for the usual numbers of dimensions.
@@ -139,27 +141,126 @@ static PairRow *row_for(size_t dimensions) {
     }
 }
 
-// One pass: the pair forces that `level`, the group itself or one above it, declares. The partners of a particle are
-// the later ones of its group, then the particles of the enclosing groups up to `level`.
-static void pair_pass(const PhysSystem *system, const Group *group, uint32_t level) {
+enum { PAIRS_FOR_THREADS = 30000 }; // fewer are done before another thread is awake
+
+// One pass on its way through the groups.
+typedef struct Pass {
+    const Columns *columns;
+    ForceRange forces;
+    PairRow *row;
+    const Kernels *kernels;
+    const PairKernel *kernel; // NULL: rows only
+    size_t lanes;
+    int threads;
+    PairPass vector; // what the kernel is given
+} Pass;
+
+static PairTerm pair_term_of(const Force *force) {
+    const PhysForce *given = &force->given;
+    PairTerm term = {.strength = force->strength, .power = given->power, .overlap = given->overlap};
+    term.bound = given->max_distance > 0 ? given->max_distance : INFINITY;
+    switch (given->kind) {
+    case PHYS_COLLISION:
+        term.kind = TERM_COLLISION;
+        term.strength = -force->strength;
+        break;
+    case PHYS_GRAVITY:
+        term.kind = TERM_GRAVITY;
+        break;
+    case PHYS_ELECTROSTATIC:
+        term.kind = TERM_ELECTROSTATIC;
+        term.strength = -force->strength;
+        break;
+    default:
+        term.kind = TERM_ADHESION;
+        break;
+    }
+    return term;
+}
+
+static void choose_kernel(const PhysSystem *system, Pass *pass) {
+    const Kernels *kernels = phys_kernels(system);
+    const Columns *columns = pass->columns;
+    size_t terms = (size_t)(pass->forces.end - pass->forces.begin);
+    enum { FEW = 4 }; // particles that are not worth a vector
+    if (!kernels || columns->dimensions > PHYS_VECTOR_DIMENSIONS || terms > PHYS_MOST_TERMS || columns->count < FEW)
+        return;
+    pass->vector = (PairPass){
+        .dimensions = columns->dimensions,
+        .stride = columns->stride,
+        .position = columns->position,
+        .force = columns->force,
+        .radius = columns->radius,
+        .mass = columns->mass,
+        .charge = columns->charge,
+        .term_count = terms,
+    };
+    for (size_t t = 0; t < terms; t++)
+        pass->vector.terms[t] = pair_term_of(&pass->forces.begin[t]);
+    pass->kernels = kernels;
+    pass->kernel = kernels->pair(&pass->vector);
+    pass->lanes = kernels->lanes;
+    pass->threads = system->options.threads;
+}
+
+// All pairs inside one range.
+static void pass_triangle(const Pass *pass, size_t first, size_t end) {
+    size_t count = end - first;
+    if (pass->kernel && pass->threads > 1 && count * count / 2 >= PAIRS_FOR_THREADS) {
+        PairWave wave = {pass->kernel, &pass->vector, true, first, end, first, end};
+        phys_pair_wave(&wave, pass->threads);
+        return;
+    }
+    if (pass->kernel && count > 2) {
+        pass->kernel->triangle(&pass->vector, first, end);
+        return;
+    }
+    for (size_t i = first; i < end; i++)
+        pass->row(pass->columns, pass->forces, i, i + 1, end);
+}
+
+// Vectors that a rectangle with so many rows and columns takes.
+static size_t vectors(const Pass *pass, size_t rows, size_t columns) {
+    return (rows + pass->lanes - 1) / pass->lanes * columns;
+}
+
+// All pairs of two ranges. As action equals reaction, it does not matter which of the two has the lanes.
+static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t other, size_t other_end) {
+    size_t rows = end - first, columns = other_end - other;
+    if (!pass->kernel || rows + columns <= 4) {
+        for (size_t i = first; i < end; i++)
+            pass->row(pass->columns, pass->forces, i, other, other_end);
+        return;
+    }
+    PairWave wave = {pass->kernel, &pass->vector, false, first, end, other, other_end};
+    if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
+        wave = (PairWave){pass->kernel, &pass->vector, false, other, other_end, first, end};
+    if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
+        phys_pair_wave(&wave, pass->threads);
+    else
+        pass->kernel->tiles(&pass->vector, wave.row, wave.row_end, wave.column, wave.column_end);
+}
+
+// The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later
+// ones of its group, then the particles of the enclosing groups up to `level`.
+static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     const Group *groups = system->groups.bytes;
-    const Columns *columns = &system->columns;
-    ForceRange forces = phys_forces(system, level, STAGE_PAIR);
-    PairRow *row = row_for(columns->dimensions);
     uint32_t number = (uint32_t)(group - groups);
-    uint32_t nearest = number ? groups[group->parent].populated : NO_GROUP;
-    size_t end = (size_t)group->first + group->count;
-    for (size_t i = group->first; i < end; i++) {
-        row(columns, forces, i, i + 1, end);
-        // Numbers ascend from parent to child, so on the way up those below `level` are beyond it.
-        for (uint32_t g = nearest; g != NO_GROUP && g >= level;) {
-            row(columns, forces, i, groups[g].first, (size_t)groups[g].first + groups[g].count);
-            g = g ? groups[groups[g].parent].populated : NO_GROUP;
-        }
+    Pass pass = {.columns = &system->columns, .forces = phys_forces(system, level, STAGE_PAIR)};
+    pass.row = row_for(pass.columns->dimensions);
+    choose_kernel(system, &pass);
+    if (pass.kernel && phys_neighbour_pass(system, pass.kernels, &pass.vector, number, level))
+        return;
+    size_t first = group->first, end = first + group->count;
+    pass_triangle(&pass, first, end);
+    // Numbers ascend from parent to child, so on the way up those below `level` are beyond it.
+    for (uint32_t g = number ? groups[group->parent].populated : NO_GROUP; g != NO_GROUP && g >= level;) {
+        pass_rectangle(&pass, first, end, groups[g].first, (size_t)groups[g].first + groups[g].count);
+        g = g ? groups[groups[g].parent].populated : NO_GROUP;
     }
 }
 
-void phys_apply_pairs(const PhysSystem *system, const Group *group) {
+void phys_apply_pairs(PhysSystem *system, const Group *group) {
     const Group *groups = system->groups.bytes;
     for (uint32_t level = group->nearest[STAGE_PAIR]; level != NO_GROUP;
          level = phys_next_above(groups, level, STAGE_PAIR))

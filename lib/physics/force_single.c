@@ -4,35 +4,35 @@
 
 // (force_k + acceleration_k · m) · S
 static void constant_force(const Columns *columns, size_t i, const Force *force) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++) {
         double acceleration = phys_at(force->given.vector2, k) * columns->mass[i];
-        columns->force[k * count + i] += (phys_at(force->given.vector, k) + acceleration) * force->strength;
+        columns->force[k * stride + i] += (phys_at(force->given.vector, k) + acceleration) * force->strength;
     }
 }
 
 // S · normal(seed)[index], index counting up by one for each component of each particle, over all steps of a frame
 static void random_force(const Columns *columns, size_t i, Force *force) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++)
-        columns->force[k * count + i] += force->strength * random_normal(force->given.key, force->item++);
+        columns->force[k * stride + i] += force->strength * random_normal(force->given.key, force->item++);
 }
 
 // S · direction_k · q
 static void field_force(const Columns *columns, size_t i, const Force *force) {
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     for (size_t k = 0; k < n; k++)
-        columns->force[k * count + i] += force->strength * phys_at(force->given.vector, k) * columns->charge[i];
+        columns->force[k * stride + i] += force->strength * phys_at(force->given.vector, k) * columns->charge[i];
 }
 
 // r ≠ 0:  − (v_k − flow_k) · c,  c = min(S · sqrt(Σ (v−flow)²) · r^(n−1), m / delta)
 static void drag_force(const Columns *columns, size_t i, const Force *force, double delta) {
     if (columns->radius[i] == 0)
         return;
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     double square = 0;
     for (size_t k = 0; k < n; k++) {
-        double relative = columns->velocity[k * count + i] - phys_at(force->given.vector, k);
+        double relative = columns->velocity[k * stride + i] - phys_at(force->given.vector, k);
         square += relative * relative;
     }
     double coefficient = force->strength * sqrt(square) * columns->section[i];
@@ -41,8 +41,8 @@ static void drag_force(const Columns *columns, size_t i, const Force *force, dou
     if (coefficient > limit)
         coefficient = limit;
     for (size_t k = 0; k < n; k++) {
-        double relative = columns->velocity[k * count + i] - phys_at(force->given.vector, k);
-        columns->force[k * count + i] -= relative * coefficient;
+        double relative = columns->velocity[k * stride + i] - phys_at(force->given.vector, k);
+        columns->force[k * stride + i] -= relative * coefficient;
     }
 }
 
@@ -51,10 +51,10 @@ static void buoyancy_force(const Columns *columns, size_t i, const Force *force)
     double mass = columns->mass[i];
     if (columns->radius[i] == 0 || mass == 0)
         return;
-    size_t n = columns->dimensions, count = columns->count;
+    size_t n = columns->dimensions, stride = columns->stride;
     double weight = force->strength * (mass - columns->volume[i] * force->given.density);
     for (size_t k = 0; k < n; k++)
-        columns->force[k * count + i] += phys_at(force->given.vector, k) * weight;
+        columns->force[k * stride + i] += phys_at(force->given.vector, k) * weight;
 }
 
 static void apply_single(const Columns *columns, size_t i, Force *force, double delta) {

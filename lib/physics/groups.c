@@ -25,6 +25,13 @@ static size_t slot_of(const ForceRecord *record) {
 // from the end of each range to its beginning.
 static void arrange_particles(PhysSystem *system) {
     Group *groups = system->groups.bytes;
+    if (system->group_count == 1) { // in order already
+        groups[0].first = 0;
+        groups[0].count = system->particle_count;
+        for (uint32_t i = 0; i < system->particle_count; i++)
+            system->order[i] = system->place[i] = i;
+        return;
+    }
     const ParticleRecord *particles = system->particles.bytes;
     for (uint32_t g = 0; g < system->group_count; g++)
         groups[g].count = 0;

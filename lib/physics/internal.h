@@ -2,8 +2,8 @@
 //
 // A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
 // particle a row of 3 n doubles (position, velocity, force), which is also where results are read. To simulate, it is
-// arranged: particles go into columns, component k of particle i at [k * count + i], in pre-order of their groups, each
-// group's own first; forces are sorted by group and by the stage in which they act. Then
+// arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups,
+// each group's own first; forces are sorted by group and by the stage in which they act. Then
 //
 //   - the particles of a group are one contiguous range, and so are those of a group with all its sub-groups;
 //   - what a particle sees in a pass over pairs is its own range and one range for each enclosing group;
@@ -30,6 +30,13 @@ typedef struct Buffer {
 typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_COUNT } Stage;
 
 #define NO_GROUP UINT32_MAX
+
+enum {
+    PHYS_MOST_THREADS = 64,
+    PHYS_MOST_LISTS = 8,       // passes that have neighbour lists
+    PHYS_MOST_RANGES = 8,      // groups whose particles take part in such a pass
+    PHYS_FEW_PARTICLES = 1500, // for which one thread is enough, if the work for each is small
+};
 
 typedef struct Group {
     uint32_t parent; // the top is its own parent
@@ -65,6 +72,7 @@ typedef struct Force {
 typedef struct Columns {
     size_t dimensions;
     uint32_t count;
+    size_t stride; // >= count
     double *position;
     double *velocity;
     double *thrust; // the particle's own force
@@ -83,11 +91,13 @@ struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // capacity of all buffers together
     bool failed;    // memory was used up since phys_begin
+    PhysOptions options;
     // description
     uint32_t dimensions;
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
+    bool eased;              // the own force of some particle is eased in
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     Buffer particles;        // ParticleRecord by handle
@@ -102,6 +112,9 @@ struct PhysSystem {
     uint32_t *place;    // handle -> column
     uint32_t *starts;   // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
     Columns columns;
+    // kept from step to step and from frame to frame
+    uint64_t frame; // number of this frame
+    struct Neighbours *lists;
 };
 
 // A run of forces.
@@ -109,6 +122,9 @@ typedef struct ForceRange {
     Force *begin;
     Force *end;
 } ForceRange;
+
+// system.c: the vector kernels of the chosen level; NULL: there are none.
+const struct Kernels *phys_kernels(const PhysSystem *system);
 
 // buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
 // `system->failed` set, if memory is used up.
@@ -127,7 +143,7 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);
-void phys_apply_pairs(const PhysSystem *system, const Group *group);
+void phys_apply_pairs(PhysSystem *system, const Group *group);
 void phys_apply_singles(const Columns *columns, const Group *group, ForceRange forces, double delta);
 void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces);
 // integrate.c: moves particle i (4.3) and leaves its acceleration in phys_acceleration().

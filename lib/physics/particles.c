@@ -1,5 +1,7 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
 #include "physics/internal.h"
+#include "physics/kernels.h"
+#include "physics/threads.h"
 
 // Points the columns into their memory.
 static bool reserve_columns(PhysSystem *system) {
@@ -10,24 +12,34 @@ static bool reserve_columns(PhysSystem *system) {
                           &columns->charge, &columns->section, &columns->volume};
     enum { VECTORS = sizeof vectors / sizeof *vectors, SCALARS = sizeof scalars / sizeof *scalars, SCRATCH = 3 };
     // n * count is bounded by the rows, which exist already. Without particles nothing is needed, however large n is.
-    uint64_t doubles = VECTORS * n * count + SCALARS * count + (count ? SCRATCH * n : 0);
+    // Vector kernels want columns that begin at a cache line, and may read one vector beyond the last.
+    enum { LINE = 8 };
+    uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + LINE - 1) / LINE * LINE : count;
+    uint64_t doubles = VECTORS * n * stride + SCALARS * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
     uint64_t flags = (count + sizeof(double) - 1) / sizeof(double);
     if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)))
         return false;
-    *columns = (Columns){.dimensions = n, .count = system->particle_count};
+    *columns = (Columns){.dimensions = n, .count = system->particle_count, .stride = stride};
     if (!count)
         return true;
-    double *next = system->column_data.bytes;
-    for (int i = 0; i < VECTORS; i++, next += n * count)
+    uintptr_t line = LINE * sizeof(double), address = (uintptr_t)system->column_data.bytes;
+    double *next = (double *)((address + line - 1) / line * line);
+    for (int i = 0; i < VECTORS; i++, next += n * stride)
         *vectors[i] = next;
-    for (int i = 0; i < SCALARS; i++, next += count)
+    for (int i = 0; i < SCALARS; i++, next += stride)
         *scalars[i] = next;
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
     return true;
 }
 
-// radius^(n-1) and radius^n are wanted at every step, and pow is slow.
+// C pow of all radii; equal ones often stand side by side, and pow is slow.
+static void raise_radii(const Columns *columns, double power, double *to) {
+    for (size_t i = 0; i < columns->count; i++)
+        to[i] = i && columns->radius[i] == columns->radius[i - 1] ? to[i - 1] : pow(columns->radius[i], power);
+}
+
+// radius^(n-1) and radius^n are wanted at every step.
 static void compute_radius_powers(const PhysSystem *system, const Columns *columns) {
     const Force *forces = system->forces.bytes;
     bool drag = false, buoyancy = false;
@@ -36,19 +48,18 @@ static void compute_radius_powers(const PhysSystem *system, const Columns *colum
         buoyancy |= forces[i].given.kind == PHYS_BUOYANCY;
     }
     double n = (double)columns->dimensions;
-    for (size_t i = 0; drag && i < columns->count; i++)
-        columns->section[i] = pow(columns->radius[i], n - 1);
-    for (size_t i = 0; buoyancy && i < columns->count; i++)
-        columns->volume[i] = pow(columns->radius[i], n);
+    if (drag)
+        raise_radii(columns, n - 1, columns->section);
+    if (buoyancy)
+        raise_radii(columns, n, columns->volume);
 }
 
-bool phys_load(PhysSystem *system) {
-    if (!reserve_columns(system))
-        return false;
+static void load_share(void *context, int worker, int workers) {
+    PhysSystem *system = context;
     const Columns *columns = &system->columns;
     const ParticleRecord *particles = system->particles.bytes;
-    size_t n = columns->dimensions, count = columns->count;
-    for (size_t i = 0; i < count; i++) {
+    size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
+    for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = &particles[handle];
         columns->ease[i] = particle->ease;
@@ -58,23 +69,39 @@ bool phys_load(PhysSystem *system) {
         columns->anchor[i] = particle->anchor;
         const double *row = (const double *)system->rows.bytes + 3 * n * handle;
         for (size_t k = 0; k < n; k++) {
-            columns->position[k * count + i] = row[k];
-            columns->velocity[k * count + i] = row[n + k];
-            columns->thrust[k * count + i] = row[2 * n + k];
+            columns->position[k * stride + i] = row[k];
+            columns->velocity[k * stride + i] = row[n + k];
+            columns->thrust[k * stride + i] = row[2 * n + k];
         }
     }
-    compute_radius_powers(system, columns);
+}
+
+static void store_share(void *context, int worker, int workers) {
+    PhysSystem *system = context;
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
+    for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
+        double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
+        for (size_t k = 0; k < n; k++) {
+            row[k] = columns->position[k * stride + i];
+            row[n + k] = columns->velocity[k * stride + i];
+        }
+    }
+}
+
+static int threads_for(const PhysSystem *system) {
+    enum { MANY = 10000 }; // particles whose copies are worth a second thread
+    return system->particle_count < MANY ? 1 : system->options.threads;
+}
+
+bool phys_load(PhysSystem *system) {
+    if (!reserve_columns(system))
+        return false;
+    phys_parallel(threads_for(system), load_share, system);
+    compute_radius_powers(system, &system->columns);
     return true;
 }
 
 void phys_store(PhysSystem *system) {
-    const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, count = columns->count;
-    for (size_t i = 0; i < count; i++) {
-        double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
-        for (size_t k = 0; k < n; k++) {
-            row[k] = columns->position[k * count + i];
-            row[n + k] = columns->velocity[k * count + i];
-        }
-    }
+    phys_parallel(threads_for(system), store_share, system);
 }

@@ -1,5 +1,7 @@
 // step.c: one step as the ordered list of stages of section 4.
-#include "physics/internal.h"
+#include "physics/sweep.h"
+
+#include <string.h>
 
 // Strength of every force applier and barrier: `strength`, times (clock / ease) while ease > 0 and clock < ease.
 static void ease_strengths(const PhysSystem *system, double clock) {
@@ -9,12 +11,18 @@ static void ease_strengths(const PhysSystem *system, double clock) {
 }
 
 // The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
-static void start_forces(const Columns *columns, double clock) {
-    size_t n = columns->dimensions, count = columns->count;
-    for (size_t i = 0; i < count; i++) {
+static void start_forces(const PhysSystem *system, double clock) {
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions, stride = columns->stride;
+    if (!system->eased) {
+        if (columns->count)
+            memcpy(columns->force, columns->thrust, n * stride * sizeof(double));
+        return;
+    }
+    for (size_t i = 0; i < columns->count; i++) {
         double factor = phys_ramp(columns->ease[i], clock);
         for (size_t k = 0; k < n; k++)
-            columns->force[k * count + i] = columns->thrust[k * count + i] * factor;
+            columns->force[k * stride + i] = columns->thrust[k * stride + i] * factor;
     }
 }
 
@@ -44,7 +52,7 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     const Group *groups = system->groups.bytes;
     const Columns *columns = &system->columns;
     ease_strengths(system, clock);
-    start_forces(columns, clock);
+    start_forces(system, clock);
     // 1. Forces between particles, all of them before anything moves.
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));
@@ -53,7 +61,7 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     }
     // 2. What happens to each particle alone.
     for (uint32_t g = 0; g < system->group_count; g++) {
-        if (!groups[g].count)
+        if (!groups[g].count || phys_sweep(system, g, delta, speed_of_light))
             continue;
         apply_singles_and_barriers(system, g, delta);
         for (size_t i = groups[g].first, end = i + groups[g].count; i < end; i++)

@@ -1,5 +1,6 @@
 // system.c: the description of a system (see system.h).
 #include "physics/internal.h"
+#include "physics/neighbours.h"
 
 #include <assert.h>
 #include <string.h>
@@ -19,9 +20,16 @@ PhysSystem *phys_new(void) {
     home.escape = &escape;
     if (setjmp(escape))
         return NULL;
-    PhysSystem *system = arena_alloc(&home, sizeof *system);
+    struct {
+        PhysSystem system;
+        Neighbours lists[PHYS_MOST_LISTS];
+    } *memory = arena_alloc(&home, sizeof *memory); // one block, so that nothing is left if there is none
     home.escape = NULL;
-    *system = (PhysSystem){.home = home};
+    PhysSystem *system = &memory->system;
+    Neighbours *lists = memory->lists;
+    *system = (PhysSystem){.home = home, .lists = lists};
+    memset(lists, 0, PHYS_MOST_LISTS * sizeof *lists);
+    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detect()});
     phys_begin(system, 1);
     return system;
 }
@@ -33,16 +41,42 @@ void phys_free(PhysSystem *system) {
                          &system->vectors, &system->indices,   &system->forces, &system->column_data};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
+    for (int i = 0; i < PHYS_MOST_LISTS; i++)
+        phys_neighbours_free(&system->lists[i]);
     Arena home = system->home; // the struct goes with it
     arena_free(&home);
 }
 
+void phys_set_options(PhysSystem *system, const PhysOptions *options) {
+    CpuLevel best = cpu_detect();
+    system->options = *options;
+    if (options->threads <= 0)
+        system->options.threads = cpu_count();
+    if (system->options.threads > PHYS_MOST_THREADS)
+        system->options.threads = PHYS_MOST_THREADS;
+    if (options->cpu > best)
+        system->options.cpu = best;
+}
+
+const Kernels *phys_kernels(const PhysSystem *system) {
+#ifdef PETRI_X86
+    static const Kernels *const levels[CPU_LEVELS] = {
+        [CPU_AVX2] = &phys_kernels_avx2, [CPU_AVX512] = &phys_kernels_avx512};
+    return levels[system->options.cpu];
+#else
+    (void)system;
+    return NULL;
+#endif
+}
+
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->failed = false;
+    system->frame++;
     system->dimensions = dimensions;
     system->group_count = 0;
     system->particle_count = 0;
     system->force_count = 0;
+    system->eased = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
 }
@@ -87,6 +121,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
     copy_vector(row + 2 * n, particle->anchor ? NULL : particle->force, n);
+    system->eased |= particle->ease > 0;
     system->particle_count++;
     return handle;
 }

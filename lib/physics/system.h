@@ -7,6 +7,8 @@
 #ifndef PETRI_PHYSICS_SYSTEM_H
 #define PETRI_PHYSICS_SYSTEM_H
 
+#include "base/cpu.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -69,6 +71,22 @@ typedef struct PhysForce {
 // A system without particles; NULL if memory is used up. phys_free takes NULL too.
 PhysSystem *phys_new(void);
 void phys_free(PhysSystem *system);
+
+typedef enum PhysNeighbours {
+    PHYS_NEIGHBOURS_AUTO,   // neighbour lists where they pay
+    PHYS_NEIGHBOURS_NEVER,  // all pairs always
+    PHYS_NEIGHBOURS_ALWAYS, // lists wherever the forces of a pass have a bounded reach
+} PhysNeighbours;
+
+// How a system is computed. Nothing of it changes a bit of the results.
+typedef struct PhysOptions {
+    int threads;  // at most so many; 0: as many as processors
+    CpuLevel cpu; // at most cpu_detect()
+    PhysNeighbours neighbours;
+} PhysOptions;
+
+// A new system has one thread, the detected level and lists where they pay.
+void phys_set_options(PhysSystem *system, const PhysOptions *options);
 
 // The most bytes that the arrays of one system may take.
 #define PHYS_MAX_BYTES (UINT64_C(2) << 30)

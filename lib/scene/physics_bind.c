@@ -51,6 +51,8 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
         .last = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_last)),
         .engine = phys_new(),
     };
+    if (system->engine)
+        phys_set_options(system->engine, &scene->physics);
     return system;
 }
 

@@ -11,6 +11,7 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host) {
     if (!scene)
         return NULL;
     schema_init(&scene->schema, symbols, host);
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
     scene->key_clock = symbol_know(symbols, STR("clock"));
@@ -18,6 +19,10 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host) {
     scene->key_velocity = symbol_know(symbols, STR("velocity"));
     scene->key_time = symbol_know(symbols, STR("time"));
     return scene;
+}
+
+void scene_set_physics(Scene *scene, const PhysOptions *options) {
+    scene->physics = *options;
 }
 
 void scene_reset(Scene *scene) {

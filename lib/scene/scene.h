@@ -5,6 +5,7 @@
 #ifndef PETRI_SCENE_SCENE_H
 #define PETRI_SCENE_SCENE_H
 
+#include "physics/system.h"
 #include "scene/attrs.h"
 #include "state/state.h"
 
@@ -22,6 +23,8 @@ typedef struct SceneFrame {
 // NULL if memory is used up. The symbol table must outlive the scene.
 Scene *scene_new(SymbolTable *symbols, SceneHost host);
 void scene_free(Scene *scene);
+// How the physics of new systems is computed (not what: results do not depend on it).
+void scene_set_physics(Scene *scene, const PhysOptions *options);
 // Forgets what was in the last frame's tree (for when the state dictionary has been replaced).
 void scene_reset(Scene *scene);
 // For saving: the systems and the state keys of the particles in their last frame's trees, which decide what a later

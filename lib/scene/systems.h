@@ -26,6 +26,7 @@ struct Scene {
     Schema schema;
     PhysicsSystem *systems;
     uint64_t frame_number;
+    PhysOptions physics;
     // Symbols of state keys
     const Symbol *key_run;
     const Symbol *key_iteration;

@@ -50,6 +50,18 @@ static void log_machine(void *host, Str text) {
     diag_report(&session->log, &(Diag){.level = DIAG_NOTE, .text = text});
 }
 
+// The environment may choose how physics is computed; results do not depend on it. Unknown words count as none.
+static PhysOptions physics_options(const PetriOptions *options) {
+    PhysOptions physics = {.threads = options->threads};
+    cpu_choose(getenv("PETRI_CPU"), &physics.cpu);
+    const char *neighbours = getenv("PETRI_NEIGHBOURS");
+    if (neighbours && !strcmp(neighbours, "never"))
+        physics.neighbours = PHYS_NEIGHBOURS_NEVER;
+    else if (neighbours && !strcmp(neighbours, "always"))
+        physics.neighbours = PHYS_NEIGHBOURS_ALWAYS;
+    return physics;
+}
+
 PetriSession *petri_open(const PetriOptions *options) {
     if (!options || options->cookie != COOKIE || !(options->fps > 0) || !isfinite(options->fps))
         return NULL;
@@ -77,6 +89,9 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->frame.number = -1;
     if (!session->state || !session->scene || !session->files || !session->noise)
         petri_close(&session);
+    PhysOptions physics = physics_options(options);
+    if (session)
+        scene_set_physics(session->scene, &physics);
     return session;
 }
 

@@ -113,13 +113,15 @@ static inline void model_random(Dice *dice, const ModelShape *shape, Model *mode
         model_random_force(dice, shape, model, &model->forces[i]);
 }
 
-// Simulates some frames of a random system both ways.
-static inline void compare_random(uint64_t seed, const ModelShape *shape, int frames) {
+// Simulates some frames of a random system both ways. Options may be NULL.
+static inline void compare_random_with(uint64_t seed, const ModelShape *shape, int frames, const PhysOptions *options) {
     Dice dice = {seed * UINT64_C(0x9e3779b97f4a7c15) + 1};
     Model *model = calloc(1, sizeof *model);
     PhysSystem *system = phys_new();
     assert_non_null(model);
     assert_non_null(system);
+    if (options)
+        phys_set_options(system, options);
     model_random(&dice, shape, model);
     PhysTime time = {.resolution = 0.04, .performance = dice_between(&dice, 1, 2), .lockstep = dice_below(&dice, 2)};
     time.speed_of_light = dice_below(&dice, 2) ? 1.5 : 0;
@@ -132,6 +134,10 @@ static inline void compare_random(uint64_t seed, const ModelShape *shape, int fr
     }
     phys_free(system);
     free(model);
+}
+
+static inline void compare_random(uint64_t seed, const ModelShape *shape, int frames) {
+    compare_random_with(seed, shape, frames, NULL);
 }
 
 #endif

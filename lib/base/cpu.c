@@ -1,0 +1,47 @@
+// cpu.c: see cpu.h.
+#define _GNU_SOURCE // sched_getaffinity
+#include "base/cpu.h"
+
+#include <sched.h>
+#include <string.h>
+
+static const char *const names[CPU_LEVELS] = {"scalar", "avx2", "avx512"};
+
+CpuLevel cpu_detect(void) {
+#if defined(__x86_64__)
+    __builtin_cpu_init();
+    if (!__builtin_cpu_supports("avx2"))
+        return CPU_SCALAR;
+    bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+                __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
+    return wide ? CPU_AVX512 : CPU_AVX2;
+#else
+    return CPU_SCALAR;
+#endif
+}
+
+bool cpu_choose(const char *wish, CpuLevel *level) {
+    *level = cpu_detect();
+    if (!wish || !*wish)
+        return true;
+    for (int i = 0; i < CPU_LEVELS; i++) {
+        if (strcmp(wish, names[i]))
+            continue;
+        if ((CpuLevel)i < *level)
+            *level = (CpuLevel)i;
+        return true;
+    }
+    return false;
+}
+
+const char *cpu_name(CpuLevel level) {
+    return names[level];
+}
+
+int cpu_count(void) {
+    cpu_set_t set;
+    if (sched_getaffinity(0, sizeof set, &set))
+        return 1;
+    int count = CPU_COUNT(&set);
+    return count > 0 ? count : 1;
+}

@@ -1,0 +1,169 @@
+// kernel_list.c: forces of bounded reach, with neighbour lists. Lanes are targets; each walks its own list, which is in
+// the order of the pass. A pair is computed from both ends.
+#include "physics/pair_sum.h"
+
+// The radius is the last element of a quad that is in use: x y r, or x y z r.
+KERNEL size_t radius_part(size_t dimensions) {
+    return dimensions < 3 ? 2 : 3;
+}
+
+KERNEL PairEnd quad_end(const PairPass *pass, PairShape shape, const ListView *view, const uint32_t *places) {
+    Real parts[4];
+    real_load_quads(view->quads, places, parts);
+    PairEnd end = {.mass = real_zero(), .charge = real_zero()};
+    for (size_t k = 0; k < shape.dimensions; k++)
+        end.place[k] = parts[k];
+    end.radius = parts[radius_part(shape.dimensions)];
+    (void)pass;
+    if (shape.rest == REST_ANY) {
+        uint32_t index[LANES];
+        for (int lane = 0; lane < LANES; lane++)
+            index[lane] = places[lane] * 2;
+        end.mass = real_gather(view->sources, index);
+        end.charge = real_gather(view->sources + 1, index);
+    }
+    return end;
+}
+
+KERNEL void block_forces(const PairPass *pass, PairShape shape, const ListView *view, size_t block) {
+    const uint32_t *entries = view->entries + view->at[block], *column = view->column + block * LANES;
+    size_t most = view->most[block], left = view->regular - block * LANES;
+    if (!most)
+        return;
+    Mask live = mask_first(left);
+    uint32_t self[LANES];
+    for (uint32_t lane = 0; lane < LANES; lane++)
+        self[lane] = (uint32_t)(block * LANES) + lane;
+    PairEnd target = quad_end(pass, shape, view, self);
+    Real sum[PHYS_VECTOR_DIMENSIONS];
+    for (size_t m = 0; m < shape.dimensions; m++)
+        sum[m] = real_gather(pass->force + m * pass->stride, column);
+    for (size_t k = 0; k < most; k++) {
+        PairEnd partner = quad_end(pass, shape, view, entries + k * LANES);
+        PairGeometry pair;
+        if (pair_geometry(shape, &target, &partner, live, &pair))
+            add_rest(pass, shape, &pair, &target, &partner, sum, NULL, 0);
+    }
+    for (size_t m = 0; m < shape.dimensions; m++)
+        real_scatter_where(live, pass->force + m * pass->stride, column, sum[m]);
+}
+
+KERNEL void blocks(const PairPass *pass, PairShape shape, const ListView *view, size_t first, size_t end) {
+    for (size_t block = first; block < end; block++)
+        block_forces(pass, shape, view, block);
+}
+
+// The most frequent case without its loop over forces.
+#define LIST_KERNEL(n)                                                                                                 \
+    static void forces_##n(const PairPass *pass, const ListView *view, size_t first, size_t end) {                     \
+        if (view->sources)                                                                                             \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_ANY}, view, first, end);                                       \
+        else                                                                                                           \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_TOUCH}, view, first, end);                                     \
+    }
+LIST_KERNEL(1)
+LIST_KERNEL(2)
+LIST_KERNEL(3)
+
+void PER_ISA(list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end) {
+    if (pass->dimensions == 1)
+        forces_1(pass, view, first, end);
+    else if (pass->dimensions == 2)
+        forces_2(pass, view, first, end);
+    else
+        forces_3(pass, view, first, end);
+}
+
+KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimensions, size_t first, size_t end) {
+    bool hold = true;
+    for (size_t s = first; s < end; s += LANES) {
+        Mask live = mask_first(end - s);
+        Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
+        for (size_t k = 0; k < dimensions; k++) {
+            parts[k] = real_gather(pass->position + k * pass->stride, view->column + s);
+            Real d = real_sub(parts[k], real_load(view->built[k] + s));
+            square = real_add(square, real_mul(d, d));
+        }
+        Real radius = real_gather(pass->radius, view->column + s);
+        parts[radius_part(dimensions)] = radius;
+        real_store_quads(view->quads + 4 * s, parts);
+        // Written so that a NaN counts as a move.
+        Mask still = real_at_most_where(live, square, real_set(view->moved));
+        still = real_at_most_where(still, radius, real_load(view->radius + s));
+        hold &= mask_bits(still) == mask_bits(live);
+    }
+    return hold;
+}
+
+static void refresh_sources(const PairPass *pass, const ListView *view, size_t first, size_t end) {
+    for (size_t s = first; s < end; s++) {
+        view->sources[2 * s] = pass->mass[view->column[s]];
+        view->sources[2 * s + 1] = pass->charge[view->column[s]];
+    }
+}
+
+bool PER_ISA(list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end) {
+    if (view->sources)
+        refresh_sources(pass, view, first, end);
+    if (pass->dimensions == 1)
+        return refresh(pass, view, 1, first, end);
+    return pass->dimensions == 2 ? refresh(pass, view, 2, first, end) : refresh(pass, view, 3, first, end);
+}
+
+KERNEL size_t list_find(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
+                        uint32_t *to) {
+    size_t count = 0;
+    for (size_t s = first; s < end; s += LANES) {
+        Real square = real_zero();
+        for (size_t k = 0; k < dimensions; k++) {
+            Real d = real_sub(real_load(view->built[k] + s), real_set(query->place[k]));
+            square = real_add(square, real_mul(d, d));
+        }
+        Real reach = real_add(real_load(view->radius + s), real_set(query->radius));
+        reach = real_add(real_larger(reach, real_set(query->bound)), real_set(query->skin));
+        // Both may overflow; the pair is listed then.
+        Mask close = real_at_most_where(mask_first(end - s), square, real_mul(reach, reach));
+        size_t found = mask_numbers(close, (uint32_t)s, to + count);
+        count += found;
+    }
+    return count;
+}
+
+size_t PER_ISA(list_near)(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
+                          uint32_t *to) {
+    if (dimensions == 1)
+        return list_find(view, 1, query, first, end, to);
+    return dimensions == 2 ? list_find(view, 2, query, first, end, to) : list_find(view, 3, query, first, end, to);
+}
+
+KERNEL void crowd(const PairPass *pass, PairShape shape, const uint32_t *targets, size_t count, size_t first,
+                  size_t end) {
+    Mask live = mask_first(count);
+    PairEnd target;
+    Real sum[PHYS_VECTOR_DIMENSIONS];
+    for (size_t m = 0; m < shape.dimensions; m++) {
+        target.place[m] = real_gather(pass->position + m * pass->stride, targets);
+        sum[m] = real_gather(pass->force + m * pass->stride, targets);
+    }
+    target.radius = real_gather(pass->radius, targets);
+    target.mass = real_gather(pass->mass, targets);
+    target.charge = real_gather(pass->charge, targets);
+    for (size_t j = first; j < end; j++) {
+        // A target meets itself at the distance 0, which is no pair.
+        PairEnd partner = pair_partner(pass, shape, j);
+        PairGeometry pair;
+        if (pair_geometry(shape, &target, &partner, live, &pair))
+            add_rest(pass, shape, &pair, &target, &partner, sum, NULL, 0);
+    }
+    for (size_t m = 0; m < shape.dimensions; m++)
+        real_scatter_where(live, pass->force + m * pass->stride, targets, sum[m]);
+}
+
+void PER_ISA(list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end) {
+    if (pass->dimensions == 1)
+        crowd(pass, (PairShape){1, LEAD_NONE, REST_ANY}, targets, count, first, end);
+    else if (pass->dimensions == 2)
+        crowd(pass, (PairShape){2, LEAD_NONE, REST_ANY}, targets, count, first, end);
+    else
+        crowd(pass, (PairShape){3, LEAD_NONE, REST_ANY}, targets, count, first, end);
+}

@@ -1,0 +1,193 @@
+// kernel_pair.c: all pairs of a pass, each computed once, in tiles of LANES x LANES.
+//
+// A tile has LANES targets in the lanes (its rows) and takes LANES partners (its columns) one after the other. The
+// terms are added to the rows' sums as they come: ascending partner. Then the tile is transposed, and the terms are
+// subtracted from the columns' sums: ascending row. Tiles go row by row, so every particle still sums its partners in
+// ascending order, as force_pair.c does.
+#include "physics/pair_sum.h"
+
+// The rows of a tile.
+typedef struct Rows {
+    PairEnd target;
+    Mask live;
+    Mask lead; // rows that the leading force can act on
+    Real sum[PHYS_VECTOR_DIMENSIONS];
+} Rows;
+
+// All forces between the rows that are `live` and one column. `whole`: the leading force acts on the column.
+KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool whole, Tile *tile,
+                       size_t k) {
+    const PairEnd *target = &rows->target;
+    PairEnd partner = pair_partner(pass, shape, j);
+    PairGeometry pair;
+    if (!pair_geometry(shape, target, &partner, live, &pair))
+        return;
+    if (shape.lead != LEAD_NONE) {
+        Real a = lead_source(shape, target), b = lead_source(shape, &partner);
+        Mask applies = mask_and(pair.valid, rows->lead);
+        if (!whole)
+            applies = real_differs_where(applies, b, real_zero());
+        Real coefficient = inverse_square(&pass->terms[0], &pair, a, b);
+        add_term(shape, &pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
+    }
+    if (shape.rest != REST_NONE)
+        add_rest(pass, shape, &pair, target, &partner, rows->sum, tile, k);
+}
+
+// Gives the terms of forces that are not the leading one to the columns, each after those that precede it.
+static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, Real *total) {
+    for (size_t t = 0; t < pass->term_count; t++)
+        if (tile->hits >> t & 1)
+            real_transpose(tile->rest[t][m]);
+    for (size_t k = 0; k < LANES; k++) {
+        if (lead)
+            *total = real_sub(*total, tile->lead[m][k]);
+        for (size_t t = 0; t < pass->term_count; t++)
+            if (tile->hits >> t & 1)
+                *total = real_sub(*total, tile->rest[t][m][k]);
+    }
+}
+
+// Gives a tile's terms to its columns.
+KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_t j, size_t columns) {
+    bool lead = shape.lead != LEAD_NONE, mixed = shape.rest != REST_NONE && tile->hits;
+    if (!lead && !mixed)
+        return;
+    for (size_t m = 0; m < shape.dimensions; m++) {
+        double *force = pass->force + m * pass->stride + j;
+        Real total = real_load(force);
+        if (lead)
+            real_transpose(tile->lead[m]);
+        if (mixed) {
+            finish_mixed(pass, tile, lead, m, &total);
+        } else {
+#pragma GCC unroll 8
+            for (size_t k = 0; k < LANES; k++)
+                total = real_sub(total, tile->lead[m][k]);
+        }
+        if (columns == LANES)
+            real_store(force, total);
+        else
+            real_store_where(mask_first(columns), force, total);
+    }
+}
+
+// Does the leading force act on all of LANES columns?
+KERNEL bool all_led(const PairPass *pass, PairShape shape, size_t j) {
+    if (shape.lead == LEAD_NONE)
+        return true;
+    Real source = real_load((shape.lead == LEAD_GRAVITY ? pass->mass : pass->charge) + j);
+    return mask_bits(real_differs_where(mask_first(LANES), source, real_zero())) == (1u << LANES) - 1;
+}
+
+KERNEL void full_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j) {
+    Tile tile;
+    tile.hits = 0;
+#pragma GCC unroll 8
+    for (size_t k = 0; k < LANES; k++)
+        add_column(pass, shape, rows, rows->live, j + k, true, &tile, k);
+    finish_tile(pass, shape, &tile, j, LANES);
+}
+
+// A tile that is not full or in which the leading force leaves out columns.
+KERNEL void partial_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t j, size_t columns) {
+    Tile tile;
+    tile.hits = 0;
+    if (shape.lead != LEAD_NONE)
+        clear_terms(tile.lead);
+    for (size_t k = 0; k < columns; k++)
+        add_column(pass, shape, rows, rows->live, j + k, false, &tile, k);
+    finish_tile(pass, shape, &tile, j, columns);
+}
+
+// The tile on the diagonal: each of its particles is a row and takes all the others.
+KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, size_t i, size_t count) {
+    for (size_t k = 0; k < count; k++) {
+        Mask self = mask_and(mask_first(k + 1), mask_not(mask_first(k)));
+        add_column(pass, shape, rows, mask_and(rows->live, mask_not(self)), i + k, false, NULL, 0);
+    }
+}
+
+// LANES rows against all their columns; those of a triangle begin right of the diagonal.
+KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t count, size_t column, size_t column_end,
+                     bool triangle) {
+    Rows rows = {.target = pair_targets(pass, shape, i), .live = mask_first(count)};
+    rows.lead = real_differs_where(rows.live, lead_source(shape, &rows.target), real_zero());
+    for (size_t m = 0; m < shape.dimensions; m++)
+        rows.sum[m] = real_load(pass->force + m * pass->stride + i);
+    if (triangle)
+        diagonal_tile(pass, shape, &rows, i, count);
+    size_t j = triangle ? i + count : column;
+    for (; j < column_end; j += LANES) {
+        if (j + LANES <= column_end && all_led(pass, shape, j))
+            full_tile(pass, shape, &rows, j);
+        else
+            partial_tile(pass, shape, &rows, j, column_end - j < LANES ? column_end - j : LANES);
+    }
+    for (size_t m = 0; m < shape.dimensions; m++)
+        real_store_where(rows.live, pass->force + m * pass->stride + i, rows.sum[m]);
+}
+
+KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t row_end, size_t column,
+                      size_t column_end, bool triangle) {
+    for (size_t i = row; i < row_end; i += LANES)
+        tile_row(pass, shape, i, row_end - i < LANES ? row_end - i : LANES, column, column_end, triangle);
+}
+
+// The kernels themselves. dimensions, lead and rest are constants in each.
+#define PAIR_KERNEL(n, lead, rest)                                                                                     \
+    static void triangle_##n##lead##rest(const PairPass *pass, size_t first, size_t end) {                             \
+        tile_rows(pass, (PairShape){n, lead, rest}, first, end, 0, end, true);                                         \
+    }                                                                                                                  \
+    static void tiles_##n##lead##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                 \
+                                      size_t column_end) {                                                             \
+        tile_rows(pass, (PairShape){n, lead, rest}, row, row_end, column, column_end, false);                          \
+    }
+#define PAIR_KERNELS(n)                                                                                                \
+    PAIR_KERNEL(n, LEAD_GRAVITY, REST_NONE)                                                                            \
+    PAIR_KERNEL(n, LEAD_GRAVITY, REST_TOUCH)                                                                           \
+    PAIR_KERNEL(n, LEAD_ELECTROSTATIC, REST_NONE)                                                                      \
+    PAIR_KERNEL(n, LEAD_ELECTROSTATIC, REST_TOUCH)                                                                     \
+    PAIR_KERNEL(n, LEAD_NONE, REST_TOUCH)                                                                              \
+    PAIR_KERNEL(n, LEAD_NONE, REST_ANY)
+PAIR_KERNELS(1)
+PAIR_KERNELS(2)
+PAIR_KERNELS(3)
+
+#define PAIR_ENTRY(n, lead, rest) [n - 1][lead][rest] = {triangle_##n##lead##rest, tiles_##n##lead##rest}
+#define PAIR_ENTRIES(n)                                                                                                \
+    PAIR_ENTRY(n, LEAD_GRAVITY, REST_NONE), PAIR_ENTRY(n, LEAD_GRAVITY, REST_TOUCH),                                   \
+        PAIR_ENTRY(n, LEAD_ELECTROSTATIC, REST_NONE), PAIR_ENTRY(n, LEAD_ELECTROSTATIC, REST_TOUCH),                   \
+        PAIR_ENTRY(n, LEAD_NONE, REST_TOUCH), PAIR_ENTRY(n, LEAD_NONE, REST_ANY)
+static const PairKernel pair_kernels[PHYS_VECTOR_DIMENSIONS][LEAD_ELECTROSTATIC + 1][REST_ANY + 1] = {
+    PAIR_ENTRIES(1),
+    PAIR_ENTRIES(2),
+    PAIR_ENTRIES(3),
+};
+
+static bool needs_contact(const PairTerm *term) {
+    return term->kind == TERM_COLLISION || term->kind == TERM_ADHESION;
+}
+
+static const PairKernel *pair_kernel(const PairPass *pass) {
+    const PairTerm *first = pass->terms;
+    PairLead lead = LEAD_NONE;
+    if (!needs_contact(first) && !(first->bound < INFINITY))
+        lead = first->kind == TERM_GRAVITY ? LEAD_GRAVITY : LEAD_ELECTROSTATIC;
+    size_t others = lead != LEAD_NONE;
+    PairRest rest = pass->term_count == others ? REST_NONE : REST_TOUCH;
+    for (size_t t = others; t < pass->term_count; t++)
+        if (!needs_contact(&pass->terms[t]))
+            return &pair_kernels[pass->dimensions - 1][LEAD_NONE][REST_ANY];
+    return &pair_kernels[pass->dimensions - 1][lead][rest];
+}
+
+const Kernels PER_ISA(phys_kernels) = {
+    .lanes = LANES,
+    .pair = pair_kernel,
+    .list_refresh = PER_ISA(list_refresh),
+    .list_near = PER_ISA(list_near),
+    .list_forces = PER_ISA(list_forces),
+    .list_crowd = PER_ISA(list_crowd),
+    .sweep = PER_ISA(sweep_all),
+};

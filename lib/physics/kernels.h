@@ -1,0 +1,113 @@
+// kernels.h: what the vector kernels are given, and the table through which they are called.
+//
+// The kernels are written once (kernel_*.c over simd.h) and compiled once per instruction set, into one table each.
+// Where there is no table, for more dimensions, and for what is too small, the scalar code of the other files runs. It
+// is the truth: every kernel gives its bits. That rests on three rules:
+//
+//   - a lane is a target, or a pair whose term goes to two targets one after the other in the right order;
+//   - a term that does not apply leaves its sum alone. Adding +0.0 would not (-0.0 + +0.0 is +0.0), so lanes are
+//     blended, or get the neutral zero of the operation: x + -0.0 and x - +0.0 are x for all x;
+//   - nothing is contracted, reassociated or approximated.
+#ifndef PETRI_PHYSICS_KERNELS_H
+#define PETRI_PHYSICS_KERNELS_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum {
+    PHYS_VECTOR_DIMENSIONS = 3, // most dimensions that kernels exist for
+    PHYS_MOST_TERMS = 8,        // most forces of a pass that they take
+};
+
+typedef enum TermKind { TERM_GRAVITY, TERM_ELECTROSTATIC, TERM_COLLISION, TERM_ADHESION } TermKind;
+
+// One force of a pass, with the sign turned so that a positive coefficient attracts.
+typedef struct PairTerm {
+    TermKind kind;
+    double strength;
+    double power;
+    double bound; // the force applies only where l < bound; infinite: no bound
+    double overlap;
+} PairTerm;
+
+// The forces of one pass over pairs and the columns they work on.
+typedef struct PairPass {
+    size_t dimensions;
+    size_t stride;
+    const double *position;
+    double *force;
+    const double *radius;
+    const double *mass;
+    const double *charge;
+    size_t term_count;
+    PairTerm terms[PHYS_MOST_TERMS];
+} PairPass;
+
+// All pairs inside one range, or between a range of rows and one of columns that do not overlap.
+typedef void PairTriangle(const PairPass *pass, size_t first, size_t end);
+typedef void PairTiles(const PairPass *pass, size_t row, size_t row_end, size_t column, size_t column_end);
+
+typedef struct PairKernel {
+    PairTriangle *triangle;
+    PairTiles *tiles;
+} PairKernel;
+
+// Neighbour lists as the kernels see them (neighbours.c builds them). A place is the number of a particle in the order
+// of the grid: first the regular ones, by cell, then a few that are much larger than the others.
+typedef struct ListView {
+    uint32_t regular;
+    uint32_t listed;                       // regular and large ones
+    uint32_t *column;                      // by place; readable for LANES beyond the last
+    double *built[PHYS_VECTOR_DIMENSIONS]; // positions for which the lists were made
+    double *radius;                        // and radii
+    double *quads;     // position and radius now, four doubles for each place; the place after the last is a dummy
+    double *sources;   // mass and charge, two doubles for each place, if a force needs them
+    double moved;      // the lists hold while no particle is farther than this, squared, from where it was built
+    uint32_t *entries; // partners of LANES regular places side by side: [k][lane], places in order, then dummies
+    uint64_t *at;      // by block of LANES places: where its entries begin
+    uint32_t *most;    // and the longest of its lists
+} ListView;
+
+// Which places a target must list: those nearer than max(radius + radius, bound) + skin, and not `self`.
+typedef struct NearQuery {
+    double place[PHYS_VECTOR_DIMENSIONS];
+    double radius;
+    double bound;
+    double skin;
+    uint32_t self;
+} NearQuery;
+
+struct SweepPass; // sweep.h
+
+typedef struct Kernels {
+    size_t lanes;
+    // Fastest kernels for the forces of a pass.
+    const PairKernel *(*pair)(const PairPass *pass);
+    // Brings the quads of places first … end - 1 up to date. False if one of them has moved too far or changed size.
+    bool (*list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end);
+    // Appends the places among first … end - 1 that a target must list. `to` has room for LANES more than there are.
+    size_t (*list_near)(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
+                        uint32_t *to);
+    // Forces on the regular places of some blocks.
+    void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
+    // Forces on at most LANES particles from all of one range. `targets` holds LANES columns.
+    void (*list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
+    // Single-particle forces, barriers and motion of some particles.
+    void (*sweep)(struct SweepPass *pass, size_t first, size_t end);
+} Kernels;
+
+// kernel_list.c, kernel_sweep.c and kernel_pair.c, once for each instruction set.
+#define ISA_KERNELS(isa)                                                                                               \
+    bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
+    size_t list_near_##isa(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,  \
+                           uint32_t *to);                                                                              \
+    void list_forces_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                      \
+    void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);      \
+    void sweep_all_##isa(struct SweepPass *pass, size_t first, size_t end);
+ISA_KERNELS(avx2)
+ISA_KERNELS(avx512)
+extern const Kernels phys_kernels_avx2;
+extern const Kernels phys_kernels_avx512;
+
+#endif

@@ -1,0 +1,237 @@
+// neighbours.c: when to use neighbour lists, and how (see neighbours.h).
+#include "physics/neighbours.h"
+#include "physics/threads.h"
+
+#include <string.h>
+
+enum {
+    FEW = 160,       // particles for which lists never pay
+    REST_FIRST = 64, // steps without lists after they did not pay; doubled each time
+    REST_LONGEST = 1024,
+    LIFE_FIRST = 8, // steps that a list is expected to serve at first
+};
+
+void phys_neighbours_free(Neighbours *list) {
+    phys_buffer_free(&list->arrays);
+    phys_buffer_free(&list->cells);
+    phys_buffer_free(&list->entries);
+}
+
+// The reach of a pass; false if one of its forces has none.
+static bool bounded(const PairPass *pass, double *bound, bool *touch_only) {
+    *bound = 0;
+    *touch_only = true;
+    for (size_t t = 0; t < pass->term_count; t++) {
+        const PairTerm *term = &pass->terms[t];
+        if (term->kind == TERM_COLLISION || term->kind == TERM_ADHESION)
+            continue;
+        *touch_only = false;
+        *bound = fmax(*bound, term->bound);
+    }
+    return *bound < INFINITY;
+}
+
+// The particles of a pass; false if there are too many ranges.
+static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level, PassRanges *ranges) {
+    const Group *groups = system->groups.bytes;
+    memset(ranges, 0, sizeof *ranges);
+    for (uint32_t g = group; g != NO_GROUP && g >= level; g = g ? groups[groups[g].parent].populated : NO_GROUP) {
+        if (ranges->count == PHYS_MOST_RANGES)
+            return false;
+        ranges->at[ranges->count++] = (ColumnRange){groups[g].first, groups[g].count};
+    }
+    return true;
+}
+
+// The list that was made for this pass, or one that is not used in this frame.
+static Neighbours *find_list(PhysSystem *system, uint32_t group, uint32_t level) {
+    Neighbours *spare = NULL;
+    for (int i = 0; i < PHYS_MOST_LISTS; i++) {
+        Neighbours *list = &system->lists[i];
+        if (list->frame && list->group == group && list->level == level)
+            return list;
+        if (list->frame < system->frame && (!spare || list->frame < spare->frame))
+            spare = list;
+    }
+    if (spare)
+        spare->built = false;
+    return spare;
+}
+
+static bool still_idle(const PairPass *pass, const Neighbours *list) {
+    for (uint32_t place = list->view.listed; place < list->total; place++) {
+        size_t column = list->view.column[place];
+        bool idle = list->touch_only && pass->radius[column] == 0;
+        for (size_t k = 0; k < pass->dimensions; k++)
+            idle |= !isfinite(pass->position[k * pass->stride + column]);
+        if (!idle)
+            return false;
+    }
+    return true;
+}
+
+typedef struct Sweep {
+    const Kernels *kernels;
+    const PairPass *pass;
+    const Neighbours *list;
+    bool held[PHYS_MOST_THREADS];
+} Sweep;
+
+// Whole blocks for each worker.
+static size_t sweep_share(const Sweep *sweep, size_t places, int worker, int workers) {
+    size_t lanes = sweep->list->lanes, blocks = (places + lanes - 1) / lanes;
+    return phys_share(blocks, worker, workers);
+}
+
+static void refresh_share(void *context, int worker, int workers) {
+    Sweep *sweep = context;
+    const ListView *view = &sweep->list->view;
+    size_t lanes = sweep->list->lanes, first = sweep_share(sweep, view->listed, worker, workers) * lanes;
+    size_t end = sweep_share(sweep, view->listed, worker + 1, workers) * lanes;
+    end = end < view->listed ? end : view->listed;
+    sweep->held[worker] = sweep->kernels->list_refresh(sweep->pass, view, first, end);
+}
+
+static void force_share(void *context, int worker, int workers) {
+    Sweep *sweep = context;
+    const ListView *view = &sweep->list->view;
+    size_t first = sweep_share(sweep, view->regular, worker, workers);
+    sweep->kernels->list_forces(sweep->pass, view, first, sweep_share(sweep, view->regular, worker + 1, workers));
+}
+
+static int threads_for(const PhysSystem *system, const Neighbours *list) {
+    return list->total < PHYS_FEW_PARTICLES ? 1 : system->options.threads;
+}
+
+// Brings the list's copy of the particles up to date. False if something has left its skin.
+static bool refresh(const PhysSystem *system, Sweep *sweep) {
+    memset(sweep->held, true, sizeof sweep->held);
+    phys_parallel(threads_for(system, sweep->list), refresh_share, sweep);
+    bool held = still_idle(sweep->pass, sweep->list);
+    for (int w = 0; w < PHYS_MOST_THREADS; w++)
+        held &= sweep->held[w];
+    return held;
+}
+
+// The few large particles: each takes everyone.
+static void large_forces(const Sweep *sweep) {
+    const Neighbours *list = sweep->list;
+    const PassRanges *ranges = &list->ranges;
+    uint32_t end = list->view.listed, own = list->ranges.at[0].count;
+    for (uint32_t place = list->view.regular; place < end;) {
+        uint32_t targets[8] = {0}, count = 0;
+        bool inner = list->key[place] < own;
+        // Those of enclosing groups meet only the particles of the group itself.
+        for (; place < end && count < list->lanes && (list->key[place] < own) == inner; place++)
+            targets[count++] = list->view.column[place];
+        for (uint32_t r = 0; r < (inner ? ranges->count : 1); r++)
+            sweep->kernels->list_crowd(sweep->pass, targets, count, ranges->at[r].first,
+                                       (size_t)ranges->at[r].first + ranges->at[r].count);
+    }
+}
+
+// A larger skin makes longer lists that serve more steps. Neither many steps nor few are best.
+static void adapt_skin(Neighbours *list) {
+    list->life = list->age;
+    if (list->life < 8)
+        list->skin = fmin(list->skin * 1.25, 0.6 * list->base);
+    else if (list->life > 24)
+        list->skin = fmax(list->skin / 1.15, 0.05 * list->base);
+}
+
+// Nanoseconds, roughly, of an entry and of a pair, with eight lanes: where only contact counts, few pairs get as far as
+// a square root.
+#define ENTRY_COST 0.9
+#define PAIR_COST(touch_only) ((touch_only) ? 0.15 : 0.9)
+
+static double all_pairs_cost(const Neighbours *list) {
+    double n = (double)phys_ranges_total(&list->ranges), own = list->ranges.at[0].count;
+    return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->touch_only);
+}
+
+uint64_t phys_entries_that_pay(const Neighbours *list) {
+    return (uint64_t)(all_pairs_cost(list) / ENTRY_COST) + 1;
+}
+
+// Is a step with lists cheaper than one with all pairs?
+static bool pays(const Neighbours *list) {
+    double life = list->life ? list->life : LIFE_FIRST, n = list->total, width = (double)list->lanes / 8;
+    double each = n * (40 / life + 5), scan = (double)list->scanned * 0.3 / life;
+    double large = (double)(list->view.listed - list->view.regular) * n * 0.3;
+    return each + (scan + large + (double)list->padded * ENTRY_COST) / width < all_pairs_cost(list) / width;
+}
+
+static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
+    list->built = phys_grid_build(system, kernels, pass, list);
+    system->failed = false; // lists may fail, the frame need not
+    list->age = 0;
+    if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays(list))) {
+        list->backoff = 0;
+        return true;
+    }
+    list->built = false;
+    list->backoff = list->backoff ? list->backoff * 2 : REST_FIRST;
+    list->backoff = list->backoff < REST_LONGEST ? list->backoff : REST_LONGEST;
+    list->resting = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS ? 0 : list->backoff;
+    return false;
+}
+
+// A list for this pass as it is described now, valid or not; NULL if there is none to be had.
+static Neighbours *list_for(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
+                            uint32_t level) {
+    double bound;
+    bool touch_only;
+    PassRanges ranges;
+    if (!bounded(pass, &bound, &touch_only) || !find_ranges(system, group, level, &ranges))
+        return NULL;
+    uint64_t total = phys_ranges_total(&ranges);
+    bool always = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
+    if (system->options.neighbours == PHYS_NEIGHBOURS_NEVER ||
+        (!always && (total < FEW || ranges.at[0].count < FEW / 4)))
+        return NULL;
+    Neighbours *list = find_list(system, group, level);
+    if (!list)
+        return NULL;
+    bool same = list->group == group && list->level == level && list->dimensions == pass->dimensions &&
+                list->lanes == kernels->lanes && list->touch_only == touch_only && list->bound == bound &&
+                !memcmp(&list->ranges, &ranges, sizeof ranges);
+    list->frame = system->frame;
+    if (!same) {
+        list->group = group;
+        list->level = level;
+        list->dimensions = pass->dimensions;
+        list->lanes = kernels->lanes;
+        list->touch_only = touch_only;
+        list->bound = bound;
+        list->ranges = ranges;
+        list->built = false;
+        list->resting = list->backoff = list->life = 0;
+        list->skin = 0;
+    }
+    return list;
+}
+
+bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
+                         uint32_t level) {
+    Neighbours *list = list_for(system, kernels, pass, group, level);
+    if (!list)
+        return false;
+    if (list->resting) {
+        list->resting--;
+        return false;
+    }
+    Sweep sweep = {.kernels = kernels, .pass = pass, .list = list};
+    if (list->built && !refresh(system, &sweep)) {
+        list->built = false;
+        adapt_skin(list);
+    }
+    if (!list->built) {
+        if (!build(system, kernels, pass, list))
+            return false;
+        refresh(system, &sweep);
+    }
+    list->age++;
+    phys_parallel(threads_for(system, list), force_share, &sweep);
+    large_forces(&sweep);
+    return true;
+}

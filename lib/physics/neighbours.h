@@ -1,0 +1,76 @@
+// neighbours.h: kept neighbour lists for passes whose forces all have a bounded reach.
+//
+// A list holds, for every particle of a pass, all others that could come into reach before something has moved by half
+// of a margin, the skin; so it serves many steps and outlives the frame. Each list is in the order of the pass. What
+// is not listed contributes nothing, so the sums are those of all pairs, bit for bit.
+#ifndef PETRI_PHYSICS_NEIGHBOURS_H
+#define PETRI_PHYSICS_NEIGHBOURS_H
+
+#include "physics/internal.h"
+#include "physics/kernels.h"
+
+enum {
+    PHYS_MOST_LARGE = 64, // particles much larger than the others that a list takes
+};
+
+typedef struct ColumnRange {
+    uint32_t first;
+    uint32_t count;
+} ColumnRange;
+
+// The particles of a pass: those of the group, then those of its parent, …
+typedef struct PassRanges {
+    uint32_t count;
+    ColumnRange at[PHYS_MOST_RANGES];
+} PassRanges;
+
+typedef struct Neighbours {
+    // what it was made for
+    uint32_t group;
+    uint32_t level;
+    uint64_t frame; // in which it was last used
+    PassRanges ranges;
+    size_t dimensions;
+    size_t lanes;
+    double bound;    // largest max_distance of forces that need no contact, else 0
+    bool touch_only; // all forces need contact
+    // what it is
+    bool built;
+    ListView view;
+    uint32_t *key;  // by place: position in the order of the pass
+    uint32_t *cell; // by position in the order of the pass
+    uint32_t total; // places; those after view.listed are idle: lost in space, or without the size for a contact
+    double base;    // length that the skin is measured by: the usual distance of contact
+    double skin;
+    uint64_t scanned; // candidates that the last construction looked at
+    uint64_t padded;  // entries of all lists, dummies included
+    // when to use it
+    uint32_t age;     // steps since it was built
+    uint32_t life;    // steps that the one before served
+    uint32_t resting; // steps left in which all pairs are computed instead
+    uint32_t backoff;
+    Buffer arrays;
+    Buffer cells;
+    Buffer entries;
+} Neighbours;
+
+// neighbours.c: computes a pass with neighbour lists, or returns false if all pairs are the better way.
+bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
+                         uint32_t level);
+void phys_neighbours_free(Neighbours *list);
+
+// grid.c: makes a list for the positions of now; list->skin is what is wanted. False if there is no memory for it or
+// the particles do not lie in a way that a grid can sort.
+bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list);
+
+// neighbours.c: the number of entries with which lists cost as much as all pairs.
+uint64_t phys_entries_that_pay(const Neighbours *list);
+
+static inline uint64_t phys_ranges_total(const PassRanges *ranges) {
+    uint64_t total = 0;
+    for (uint32_t r = 0; r < ranges->count; r++)
+        total += ranges->at[r].count;
+    return total;
+}
+
+#endif

@@ -1,0 +1,52 @@
+// pair_sum.h: terms of pairs on their way into sums.
+#ifndef PETRI_PHYSICS_PAIR_SUM_H
+#define PETRI_PHYSICS_PAIR_SUM_H
+
+#include "physics/pair_terms.h"
+
+// Terms of one tile on their way to its columns, by component and column.
+typedef struct Tile {
+    Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
+    Real rest[PHYS_MOST_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
+    unsigned hits; // forces that have written to `rest`
+} Tile;
+
+// Adds a force where it applies; what the column gets is +0.0 elsewhere.
+KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
+                     Real (*column)[LANES], size_t k) {
+    for (size_t m = 0; m < shape.dimensions; m++) {
+        Real f = real_mul(pair->unit[m], coefficient);
+        sum[m] = real_add_where(applies, sum[m], f);
+        if (column)
+            column[m][k] = real_keep(applies, f);
+    }
+}
+
+static void clear_terms(Real (*column)[LANES]) {
+    for (size_t m = 0; m < PHYS_VECTOR_DIMENSIONS; m++)
+        for (size_t k = 0; k < LANES; k++)
+            column[m][k] = real_zero();
+}
+
+// The forces after the leading one.
+KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
+                     const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
+    Mask touch = pair_touch(pair);
+    if (mask_any(touch))
+        touch = both_there(touch, target->radius, partner->radius);
+    else if (shape.rest == REST_TOUCH)
+        return;
+    for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
+        Real coefficient;
+        Mask applies = pair_term(&pass->terms[t], pair, target, partner, shape, touch, &coefficient);
+        if (!mask_any(applies))
+            continue;
+        if (tile && !(tile->hits >> t & 1)) {
+            clear_terms(tile->rest[t]);
+            tile->hits |= 1u << t;
+        }
+        add_term(shape, pair, applies, coefficient, sum, tile ? tile->rest[t] : NULL, k);
+    }
+}
+
+#endif

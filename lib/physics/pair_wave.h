@@ -1,0 +1,18 @@
+// pair_wave.h: all pairs of a pass on several threads.
+#ifndef PETRI_PHYSICS_PAIR_WAVE_H
+#define PETRI_PHYSICS_PAIR_WAVE_H
+
+#include "physics/kernels.h"
+
+// The pairs of one range (a triangle; the columns are its rows), or of two.
+typedef struct PairWave {
+    const PairKernel *kernel;
+    const PairPass *pass;
+    bool triangle;
+    size_t row, row_end;
+    size_t column, column_end;
+} PairWave;
+
+void phys_pair_wave(const PairWave *pairs, int threads);
+
+#endif

@@ -1,0 +1,71 @@
+// limit_pairs.c: all-pairs forces as fast as this processor can with the right bits (see limit.h).
+#include "limit.h"
+
+#if defined(__x86_64__)
+
+#include "base/cpu.h"
+
+#include <immintrin.h>
+#include <math.h>
+#include <stdlib.h>
+#include <time.h>
+
+typedef struct Cloud {
+    int n;               // a multiple of 8
+    double *p[3], *f[3]; // positions and forces
+    double *q, *r;       // charge (or mass), radius
+} Cloud;
+
+#define WIDTH 4
+#include "limit_tile.h"
+#undef WIDTH
+#define WIDTH 8
+#include "limit_tile.h"
+#undef WIDTH
+
+static double now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+double limit_pair(uint32_t n, int dimensions) {
+    size_t stride = (n + 7) / 8 * 8;
+    double *data = aligned_alloc(64, 8 * stride * sizeof *data);
+    if (!data || cpu_detect() == CPU_SCALAR) {
+        free(data);
+        return 0;
+    }
+    Cloud cloud = {.n = (int)stride, .q = data + 6 * stride, .r = data + 7 * stride};
+    for (int k = 0; k < 3; k++) {
+        cloud.p[k] = data + (size_t)k * stride;
+        cloud.f[k] = data + (size_t)(k + 3) * stride;
+    }
+    for (size_t i = 0; i < 8 * stride; i++)
+        data[i] = (double)((i * 7919) % 10007) * 0.37 + 1;
+    void (*work)(const Cloud *) = cpu_detect() == CPU_AVX512 ? dimensions == 2 ? all_2_8 : all_3_8
+                                  : dimensions == 2          ? all_2_4
+                                                             : all_3_4;
+    double best = INFINITY;
+    for (int round = 0; round < 7; round++) {
+        int calls = 0;
+        double start = now(), spent;
+        do {
+            work(&cloud);
+            calls++;
+        } while ((spent = now() - start) < 0.02);
+        best = fmin(best, spent / calls);
+    }
+    free(data);
+    return best / (0.5 * (double)n * (n - 1.0)) * 1e9;
+}
+
+#else
+
+double limit_pair(uint32_t n, int dimensions) {
+    (void)n;
+    (void)dimensions;
+    return 0;
+}
+
+#endif
