@@ -432,6 +432,7 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
                          .is_module = binds_only(ast)};
     FunctionScope function;
     compile_function_open(&compiler, &function, NULL);
+    compiler.repeats = options->module; // a module may be imported at several places
     Program *program = arena_alloc(arena, sizeof *program);
     *program = (Program){.source = source};
     collect_pragmas(&compiler, ast, program);

@@ -71,6 +71,8 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark);
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Makes a NAMES node visible in consecutive slots; returns the first.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
+// What one of `count` names gets of a value (L8.3).
+Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count);
 // Tells the `count` bindings made last that their value is a constant, to be unpacked if there are several.
 void compile_set_known(Compiler *compiler, uint32_t count, Value value);
 // The binding that a name has here, in this function or an enclosing one, or NULL. Does not count as a use.

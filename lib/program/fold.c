@@ -10,6 +10,7 @@
 // static particle tree comes to be one constant vector of nodes that all frames share.
 #include "program/compile.h"
 
+#include "value/node.h"
 #include "value/seed.h"
 
 // More elements than this are worth the time of evaluating them again rather than the memory of keeping them.
@@ -52,11 +53,45 @@ static bool is_candidate(const Compiler *compiler, const Expr *expr) {
     case EXPR_SLOT:
         return false;
     case EXPR_FUNC:
-        // Each evaluation makes a closure that equals no other, so one that may be made several times is left alone.
-        return compiler->repeats == 0;
+        return compiler->repeats == 0; // see may_keep
     default:
         return true;
     }
+}
+
+// Does a value reach a closure? Gives up with yes where there is very much to look at.
+enum { MOST_VISITS = 100000 };
+
+static bool node_reaches_closure(const Node *node, uint32_t *visits);
+
+static bool reaches_closure(Value v, uint32_t *visits) {
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++) {
+        const Item *item = &v.as.items[i];
+        if (item->type == ITEM_FUNCTION && !item->as.function->builtin)
+            return true;
+        if (item->type == ITEM_NODE && node_reaches_closure(item->as.node, visits))
+            return true;
+    }
+    return false;
+}
+
+static bool node_reaches_closure(const Node *node, uint32_t *visits) {
+    if (++*visits > MOST_VISITS)
+        return true;
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        if (reaches_closure(node->attrs[i].value, visits))
+            return true;
+    for (uint32_t i = 0; i < node->child_count; i++)
+        if (node_reaches_closure(node->children[i], visits))
+            return true;
+    return false;
+}
+
+// Each evaluation makes closures that equal no others and count their own calls, so an expression that may be evaluated
+// several times in a frame must not be replaced by one that shares them.
+static bool may_keep(const Compiler *compiler, Value value) {
+    uint32_t visits = 0;
+    return value.len <= MOST_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
 }
 
 // An `if` whose first test is known comes down to one branch or starts with the next test.
@@ -92,7 +127,7 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
         return expr;
     const CompileHost *host = &compiler->options->host;
     Value value;
-    if (!host->evaluate(host->host, expr, compiler->function->frame_size, &value) || value.len > MOST_ELEMENTS) {
+    if (!host->evaluate(host->host, expr, compiler->function->frame_size, &value) || !may_keep(compiler, value)) {
         expr->dynamic = true; // what encloses it need not try
         return expr;
     }
@@ -104,12 +139,18 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
     return folded;
 }
 
+Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count) {
+    if (count == 1)
+        return value;
+    if (value.kind == VALUE_STREAM)
+        return value_number(value_stream_item(value, element));
+    return value_element(compiler->arena, value, element);
+}
+
 void compile_set_known(Compiler *compiler, uint32_t count, Value value) {
     Binding *binding = compiler->function->scope;
     for (uint32_t i = count; i > 0; i--, binding = binding->outer) {
         binding->known = true;
-        binding->constant = count == 1                   ? value
-                            : value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i - 1))
-                                                         : value_element(compiler->arena, value, i - 1);
+        binding->constant = compile_unpack(compiler, value, i - 1, count);
     }
 }

@@ -270,9 +270,7 @@ static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *
         return VALUE_NULL;
     }
     Value value = evaluate_static(compiler, at, binding->outer, binding->value, dynamic);
-    if (binding->element_count == 1)
-        return value;
-    return value_element(compiler->arena, value, binding->element);
+    return compile_unpack(compiler, value, binding->element, binding->element_count);
 }
 
 bool compile_include_path(Compiler *compiler, const Ast *file, Str *path) {

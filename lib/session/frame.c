@@ -4,24 +4,26 @@
 #include <math.h>
 #include <time.h>
 
+enum { TEMPO = 120, QUANTUM = 4 }; // without pragmas
+
 static double now(clockid_t clock) {
     struct timespec time;
     clock_gettime(clock, &time);
     return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
 }
 
-// The value of a pragma: a number, or a string that reads as one (L12); tempo and fps must be above 0.
-static bool pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double *x) {
+// The value of a pragma: a number, or a string that reads as one (L12); tempo and fps must be above 0. Of several the
+// last counts, even if that is bad and means the default.
+static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double fallback) {
     Value v = pragma->value;
     double number = NAN;
     if (v.kind == VALUE_NUMBERS && v.len == 1 && !symbol_of_number(&session->symbols, v.as.number))
         number = v.as.number;
     else if (v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
         petri_read_number(str_to_c(&session->text_arena, v.as.items[0].as.string->text), &number);
-    if (positive ? number > 0 && isfinite(number) : !isnan(number)) {
-        *x = number;
-        return true;
-    }
+    bool good = positive ? number > 0 && isfinite(number) : !isnan(number);
+    if (good)
+        return number;
     Diag diag = {.level = DIAG_WARNING,
                  .source = pragma->source,
                  .span = pragma->span,
@@ -29,7 +31,7 @@ static bool pragma_number(PetriSession *session, const Pragma *pragma, bool posi
                                   : STR("this pragma's value must be a number; ignored"),
                  .code = "bad-pragma"};
     session_tell(session, &diag);
-    return false;
+    return fallback;
 }
 
 static void clear_frame(PetriSession *session) {
@@ -44,15 +46,15 @@ static void clear_frame(PetriSession *session) {
 
 void session_start(PetriSession *session, const Program *program) {
     clear_frame(session);
-    double fps = session->options.fps, tempo = 120, quantum = 4;
+    double fps = session->options.fps, tempo = TEMPO, quantum = QUANTUM;
     for (uint32_t i = 0; i < program->pragma_count; i++) {
         const Pragma *pragma = &program->pragmas[i];
         if (str_equal(pragma->name->name, STR("fps")))
-            pragma_number(session, pragma, true, &fps);
+            fps = pragma_number(session, pragma, true, session->options.fps);
         else if (str_equal(pragma->name->name, STR("tempo")))
-            pragma_number(session, pragma, true, &tempo);
+            tempo = pragma_number(session, pragma, true, TEMPO);
         else if (str_equal(pragma->name->name, STR("quantum")))
-            pragma_number(session, pragma, false, &quantum);
+            quantum = pragma_number(session, pragma, false, QUANTUM);
     }
     session->frame = (PetriFrame){.number = -1, .fps = fps, .tempo = tempo};
     session->quantum = quantum;
