@@ -362,7 +362,8 @@ static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) 
         names[i] = yysymbol_name(expected[i]);
     yysymbol_kind_t found = yypcontext_token(at);
     parse_syntax_error(context, *yypcontext_location(at), found == YYSYMBOL_YYEMPTY ? "nothing" : yysymbol_name(found),
-                       names, count > 0 ? count : 0);
+                       names, count > 0 ? count : 0,
+                       gr_accepts(at->yyps, NUMBER));
     return 0;
 }
 

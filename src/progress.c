@@ -40,8 +40,11 @@ static void draw(const Progress *progress, int64_t done, double elapsed) {
     double left = rate > 0 ? (double)(progress->total - done) / rate : 0;
     long long seconds = left < MOST_SECONDS ? (long long)left : MOST_SECONDS;
     char numbers[128];
-    int length = snprintf(numbers, sizeof numbers, "%lld/%lld frames, %.1f frames/s, %lld:%02lld left", (long long)done,
-                          (long long)progress->total, rate, seconds / 60, seconds % 60);
+    int length = snprintf(numbers, sizeof numbers, "%lld/%lld frames", (long long)done, (long long)progress->total);
+    if (done > 0) {
+        length += snprintf(numbers + length, sizeof numbers - (size_t)length, ", %.1f frames/s, %lld:%02lld left", rate,
+                           seconds / 60, seconds % 60);
+    }
     char bar[BAR_WIDTH + 4] = "";
     int columns = terminal_columns();
     // A line that wraps cannot be erased: leave out what does not fit.

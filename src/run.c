@@ -19,15 +19,21 @@ enum { SECONDS_BETWEEN_SAVES = 5 };
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int signal_number) {
-    (void)signal_number;
-    interrupted = 1;
+    static const char note[] = "\r\033[Kpetri: stopping after this frame; Ctrl-C again stops at once\n";
+    interrupted = signal_number;
+    if (signal_number == SIGINT && isatty(STDERR_FILENO)) {
+        ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
+        (void)ignored;
+    }
 }
 
-// The first Ctrl-C ends the run after the frame at hand; a second one ends the process, should that frame not end.
+// The first Ctrl-C (or SIGTERM) ends the run after the frame at hand, with its state saved; a second one ends the
+// process, should that frame not end.
 static void catch_interrupt(void) {
     struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
+    sigaction(SIGTERM, &action, NULL);
 }
 
 typedef struct Run {
@@ -113,15 +119,20 @@ static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
             frame->evaluation_seconds * 1e3, frame->physics_seconds * 1e3, frame->physics_steps);
 }
 
-static void print_frame(Run *run) {
-    // On a terminal the bar must make way before text comes, and come back below it.
+// On a terminal the bar must make way before text comes, and come back below it.
+static bool write_text(void *host, const char *text, size_t length) {
+    Run *run = host;
     if (run->to_terminal) {
         progress_erase(&run->progress);
     }
+    return output_write(&run->output, text, length);
+}
+
+static void print_frame(Run *run) {
     if (run->options.sections != 0) {
-        petri_print(run->session, run->options.sections, output_write, &run->output);
+        petri_print(run->session, run->options.sections, write_text, run);
     } else {
-        petri_print_log(run->session, output_write, &run->output);
+        petri_print_log(run->session, write_text, run);
     }
     if (run->to_terminal || run->options.realtime) {
         output_flush(&run->output);
@@ -195,7 +206,7 @@ static int run_frames(Run *run) {
     }
     report_summary(run);
     int status = !going || run->state_lost ? STATUS_FAILED : STATUS_DONE;
-    return interrupted ? STATUS_INTERRUPTED : status;
+    return interrupted ? STATUS_SIGNAL + interrupted : status;
 }
 
 static int run_session(Run *run) {
@@ -215,6 +226,10 @@ static int run_session(Run *run) {
     }
     if (run->options.state_file != NULL) {
         run->state_lost = petri_restore(run->session, run->options.state_file) != PETRI_OK;
+        if (run->state_lost) {
+            message("the run starts afresh; '%s' is left alone and nothing is saved", run->options.state_file);
+        }
+        save_state(run); // now, so that a file that cannot be written is known before the work is done
     }
     return run_frames(run);
 }
@@ -244,7 +259,7 @@ const Command RUN_COMMAND = {
     .summary = "run a script's frames and print what they hold",
     .details =
         "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-        "Ctrl-C ends the run after the frame at hand.",
+        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.",
     .options = RUN_OPTION_SPECS,
     .run = run_run,
 };

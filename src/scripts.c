@@ -39,7 +39,8 @@ static bool look_at(ScriptList *list, const char *path, const char *name, size_t
     if (S_ISDIR(about.st_mode)) {
         return search_folder(list, path, below);
     }
-    if (is_script_name(name)) {
+    // A pipe or device of that name would keep us waiting.
+    if (is_script_name(name) && stat(path, &about) == 0 && S_ISREG(about.st_mode)) {
         add(list, path, below);
     }
     return true;

@@ -83,6 +83,23 @@ static void add_printable(Text *out, Str line) {
     text_add_char(out, '\n');
 }
 
+Str diag_text(const Diag *diag) {
+    enum { LONGEST = 400 };
+    if (diag->text.len <= LONGEST)
+        return diag->text;
+    size_t len = LONGEST; // a script may have names of megabytes: cut between two characters
+    while (len > 0 && ((unsigned char)diag->text.bytes[len] & 0xc0) == 0x80)
+        len--;
+    return (Str){diag->text.bytes, len};
+}
+
+static void add_text(Text *out, const Diag *diag) {
+    Str text = diag_text(diag);
+    text_add(out, text);
+    if (text.len < diag->text.len)
+        text_add_c(out, "…");
+}
+
 void diag_format(Text *out, const Diag *diag, bool colour) {
     const char *bold = colour ? "\033[1m" : "", *plain = colour ? "\033[0m" : "";
     const char *tint = colour ? level_colours[diag->level] : "";
@@ -92,7 +109,8 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         text_add_format(out, "%s%.*s:%u:%u:%s ", bold, (int)diag->source->name.len, diag->source->name.bytes,
                         place.line, place.column, plain);
     }
-    text_add_format(out, "%s%s:%s %.*s", tint, level_names[diag->level], plain, (int)diag->text.len, diag->text.bytes);
+    text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
+    add_text(out, diag);
     if (diag->code)
         text_add_format(out, " [%s]", diag->code);
     text_add_char(out, '\n');
@@ -113,7 +131,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
 
 Str diag_one_line(Arena *arena, const Diag *diag) {
     Text out = text_new(arena);
-    text_add(&out, diag->text);
+    add_text(&out, diag);
     if (diag->source) {
         SourcePlace place = source_locate(diag->source, diag->span.start);
         text_add_format(&out, " (%.*s:%u)", (int)diag->source->name.len, diag->source->name.bytes, place.line);

@@ -37,6 +37,8 @@ void diag_sink_free(DiagSink *sink);
 // Keeps a copy of `diag` unless the same text at the same place is there; true if it is new. The source must live at
 // least as long as the sink.
 bool diag_report(DiagSink *sink, const Diag *diag);
+// The text, or as much of it as is worth showing.
+Str diag_text(const Diag *diag);
 // `FILE:LINE:COLUMN: level: text`, the source line, carets, and the hint (spec cli.md 3.5), each line ended.
 void diag_format(Text *out, const Diag *diag, bool colour);
 // `text (FILE:LINE)`: the one-line form that a frame's `?` section holds.

@@ -53,8 +53,9 @@ static bool read_all(Arena *arena, int file, size_t expected, size_t limit, Str 
     return true;
 }
 
-bool file_read(Arena *arena, const char *path, size_t limit, Str *bytes, Str *version, const char **problem) {
-    int file = open(path, O_RDONLY | O_CLOEXEC);
+bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
+               const char **problem) {
+    int file = open(path, O_RDONLY | O_CLOEXEC | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
         *problem = strerror(errno);
@@ -65,6 +66,8 @@ bool file_read(Arena *arena, const char *path, size_t limit, Str *bytes, Str *ve
     bool done = false;
     if (S_ISDIR(info.st_mode)) {
         *problem = "it is a directory";
+    } else if (regular && !S_ISREG(info.st_mode)) {
+        *problem = "it is not a regular file";
     } else if (info.st_size > 0 && (size_t)info.st_size > limit) {
         *problem = "it is too large";
     } else {

@@ -4,9 +4,11 @@
 
 #include "base/str.h"
 
-// Reads a file or pipe of at most `limit` bytes into the arena, followed by a NUL byte. False with a reason (borrowed)
-// if that cannot be done. *version, if not NULL, gets a text that changes when the file does.
-bool file_read(Arena *arena, const char *path, size_t limit, Str *bytes, Str *version, const char **problem);
+// Reads a file of at most `limit` bytes into the arena, followed by a NUL byte; a pipe too unless it must be `regular`.
+// False with a reason (borrowed) if that cannot be done. *version, if not NULL, gets a text that changes when the file
+// does.
+bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
+               const char **problem);
 // The version that file_read would give; false if there is no such file.
 bool file_version(Arena *arena, const char *path, Str *version);
 // Replaces a file as a whole: readers see the old bytes or the new ones, and after a crash one of the two is there.

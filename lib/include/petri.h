@@ -42,7 +42,7 @@ typedef struct PetriDiagnostic {
     uint32_t column;  // in characters, from 1
     const char *text;
     const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
-    const char *rendered; // `FILE:LINE:COLUMN: level: text`, source line and carets; ends in a newline
+    const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
 } PetriDiagnostic;
 
 typedef struct PetriOptions {
@@ -80,7 +80,7 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
 // Parses and compiles a file for its diagnostics only.
 PetriStatus petri_check(PetriSession *session, const char *file);
 
-// Evaluates the next frame (0 first) and updates its systems.
+// Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
 PetriStatus petri_step(PetriSession *session);
 
 // The frame that petri_step made last.

@@ -6,7 +6,7 @@
 
 #include <stdlib.h>
 
-#define MAX_SOURCE_BYTES ((size_t)1 << 30)
+#define MAX_SOURCE_BYTES ((size_t)256 << 20)
 #define UNIT_BUDGET ((size_t)4 << 30)
 enum { MOST_ERRORS = 50 };
 
@@ -62,7 +62,7 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
         *why = STR("this file is included already");
         return NULL;
     }
-    if (!file_read(&unit->arena, file, MAX_SOURCE_BYTES, &text, NULL, &problem)) {
+    if (!file_read(&unit->arena, file, true, MAX_SOURCE_BYTES, &text, NULL, &problem)) {
         *why = str_from(problem);
         return NULL;
     }
@@ -169,7 +169,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, file);
-    if (file_read(&unit->arena, file, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
+    if (file_read(&unit->arena, file, module, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
         unit->why = str_copy(&unit->arena, str_from(problem));

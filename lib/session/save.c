@@ -259,7 +259,7 @@ PetriStatus petri_restore(PetriSession *session, const char *file) {
     Restore restore = {.session = session, .arena = &arena};
     const char *why = NULL;
     bool missing = !file_version(&arena, file, &version), done = missing;
-    if (!missing && file_read(&arena, file, MAX_STATE_BYTES, &restore.rest, NULL, &why)) {
+    if (!missing && file_read(&arena, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why)) {
         restore.state = state_new();
         done = restore.state && restore_text(&restore, &why);
         if (done)

@@ -157,7 +157,7 @@ static void give(PetriSession *session, const Diag *diag, Str rendered) {
                                    .file = diag->source ? str_to_c(arena, diag->source->name) : NULL,
                                    .line = place.line,
                                    .column = place.column,
-                                   .text = str_to_c(arena, diag->text),
+                                   .text = str_to_c(arena, diag_text(diag)),
                                    .code = diag->code,
                                    .rendered = str_to_c(arena, rendered)};
     session->options.diagnostic(session->options.host, &public_diag);

@@ -82,7 +82,8 @@ static const char *after_names(const ParseContext *context, Span span, const cha
     return NULL;
 }
 
-void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count) {
+void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count,
+                        bool wants_value) {
     if (context->reported)
         return;
     const char *wanted = after_names(context, span, expected, count);
@@ -106,6 +107,9 @@ void parse_syntax_error(ParseContext *context, Span span, const char *found, con
     } else {
         add_token_name(&text, found);
     }
+    bool ends = strcmp(found, "end of line") == 0 || strcmp(found, "end of file") == 0;
+    if (count == 0 && wants_value && ends)
+        text_add_c(&text, ", expected an expression");
     for (int i = 0; i < count; i++) {
         text_add_c(&text, i == 0 ? ", expected " : i + 1 < count ? ", " : " or ");
         if (wants_block)

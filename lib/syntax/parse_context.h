@@ -18,8 +18,10 @@ typedef struct ParseContext {
 
 // The node itself, unless the tree has become too high (then the error is reported once).
 Ast *parse_checked(ParseContext *context, Ast *ast);
-// Reports a token that cannot continue the program. `expected` lists up to three alternatives by name.
-void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count);
+// Reports a token that cannot continue the program. `expected` lists some alternatives by name; none if there are many,
+// of which a value is the one to tell if `wants_value`.
+void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count,
+                        bool wants_value);
 void parse_too_deep(ParseContext *context, Span span);
 
 #endif

@@ -20,14 +20,14 @@ static bool first_fault(Vm *vm, const Expr *at, uint64_t what) {
     return true;
 }
 
-static void report(Vm *vm, const Expr *at, const char *code, Str text) {
-    Diag diag = {.level = DIAG_WARNING, .source = at->source, .span = at->span, .text = text, .code = code};
+static void report(Vm *vm, const Expr *at, DiagLevel level, const char *code, Str text) {
+    Diag diag = {.level = level, .source = at->source, .span = at->span, .text = text, .code = code};
     vm->host.report(vm->host.host, &diag);
 }
 
 void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text) {
     if (first_fault(vm, at, hash_bytes(0, text.bytes, text.len)))
-        report(vm, at, code, text);
+        report(vm, at, DIAG_WARNING, code, text);
 }
 
 void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) {
@@ -38,7 +38,7 @@ void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...)
     Text text = text_new(vm->arena);
     text_add_va(&text, format, args);
     va_end(args);
-    report(vm, at, code, text_str(&text));
+    report(vm, at, DIAG_WARNING, code, text_str(&text));
 }
 
 bool vm_work(Vm *vm, const Expr *at) {
@@ -47,7 +47,8 @@ bool vm_work(Vm *vm, const Expr *at) {
     if (++vm->work <= vm->work_limit)
         return true;
     vm->stopped = true;
-    vm_fault(vm, at, "work-limit", "the frame makes more than 134217728 calls and loop rounds; it is given up");
+    report(vm, at, DIAG_ERROR, "work-limit",
+           STR("the frame makes more than 134217728 calls and loop rounds; it is given up"));
     return false;
 }
 

@@ -25,7 +25,7 @@ static int teardown(void **state) {
 static const char *content(const char *name, size_t limit) {
     Str bytes;
     const char *problem = NULL;
-    if (!file_read(&arena, folder_file(&folder, name), limit, &bytes, NULL, &problem)) {
+    if (!file_read(&arena, folder_file(&folder, name), false, limit, &bytes, NULL, &problem)) {
         assert_non_null(problem);
         return NULL;
     }
@@ -54,7 +54,7 @@ static void test_version(void **state) {
     assert_true(file_version(&arena, path, &first));
     assert_true(file_version(&arena, path, &second));
     assert_true(str_equal(first, second));
-    assert_true(file_read(&arena, path, 100, &bytes, &read_version, &problem));
+    assert_true(file_read(&arena, path, false, 100, &bytes, &read_version, &problem));
     assert_true(str_equal(first, read_version));
     folder_write(&folder, "a", "2");
     assert_true(file_version(&arena, folder_file(&folder, "a"), &third));
