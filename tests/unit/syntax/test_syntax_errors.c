@@ -87,7 +87,7 @@ static void test_slips(void **state) {
 // Each mistake is told, and nothing that follows from it.
 static void test_several_errors(void **state) {
     static const char *const rows[][2] = {
-        {"v[\n1]", "1:3: unexpected end of line\n"
+        {"v[\n1]", "1:3: unexpected end of line, expected an expression\n"
                    "2:2: unexpected ']', expected end of line or '<<'"},
         {"!a\n!b x==1\n!c (2\n!d\n!e 'q\n!f",
          "2:5: unexpected '==', expected '='\n"
@@ -95,8 +95,8 @@ static void test_several_errors(void **state) {
          "5:4: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
         {"!a\n    !b\n  !c\n!d x==1\n", "3:3: this line's indentation matches none of the lines above\n"
                                         "4:5: unexpected '==', expected '='"},
-        {"!a +\n!b *\n!c\n!d ]\n", "1:5: unexpected end of line\n"
-                                   "2:5: unexpected end of line\n"
+        {"!a +\n!b *\n!c\n!d ]\n", "1:5: unexpected end of line, expected an expression\n"
+                                   "2:5: unexpected end of line, expected an expression\n"
                                    "4:4: unexpected ']', expected end of line or '<<'"},
         {"!a x=1 2\n    !b\n        !c 3 4\n    !d\n!e 5 6\n", "1:8: unexpected number 2\n"
                                                                "3:12: unexpected number 3\n"
