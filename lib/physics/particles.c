@@ -3,6 +3,8 @@
 #include "physics/kernels.h"
 #include "physics/threads.h"
 
+#include <string.h>
+
 // Points the columns into their memory.
 static bool reserve_columns(PhysSystem *system) {
     Columns *columns = &system->columns;
@@ -30,6 +32,14 @@ static bool reserve_columns(PhysSystem *system) {
         *scalars[i] = next;
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
+    // Lanes beyond the last particle are computed and thrown away: from defined numbers, not from whatever lay here.
+    size_t padding = (stride - count) * sizeof(double);
+    for (int i = 0; i < VECTORS; i++)
+        for (uint64_t k = 0; k < n && padding; k++)
+            memset(*vectors[i] + k * stride + count, 0, padding);
+    for (int i = 0; i < SCALARS; i++)
+        memset(*scalars[i] + count, 0, padding);
+    memset(columns->anchor + count, 0, 2 * LINE);
     return true;
 }
 
