@@ -12,8 +12,7 @@ Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const 
                    .span = ast->span,
                    .children = arena_copy(compiler->arena, children, count * sizeof *children)};
     for (uint32_t i = 0; kind == EXPR_COMPOSE && i < count; i++)
-        expr->slot +=
-            children[i]->kind != EXPR_BIND && children[i]->kind != EXPR_LET && children[i]->kind != EXPR_IMPORT;
+        expr->slot += !expr_only_binds(children[i]);
     fold_describe(expr);
     return expr;
 }
@@ -221,18 +220,11 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
 // A closure depends on what it captures and on its defaults; its body is another matter.
 static void describe_closure(Expr *expr) {
     const FunctionCode *code = expr->as.function;
-    Expr all = {.kind = EXPR_COMPOSE, .count = code->capture_count, .children = code->captures};
-    fold_describe(&all);
-    expr->dynamic = all.dynamic;
-    expr->enclosed = all.enclosed;
-    expr->lowest = all.lowest;
+    for (uint32_t i = 0; i < code->capture_count; i++)
+        fold_depend(expr, code->captures[i]);
     for (uint32_t i = 0; i < code->param_count; i++)
-        if (code->defaults[i]) {
-            expr->dynamic |= code->defaults[i]->dynamic;
-            expr->enclosed |= code->defaults[i]->enclosed;
-            if (code->defaults[i]->lowest < expr->lowest)
-                expr->lowest = code->defaults[i]->lowest;
-        }
+        if (code->defaults[i])
+            fold_depend(expr, code->defaults[i]);
 }
 
 const Expr *compile_closure(Compiler *compiler, const Ast *ast) {

@@ -89,6 +89,8 @@ bool compile_include_path(Compiler *compiler, const Ast *file, Str *path);
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
 // Notes what a new expression depends on, from its kind and children.
 void fold_describe(Expr *expr);
+// Notes that an expression depends on whatever `part` depends on.
+void fold_depend(Expr *expr, const Expr *part);
 
 // Lints, for `petri check`: things that are no faults but hardly meant (lint.c). All do nothing unless asked for.
 void lint_bind(Compiler *compiler, const Binding *binding);

@@ -16,6 +16,13 @@
 // More elements than this are worth the time of evaluating them again rather than the memory of keeping them.
 enum { MOST_ELEMENTS = 1 << 22 };
 
+void fold_depend(Expr *expr, const Expr *part) {
+    expr->dynamic |= part->dynamic;
+    expr->enclosed |= part->enclosed;
+    if (part->lowest < expr->lowest)
+        expr->lowest = part->lowest;
+}
+
 void fold_describe(Expr *expr) {
     expr->lowest = UINT32_MAX;
     switch (expr->kind) {
@@ -34,13 +41,8 @@ void fold_describe(Expr *expr) {
     default:
         break;
     }
-    for (uint32_t i = 0; i < expr->count; i++) {
-        const Expr *child = expr->children[i];
-        expr->dynamic |= child->dynamic;
-        expr->enclosed |= child->enclosed;
-        if (child->lowest < expr->lowest)
-            expr->lowest = child->lowest;
-    }
+    for (uint32_t i = 0; i < expr->count; i++)
+        fold_depend(expr, expr->children[i]);
 }
 
 // Kinds that act on the frame, are constants already, or are as quick as one.
@@ -94,6 +96,17 @@ static bool may_keep(const Compiler *compiler, Value value) {
     return value.len <= MOST_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
 }
 
+// A constant in the place of an expression.
+static const Expr *replace_by(Compiler *compiler, const Expr *expr, Value value) {
+    Expr *folded = arena_copy(compiler->arena, expr, sizeof *expr);
+    folded->kind = EXPR_CONST;
+    folded->count = 0;
+    folded->as.value = value;
+    folded->dynamic = folded->enclosed = false;
+    fold_describe(folded);
+    return folded;
+}
+
 // An `if` whose first test is known comes down to one branch or starts with the next test.
 static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     uint32_t skip = 0;
@@ -104,15 +117,14 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     }
     if (skip == 0)
         return expr;
+    if (skip == expr->count)
+        return replace_by(compiler, expr, VALUE_NULL);
     if (skip + 1 == expr->count)
         return expr->children[skip];
     Expr *rest = arena_copy(compiler->arena, expr, sizeof *expr);
     rest->children += skip;
     rest->count -= skip;
-    if (rest->count == 0) {
-        rest->kind = EXPR_CONST;
-        rest->as.value = VALUE_NULL;
-    }
+    rest->dynamic = rest->enclosed = false; // of the branches that are left
     fold_describe(rest);
     return rest;
 }
@@ -131,12 +143,7 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
         expr->dynamic = true; // what encloses it need not try
         return expr;
     }
-    Expr *folded = arena_copy(compiler->arena, expr, sizeof *expr);
-    folded->kind = EXPR_CONST;
-    folded->count = 0;
-    folded->as.value = value;
-    fold_describe(folded);
-    return folded;
+    return replace_by(compiler, expr, value);
 }
 
 Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count) {

@@ -77,6 +77,11 @@ struct Expr {
     const Expr *const *children;
 };
 
+// Is an expression a statement that binds names and has no value of its own?
+static inline bool expr_only_binds(const Expr *expr) {
+    return expr->kind == EXPR_BIND || expr->kind == EXPR_LET || expr->kind == EXPR_IMPORT;
+}
+
 typedef struct Export {
     const Symbol *name;
     uint32_t slot;

@@ -165,10 +165,12 @@ static void give(PetriSession *session, const Diag *diag, Str rendered) {
 
 // Gives a diagnostic unless one of this key was given before; an empty key stands for the whole text.
 static void tell_once(PetriSession *session, const Diag *diag, Str key) {
+    if (key.len && !told_add(session, key))
+        return; // before anything is rendered: it may come in every frame
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, diag, session->options.colour);
-    if (told_add(session, key.len ? key : text_str(&rendered))) {
+    if (key.len || told_add(session, text_str(&rendered))) {
         give(session, diag, text_str(&rendered));
         if (session->told_count == MOST_TOLD) {
             Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics were given; no more are shown")};

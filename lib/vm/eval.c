@@ -58,16 +58,12 @@ Value vm_finish(Vm *vm, const Expr *at, Vector *vector) {
     return vector_finish(vector);
 }
 
-static bool only_binds(const Expr *expr) {
-    return expr->kind == EXPR_BIND || expr->kind == EXPR_LET || expr->kind == EXPR_IMPORT;
-}
-
 // Statements of which one has a value, the others being bindings.
 NOINLINE static Value eval_single(Vm *vm, Frame *frame, const Expr *expr) {
     Value result = VALUE_NULL;
     for (uint32_t i = 0; i < expr->count; i++) {
         Value part = vm_eval(vm, frame, expr->children[i]);
-        if (!only_binds(expr->children[i]))
+        if (!expr_only_binds(expr->children[i]))
             result = part;
     }
     return result;
@@ -82,7 +78,7 @@ static bool compose_few(Vm *vm, Frame *frame, const Expr *expr, Value *parts, ui
     bool numeric = true;
     for (uint32_t i = 0; i < expr->count; i++) {
         Value part = vm_eval(vm, frame, expr->children[i]);
-        if (only_binds(expr->children[i]))
+        if (expr_only_binds(expr->children[i]))
             continue;
         numeric = numeric && part.kind == VALUE_NUMBERS && part.len < 1024;
         len += part.len;
@@ -115,7 +111,7 @@ NOINLINE static Value eval_compose(Vm *vm, Frame *frame, const Expr *expr) {
     }
     for (uint32_t i = 0; i < expr->count; i++) {
         Value part = vm_eval(vm, frame, expr->children[i]);
-        if (!only_binds(expr->children[i]))
+        if (!expr_only_binds(expr->children[i]))
             vector_add(&vector, part);
     }
     return vm_finish(vm, expr, &vector);

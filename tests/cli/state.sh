@@ -63,3 +63,15 @@ check "the state of particles with ever new ids holds the present ones only" [ "
 check "… and no former one" lacks out '(:s;298'
 check "… and those that stay" has out '$(:s;:stays) = '
 check "… with their systems" has out '$(:t;:iteration) = 299'
+
+# many particles: the list of a system's particles grows while other things are read between
+cat >many.fl <<'END'
+!physics state=:s dimensions=1
+    for i in ..20000
+        !particle id=i velocity=i
+END
+petri run many.fl --frames 6 --every 5 --print state
+sed -n '/^@5/,$p' out >expected
+petri run many.fl --frames 3 --state many.state
+petri run many.fl --frames 3 --every 5 --print state --state many.state
+check "a state of many particles is taken back whole" cmp -s out expected
