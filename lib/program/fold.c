@@ -96,13 +96,12 @@ static bool may_keep(const Compiler *compiler, Value value) {
     return value.len <= MOST_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
 }
 
-// A constant in the place of an expression.
+// A constant in the place of an expression. What the expression depended on, it is still taken to depend on.
 static const Expr *replace_by(Compiler *compiler, const Expr *expr, Value value) {
     Expr *folded = arena_copy(compiler->arena, expr, sizeof *expr);
     folded->kind = EXPR_CONST;
     folded->count = 0;
     folded->as.value = value;
-    folded->dynamic = folded->enclosed = false;
     fold_describe(folded);
     return folded;
 }
@@ -124,7 +123,6 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     Expr *rest = arena_copy(compiler->arena, expr, sizeof *expr);
     rest->children += skip;
     rest->count -= skip;
-    rest->dynamic = rest->enclosed = false; // of the branches that are left
     fold_describe(rest);
     return rest;
 }
