@@ -8,6 +8,7 @@
 
 #include "base/diag.h"
 #include "syntax/ast.h"
+#include "value/node.h"
 #include "value/ops.h"
 #include "value/value.h"
 
@@ -73,6 +74,7 @@ struct Expr {
         const ImportCode *import;
         const CallCode *call;
         const DecorateCode *decorate;
+        const NodeList *kept; // APPEND: the children, if they are constant; or NULL
     } as;
     const Expr *const *children;
 };

@@ -162,9 +162,9 @@ NOINLINE static Value eval_if(Vm *vm, Frame *frame, const Expr *expr) {
 
 NOINLINE static Value eval_append(Vm *vm, Frame *frame, const Expr *expr) {
     Value parent = vm_eval(vm, frame, expr->children[0]);
-    Value children = vm_eval(vm, frame, expr->children[1]);
+    NodeList list = expr->as.kept ? *expr->as.kept : node_list(vm->arena, vm_eval(vm, frame, expr->children[1]));
     bool too_high = false;
-    Value result = value_append(vm->arena, parent, children, &too_high);
+    Value result = value_append(vm->arena, parent, &list, &too_high);
     if (too_high)
         vm_fault(vm, expr, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
     return result;
