@@ -1,9 +1,9 @@
 // code.h: what the machine runs: expressions lowered to instructions over registers.
 //
 // Each function, the main program and each module is one Code. Its registers are the function's slots followed by
-// temporaries. An operand is a register if it is not negative, else a constant: the constants lie before `constants`,
-// so that it serves as the base for negative numbers just as the first register does for others. Instructions that take
-// several operands find their numbers in a list. Every instruction knows the expression that it came from, for
+// temporaries. An operand is the number of a register, or a negative one: the constants are put just before the first
+// register when the code is entered, so that both are read in the same way. Instructions that take several operands find
+// their numbers in a list. Every instruction knows the expression that it came from, for
 // diagnostics and for what does not fit into it.
 //
 //   !particle id=i position=2*i;0       mul      r3 = 2 r0
@@ -62,7 +62,7 @@ struct Code {
     uint32_t slot_count; // registers that names have; they start as null in the main program and in modules
     uint32_t loop_count; // greatest number of loops within each other
     const int32_t *operands;
-    const Value *constants; // end of the constants
+    const Value *constants; // the last one is operand -1
     uint32_t constant_count;
     const uint32_t *lines; // of each instruction the line of the source, from 1; NULL unless asked for
 };

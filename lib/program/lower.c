@@ -406,7 +406,7 @@ static const Value *reversed(const Lowering *lowering) {
     Value *constants = arena_alloc_array(lowering->options->arena, count, sizeof *constants);
     for (uint32_t i = 0; i < count; i++)
         constants[count - 1 - i] = lowering->constants[i];
-    return constants + count;
+    return constants;
 }
 
 const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_t slot_count) {

@@ -31,7 +31,7 @@ static void print_operand(Text *out, const SymbolTable *symbols, const Code *cod
     if (operand == CODE_NO_OPERAND)
         text_add_c(out, "none");
     else if (operand < 0)
-        print_constant(out, symbols, code->constants[operand]);
+        print_constant(out, symbols, code->constants[(int64_t)code->constant_count + operand]);
     else
         text_add_format(out, "r%d", operand);
 }

@@ -67,31 +67,31 @@ static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slot
 enum { FEW_ARGUMENTS = 8 };
 
 // The values of a list, in a row: in `few` if there is room.
-static const Value *gather(Vm *vm, const Code *code, const Value *slots, const Instr *instr, Value *few) {
+static const Value *gather(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Value *few) {
     Value *values = instr->count <= FEW_ARGUMENTS ? few : arena_alloc_array(vm->arena, instr->count, sizeof *values);
     for (uint32_t i = 0; i < instr->count; i++)
-        values[i] = *code_operand(code, slots, code->operands[instr->list + i]);
+        values[i] = slots[list[i]];
     return values;
 }
 
-NOINLINE static Value call(Vm *vm, const Code *code, const Value *slots, const Instr *instr) {
+NOINLINE static Value call(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     Value few[FEW_ARGUMENTS];
-    const Value *values = gather(vm, code, slots, instr, few);
-    return vm_call(vm, instr->at, *code_operand(code, slots, instr->b), values);
+    const Value *values = gather(vm, list, slots, instr, few);
+    return vm_call(vm, instr->at, slots[instr->b], values);
 }
 
-NOINLINE static Value call_builtin(Vm *vm, const Code *code, const Value *slots, const Instr *instr) {
+NOINLINE static Value call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     Value few[FEW_ARGUMENTS];
     if (!vm_may_call(vm, instr->as.builtin, instr->at))
         return VALUE_NULL;
-    const Value *values = gather(vm, code, slots, instr, few);
+    const Value *values = gather(vm, list, slots, instr, few);
     return instr->as.builtin->call(&vm->builtins, values, instr->count);
 }
 
-NOINLINE static Value make_closure(Vm *vm, const Code *code, const Frame *frame, const Instr *instr) {
+NOINLINE static Value make_closure(Vm *vm, const int32_t *list, const Frame *frame, const Instr *instr) {
     Value *defaults = arena_alloc_array(vm->arena, instr->count, sizeof *defaults);
     for (uint32_t i = 0; i < instr->count; i++)
-        defaults[i] = *code_operand(code, frame->slots, code->operands[instr->list + i]);
+        defaults[i] = frame->slots[list[i]];
     return vm_make_closure(vm, frame, instr->at->as.function, defaults);
 }
 
@@ -107,9 +107,9 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
         vm_import(vm, frame, instr->at, file);
 }
 
-#define A (*code_operand(code, slots, instr->a))
-#define B (*code_operand(code, slots, instr->b))
-#define C (*code_operand(code, slots, instr->c))
+#define A slots[instr->a]
+#define B slots[instr->b]
+#define C slots[instr->c]
 #define D slots[instr->d]
 
 // Two numbers are computed with at once; vectors go through the function that the simplifier uses, too.
@@ -156,13 +156,13 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
             D = unbound(vm, instr->at);
             break;
         case OP_COMPOSE:
-            D = vm_compose(vm, code, slots, instr, instr->at);
+            D = vm_compose(vm, code->operands + instr->list, slots, instr, instr->at);
             break;
         case OP_UNPACK:
             unpack(vm, &D, instr->count, A);
             break;
         case OP_CLOSURE:
-            D = make_closure(vm, code, frame, instr);
+            D = make_closure(vm, code->operands + instr->list, frame, instr);
             break;
         case OP_IMPORT:
             import(vm, frame, instr, A);
@@ -199,19 +199,19 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
                 instr = code->instrs + instr->target - 1;
             break;
         case OP_NODE:
-            D = vm_make_node(vm, code, slots, instr);
+            D = vm_make_node(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_APPEND:
             D = vm_append(vm, instr->at, A, instr->b == CODE_NO_OPERAND ? VALUE_NULL : B);
             break;
         case OP_DECORATE:
-            D = vm_decorate(vm, code, slots, instr);
+            D = vm_decorate(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_CALL:
-            D = call(vm, code, slots, instr);
+            D = call(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_BUILTIN:
-            D = call_builtin(vm, code, slots, instr);
+            D = call_builtin(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_XOR:
             D = !is_true(&A) ? B : is_true(&B) ? value_number(0) : A;
@@ -263,12 +263,12 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
             D = vm_slice(vm, instr->at, A, B, C);
             break;
         case OP_LOOKUP:
-            D = vm_lookup(vm, code, slots, instr);
+            D = vm_lookup(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_RETURN:
             return A;
-        case OP_COUNT:
-            break;
+        default:
+            __builtin_unreachable();
         }
     }
 }

@@ -24,7 +24,7 @@ typedef struct Loop {
     Vector result;
 } Loop;
 
-// The running code: its registers and loops, and its closure (NULL in the main program and in modules).
+// The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program and in modules).
 typedef struct Frame {
     Value *slots;
     Loop *loops;
@@ -44,12 +44,12 @@ Value vm_call(Vm *vm, const Expr *expr, Value callee, const Value *values);
 Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults);
 void vm_import(Vm *vm, Frame *frame, const Expr *expr, Value file);
 
-// make.c: the instructions that make or look up something. `slots` are the registers of `code`.
-Value vm_make_node(Vm *vm, const Code *code, const Value *slots, const Instr *instr);
-Value vm_decorate(Vm *vm, const Code *code, const Value *slots, const Instr *instr);
+// make.c: the instructions that make or look up something. `slots` are the registers, `list` the numbers of operands.
+Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 Value vm_append(Vm *vm, const Expr *expr, Value parent, Value children);
-Value vm_compose(Vm *vm, const Code *code, const Value *slots, const Instr *instr, const Expr *at);
-Value vm_lookup(Vm *vm, const Code *code, const Value *slots, const Instr *instr);
+Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Expr *at);
+Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 Value vm_range(Vm *vm, const Expr *at, Value start, Value stop, Value step);
 Value vm_index(Vm *vm, Value vector, Value index);
 Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop);
@@ -57,11 +57,6 @@ Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop);
 // Makes room for the look-ups of a program and goes to before the first of each.
 void vm_memo_begin(Vm *vm, uint32_t count);
 void vm_memo_free(Vm *vm);
-
-// An operand: a register, or a constant if it is negative.
-static inline const Value *code_operand(const Code *code, const Value *slots, int32_t operand) {
-    return (operand < 0 ? code->constants : slots) + operand;
-}
 
 // One number, as most values are.
 static inline bool is_number(const Value *v) {

@@ -19,12 +19,11 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
 }
 
 // Numbers are put together in one allocation; anything else goes through a builder.
-Value vm_compose(Vm *vm, const Code *code, const Value *slots, const Instr *instr, const Expr *at) {
-    const int32_t *operands = code->operands + instr->list;
+Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Expr *at) {
     uint64_t len = 0;
     bool numeric = true;
     for (uint32_t i = 0; i < instr->count; i++) {
-        const Value *part = code_operand(code, slots, operands[i]);
+        const Value *part = &slots[list[i]];
         numeric = numeric && part->kind == VALUE_NUMBERS;
         len += part->len;
     }
@@ -32,12 +31,12 @@ Value vm_compose(Vm *vm, const Code *code, const Value *slots, const Instr *inst
         double *numbers = arena_alloc(vm->arena, len * sizeof *numbers);
         uint32_t filled = 0;
         for (uint32_t i = 0; i < instr->count; i++)
-            filled = add_numbers(numbers, filled, code_operand(code, slots, operands[i]));
+            filled = add_numbers(numbers, filled, &slots[list[i]]);
         return (Value){.len = filled, .as.numbers = numbers};
     }
     Vector vector = vector_new(vm->arena);
     for (uint32_t i = 0; i < instr->count; i++)
-        vector_add(&vector, *code_operand(code, slots, operands[i]));
+        vector_add(&vector, slots[list[i]]);
     return vm_finish(vm, at, &vector);
 }
 
@@ -56,12 +55,12 @@ static void attributes_too_deep(Vm *vm, const Expr *at) {
     vm_fault(vm, at, "too-deep", "nodes in attributes too deep: the limit is 12000 levels; not set");
 }
 
-Value vm_decorate(Vm *vm, const Code *code, const Value *slots, const Instr *instr) {
+Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     const DecorateCode *decorate = instr->at->as.decorate;
-    Value subject = *code_operand(code, slots, instr->b);
+    Value subject = slots[instr->b];
     Attr *attrs = arena_alloc_array(vm->arena, instr->count, sizeof *attrs);
     for (uint32_t i = 0; i < instr->count; i++)
-        attrs[i] = (Attr){decorate->names[i], *code_operand(code, slots, code->operands[instr->list + i])};
+        attrs[i] = (Attr){decorate->names[i], slots[list[i]]};
     for (uint32_t i = 0; i < decorate->tag_count; i++)
         subject = value_add_tag(vm->arena, subject, decorate->tags[i]);
     bool too_high = false;
@@ -79,10 +78,10 @@ typedef struct Made {
 } Made;
 
 // The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
-static void set_attributes(Vm *vm, const Code *code, const Value *slots, const Instr *instr, Node *node, Attr *attrs) {
+static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node, Attr *attrs) {
     uint32_t count = 0, height = node->height;
     for (uint32_t i = 0; i < instr->count; i++) {
-        const Value *value = code_operand(code, slots, code->operands[instr->list + i]);
+        const Value *value = &slots[list[i]];
         if (value->len == 0)
             continue;
         if (value->kind == VALUE_MIXED && value_height(*value) >= height)
@@ -113,9 +112,9 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
 }
 
 // Node, vector, attributes and list of children are one allocation.
-Value vm_make_node(Vm *vm, const Code *code, const Value *slots, const Instr *instr) {
+Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     const NodeCode *plan = instr->as.node;
-    const Value *children = instr->b == CODE_NO_OPERAND ? NULL : code_operand(code, slots, instr->b);
+    const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
     uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
     Made *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
     Attr *attrs = (Attr *)(made + 1);
@@ -124,12 +123,12 @@ Value vm_make_node(Vm *vm, const Code *code, const Value *slots, const Instr *in
     made->node.kept = made->node.kept_children = false;
     made->item = (Item){ITEM_NODE, .as.node = &made->node};
     if (instr->count)
-        set_attributes(vm, code, slots, instr, &made->node, attrs);
+        set_attributes(vm, list, slots, instr, &made->node, attrs);
     if (plan->kept) {
         set_children(vm, instr, &made->node, plan->kept);
     } else if (room) {
-        NodeList list = node_list_in(nodes, *children);
-        set_children(vm, instr, &made->node, &list);
+        NodeList given = node_list_in(nodes, *children);
+        set_children(vm, instr, &made->node, &given);
     }
     return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &made->item};
 }
@@ -240,19 +239,18 @@ static Value get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
 
 // Keys are a few numbers nearly always: they need not be made into a vector. The dictionary's value is copied into the
 // frame: systems may overwrite it in place after the evaluation.
-Value vm_lookup(Vm *vm, const Code *code, const Value *slots, const Instr *instr) {
-    const int32_t *operands = code->operands + instr->list;
+Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;
     double few[FEW];
     uint32_t count = 0;
-    while (count < instr->count && count < FEW && is_number(code_operand(code, slots, operands[count]))) {
-        few[count] = code_operand(code, slots, operands[count])->as.number;
+    while (count < instr->count && count < FEW && is_number(&slots[list[count]])) {
+        few[count] = slots[list[count]].as.number;
         count++;
     }
     if (count == instr->count && vm->state)
         return value_copy(vm->arena, get(vm, instr->target, few, count));
-    Value key = instr->count == 1 ? *code_operand(code, slots, operands[0])
-                                  : vm_compose(vm, code, slots, instr, instr->at->children[0]);
+    Value key = instr->count == 1 ? slots[list[0]]
+                                  : vm_compose(vm, list, slots, instr, instr->at->children[0]);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)

@@ -33,9 +33,13 @@ void vm_free(Vm *vm) {
 }
 
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
-    size_t slots = code->register_count * sizeof(Value);
-    char *memory = arena_alloc(&vm->slots, slots + code->loop_count * sizeof(Loop));
-    return (Frame){(Value *)(void *)memory, (Loop *)(void *)(memory + slots), closure};
+    size_t constants = code->constant_count, registers = code->register_count;
+    Value *memory =
+        arena_alloc(&vm->slots, (constants + registers) * sizeof *memory + code->loop_count * sizeof(Loop));
+    for (size_t i = 0; i < constants; i++)
+        memory[i] = code->constants[i];
+    Value *slots = memory + constants;
+    return (Frame){slots, (Loop *)(void *)(slots + registers), closure};
 }
 
 // A frame whose names all have a value.
