@@ -4,6 +4,8 @@
 
 #include "base/str.h"
 
+#include <math.h>
+
 enum { NUMBER_TEXT = 40 }; // room for any formatted number
 
 // The shortest decimal that reads back as the same double (spec language.md L18.1); returns its length.
@@ -13,5 +15,13 @@ size_t number_format_short(double x, char text[NUMBER_TEXT]);
 // Reads decimal digits with optional sign, point and exponent, correctly rounded; underscores are skipped. The caller
 // has checked the form.
 double number_parse(Str digits);
+
+// floor(x), to the bit (so -0 stays). Without SSE4.1, which we cannot count on, the C library's is a call.
+static inline double number_floor(double x) {
+    if (!(x > -4503599627370496.0 && x < 4503599627370496.0))
+        return floor(x);
+    double whole = (double)(int64_t)x;
+    return whole == x ? x : whole - (whole > x);
+}
 
 #endif

@@ -1,14 +1,28 @@
 // random.c: see random.h.
 #include "base/random.h"
 
+#include "base/number.h"
+
 #include <math.h>
 #include <string.h>
+
+// remquo(x, 1.0) for an x that is not below 0: the rest after the nearest whole number (the even one of two), and that
+// number's low bits. Adding and taking away 2^52 rounds in just that way; larger numbers are rare and left to remquo.
+static double quarter_rest(double x, int *quadrant) {
+    if (!(x > 0 && x < 1073741824.0)) {
+        *quadrant = 0; // remquo leaves it alone for nan and infinities
+        return remquo(x, 1.0, quadrant);
+    }
+    double whole = x + 4503599627370496.0 - 4503599627370496.0;
+    *quadrant = (int)whole;
+    return x - whole;
+}
 
 double turns_sin(double t) {
     if (t < 0)
         return -turns_sin(-t);
-    int quadrant = 0; // remquo leaves it alone for nan and infinities
-    double rest = remquo(t * 4, 1.0, &quadrant);
+    int quadrant;
+    double rest = quarter_rest(t * 4, &quadrant);
     double angle = rest * 1.5707963267948966;
     switch (quadrant & 3) {
     case 0:
@@ -26,16 +40,8 @@ double turns_cos(double t) {
     return turns_sin(t + 0.25);
 }
 
-uint64_t random_hash_step(uint64_t hash, uint64_t y) {
-    hash ^= y;
-    hash += 0x9e3779b97f4a7c15u;
-    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
-    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
-    return hash ^ (hash >> 31);
-}
-
 uint64_t random_hash_number(double x) {
-    double whole = isfinite(x) ? floor(x) : x;
+    double whole = isfinite(x) ? number_floor(x) : x;
     uint64_t bits;
     memcpy(&bits, &whole, sizeof bits);
     return bits;

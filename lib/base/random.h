@@ -12,7 +12,13 @@ double turns_cos(double t);
 
 #define RANDOM_HASH_START UINT64_C(0xe220a8397b1dcdaf)
 // One round of the seed hash (B9.2): h updated by the 64-bit y.
-uint64_t random_hash_step(uint64_t hash, uint64_t y);
+static inline uint64_t random_hash_step(uint64_t hash, uint64_t y) {
+    hash ^= y;
+    hash += 0x9e3779b97f4a7c15u;
+    hash = (hash ^ (hash >> 30)) * 0xbf58476d1ce4e5b9u;
+    hash = (hash ^ (hash >> 27)) * 0x94d049bb133111ebu;
+    return hash ^ (hash >> 31);
+}
 // The 64 bits by which a number counts in a seed hash: those of floor(x), infinities and nan kept.
 uint64_t random_hash_number(double x);
 

@@ -16,8 +16,13 @@ static double unit(double x) {
     return 1 < x ? 1 : x;
 }
 
+// fmod(v, 6), to the bit and at once where hues are nearly always: there the difference is exact.
+static double modulo_6(double v) {
+    return v > -6 && v < 6 ? v : v >= 6 && v < 12 ? v - 6 : fmod(v, 6);
+}
+
 static double hue_part(double m1, double m2, double v) {
-    double r = fmod(v, 6);
+    double r = modulo_6(v);
     if (r < 0)
         r = r + 6;
     if (r < 1)

@@ -24,17 +24,20 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double)) {
 }
 
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count)) {
+    // Nearly every call has two or three arguments: those need no memory beyond their result.
+    enum { FEW = 8 };
+    double few_parts[FEW];
     uint32_t len = 0;
     for (uint32_t k = 0; k < count; k++) {
         if (!value_is_numeric(args[k]))
             return VALUE_NULL;
         len = args[k].len > len ? args[k].len : len;
+        few_parts[k % FEW] = args[k].as.number;
     }
     if (len == 0)
         return VALUE_NULL;
-    // Nearly every call has two or three arguments: those need no memory beyond their result.
-    enum { FEW = 8 };
-    double few_parts[FEW];
+    if (len == 1 && count <= FEW)
+        return value_number(f(few_parts, count));
     uint32_t few_at[FEW] = {0};
     double *result = len > 1 ? arena_alloc_array(arena, len, sizeof *result) : NULL, single = 0;
     double *parts = count <= FEW ? few_parts : arena_alloc_array(arena, count, sizeof *parts);

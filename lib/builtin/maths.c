@@ -1,12 +1,13 @@
 // maths.c: element-wise functions (spec builtins.md B1), plane and space (B2).
 #include "builtin/family.h"
 
+#include "base/number.h"
 #include "base/random.h"
 
 #include <math.h>
 
 static double fract(double x) {
-    return x - floor(x);
+    return x - number_floor(x);
 }
 
 // No reduction of the angle, unlike sin and cos (B1.1).
@@ -30,7 +31,7 @@ static double turns_acos(double x) {
 
 ELEMENT_WISE(builtin_abs, fabs)
 ELEMENT_WISE(builtin_ceil, ceil)
-ELEMENT_WISE(builtin_floor, floor)
+ELEMENT_WISE(builtin_floor, number_floor)
 ELEMENT_WISE(builtin_fract, fract)
 ELEMENT_WISE(builtin_sqrt, sqrt)
 ELEMENT_WISE(builtin_exp, exp)

@@ -139,11 +139,15 @@ static void grid_double(Arena *arena, Grid *grid, bool own) {
 }
 
 Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) {
+    uint8_t local[256];
+    if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // one point, as loops ask for
+        const double c[2] = {args[1].as.number, args[2].as.number};
+        return value_number(noise_point_2(permutation_get(context->noise, value_seed_hash(args[0]), local), c));
+    }
     Grid grid;
     GridOutcome outcome = grid_read(&grid, args + 1, count - 1);
     if (outcome != GRID_OK)
         return outcome == GRID_TOO_LONG ? builtin_too_long(context, "noise") : VALUE_NULL;
-    uint8_t local[256];
     const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(args[0]), local);
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
     grid_noise(&grid, permutation, result, false, 1);

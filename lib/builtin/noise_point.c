@@ -5,6 +5,7 @@
 // which coordinates are closest. The noise is the sum of their contributions in the order of the spec.
 #include "builtin/noise_point.h"
 
+#include "base/number.h"
 #include "builtin/noise_tables.h"
 
 #include <math.h>
@@ -31,7 +32,7 @@ static inline bool point_place(NoisePoint *point, const double *c, int dims) {
         double skewed = c[i] + t;
         if (!(fabs(skewed) < 4611686018427387904.0)) // 2^62
             return false;
-        whole[i] = floor(skewed);
+        whole[i] = number_floor(skewed);
         point->frac[i] = skewed - whole[i];
         point->sum = i ? point->sum + point->frac[i] : point->frac[i];
         point->base[i] = (uint64_t)(int64_t)whole[i];
@@ -139,28 +140,45 @@ static void take_less(Candidates *c, double score, unsigned mask, bool flag) {
 
 // --- two dimensions (B10.7)
 
+// add_vertex for the vertex (a, b) with `units` squish units. In two dimensions nothing is subtracted late, and the
+// arguments are constants nearly everywhere, so that this comes to a few operations.
+static inline double add_vertex_2(const NoisePoint *point, double value, int a, int b, int units) {
+    double dx = (point->d0[0] - a) - units * NOISE_Q[2], dy = (point->d0[1] - b) - units * NOISE_Q[2];
+    double reach = (2 - dx * dx) - dy * dy;
+    if (!(reach > 0))
+        return value;
+    unsigned p = point->permutation[(point->base[0] + (uint64_t)a) & 255];
+    p = point->permutation[(p + point->base[1] + (uint64_t)b) & 255];
+    const double *g = NOISE_GRAD2[p % 8];
+    double slope = g[0] * dx + g[1] * dy;
+    reach = reach * reach;
+    return value + (reach * reach) * slope;
+}
+
 double noise_point_2(const uint8_t *permutation, const double *c) {
     NoisePoint point = {.permutation = permutation};
     if (!point_place(&point, c, 2))
         return 0;
     double fx = point.frac[0], fy = point.frac[1];
-    bool near = point.sum <= 1;
-    NoiseVertex extra;
-    if (near) {
+    bool right = fx > fy;
+    double value = add_vertex_2(&point, 0, 1, 0, 1);
+    value = add_vertex_2(&point, value, 0, 1, 1);
+    if (point.sum <= 1) {
         double u = 1 - point.sum;
+        value = add_vertex_2(&point, value, 0, 0, 0);
         if (u > fx || u > fy)
-            extra = fx > fy ? (NoiseVertex){{1, -1}, {0}, 0} : (NoiseVertex){{-1, 1}, {0}, 0};
+            value = add_vertex_2(&point, value, right ? 1 : -1, right ? -1 : 1, 0);
         else
-            extra = (NoiseVertex){{1, 1}, {0}, 2};
+            value = add_vertex_2(&point, value, 1, 1, 2);
     } else {
         double u = 2 - point.sum;
+        value = add_vertex_2(&point, value, 1, 1, 2);
         if (u < fx || u < fy)
-            extra = fx > fy ? (NoiseVertex){{2, 0}, {0}, 2} : (NoiseVertex){{0, 2}, {0}, 2};
+            value = add_vertex_2(&point, value, right ? 2 : 0, right ? 0 : 2, 2);
         else
-            extra = (NoiseVertex){{0, 0}, {0}, 0};
+            value = add_vertex_2(&point, value, 0, 0, 0);
     }
-    double value = add_vertices(&point, 0, near ? NOISE_CORE2_A : NOISE_CORE2_B, 3, 2);
-    return add_vertex(&point, value, &extra, 2) / NOISE_N[2];
+    return value / NOISE_N[2];
 }
 
 // --- three dimensions (B10.8)

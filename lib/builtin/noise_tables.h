@@ -43,16 +43,6 @@ static const double NOISE_GRAD4[64][4] = {
 };
 
 // Core vertices of the regions in the order of summation.
-static const NoiseVertex NOISE_CORE2_A[3] = {
-    {{1, 0}, {0}, 1},
-    {{0, 1}, {0}, 1},
-    {{0, 0}, {0}, 0},
-};
-static const NoiseVertex NOISE_CORE2_B[3] = {
-    {{1, 0}, {0}, 1},
-    {{0, 1}, {0}, 1},
-    {{1, 1}, {0}, 2},
-};
 static const NoiseVertex NOISE_CORE3_A[4] = {
     {{0, 0, 0}, {0}, 0},
     {{1, 0, 0}, {0}, 1},

@@ -1,12 +1,13 @@
 // waves.c: waveforms (spec builtins.md B7) and easings (B8).
 #include "builtin/family.h"
 
+#include "base/number.h"
 #include "base/random.h"
 
 #include <math.h>
 
 static double phase(double x) {
-    return x - floor(x);
+    return x - number_floor(x);
 }
 
 static double bounce(double x) {

@@ -1,6 +1,7 @@
 // seed.c: see seed.h.
 #include "value/seed.h"
 
+#include "base/number.h"
 #include "base/random.h"
 #include "value/node.h"
 
@@ -74,7 +75,7 @@ double value_stream_item(Value stream, uint64_t i) {
 }
 
 uint64_t value_stream_position(double x) {
-    double whole = floor(x);
+    double whole = number_floor(x);
     // Beyond the range of 64 bits the x86 conversion gives the least integer; so do we on every machine.
     if (!(whole >= -9223372036854775808.0 && whole < 9223372036854775808.0))
         return UINT64_C(1) << 63;

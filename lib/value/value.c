@@ -31,12 +31,6 @@ Value value_function(Arena *arena, const Function *function) {
     return value_item(arena, (Item){ITEM_FUNCTION, .as.function = function});
 }
 
-Item value_at(const Value *v, uint32_t i) {
-    if (v->kind == VALUE_MIXED)
-        return v->as.items[i];
-    return (Item){ITEM_NUMBER, .as.number = value_numbers(v)[i]};
-}
-
 static bool item_true(Item item) {
     switch (item.type) {
     case ITEM_NUMBER:

@@ -91,7 +91,11 @@ Value value_function(Arena *arena, const Function *function);
 Value value_item(Arena *arena, Item item);
 
 // Element i (below len) of any vector.
-Item value_at(const Value *v, uint32_t i);
+static inline Item value_at(const Value *v, uint32_t i) {
+    if (v->kind == VALUE_MIXED)
+        return v->as.items[i];
+    return (Item){ITEM_NUMBER, .as.number = value_numbers(v)[i]};
+}
 
 // Truth (L4.6).
 bool value_true(Value v);

@@ -24,7 +24,8 @@ typedef struct Loop {
     Vector result;
 } Loop;
 
-// The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program and in modules).
+// The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program
+// and in modules).
 typedef struct Frame {
     Value *slots;
     Loop *loops;

@@ -150,10 +150,42 @@ static void test_locale(void **state) {
     setlocale(LC_NUMERIC, "C");
 }
 
+// To the bit what the C library says, zeros with their sign.
+static void test_floor(void **state) {
+    (void)state;
+    static const double numbers[] = {0.0,
+                                     -0.0,
+                                     0.5,
+                                     -0.5,
+                                     1,
+                                     -1,
+                                     1.5,
+                                     -1.5,
+                                     1e15 + 0.5,
+                                     -1e15 - 0.5,
+                                     4.5e15,
+                                     -4.6e15,
+                                     1e300,
+                                     -1e300,
+                                     INFINITY,
+                                     -INFINITY,
+                                     NAN,
+                                     5e-324,
+                                     -5e-324,
+                                     0.99999999999999989,
+                                     -0.99999999999999989,
+                                     2147483648.5,
+                                     -2147483648.5};
+    for (size_t i = 0; i < COUNT_OF(numbers); i++) {
+        double found = number_floor(numbers[i]), wanted = floor(numbers[i]);
+        assert_memory_equal(&found, &wanted, sizeof found);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_printed_forms), cmocka_unit_test(test_powers_of_two), cmocka_unit_test(test_random_bits),
-        cmocka_unit_test(test_parse),         cmocka_unit_test(test_locale),
+        cmocka_unit_test(test_floor),       cmocka_unit_test(test_printed_forms), cmocka_unit_test(test_powers_of_two),
+        cmocka_unit_test(test_random_bits), cmocka_unit_test(test_parse),         cmocka_unit_test(test_locale),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

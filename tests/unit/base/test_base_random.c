@@ -83,10 +83,40 @@ static void test_quarter_turns(void **state) {
     assert_number("-inf", turns_cos(-INFINITY), NAN);
 }
 
+// B1.2 by way of remquo, to the bit.
+static double sine_by_remquo(double t) {
+    if (t < 0)
+        return -sine_by_remquo(-t);
+    int quadrant = 0;
+    double angle = remquo(t * 4, 1.0, &quadrant) * 1.5707963267948966;
+    double part = quadrant & 1 ? cos(angle) : sin(angle);
+    return quadrant & 2 ? -part : part;
+}
+
+static void test_sine_of_turns(void **state) {
+    (void)state;
+    static const double scales[] = {1e-300, 1e-3, 1, 50, 1e6, 2e8, 3e8, 1e15, 1e17, 1e300};
+    for (size_t k = 0; k < COUNT_OF(scales); k++)
+        for (uint64_t i = 0; i < 2000; i++) {
+            double t = (random_uniform(k, i) - 0.5) * scales[k];
+            t = i % 3 ? t : rint(t * 8) / 8; // ties and quarters
+            double found = turns_sin(t), wanted = sine_by_remquo(t);
+            assert_memory_equal(&found, &wanted, sizeof found);
+        }
+    static const double odd[] = {0.0, -0.0, INFINITY, -INFINITY, NAN};
+    for (size_t i = 0; i < COUNT_OF(odd); i++) {
+        double found = turns_sin(odd[i]), wanted = sine_by_remquo(odd[i]);
+        assert_true(isnan(found) ? isnan(wanted) : memcmp(&found, &wanted, sizeof found) == 0);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_raw),           cmocka_unit_test(test_hash),
-        cmocka_unit_test(test_uniform),       cmocka_unit_test(test_beta_and_normal),
+        cmocka_unit_test(test_sine_of_turns),
+        cmocka_unit_test(test_raw),
+        cmocka_unit_test(test_hash),
+        cmocka_unit_test(test_uniform),
+        cmocka_unit_test(test_beta_and_normal),
         cmocka_unit_test(test_quarter_turns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
