@@ -42,6 +42,7 @@ typedef struct Run {
     Progress progress;
     int64_t frames;
     uint64_t physics_steps;
+    double output_seconds;
     double start;
     bool to_terminal; // standard output is a terminal
     bool shown_last;  // the last diagnostic that was no note was shown
@@ -75,6 +76,7 @@ static bool open_session(Run *run, const Host *host) {
     options.stack_bytes = host->stack_bytes;
     options.threads = run->options.threads;
     options.simplify = run->options.simplify;
+    options.profile = run->options.profile;
     options.diagnostic = on_diagnostic;
     options.host = run;
     run->session = petri_open(&options);
@@ -163,10 +165,23 @@ static bool run_frame(Run *run) {
     }
     bool printed = frame.number % run->options.every == 0;
     if (printed) {
+        double start = clock_seconds();
         print_frame(run);
+        run->output_seconds += clock_seconds() - start;
     }
     report_frame(run, &frame, printed);
     return true;
+}
+
+static bool write_message(void *host, const char *text, size_t length) {
+    (void)host;
+    return fwrite(text, 1, length, stderr) == length;
+}
+
+static void report_profile(Run *run) {
+    if (run->options.profile && run->frames > 0) {
+        petri_profile(run->session, run->output_seconds, write_message, NULL);
+    }
 }
 
 static void report_summary(Run *run) {
@@ -204,6 +219,7 @@ static int run_frames(Run *run) {
     if (going) {
         save_state(run);
     }
+    report_profile(run);
     report_summary(run);
     int status = !going || run->state_lost ? STATUS_FAILED : STATUS_DONE;
     return interrupted ? STATUS_SIGNAL + interrupted : status;

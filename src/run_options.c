@@ -22,6 +22,7 @@ enum {
     OPT_STATE,
     OPT_THREADS,
     OPT_NOSIMPLIFY,
+    OPT_PROFILE,
     OPT_QUIET,
     OPT_VERBOSE,
     OPT_DEBUG,
@@ -43,6 +44,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},
     {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
     {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
+    {"profile", 0, OPT_PROFILE, NULL, "report at the end how long each line of the script took, the slowest first"},
     {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
     {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},
     {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},
@@ -172,6 +174,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_NOSIMPLIFY:
         options->simplify = false;
+        return true;
+    case OPT_PROFILE:
+        options->profile = true;
         return true;
     case OPT_QUIET:
         options->verbosity = LOG_QUIET;

@@ -22,6 +22,7 @@ typedef struct RunOptions {
     Verbosity verbosity;
     bool colour;
     bool simplify;
+    bool profile;
     const char *state_file; // NULL: the state is neither taken from a file nor kept in one
     int dump;               // PetriDump, or -1
 } RunOptions;

@@ -51,6 +51,7 @@ typedef struct PetriOptions {
     double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
     bool simplify;   // evaluate static parts once, when loading; results never depend on it. Default true
     bool colour;     // colour `rendered` with ANSI escapes
+    bool profile;    // measure the time of each source line, for petri_profile. Default false, which costs nothing
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
     // enough.
     size_t stack_bytes;
@@ -120,6 +121,11 @@ typedef bool PetriWrite(void *host, const char *text, size_t length);
 PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host);
 // Only the log lines of the frame, each `> text`.
 PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host);
+
+// Writes where the time has gone since the script was loaded, one line for each source line that was evaluated, one for
+// the systems and one for `output_seconds`, which the host has spent on output; the longest first. PETRI_INVALID
+// without the option `profile`, or if the writer said stop.
+PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code.

@@ -16,13 +16,22 @@ static void *grown(Lowering *lowering, void *items, uint32_t count, uint32_t *ca
     return arena_grow(lowering->options->arena, items, old * size, *capacity * size);
 }
 
+// The line of an instruction for the profile. What ends an expression of several lines belongs to the last of them.
+static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
+    uint32_t last = lowering->instr_count;
+    bool ends = op == OP_COMPOSE || op == OP_JUMP || op == OP_RETURN;
+    if (ends && last > 0 && lowering->instrs[last - 1].at->source == at->source)
+        return lowering->lines[last - 1];
+    return source_locate(at->source, at->span.start).line;
+}
+
 Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t capacity = lowering->instr_capacity;
     lowering->instrs = grown(lowering, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
     if (lowering->options->lines) {
         uint32_t same = lowering->instr_capacity;
         lowering->lines = grown(lowering, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
-        lowering->lines[lowering->instr_count] = at->source ? source_locate(at->source, at->span.start).line : 0;
+        lowering->lines[lowering->instr_count] = line_of(lowering, op, at);
     }
     lowering->instr_capacity = capacity;
     Instr *instr = &lowering->instrs[lowering->instr_count++];

@@ -62,6 +62,10 @@ void session_start(PetriSession *session, const Program *program) {
     session->start = 0;
     session->performance = session->options.realtime ? 1 : 2;
     session->slow_frame = false;
+    session->profiled_physics = 0;
+    session->profiled_frames = 0;
+    if (session->vm.profile)
+        vm_profile_clear(session->vm.profile);
 }
 
 void session_resume(PetriSession *session, int64_t number) {
@@ -189,7 +193,10 @@ PetriStatus petri_step(PetriSession *session) {
     // A frame that was cut short would look to the systems as if everything had vanished.
     if (session->vm.stopped)
         return PETRI_LIMIT;
-    return guarded(session, update_systems, &session->frame.physics_seconds) ? PETRI_OK : PETRI_MEMORY;
+    bool updated = guarded(session, update_systems, &session->frame.physics_seconds);
+    session->profiled_physics += session->frame.physics_seconds;
+    session->profiled_frames++;
+    return updated ? PETRI_OK : PETRI_MEMORY;
 }
 
 PetriFrame petri_frame(const PetriSession *session) {

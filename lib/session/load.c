@@ -127,6 +127,7 @@ static void compile(PetriSession *session, Unit *unit, bool module) {
     CompileOptions options = {.module = module,
                               .lint = session->lint,
                               .simplify = session->options.simplify,
+                              .lines = session->options.profile,
                               .defines = session->defines,
                               .define_count = session->define_count,
                               .host = {session, host_include, host_evaluate}};

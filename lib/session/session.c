@@ -84,10 +84,12 @@ PetriSession *petri_open(const PetriOptions *options) {
             (VmHost){session, tell_machine, log_machine, session_module}, options->stack_bytes, false);
     vm_init(&session->static_vm, &session->frame_arena, &session->symbols,
             (VmHost){session, tell_nobody, log_machine, session_module}, options->stack_bytes, true);
+    session->vm.profile = options->profile ? vm_profile_new() : NULL;
     session->vm.builtins.files = session->files;
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->frame.number = -1;
-    if (!session->state || !session->scene || !session->files || !session->noise)
+    if (!session->state || !session->scene || !session->files || !session->noise ||
+        (options->profile && !session->vm.profile))
         petri_close(&session);
     PhysOptions physics = physics_options(options);
     if (session)
@@ -109,6 +111,7 @@ void petri_close(PetriSession **handle) {
     state_free(session->state);
     file_cache_free(session->files);
     noise_cache_free(session->noise);
+    vm_profile_free(session->vm.profile);
     vm_free(&session->vm);
     vm_free(&session->static_vm);
     diag_sink_free(&session->log);

@@ -68,6 +68,8 @@ struct PetriSession {
     double performance; // of realtime
     bool slow_frame;
     bool in_frame;
+    double profiled_physics; // seconds, since the script was loaded
+    uint64_t profiled_frames;
 };
 
 // Gives a diagnostic to the host unless it was given before.

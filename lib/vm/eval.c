@@ -134,10 +134,14 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
         break;                                                                                                         \
     }
 
-Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
+// The loop, of which there are two: measuring costs the other nothing.
+static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, const Code *code, const bool profiled) {
     Value *const slots = frame->slots;
     const Instr *instr = code->instrs;
+    ProfilePlace place = {0};
     for (;; instr++) {
+        if (profiled)
+            vm_profile_at(vm->profile, instr->at->source, code->lines[instr - code->instrs]);
         switch ((Opcode)instr->op) {
         case OP_MOVE:
             D = A;
@@ -165,7 +169,10 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
             D = make_closure(vm, code->operands + instr->list, frame, instr);
             break;
         case OP_IMPORT:
+            place = profiled ? vm->profile->place : place;
             import(vm, frame, instr, A);
+            if (profiled)
+                vm_profile_return(vm->profile, place);
             break;
         case OP_FOR: {
             Loop *loop = &frame->loops[instr->loop];
@@ -208,7 +215,10 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
             D = vm_decorate(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_CALL:
+            place = profiled ? vm->profile->place : place;
             D = call(vm, code->operands + instr->list, slots, instr);
+            if (profiled)
+                vm_profile_return(vm->profile, place);
             break;
         case OP_BUILTIN:
             D = call_builtin(vm, code->operands + instr->list, slots, instr);
@@ -271,4 +281,14 @@ Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
             __builtin_unreachable();
         }
     }
+}
+
+NOINLINE static Value eval_profiled(Vm *vm, Frame *frame, const Code *code) {
+    return eval(vm, frame, code, true);
+}
+
+Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
+    if (vm->profile && code->lines)
+        return eval_profiled(vm, frame, code);
+    return eval(vm, frame, code, false);
 }

@@ -70,8 +70,12 @@ Value vm_run(Vm *vm, const Program *program) {
     vm->imports = &self;
     vm->builtins.directory = program->source->directory;
     vm_memo_begin(vm, program->place_count);
+    if (vm->profile)
+        vm_profile_begin(vm->profile, vm->arena->escape);
     Frame frame = new_frame(vm, program->code);
     Value result = vm_eval(vm, &frame, program->code);
+    if (vm->profile)
+        vm_profile_end(vm->profile);
     vm->imports = NULL;
     return vm->stopped ? VALUE_NULL : result;
 }

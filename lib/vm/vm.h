@@ -10,6 +10,7 @@
 #include "builtin/builtin.h"
 #include "program/program.h"
 #include "state/state.h"
+#include "vm/profile.h"
 
 enum {
     VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
@@ -70,6 +71,7 @@ typedef struct Vm {
     uint32_t reported_count;
     Memo *memos; // of the main program's look-ups by number; heap
     uint32_t memo_count;
+    Profile *profile; // borrowed; NULL: nothing is measured
 } Vm;
 
 // Prepares a machine; `stack_bytes` is what it may use of the caller's stack. Free with vm_free.

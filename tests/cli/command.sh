@@ -113,6 +113,28 @@ check "--dump=ast prints the syntax tree" test -s out
 petri run --dump code plain.fl
 check "--dump=code prints the code" test -s out
 
+# the profile
+cat >slow.fl <<'END'
+func twice(x)
+    2*x
+let many=sum(sin(i+frame) for i in ..3000)
+for i in ..5
+    if frame >= 0
+        !item a=twice(many+i)
+    let never=i
+END
+petri run --profile --frames 10 --print tree slow.fl
+check "--profile leaves the output alone" lines_are out 60
+check "--profile names frames" has err "a frame in 10 frames"
+check "--profile has the slowest line first" [ "$(sed -n 's/.*\(slow.fl:[0-9]*\).*/\1/p' err | head -n 1)" = slow.fl:3 ]
+check "--profile counts how often a line is come to" grep -Eq ' 5  slow.fl:6: !item a=twice\(many\+i\)$' err
+check "--profile counts a function's lines" grep -Eq ' 5  slow.fl:2: 2\*x$' err
+check "--profile counts physics and output" grep -Eq '[0-9] +physics$' err
+check "--profile counts output" grep -Eq '[0-9] +output$' err
+check "--profile adds up to the whole" awk '/%/ { sum += $1 } END { exit sum < 99 || sum > 101 }' err
+petri run --frames 10 slow.fl
+check "without --profile there is none" empty err
+
 # how much is said
 petri run --frames 2 warn.fl
 check "a warning does not fail the run" status_is 0

@@ -103,6 +103,34 @@ static void test_dumps(void **state) {
     assert_non_null(strstr(player->shown.text, "frame"));
 }
 
+static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c\n";
+
+// A row for each line that was evaluated; what is evaluated when the script is loaded takes no time later.
+static void test_profile(void **state) {
+    Player *player = *state;
+    player_run(player, profiled_script, 3);
+    assert_int_equal(petri_profile(player->session, 0, note, &player->shown), PETRI_INVALID);
+    PetriOptions options = player_options(player);
+    options.profile = true;
+    player_reopen(player, &options);
+    for (int round = 0; round < 2; round++) { // a script that is loaded again starts anew
+        player_run(player, profiled_script, 3);
+        player->shown.len = 0;
+        assert_int_equal(petri_profile(player->session, 0.5, note, &player->shown), PETRI_OK);
+        const char *text = player->shown.text;
+        assert_non_null(strstr(text, "ms a frame in 3 frames\n"));
+        assert_non_null(strstr(text, "166.6667               output\n"));
+        assert_non_null(strstr(text, " 1  t.fl:1: let a=frame\n"));
+        assert_non_null(strstr(text, " 1  t.fl:3: !b x=a\n"));
+        assert_non_null(strstr(text, "physics\n"));
+        assert_null(strstr(text, "t.fl:2"));
+        assert_null(strstr(text, "t.fl:4"));
+        assert_text("the same frames", player_tree(player), "!b x=2\n!counter state=:c\n");
+    }
+    int calls = 0;
+    assert_int_equal(petri_profile(player->session, 0, refuse, &calls), PETRI_INVALID);
+}
+
 static void test_failed_load_keeps_the_script(void **state) {
     Player *player = *state;
     player_run(player, "!a v=frame\n!counter state=:c\n", 3);
@@ -245,6 +273,7 @@ int main(void) {
         PLAYER_TEST(test_print),
         PLAYER_TEST(test_writer_says_stop),
         PLAYER_TEST(test_dumps),
+        PLAYER_TEST(test_profile),
         PLAYER_TEST(test_failed_load_keeps_the_script),
         PLAYER_TEST(test_once_per_place_and_load),
         PLAYER_TEST(test_several_texts_at_one_place),

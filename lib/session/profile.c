@@ -1,0 +1,76 @@
+// profile.c: where the time of the frames went, as text.
+#include "session/session.h"
+
+#include "vm/profile.h"
+
+#include <stdlib.h>
+
+typedef struct Row {
+    double seconds;
+    double times;
+    const Source *source; // NULL: `what` tells
+    uint32_t line;
+    const char *what;
+} Row;
+
+// The longest first; as in the text where they are the same.
+static int compare_rows(const void *left, const void *right) {
+    const Row *a = left, *b = right;
+    if (a->seconds != b->seconds)
+        return a->seconds < b->seconds ? 1 : -1;
+    return a->line < b->line ? -1 : a->line > b->line;
+}
+
+static uint32_t line_count(const Profile *profile) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < profile->file_count; i++)
+        count += profile->files[i].source->line_count;
+    return count;
+}
+
+static uint32_t add_lines(Row *rows, const Profile *profile) {
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < profile->file_count; i++)
+        for (uint32_t k = 0; k < profile->files[i].source->line_count; k++) {
+            const ProfileLine *line = &profile->files[i].lines[k];
+            if (line->times)
+                rows[count++] = (Row){.seconds = (double)line->nanoseconds * 1e-9,
+                                      .times = (double)line->times,
+                                      .source = profile->files[i].source,
+                                      .line = k + 1};
+        }
+    return count;
+}
+
+static void add_row(Text *out, const Row *row, double total, double frames) {
+    double share = total > 0 ? 100 * row->seconds / total : 0;
+    text_add_format(out, "%6.1f %% %10.4f ", share, 1e3 * row->seconds / frames);
+    if (!row->source) {
+        text_add_format(out, "%12s  %s\n", "", row->what);
+        return;
+    }
+    Str text = str_trim(source_locate(row->source, row->source->line_starts[row->line - 1]).text);
+    text_add_format(out, "%12.6g  %.*s:%u: %.*s\n", row->times / frames, (int)row->source->name.len,
+                    row->source->name.bytes, row->line, (int)text.len, text.bytes);
+}
+
+PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host) {
+    const Profile *profile = session->vm.profile;
+    if (!profile)
+        return PETRI_INVALID;
+    arena_reset(&session->text_arena);
+    Text out = text_new(&session->text_arena);
+    Row *rows = arena_alloc_array(&session->text_arena, line_count(profile) + 2, sizeof *rows);
+    uint32_t count = add_lines(rows, profile);
+    rows[count++] = (Row){.seconds = session->profiled_physics, .what = "physics"};
+    rows[count++] = (Row){.seconds = output_seconds, .what = "output"};
+    qsort(rows, count, sizeof *rows, compare_rows);
+    double total = 0, frames = session->profiled_frames ? (double)session->profiled_frames : 1;
+    for (uint32_t i = 0; i < count; i++)
+        total += rows[i].seconds;
+    text_add_format(&out, "   share   ms/frame   times/frame of %.4f ms a frame in %.0f frames\n", 1e3 * total / frames,
+                    (double)session->profiled_frames);
+    for (uint32_t i = 0; i < count; i++)
+        add_row(&out, &rows[i], total, frames);
+    return write(host, out.bytes, out.len) ? PETRI_OK : PETRI_INVALID;
+}
