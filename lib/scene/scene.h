@@ -18,6 +18,7 @@ typedef struct SceneFrame {
     double fps;
     double performance;
     bool lockstep;
+    uint64_t generation; // another one: programs have been dropped, and what was kept (value/node.h) with them
 } SceneFrame;
 
 // NULL if memory is used up. The symbol table must outlive the scene.

@@ -149,7 +149,8 @@ static void update_systems(PetriSession *session) {
                         .time = session->frame.time,
                         .fps = session->frame.fps,
                         .performance = session->performance,
-                        .lockstep = !session->options.realtime};
+                        .lockstep = !session->options.realtime,
+                        .generation = session->generation};
     session->frame.physics_steps = scene_update(session->scene, session->tree, &frame);
 }
 

@@ -217,5 +217,6 @@ void session_free_retired(PetriSession *session) {
         }
         *link = unit->next;
         unit_free(unit);
+        session->generation++;
     }
 }

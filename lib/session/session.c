@@ -288,6 +288,7 @@ static PetriStatus load(PetriSession *session, const LoadRequest *request, bool 
         status = PETRI_INVALID;
     if (status == PETRI_OK && keep) {
         unit_free(session->program);
+        session->generation++;
         session->program = unit;
         session_start(session, unit->program);
     } else {

@@ -37,11 +37,12 @@ struct PetriSession {
     Define *defines;
     uint32_t define_count;
     uint32_t define_capacity;
-    Unit *program; // the loaded script, or NULL
-    Unit *modules; // list
-    Unit *fresh;   // the script that was begun to be loaded last, for when its memory runs out
-    Unit *loading; // whose compiler calls back
-    bool lint;     // petri_check is at work
+    Unit *program;       // the loaded script, or NULL
+    Unit *modules;       // list
+    uint64_t generation; // counts the programs and modules that were dropped
+    Unit *fresh;         // the script that was begun to be loaded last, for when its memory runs out
+    Unit *loading;       // whose compiler calls back
+    bool lint;           // petri_check is at work
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
 
