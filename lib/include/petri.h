@@ -114,6 +114,7 @@ typedef struct PetriSystem {
     uint32_t dimensions;
     uint32_t particle_count; // anchors too
     uint32_t force_count;    // force appliers and barriers
+    uint64_t steps;          // simulation steps in the frame
 } PetriSystem;
 
 typedef struct PetriParticle {

@@ -306,5 +306,5 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
         reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
     system->dimensions = reader.dimensions;
-    return update(scene, system, &reader, &settings, frame);
+    return system->steps = update(scene, system, &reader, &settings, frame);
 }

@@ -115,6 +115,7 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
                             .prefix = state_slot_key(state, system->start),
                             .dimensions = system->dimensions,
                             .particle_count = count < listed ? count : listed,
+                            .steps = system->steps,
                             .slots = system->slots};
         return true;
     }

@@ -20,6 +20,7 @@ struct PhysicsSystem {
     uint32_t slot_count;
     uint32_t slot_capacity;
     uint32_t dimensions; // in the last update
+    uint64_t steps;      // likewise
     uint64_t seen;       // number of the scene's frame in which it was updated last
 };
 

@@ -28,6 +28,7 @@ bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
         .dimensions = view.dimensions,
         .particle_count = view.particle_count,
         .force_count = phys_force_count(view.engine),
+        .steps = view.steps,
     };
     return true;
 }
