@@ -305,5 +305,6 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     if (system->occurrence > 0)
         reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
-    return update(scene, system, &reader, &settings, frame);
+    system->dimensions = reader.dimensions;
+    return system->steps = update(scene, system, &reader, &settings, frame);
 }

@@ -19,7 +19,9 @@ struct PhysicsSystem {
     StateSlot *slots; // positions and velocities, in pairs, of the particles in the last frame's tree
     uint32_t slot_count;
     uint32_t slot_capacity;
-    uint64_t seen; // number of the scene's frame in which it was updated last
+    uint32_t dimensions; // in the last update
+    uint64_t steps;      // likewise
+    uint64_t seen;       // number of the scene's frame in which it was updated last
 };
 
 struct Scene {

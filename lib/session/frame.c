@@ -2,6 +2,7 @@
 #include "session/session.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 enum { TEMPO = 120, QUANTUM = 4 }; // without pragmas
@@ -58,6 +59,7 @@ void session_start(PetriSession *session, const Program *program) {
     }
     session->frame = (PetriFrame){.number = -1, .fps = fps, .tempo = tempo};
     session->quantum = quantum;
+    memset(session->auto_frames, 0, sizeof session->auto_frames);
     session->delta = 0;
     session->start = 0;
     session->performance = session->options.realtime ? 1 : 2;

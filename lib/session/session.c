@@ -52,7 +52,7 @@ static void log_machine(void *host, Str text) {
 
 // The environment may choose how physics is computed; results do not depend on it. Unknown words count as none.
 static PhysOptions physics_options(const PetriOptions *options) {
-    PhysOptions physics = {.threads = options->threads};
+    PhysOptions physics = {.threads = options->threads, .keep_forces = options->keep_forces};
     cpu_choose(getenv("PETRI_CPU"), &physics.cpu);
     const char *neighbours = getenv("PETRI_NEIGHBOURS");
     if (neighbours && !strcmp(neighbours, "never"))
@@ -78,6 +78,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->errors = diag_sink_new(&session->frame_arena, MOST_LINES);
     session->state = state_new();
     session->scene = scene_new(&session->symbols, (SceneHost){session, tell_scene});
+    canvas_schema_init(&session->canvas, &session->symbols, (CanvasHost){session, tell_scene});
     session->files = file_cache_new();
     session->noise = noise_cache_new();
     vm_init(&session->vm, &session->frame_arena, &session->symbols,
