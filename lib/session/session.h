@@ -69,7 +69,9 @@ struct PetriSession {
     PetriFrame frame;
     double quantum;
     double delta;
-    double start;       // of realtime: monotonic time of frame 0
+    double start;       // of realtime: the session's time of frame 0
+    double due;         // of realtime: when the next frame is due
+    double held;        // of realtime: seconds by which the session's clock is behind the monotonic one
     double performance; // of realtime
     bool slow_frame;
     bool in_frame;
