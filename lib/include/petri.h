@@ -30,6 +30,7 @@ typedef enum PetriStatus {
     PETRI_INVALID, // the script cannot be loaded, a definition cannot be read; diagnostics tell why
     PETRI_LIMIT,   // a limit was reached: the frame was given up and changed nothing
     PETRI_MEMORY,  // memory is used up
+    PETRI_MISSING, // this libpetri was built without the library that it takes; a diagnostic tells which
 } PetriStatus;
 
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
@@ -84,6 +85,13 @@ PetriStatus petri_check(PetriSession *session, const char *file);
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
 PetriStatus petri_step(PetriSession *session);
 
+// In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
+// 0 if it is due, and in lockstep.
+double petri_due(const PetriSession *session);
+// In real time: the time that has passed since the last frame does not count, so that the next one follows it as if
+// nothing had happened in between. For hosts that pause, or take long over something.
+void petri_hold(PetriSession *session);
+
 // The frame that petri_step made last.
 typedef struct PetriFrame {
     int64_t number; // -1 before the first
@@ -97,6 +105,29 @@ typedef struct PetriFrame {
 } PetriFrame;
 
 PetriFrame petri_frame(const PetriSession *session);
+
+// What the user's hands do, for the `!pointer` and `!key` nodes inside a script's `!window`. Report it whenever it
+// happens; the next frame sees it in the state dictionary, from the second frame with the node on. What was pressed and
+// let go between two frames counts as pressed for one. A session that is told nothing writes nothing.
+enum {
+    PETRI_BUTTON_LEFT = 1,
+    PETRI_BUTTON_MIDDLE = 2,
+    PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
+};
+typedef struct PetriPointer {
+    bool inside;      // the pointer is over the window
+    double x;         // if it is: 0 at the left edge to 1 at the right; what is beyond counts as the edge
+    double y;         // 0 at the top to 1 at the bottom
+    unsigned buttons; // those that are down, as bits
+} PetriPointer;
+// NULL: the user has turned away; the pointer is outside, all buttons and keys are let go. PETRI_INVALID for a position
+// that is not finite.
+PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
+// A key goes down or up: a letter, a digit, or a word such as "space", "left", "page_up", "f1", "left_shift" (README).
+// PETRI_INVALID for other names.
+PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
+// Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
+bool petri_key_bound(PetriSession *session, const char *name);
 
 // Writes the state dictionary, the frame number and what the systems need to go on to a file, which is replaced as a
 // whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
@@ -155,6 +186,83 @@ typedef struct PetriForce {
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
 bool petri_particle(PetriSession *session, size_t system, uint32_t number, PetriParticle *particle);
 bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
+
+// Pictures. petri_picture copies what the last frame shows: the tree of a `!window` or `!offscreen`, or the data of the
+// automatic picture. The copy is independent of the session, so it can be drawn by another thread while the session
+// steps on. A painter keeps fonts and images between pictures. A picture and a painter are each used by one thread at a
+// time; a painter outlives nothing and may be closed before or after its pictures.
+typedef struct PetriPicture PetriPicture;
+typedef struct PetriPainter PetriPainter;
+
+// The automatic picture shows the particle systems themselves.
+typedef enum PetriAutomatic {
+    PETRI_AUTO_IF_NEEDED, // where the script has physics but no window with a canvas
+    PETRI_AUTO_ALWAYS,
+    PETRI_AUTO_NEVER,
+} PetriAutomatic;
+
+typedef struct PetriPictureOptions {
+    int width; // in pixels; 0, 0: what the script says. Otherwise the drawing is scaled to fit, and centred
+    int height;
+    double scale; // pixels for each unit of the script's size. Default 1
+    int window;   // which of the frame's windows, from 0; -1 (the default): the first that has something to draw
+    PetriAutomatic automatic;
+} PetriPictureOptions;
+
+PetriPictureOptions petri_default_picture_options(void);
+
+enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
+
+// The picture of the last frame in *picture, for the caller to free. PETRI_INVALID (with a diagnostic) if nothing is
+// loaded or there is nothing to draw, if the size makes no sense; PETRI_MEMORY. *picture is then NULL.
+PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **picture);
+// Frees a picture and sets the handle to NULL. NULL is fine.
+void petri_picture_free(PetriPicture **picture);
+// Its size in pixels.
+void petri_picture_size(const PetriPicture *picture, int *width, int *height);
+// The title of its window, or "". Valid as long as the picture.
+const char *petri_picture_title(const PetriPicture *picture);
+// The number of the frame that it shows.
+int64_t petri_picture_frame(const PetriPicture *picture);
+// The files that `!record` nodes in its window name, with the script's folder before them; NULL beyond the last.
+const char *petri_picture_record(const PetriPicture *picture, size_t index);
+
+// NULL if memory is used up.
+PetriPainter *petri_painter_open(void);
+void petri_painter_close(PetriPainter **painter);
+
+// Draws into width x height pixels, rows `stride` bytes apart (a multiple of 4): 32 bits each, alpha in the highest
+// byte, then red, green, blue, multiplied by alpha. The picture is scaled to fit and centred. A window's pixels are
+// opaque, those of `!offscreen` may be not. PETRI_MISSING without Cairo, PETRI_INVALID if it could not be drawn,
+// PETRI_MEMORY; the pixels are then cleared.
+PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
+                               size_t stride);
+// Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
+bool petri_picture_format(const char *file);
+// Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the same PNG
+// with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
+PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
+// Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
+// called by the thread that uses the session, when no other uses the picture.
+void petri_picture_tell(PetriSession *session, PetriPicture *picture);
+
+// The kinds of nodes that do something, with their attributes, for help and completion. Indices count from 0; false
+// beyond the last. Texts live as long as the library.
+typedef struct PetriNodeKind {
+    const char *name; // without the `!`
+    const char *area; // "physics" or "canvas"; `group` is a kind of both
+    const char *help;
+} PetriNodeKind;
+
+typedef struct PetriNodeAttribute {
+    const char *name;
+    const char *type;     // as words, such as "number" or ":butt, :round or :square"
+    const char *fallback; // the default, as words; "" for none
+    const char *help;     // "" where the name says all
+} PetriNodeAttribute;
+
+bool petri_node_kind(size_t kind, PetriNodeKind *out);
+bool petri_node_attribute(size_t kind, size_t attribute, PetriNodeAttribute *out);
 
 // What a frame's text holds (spec cli.md 3.3), in this order.
 enum {

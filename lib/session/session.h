@@ -6,6 +6,8 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
+#include "canvas/automatic.h"
+#include "canvas/read.h"
 #include "scene/scene.h"
 #include "vm/vm.h"
 
@@ -26,12 +28,16 @@ struct Unit {
     bool retired;  // replaced; freed when no frame can refer to it any more
 };
 
+enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
+
 struct PetriSession {
     PetriOptions options;
     Arena arena; // session lifetime: symbols, definitions
     SymbolTable symbols;
     State *state;
     Scene *scene;
+    CanvasSchema canvas;
+    AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;
     Define *defines;
@@ -64,7 +70,9 @@ struct PetriSession {
     PetriFrame frame;
     double quantum;
     double delta;
-    double start;       // of realtime: monotonic time of frame 0
+    double start;       // of realtime: the session's time of frame 0
+    double due;         // of realtime: when the next frame is due
+    double held;        // of realtime: seconds by which the session's clock is behind the monotonic one
     double performance; // of realtime
     bool slow_frame;
     bool in_frame;
