@@ -339,7 +339,7 @@ static ParseNeed need_after_line(const Layout *layout, const gr_pstate *parser, 
         return PARSE_OPEN;
     if (!gr_accepts(parser, INDENT))
         return PARSE_WHOLE;
-    return !gr_accepts(parser, END) ? PARSE_PART : takes_children(first) ? PARSE_OPEN : PARSE_WHOLE;
+    return !gr_accepts(parser, END) ? PARSE_BLOCK : takes_children(first) ? PARSE_OPEN : PARSE_WHOLE;
 }
 
 static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser) {

@@ -14,6 +14,7 @@ const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *sourc
 typedef enum ParseNeed {
     PARSE_WHOLE, // it is complete, or wrong whatever follows
     PARSE_OPEN,  // it is complete, and indented lines would go on with it
+    PARSE_BLOCK, // indented lines must follow
     PARSE_PART,  // it cannot end here
 } ParseNeed;
 // Reports nothing. The arena takes what the parser builds by the way.
