@@ -19,6 +19,8 @@ typedef struct SceneFrame {
     double performance;
     bool lockstep;
     uint64_t generation; // another one: programs have been dropped, and what was kept (value/node.h) with them
+    double resolution;            // of all systems, whatever they say themselves; 0: as they say
+    const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
 
 // NULL if memory is used up. The symbol table must outlive the scene.
