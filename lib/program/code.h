@@ -2,9 +2,9 @@
 //
 // Each function, the main program and each module is one Code. Its registers are the function's slots followed by
 // temporaries. An operand is the number of a register, or a negative one: the constants are put just before the first
-// register when the code is entered, so that both are read in the same way. Instructions that take several operands find
-// their numbers in a list. Every instruction knows the expression that it came from, for
-// diagnostics and for what does not fit into it.
+// register when the code is entered, so that both are read in the same way. Instructions that take several operands
+// find their numbers in a list. Every instruction knows the expression that it came from, for diagnostics and for what
+// does not fit into it.
 //
 //   !particle id=i position=2*i;0       mul      r3 = 2 r0
 //                                       compose  r3 = (r3, 0)

@@ -24,7 +24,8 @@ typedef struct Loop {
     Vector result;
 } Loop;
 
-// The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program and in modules).
+// The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program
+// and in modules).
 typedef struct Frame {
     Value *slots;
     Loop *loops;
@@ -73,8 +74,8 @@ Value vm_finish(Vm *vm, const Expr *at, Vector *vector);
 // Is there enough of the C stack left for one more call?
 bool vm_stack_left(const Vm *vm);
 
-// What vm_work does every now and then: looks whether the work is used up, which is reported once, or the host has asked
-// for an end.
+// What vm_work does every now and then: looks whether the work is used up, which is reported once, or the host has
+// asked for an end.
 bool vm_work_goes_on(Vm *vm, const Expr *at);
 // Counts one call or loop round; false once the frame is to be given up.
 static inline bool vm_work(Vm *vm, const Expr *at) {

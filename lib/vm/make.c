@@ -78,7 +78,8 @@ typedef struct Made {
 } Made;
 
 // The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
-static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node, Attr *attrs) {
+static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
+                           Attr *attrs) {
     uint32_t count = 0, height = node->height;
     for (uint32_t i = 0; i < instr->count; i++) {
         const Value *value = &slots[list[i]];
@@ -249,8 +250,7 @@ Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *in
     }
     if (count == instr->count && vm->state)
         return value_copy(vm->arena, get(vm, instr->target, few, count));
-    Value key = instr->count == 1 ? slots[list[0]]
-                                  : vm_compose(vm, list, slots, instr, instr->at->children[0]);
+    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->at->children[0]);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)

@@ -34,8 +34,7 @@ void vm_free(Vm *vm) {
 
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
     size_t constants = code->constant_count, registers = code->register_count;
-    Value *memory =
-        arena_alloc(&vm->slots, (constants + registers) * sizeof *memory + code->loop_count * sizeof(Loop));
+    Value *memory = arena_alloc(&vm->slots, (constants + registers) * sizeof *memory + code->loop_count * sizeof(Loop));
     for (size_t i = 0; i < constants; i++)
         memory[i] = code->constants[i];
     Value *slots = memory + constants;
