@@ -12,6 +12,8 @@
 #include "petri.h"
 #include "progress.h"
 #include "run_options.h"
+#include "stats.h"
+#include "trajectory.h"
 
 enum { SECONDS_BETWEEN_SAVES = 5 };
 
@@ -40,14 +42,13 @@ typedef struct Run {
     RunOptions options;
     PetriSession *session;
     Progress progress;
-    int64_t frames;
-    uint64_t physics_steps;
-    double output_seconds;
     double start;
     bool to_terminal; // standard output is a terminal
     bool shown_last;  // the last diagnostic that was no note was shown
     bool state_lost;  // the state file could not be read or written
     double saved;     // when the state was saved last
+    Stats stats;
+    Trajectory trajectory;
     Output output;
 } Run;
 
@@ -67,48 +68,19 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     }
 }
 
-static bool open_session(Run *run, const Host *host) {
-    PetriOptions options = petri_default_options();
-    options.fps = run->options.fps;
-    options.realtime = run->options.realtime;
-    options.run_time = run->options.run_time;
-    options.colour = run->options.colour;
-    options.stack_bytes = host->stack_bytes;
-    options.threads = run->options.threads;
-    options.simplify = run->options.simplify;
-    options.profile = run->options.profile;
-    options.diagnostic = on_diagnostic;
-    options.host = run;
-    run->session = petri_open(&options);
-    if (run->session == NULL) {
-        message("out of memory");
-    }
-    return run->session != NULL;
-}
-
-static bool define_names(Run *run) {
-    for (size_t i = 0; i < run->options.definition_count; i++) {
-        if (petri_define(run->session, run->options.definitions[i]) != PETRI_OK) {
-            message("option '--define' expects NAME=VALUE, not '%s'", run->options.definitions[i]);
-            return false;
-        }
-    }
-    return true;
-}
-
 static double current_fps(const Run *run) {
     double fps = petri_frame(run->session).fps;
     return fps > 0 ? fps : run->options.fps;
 }
 
 static bool frame_is_due(const Run *run) {
-    if (interrupted || run->output.error != 0 || run->frames >= run->options.frames) {
+    if (interrupted || run->output.error != 0 || run->trajectory.failed || run->stats.frames >= run->options.frames) {
         return false;
     }
     if (isnan(run->options.run_time)) {
         return true;
     }
-    double time = run->options.realtime ? clock_seconds() - run->start : (double)run->frames / current_fps(run);
+    double time = run->options.realtime ? clock_seconds() - run->start : (double)run->stats.frames / current_fps(run);
     return time < run->options.run_time;
 }
 
@@ -130,7 +102,9 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
-static void print_frame(Run *run) {
+// What is printed and recorded of a frame.
+static void output_frame(Run *run) {
+    double start = clock_seconds();
     if (run->options.sections != 0) {
         petri_print(run->session, run->options.sections, write_text, run);
     } else {
@@ -139,6 +113,10 @@ static void print_frame(Run *run) {
     if (run->to_terminal || run->options.realtime) {
         output_flush(&run->output);
     }
+    if (run->trajectory.beside != NULL) {
+        trajectory_add(&run->trajectory, run->session);
+    }
+    run->stats.output_seconds += clock_seconds() - start;
 }
 
 // A file that could not be read is left alone: it may be all that is left of something.
@@ -158,16 +136,13 @@ static bool run_frame(Run *run) {
         message("stopped in frame %" PRId64 "%s", frame.number, status == PETRI_MEMORY ? ": out of memory" : "");
         return false;
     }
-    run->frames++;
-    run->physics_steps += frame.physics_steps;
     if (clock_seconds() - run->saved > SECONDS_BETWEEN_SAVES) {
         save_state(run);
     }
+    stats_count(&run->stats, run->session);
     bool printed = frame.number % run->options.every == 0;
     if (printed) {
-        double start = clock_seconds();
-        print_frame(run);
-        run->output_seconds += clock_seconds() - start;
+        output_frame(run);
     }
     report_frame(run, &frame, printed);
     return true;
@@ -179,8 +154,8 @@ static bool write_message(void *host, const char *text, size_t length) {
 }
 
 static void report_profile(Run *run) {
-    if (run->options.profile && run->frames > 0) {
-        petri_profile(run->session, run->output_seconds, write_message, NULL);
+    if (run->options.profile && run->stats.frames > 0) {
+        petri_profile(run->session, run->stats.output_seconds, write_message, NULL);
     }
 }
 
@@ -191,9 +166,9 @@ static void report_summary(Run *run) {
         return;
     }
     double seconds = clock_seconds() - run->start;
-    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->frames,
-            run->frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->frames / seconds : 0, run->physics_steps,
-            run->physics_steps == 1 ? "" : "s");
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->stats.frames,
+            run->stats.frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->stats.frames / seconds : 0,
+            run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
 static int64_t expected_frames(const Run *run) {
@@ -211,7 +186,7 @@ static int run_frames(Run *run) {
     run->start = run->saved = clock_seconds();
     bool going = true;
     while (going && frame_is_due(run)) {
-        progress_update(&run->progress, run->frames);
+        progress_update(&run->progress, run->stats.frames);
         going = run_frame(run);
     }
     progress_erase(&run->progress);
@@ -219,16 +194,17 @@ static int run_frames(Run *run) {
     if (going) {
         save_state(run);
     }
+    bool recorded = trajectory_close(&run->trajectory);
     report_profile(run);
     report_summary(run);
-    int status = !going || run->state_lost ? STATUS_FAILED : STATUS_DONE;
+    if (run->options.stats) {
+        stats_print(&run->stats, run->session, clock_seconds() - run->start);
+    }
+    int status = !going || !recorded || run->state_lost ? STATUS_FAILED : STATUS_DONE;
     return interrupted ? STATUS_SIGNAL + interrupted : status;
 }
 
 static int run_session(Run *run) {
-    if (!define_names(run)) {
-        return STATUS_USAGE;
-    }
     PetriStatus status = petri_load(run->session, run->options.script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
@@ -247,6 +223,9 @@ static int run_session(Run *run) {
         }
         save_state(run); // now, so that a file that cannot be written is known before the work is done
     }
+    if (run->options.trajectory != NULL && !trajectory_open(&run->trajectory, run->options.trajectory)) {
+        return STATUS_FAILED;
+    }
     return run_frames(run);
 }
 
@@ -258,9 +237,12 @@ static int run_run(const Host *host, int argc, char **argv) {
     }
     output_start(&run->output, STDOUT_FILENO);
     run->to_terminal = isatty(STDOUT_FILENO);
-    int status = run_options_read(&run->options, argc, argv);
+    int status = run_options_read(&run->options, &RUN_COMMAND, argc, argv);
     if (status == RUN_OPTIONS_OK) {
-        status = open_session(run, host) ? run_session(run) : STATUS_FAILED;
+        status = run_options_open(&run->options, host, on_diagnostic, run, &run->session);
+    }
+    if (status == RUN_OPTIONS_OK) {
+        status = run_session(run);
         petri_close(&run->session);
         status = output_finish(&run->output, status);
     }

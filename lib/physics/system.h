@@ -9,6 +9,7 @@
 
 #include "base/cpu.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -83,6 +84,7 @@ typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
     CpuLevel cpu; // at most cpu_detect()
     PhysNeighbours neighbours;
+    bool keep_forces; // for phys_force_on; costs one store per particle and step
 } PhysOptions;
 
 // A new system has one thread, the detected level and lists where they pay.
@@ -103,18 +105,20 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
 
 typedef struct PhysTime {
-    double last;           // time up to which the state has been simulated
-    double now;            // time of this frame; > last
-    double clock;          // simulation clock at `last`
-    double resolution;     // longest step; > 0 and finite
-    bool lockstep;         // always catch up
-    double performance;    // engine performance, decides about the one extra step in real time
-    double speed_of_light; // <= 0: no limit
+    double last;                  // time up to which the state has been simulated
+    double now;                   // time of this frame; > last
+    double clock;                 // simulation clock at `last`
+    double resolution;            // longest step; > 0 and finite
+    bool lockstep;                // always catch up
+    double performance;           // engine performance, decides about the one extra step in real time
+    double speed_of_light;        // <= 0: no limit
+    const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
 } PhysTime;
 
 typedef enum PhysStatus {
     PHYS_OK,
     PHYS_DROPPED_TIME, // the step limit or the precision of the clock was reached; the rest of the frame was dropped
+    PHYS_INTERRUPTED,  // positions and velocities are those of some step in between
     PHYS_NO_MEMORY,    // an allocation failed or PHYS_MAX_BYTES would be exceeded; nothing was simulated
 } PhysStatus;
 
@@ -134,5 +138,15 @@ uint32_t phys_particle_count(const PhysSystem *system);
 // they are what was given.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
+
+// For showing a system as it stands after phys_simulate. All vectors are valid until the next phys_begin.
+// The description of a particle, its position and velocity as simulated; false for a handle that does not exist.
+bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description);
+// Copies the sum of the forces on a particle in the last step, n doubles. False if nothing was simulated since
+// phys_begin, the forces were not kept, or it is an anchor, on which no force acts.
+bool phys_force_on(const PhysSystem *system, uint32_t particle, double *sum);
+uint32_t phys_force_count(const PhysSystem *system);
+// Force appliers and barriers, by number from 0 in the order of the calls; false beyond the last.
+bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);
 
 #endif

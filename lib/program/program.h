@@ -105,6 +105,7 @@ typedef struct Program {
     const Code *code; // of the body
     uint32_t frame_size;
     uint32_t place_count;  // look-ups in the state, numbered for the machine to remember where they found what
+    uint32_t param_count;  // the first slots: values that the host gives
     const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
     uint32_t export_count;
     const Pragma *pragmas;
@@ -134,6 +135,8 @@ typedef struct CompileOptions {
     bool lines;            // note which lines instructions come from
     const Define *defines; // later ones count
     uint32_t define_count;
+    const Symbol *const *params; // names of values that the host gives to each run; of equal ones the last counts
+    uint32_t param_count;
     CompileHost host;
 } CompileOptions;
 

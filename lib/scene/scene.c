@@ -11,6 +11,10 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host) {
     if (!scene)
         return NULL;
     schema_init(&scene->schema, symbols, host);
+    if (!input_init(&scene->input, symbols)) {
+        scene_free(scene);
+        return NULL;
+    }
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
@@ -36,9 +40,15 @@ void scene_reset(Scene *scene) {
 }
 
 void scene_free(Scene *scene) {
-    if (scene)
+    if (scene) {
         scene_reset(scene);
+        input_free(&scene->input);
+    }
     free(scene);
+}
+
+Input *scene_input(Scene *scene) {
+    return &scene->input;
 }
 
 // The slots that a system holds besides its list.
@@ -81,6 +91,8 @@ static uint64_t update_kind(Scene *scene, SceneKind kind, Value tree, uint32_t f
         const Item *item = &tree.as.items[i];
         if (item->type != ITEM_NODE || schema_kind(&scene->schema, item->as.node) != kind)
             continue;
+        if (frame->interrupt && atomic_load_explicit(frame->interrupt, memory_order_relaxed))
+            break;
         if (kind == KIND_PHYSICS)
             steps += physics_update(scene, item->as.node, frame);
         else
@@ -103,5 +115,27 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
         done[kind] = true;
         steps += update_kind(scene, kind, tree, i, frame);
     }
+    input_bind(&scene->input, &scene->schema, tree, frame->arena);
     return steps;
+}
+
+bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view) {
+    for (const PhysicsSystem *system = scene->systems; system; system = system->next) {
+        if (system->seen != scene->frame_number || !system->engine || !system->dimensions || number-- > 0)
+            continue;
+        uint32_t count = phys_particle_count(system->engine), listed = system->slot_count / 2;
+        *view = (SceneView){.engine = system->engine,
+                            .prefix = state_slot_key(state, system->start),
+                            .dimensions = system->dimensions,
+                            .particle_count = count < listed ? count : listed,
+                            .steps = system->steps,
+                            .slots = system->slots};
+        return true;
+    }
+    return false;
+}
+
+Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle) {
+    Value key = state_slot_key(state, view->slots[2 * particle]);
+    return value_slice(arena, key, view->prefix.len, key.len - view->prefix.len);
 }

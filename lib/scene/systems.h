@@ -3,6 +3,7 @@
 #define PETRI_SCENE_SYSTEMS_H
 
 #include "physics/system.h"
+#include "scene/input_bind.h"
 #include "scene/scene.h"
 
 // What a system keeps from frame to frame. It is the same system as long as its prefix is the same.
@@ -19,11 +20,14 @@ struct PhysicsSystem {
     StateSlot *slots; // positions and velocities, in pairs, of the particles in the last frame's tree
     uint32_t slot_count;
     uint32_t slot_capacity;
-    uint64_t seen; // number of the scene's frame in which it was updated last
+    uint32_t dimensions; // in the last update
+    uint64_t steps;      // likewise
+    uint64_t seen;       // number of the scene's frame in which it was updated last
 };
 
 struct Scene {
     Schema schema;
+    Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;
     PhysOptions physics;

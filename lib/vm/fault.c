@@ -36,7 +36,17 @@ void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...)
     report(vm, at, DIAG_WARNING, code, text_str(&text));
 }
 
-bool vm_work_stopped(Vm *vm, const Expr *at) {
+bool vm_work_goes_on(Vm *vm, const Expr *at) {
+    enum { BETWEEN_LOOKS = 1024 };
+    if (vm->stopped)
+        return false;
+    vm->stopped = vm->interrupt && atomic_load_explicit(vm->interrupt, memory_order_relaxed);
+    if (!vm->stopped && vm->work <= vm->work_limit) {
+        uint64_t left = vm->work_limit - vm->work;
+        vm->work_pause = vm->work + (left < BETWEEN_LOOKS ? left : BETWEEN_LOOKS);
+        return true;
+    }
+    vm->work_pause = 0; // each further call comes here
     if (vm->stopped)
         return false;
     vm->stopped = true;

@@ -74,11 +74,12 @@ Value vm_finish(Vm *vm, const Expr *at, Vector *vector);
 // Is there enough of the C stack left for one more call?
 bool vm_stack_left(const Vm *vm);
 
-// What vm_work does when the work is used up: reports it once; false.
-bool vm_work_stopped(Vm *vm, const Expr *at);
-// Counts one call or loop round; false once the frame's work is used up.
+// What vm_work does every now and then: looks whether the work is used up, which is reported once, or the host has
+// asked for an end.
+bool vm_work_goes_on(Vm *vm, const Expr *at);
+// Counts one call or loop round; false once the frame is to be given up.
 static inline bool vm_work(Vm *vm, const Expr *at) {
-    return ++vm->work <= vm->work_limit || vm_work_stopped(vm, at);
+    return ++vm->work <= vm->work_pause || vm_work_goes_on(vm, at);
 }
 
 // May a built-in be called now? Counts the call. What it complains of will belong to `at`. Ahead, no debug line is

@@ -57,6 +57,7 @@ static void begin(Vm *vm, const char *stack_base) {
     vm->run += 2;
     vm->depth = 0;
     vm->work = 0;
+    vm->work_pause = 0;
     vm->stopped = false;
     vm->imports = NULL;
     if (vm->reported_count > 0)
@@ -64,7 +65,7 @@ static void begin(Vm *vm, const char *stack_base) {
     vm->reported_count = 0;
 }
 
-Value vm_run(Vm *vm, const Program *program) {
+Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports) {
     begin(vm, __builtin_frame_address(0));
     ImportLink self = {NULL, program->source};
     vm->imports = &self;
@@ -73,9 +74,13 @@ Value vm_run(Vm *vm, const Program *program) {
     if (vm->profile)
         vm_profile_begin(vm->profile, vm->arena->escape);
     Frame frame = new_frame(vm, program->code);
+    for (uint32_t i = 0; i < program->param_count; i++)
+        frame.slots[i] = given[i];
     Value result = vm_eval(vm, &frame, program->code);
     if (vm->profile)
         vm_profile_end(vm->profile);
+    for (uint32_t i = 0; exports && i < program->export_count; i++)
+        exports[i] = frame.slots[program->exports[i].slot];
     vm->imports = NULL;
     return vm->stopped ? VALUE_NULL : result;
 }
