@@ -6,7 +6,21 @@
 
 #include "value/seed.h"
 
+#include <string.h>
+
 #define NOINLINE __attribute__((noinline))
+
+// A number goes to its register in one piece, as whoever copies it will fetch it: a processor has to wait for two
+// halves.
+static inline void set_number(Value *to, double x) {
+    typedef double Halves __attribute__((vector_size(16)));
+    static const union {
+        Value value;
+        double head;
+    } one = {.value = {.len = 1}};
+    Halves whole = {one.head, x};
+    memcpy(to, &whole, sizeof *to);
+}
 
 static Value truth(bool x) {
     return value_number(x ? 1 : 0);
@@ -58,7 +72,7 @@ static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slot
     if (loop->at >= loop->source.len || !vm_work(vm, instr->at))
         return false;
     if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
-        slots[instr->d] = value_number(value_numbers(&loop->source)[loop->at]);
+        set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
     else
         bind_elements(vm, loop, slots + instr->d, instr->count);
     return true;
@@ -116,8 +130,10 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
 #define ARITHMETIC(opcode, arith, operator)                                                                            \
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
-        D = is_number(a) && is_number(b) ? value_number(a->as.number operator b->as.number)                            \
-                                         : op_arith(vm->arena, arith, *a, *b);                                         \
+        if (is_number(a) && is_number(b))                                                                              \
+            set_number(&D, a->as.number operator b->as.number);                                                        \
+        else                                                                                                           \
+            D = op_arith(vm->arena, arith, *a, *b);                                                                    \
         break;                                                                                                         \
     }
 
@@ -264,7 +280,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             const Value *vector = &A, *index = &B;
             if (is_number(index) && vector->kind == VALUE_NUMBERS && index->as.number >= 0 &&
                 index->as.number < vector->len)
-                D = value_number(value_numbers(vector)[(uint32_t)index->as.number]);
+                set_number(&D, value_numbers(vector)[(uint32_t)index->as.number]);
             else
                 D = vm_index(vm, *vector, *index);
             break;
