@@ -14,8 +14,7 @@ static void test_static_children(void **state) {
     Player *player = *state;
     static const char *const scripts[] = {
         "!physics state=:a time=frame\n    for i in ..3\n        !particle id=i position=i;2*i\n    !drag strength=1\n",
-        "let N=3\n!physics time=frame\n    for i in ..N\n        let r=i*2\n        !particle id=i radius=r\n    "
-        "!drag\n",
+        "let N=3\n!physics time=frame\n    for i in ..N\n        !particle id=i radius=(r where r=i*2)\n    !drag\n",
         "!physics time=frame\n    !group\n        !particle id=1\n    !particle id=2\n    !drag\n    !random\n",
         "func world(t)\n    !physics time=t\n        for i in ..4\n            !particle id=i\n\nworld(frame)\n",
         "for i in ..1\n    !physics time=frame\n        for k in ..4\n            !particle id=k\n",
