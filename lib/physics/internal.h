@@ -60,6 +60,7 @@ typedef struct ForceRecord {
     uint64_t vector;  // where the copy begins in the vector buffer, plus 1; 0 stands for all zeros
     uint64_t vector2; // likewise
     uint32_t group;
+    uint32_t arranged; // its number among the arranged forces
 } ForceRecord;
 
 // A force as the kernels see it: vectors point to the copies, `from` and `to` are columns.
@@ -91,6 +92,10 @@ struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // capacity of all buffers together
     bool failed;    // memory was used up since phys_begin
+    bool arranged;  // particles and forces are arranged as described
+    bool forces_arranged;
+    bool radii_raised; // radius powers are those of the columns' radii and of the forces
+    bool lost;         // `unfinished` has a mark
     PhysOptions options;
     // description
     uint32_t dimensions;
@@ -102,6 +107,8 @@ struct PhysSystem {
     Buffer groups;           // Group
     Buffer particles;        // ParticleRecord by handle
     Buffer rows;             // 3 n doubles by handle
+    Buffer last_rows;        // those of the description before
+    Buffer unfinished;       // uint8_t by handle: what was not finite when it should have settled
     Buffer force_records;    // ForceRecord in order of the calls
     Buffer vectors;          // double
     // arranged for simulation
@@ -131,12 +138,16 @@ const struct Kernels *phys_kernels(const PhysSystem *system);
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
-// groups.c: sorts particles and forces by group. False if memory is used up.
+// groups.c: sorts particles, or forces, by group. False if memory is used up. Particles come first.
 bool phys_arrange(PhysSystem *system);
+bool phys_arrange_forces(PhysSystem *system);
 
-// particles.c: rows into columns and back. phys_load is false if memory is used up.
+// particles.c: rows into columns and back. phys_load and phys_clear_marks are false if memory is used up.
+enum { PHYS_LOST_POSITION = 1, PHYS_LOST_VELOCITY = 2 }; // marks of `unfinished`
+bool phys_clear_marks(PhysSystem *system);
 bool phys_load(PhysSystem *system);
-void phys_store(PhysSystem *system);
+void phys_raise_radii(PhysSystem *system);
+void phys_store(PhysSystem *system, bool settle);
 
 // step.c: one step of `delta` at `clock`.
 void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);

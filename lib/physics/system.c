@@ -37,8 +37,9 @@ PhysSystem *phys_new(void) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,  &system->particles, &system->rows,   &system->force_records,
-                         &system->vectors, &system->indices,   &system->forces, &system->column_data};
+    Buffer *buffers[] = {&system->groups,    &system->particles, &system->rows,   &system->force_records,
+                         &system->vectors,   &system->indices,   &system->forces, &system->column_data,
+                         &system->last_rows, &system->unfinished};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
@@ -70,8 +71,10 @@ const Kernels *phys_kernels(const PhysSystem *system) {
 }
 
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
-    system->failed = false;
-    system->frame++;
+    Buffer rows = system->last_rows;
+    system->last_rows = system->rows;
+    system->rows = rows;
+    system->failed = system->arranged = system->forces_arranged = false;
     system->dimensions = dimensions;
     system->group_count = 0;
     system->particle_count = 0;
@@ -126,6 +129,42 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
     return handle;
 }
 
+// Takes new numbers of a particle into the columns too, if they are made.
+static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
+    if (!system->arranged)
+        return;
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
+    if (columns->radius[i] != record->radius)
+        system->radii_raised = false;
+    columns->ease[i] = record->ease;
+    columns->radius[i] = record->radius;
+    columns->mass[i] = record->mass;
+    columns->charge[i] = record->charge;
+    for (size_t k = 0; k < n; k++) {
+        columns->position[k * stride + i] = row[k];
+        columns->velocity[k * stride + i] = row[n + k];
+        columns->thrust[k * stride + i] = row[2 * n + k];
+    }
+}
+
+void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysKeep keep) {
+    size_t n = system->dimensions;
+    ParticleRecord *record = (ParticleRecord *)system->particles.bytes + particle;
+    double *row = (double *)system->rows.bytes + ROW_VECTORS * n * particle;
+    record->ease = numbers->ease;
+    record->radius = numbers->radius;
+    record->mass = numbers->mass;
+    record->charge = numbers->charge;
+    if (!keep.position)
+        copy_vector(row, numbers->position, n);
+    if (!keep.velocity)
+        copy_vector(row + n, record->anchor ? NULL : numbers->velocity, n);
+    copy_vector(row + 2 * n, record->anchor ? NULL : numbers->force, n);
+    system->eased |= numbers->ease > 0;
+    update_columns(system, particle, record, row);
+}
+
 // Copies a vector of a force; returns where it begins plus 1, or 0 for all zeros (or no memory).
 static uint64_t keep_vector(PhysSystem *system, PhysVector vector) {
     uint64_t n = system->dimensions, begin = system->vector_doubles;
@@ -151,17 +190,45 @@ static int vectors_of(PhysForceKind kind) {
     }
 }
 
-void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
+uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
-        return;
+        return 0;
     assert(group < system->group_count);
     int vectors = vectors_of(force->kind);
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? keep_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? keep_vector(system, force->vector2) : 0;
     if (system->failed)
-        return;
-    ((ForceRecord *)system->force_records.bytes)[system->force_count++] = record;
+        return 0;
+    ((ForceRecord *)system->force_records.bytes)[system->force_count] = record;
+    return system->force_count++;
+}
+
+void phys_begin_forces(PhysSystem *system) {
+    system->force_count = 0;
+    system->vector_doubles = 0;
+    system->forces_arranged = false;
+}
+
+void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
+    if (force >= system->force_count)
+        return; // a number from a call that failed
+    ForceRecord *record = (ForceRecord *)system->force_records.bytes + force;
+    record->given.key = key;
+    if (system->forces_arranged)
+        ((Force *)system->forces.bytes)[record->arranged].given.key = key;
+}
+
+uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle) {
+    return ((const ParticleRecord *)system->particles.bytes)[particle].group;
+}
+
+uint32_t phys_group_count(const PhysSystem *system) {
+    return system->group_count;
+}
+
+uint32_t phys_group_parent(const PhysSystem *system, uint32_t group) {
+    return ((const Group *)system->groups.bytes)[group].parent;
 }
 
 uint32_t phys_particle_count(const PhysSystem *system) {
@@ -177,4 +244,16 @@ const double *phys_position(const PhysSystem *system, uint32_t particle) {
 const double *phys_velocity(const PhysSystem *system, uint32_t particle) {
     const double *position = phys_position(system, particle);
     return position ? position + system->dimensions : NULL;
+}
+
+static bool has_mark(const PhysSystem *system, uint32_t particle, uint8_t mark) {
+    return system->lost && (((const uint8_t *)system->unfinished.bytes)[particle] & mark);
+}
+
+bool phys_position_finite(const PhysSystem *system, uint32_t particle) {
+    return !has_mark(system, particle, PHYS_LOST_POSITION);
+}
+
+bool phys_velocity_finite(const PhysSystem *system, uint32_t particle) {
+    return !has_mark(system, particle, PHYS_LOST_VELOCITY);
 }
