@@ -151,6 +151,7 @@ typedef struct Pass {
     const Kernels *kernels;
     const PairKernel *kernel; // NULL: rows only
     size_t lanes;
+    const PhysSystem *system;
     int threads;
     PairPass vector; // what the kernel is given
 } Pass;
@@ -200,6 +201,7 @@ static void choose_kernel(const PhysSystem *system, Pass *pass) {
     pass->kernels = kernels;
     pass->kernel = kernels->pair(&pass->vector);
     pass->lanes = kernels->lanes;
+    pass->system = system;
     pass->threads = system->options.threads;
 }
 
@@ -208,7 +210,7 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
     if (pass->kernel && pass->threads > 1 && count * count / 2 >= PAIRS_FOR_THREADS) {
         PairWave wave = {pass->kernel, &pass->vector, true, first, end, first, end};
-        phys_pair_wave(&wave, pass->threads);
+        phys_pair_wave(pass->system, &wave);
         return;
     }
     if (pass->kernel && count > 2) {
@@ -236,7 +238,7 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
     if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
         wave = (PairWave){pass->kernel, &pass->vector, false, other, other_end, first, end};
     if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
-        phys_pair_wave(&wave, pass->threads);
+        phys_pair_wave(pass->system, &wave);
     else
         pass->kernel->tiles(&pass->vector, wave.row, wave.row_end, wave.column, wave.column_end);
 }

@@ -32,10 +32,9 @@ typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_
 #define NO_GROUP UINT32_MAX
 
 enum {
-    PHYS_MOST_THREADS = 64,
     PHYS_MOST_LISTS = 8,       // passes that have neighbour lists
     PHYS_MOST_RANGES = 8,      // groups whose particles take part in such a pass
-    PHYS_FEW_PARTICLES = 1500, // for which one thread is enough, if the work for each is small
+    PHYS_FEW_PARTICLES = 1500, // that one thread has done when another is ready, if the work for each is small
 };
 
 typedef struct Group {
@@ -97,6 +96,8 @@ struct PhysSystem {
     bool radii_raised; // radius powers are those of the columns' radii and of the forces
     bool lost;         // `unfinished` has a mark
     PhysOptions options;
+    PhysThreads *threads; // those of the options, or its own; NULL: none
+    bool owns_threads;
     // description
     uint32_t dimensions;
     uint32_t group_count;

@@ -91,7 +91,7 @@ static void load_share(void *context, int worker, int workers) {
 typedef struct Storing {
     PhysSystem *system;
     bool settle;
-    bool lost[PHYS_MOST_THREADS]; // something was not finite
+    bool lost[PHYS_MOST_SHARES]; // something was not finite
 } Storing;
 
 // A vector that is finite and differs from what it was replaces that in the row, else the row's replaces it. False if
@@ -162,21 +162,21 @@ bool phys_clear_marks(PhysSystem *system) {
     return true;
 }
 
-static int threads_for(const PhysSystem *system) {
-    enum { MANY = 10000 }; // particles whose copies are worth a second thread
-    return system->particle_count < MANY ? 1 : system->options.threads;
+static int shares_for(const PhysSystem *system) {
+    enum { FEW = 10000 }; // that are copied before a second thread is ready
+    return phys_shares(system, system->particle_count, FEW);
 }
 
 bool phys_load(PhysSystem *system) {
     if (!reserve_columns(system))
         return false;
-    phys_parallel(threads_for(system), load_share, system);
+    phys_parallel(system, shares_for(system), load_share, system);
     return true;
 }
 
 void phys_store(PhysSystem *system, bool settle_them) {
     Storing storing = {.system = system, .settle = settle_them};
-    phys_parallel(threads_for(system), store_share, &storing);
-    for (int w = 0; w < PHYS_MOST_THREADS; w++)
+    phys_parallel(system, shares_for(system), store_share, &storing);
+    for (int w = 0; w < PHYS_MOST_SHARES; w++)
         system->lost |= storing.lost[w];
 }

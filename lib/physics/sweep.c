@@ -77,7 +77,7 @@ bool phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
         share.random |= pass.singles[f]->given.kind == PHYS_RANDOM;
     }
     uint32_t few = share.random ? PHYS_FEW_PARTICLES / 4 : PHYS_FEW_PARTICLES;
-    phys_parallel(group->count < few ? 1 : system->options.threads, sweep_share, &share);
+    phys_parallel(system, phys_shares(system, group->count, few), sweep_share, &share);
     if (share.random) {
         uint64_t taken =
             columns->dimensions * moving_between(columns, group->first, (size_t)group->first + group->count);

@@ -1,6 +1,7 @@
 // system.c: the description of a system (see system.h).
 #include "physics/internal.h"
 #include "physics/neighbours.h"
+#include "physics/threads.h"
 
 #include <assert.h>
 #include <string.h>
@@ -44,6 +45,8 @@ void phys_free(PhysSystem *system) {
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         phys_neighbours_free(&system->lists[i]);
+    if (system->owns_threads)
+        phys_threads_free(system->threads);
     Arena home = system->home; // the struct goes with it
     arena_free(&home);
 }
@@ -57,6 +60,10 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         system->options.threads = PHYS_MOST_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
+    if (system->owns_threads)
+        phys_threads_free(system->threads);
+    system->owns_threads = !options->pool && system->options.threads > 1;
+    system->threads = system->owns_threads ? phys_threads_new(system->options.threads) : options->pool;
 }
 
 const Kernels *phys_kernels(const PhysSystem *system) {

@@ -79,11 +79,17 @@ typedef enum PhysNeighbours {
     PHYS_NEIGHBOURS_ALWAYS, // lists wherever the forces of a pass have a bounded reach
 } PhysNeighbours;
 
+// Threads that systems can share; they start when there is work for them. NULL if memory is used up.
+typedef struct PhysThreads PhysThreads;
+PhysThreads *phys_threads_new(int count); // with the caller; 0: as many as processors
+void phys_threads_free(PhysThreads *threads);
+
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
     CpuLevel cpu; // at most cpu_detect()
     PhysNeighbours neighbours;
+    PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
 } PhysOptions;
 
 // A new system has one thread, the detected level and lists where they pay.

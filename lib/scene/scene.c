@@ -22,7 +22,9 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host) {
 }
 
 void scene_set_physics(Scene *scene, const PhysOptions *options) {
+    phys_threads_free(scene->physics.pool);
     scene->physics = *options;
+    scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
 static void free_system(PhysicsSystem *system) {
@@ -50,6 +52,7 @@ void scene_reset(Scene *scene, State *state) {
 void scene_free(Scene *scene) {
     if (scene) {
         scene_reset(scene, NULL);
+        phys_threads_free(scene->physics.pool);
         free(scene->bodies);
     }
     free(scene);
