@@ -99,7 +99,9 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
     if (!system)
         return false;
     *cursor = system;
-    *saved = (SceneSystem){system->start, system->occurrence, system->slots, system->slot_count};
+    // One that was absent has no last tree (see find_system).
+    uint32_t count = system->seen == scene->frame_number ? system->slot_count : 0;
+    *saved = (SceneSystem){system->start, system->occurrence, system->slots, count};
     return true;
 }
 
