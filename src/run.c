@@ -12,6 +12,8 @@
 #include "petri.h"
 #include "progress.h"
 #include "run_options.h"
+#include "stats.h"
+#include "trajectory.h"
 
 enum { SECONDS_BETWEEN_SAVES = 5 };
 
@@ -40,13 +42,13 @@ typedef struct Run {
     RunOptions options;
     PetriSession *session;
     Progress progress;
-    int64_t frames;
-    uint64_t physics_steps;
     double start;
     bool to_terminal; // standard output is a terminal
     bool shown_last;  // the last diagnostic that was no note was shown
     bool state_lost;  // the state file could not be read or written
     double saved;     // when the state was saved last
+    Stats stats;
+    Trajectory trajectory;
     Output output;
 } Run;
 
@@ -100,13 +102,13 @@ static double current_fps(const Run *run) {
 }
 
 static bool frame_is_due(const Run *run) {
-    if (interrupted || run->output.error != 0 || run->frames >= run->options.frames) {
+    if (interrupted || run->output.error != 0 || run->trajectory.failed || run->stats.frames >= run->options.frames) {
         return false;
     }
     if (isnan(run->options.run_time)) {
         return true;
     }
-    double time = run->options.realtime ? clock_seconds() - run->start : (double)run->frames / current_fps(run);
+    double time = run->options.realtime ? clock_seconds() - run->start : (double)run->stats.frames / current_fps(run);
     return time < run->options.run_time;
 }
 
@@ -128,7 +130,9 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
-static void print_frame(Run *run) {
+// What is printed and recorded of a frame.
+static void output_frame(Run *run) {
+    double start = clock_seconds();
     if (run->options.sections != 0) {
         petri_print(run->session, run->options.sections, write_text, run);
     } else {
@@ -137,6 +141,10 @@ static void print_frame(Run *run) {
     if (run->to_terminal || run->options.realtime) {
         output_flush(&run->output);
     }
+    if (run->trajectory.beside != NULL) {
+        trajectory_add(&run->trajectory, run->session);
+    }
+    run->stats.output_seconds += clock_seconds() - start;
 }
 
 // A file that could not be read is left alone: it may be all that is left of something.
@@ -156,14 +164,13 @@ static bool run_frame(Run *run) {
         message("stopped in frame %" PRId64 "%s", frame.number, status == PETRI_MEMORY ? ": out of memory" : "");
         return false;
     }
-    run->frames++;
-    run->physics_steps += frame.physics_steps;
     if (clock_seconds() - run->saved > SECONDS_BETWEEN_SAVES) {
         save_state(run);
     }
+    stats_count(&run->stats, run->session);
     bool printed = frame.number % run->options.every == 0;
     if (printed) {
-        print_frame(run);
+        output_frame(run);
     }
     report_frame(run, &frame, printed);
     return true;
@@ -176,9 +183,9 @@ static void report_summary(Run *run) {
         return;
     }
     double seconds = clock_seconds() - run->start;
-    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->frames,
-            run->frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->frames / seconds : 0, run->physics_steps,
-            run->physics_steps == 1 ? "" : "s");
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->stats.frames,
+            run->stats.frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->stats.frames / seconds : 0,
+            run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
 static int64_t expected_frames(const Run *run) {
@@ -196,7 +203,7 @@ static int run_frames(Run *run) {
     run->start = run->saved = clock_seconds();
     bool going = true;
     while (going && frame_is_due(run)) {
-        progress_update(&run->progress, run->frames);
+        progress_update(&run->progress, run->stats.frames);
         going = run_frame(run);
     }
     progress_erase(&run->progress);
@@ -204,8 +211,12 @@ static int run_frames(Run *run) {
     if (going) {
         save_state(run);
     }
+    bool recorded = trajectory_close(&run->trajectory);
     report_summary(run);
-    int status = !going || run->state_lost ? STATUS_FAILED : STATUS_DONE;
+    if (run->options.stats) {
+        stats_print(&run->stats, run->session, clock_seconds() - run->start);
+    }
+    int status = !going || !recorded || run->state_lost ? STATUS_FAILED : STATUS_DONE;
     return interrupted ? STATUS_SIGNAL + interrupted : status;
 }
 
@@ -230,6 +241,9 @@ static int run_session(Run *run) {
             message("the run starts afresh; '%s' is left alone and nothing is saved", run->options.state_file);
         }
         save_state(run); // now, so that a file that cannot be written is known before the work is done
+    }
+    if (run->options.trajectory != NULL && !trajectory_open(&run->trajectory, run->options.trajectory)) {
+        return STATUS_FAILED;
     }
     return run_frames(run);
 }

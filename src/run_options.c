@@ -7,6 +7,7 @@
 
 #include "args.h"
 #include "petri.h"
+#include "trajectory.h"
 
 enum { DEFAULT_FRAMES = 600, MOST_THREADS = 1024 };
 
@@ -28,6 +29,8 @@ enum {
     OPT_TRACE,
     OPT_COLOR,
     OPT_DUMP,
+    OPT_STATS,
+    OPT_TRAJECTORY,
 };
 
 const OptionSpec RUN_OPTION_SPECS[] = {
@@ -39,10 +42,12 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},
     {"print", 0, OPT_PRINT, "LIST",
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
-    {"every", 0, OPT_EVERY, "K", "print each K-th frame, starting with frame 0"},
+    {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
     {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},
     {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
     {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
+    {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
+    {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
     {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},
     {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},
@@ -105,6 +110,15 @@ static bool read_dump(const Args *args, int *dump) {
     return true;
 }
 
+static bool read_trajectory(const Args *args, const char **file) {
+    TrajectoryFormat format;
+    if (!trajectory_format(args->value, &format)) {
+        return args_wrong_value(args, "a file name that ends in .xyz or .csv");
+    }
+    *file = args->value;
+    return true;
+}
+
 static bool read_threads(const Args *args, int *threads) {
     int64_t number = 0;
     if (!args_integer(args, 1, MOST_THREADS, &number)) {
@@ -158,6 +172,8 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return args_colour(args, &options->colour);
     case OPT_DUMP:
         return read_dump(args, &options->dump);
+    case OPT_TRAJECTORY:
+        return read_trajectory(args, &options->trajectory);
     default:
         return false;
     }
@@ -172,6 +188,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_NOSIMPLIFY:
         options->simplify = false;
+        return true;
+    case OPT_STATS:
+        options->stats = true;
         return true;
     case OPT_QUIET:
         options->verbosity = LOG_QUIET;

@@ -24,6 +24,8 @@ typedef struct RunOptions {
     bool simplify;
     const char *state_file; // NULL: the state is neither taken from a file nor kept in one
     int dump;               // PetriDump, or -1
+    bool stats;
+    const char *trajectory; // NULL: none is written
 } RunOptions;
 
 enum { RUN_OPTIONS_OK = -1 };

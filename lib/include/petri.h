@@ -56,6 +56,7 @@ typedef struct PetriOptions {
     size_t stack_bytes;
     size_t memory_bytes; // for the values of one frame. Default 2 GiB
     int threads;         // worker threads, 0: as many as processors. Results never depend on it
+    bool keep_forces;    // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
     uint32_t cookie; // set by petri_default_options; catches options that were not initialised
@@ -104,6 +105,56 @@ PetriStatus petri_save(PetriSession *session, const char *file);
 // to the last bit. A file that does not exist is PETRI_OK and changes nothing. One that cannot be read, is cut short or
 // damaged is PETRI_INVALID (with a diagnostic) and changes nothing either.
 PetriStatus petri_restore(PetriSession *session, const char *file);
+
+// The particle systems of the last frame, for drawing and measuring. Numbers count from 0 in order of declaration; each
+// function is false beyond the last. Texts and vectors are valid until the next of these calls, steps or loads.
+typedef struct PetriSystem {
+    const char *name; // its state prefix in printed form, such as ":cells"
+    uint32_t dimensions;
+    uint32_t particle_count; // anchors too
+    uint32_t force_count;    // force appliers and barriers
+    uint64_t steps;          // simulation steps in the frame
+} PetriSystem;
+
+typedef struct PetriParticle {
+    const char *id; // in printed form
+    bool anchor;
+    double radius;
+    double mass;
+    double charge;
+    const double *position; // as many doubles as the system has dimensions; they may be non-finite
+    const double *velocity;
+    const double *force; // the sum of all forces on it in the frame's last step; NULL for an anchor, if no step was
+                         // made or without PetriOptions.keep_forces
+} PetriParticle;
+
+typedef enum PetriForceKind {
+    PETRI_COLLISION,
+    PETRI_GRAVITY,
+    PETRI_ELECTROSTATIC,
+    PETRI_ADHESION,
+    PETRI_DISTANCE,
+    PETRI_CONSTANT,
+    PETRI_RANDOM,
+    PETRI_FIELD,
+    PETRI_DRAG,
+    PETRI_BUOYANCY,
+    PETRI_BARRIER,
+} PetriForceKind;
+
+// A force applier or barrier: what can be seen of it.
+typedef struct PetriForce {
+    PetriForceKind kind;
+    double strength;        // before easing in
+    uint32_t from;          // distance: the particles that it joins
+    uint32_t to;            //
+    const double *position; // barrier: a point on it, and its unit normal; else NULL
+    const double *normal;
+} PetriForce;
+
+bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
+bool petri_particle(PetriSession *session, size_t system, uint32_t number, PetriParticle *particle);
+bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
 // What a frame's text holds (spec cli.md 3.3), in this order.
 enum {

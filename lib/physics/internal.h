@@ -103,6 +103,7 @@ struct PhysSystem {
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
+    bool stepped;            // simulated since phys_begin or phys_rest: the force columns hold the last step's sums
     bool eased;              // the own force of some particle is eased in
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group

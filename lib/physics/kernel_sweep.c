@@ -232,7 +232,7 @@ KERNEL void sweep_block(SweepPass *pass, size_t n, size_t i, size_t count) {
     for (size_t k = 0; k < n; k++) {
         real_store_where(block.live, columns->position + k * columns->stride + i, block.place[k]);
         real_store_where(block.live, columns->velocity + k * columns->stride + i, block.velocity[k]);
-        if (pass->barrier_count) // bounces move again with the same force
+        if (pass->keep_force)
             real_store_where(block.live, columns->force + k * columns->stride + i, block.force[k]);
     }
     if (pass->barrier_count)

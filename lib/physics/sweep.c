@@ -71,6 +71,7 @@ bool phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
         !collect(system, number, STAGE_SINGLE, pass.singles, &pass.single_count) ||
         !collect(system, number, STAGE_BARRIER, pass.barriers, &pass.barrier_count))
         return false;
+    pass.keep_force = pass.barrier_count > 0 || system->options.keep_forces;
     Share share = {.kernels = kernels, .pass = &pass, .group = group};
     for (uint32_t f = 0; f < pass.single_count; f++) {
         pass.items[f] = pass.singles[f]->item;

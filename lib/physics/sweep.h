@@ -13,6 +13,7 @@ typedef struct SweepPass {
     double speed_of_light;
     uint32_t single_count;
     uint32_t barrier_count;
+    bool keep_force; // store the sums: bounces move again with the same force, and somebody may want to see it
     const Force *singles[PHYS_SWEEP_FORCES];  // own ones first, then those of the parent, …
     const Force *barriers[PHYS_SWEEP_FORCES]; // likewise
     uint64_t items[PHYS_SWEEP_FORCES];        // random: item for the next particle, by single force

@@ -87,6 +87,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->particle_count = 0;
     system->force_count = 0;
     system->eased = false;
+    system->stepped = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
 }
@@ -238,6 +239,10 @@ uint32_t phys_group_parent(const PhysSystem *system, uint32_t group) {
     return ((const Group *)system->groups.bytes)[group].parent;
 }
 
+void phys_rest(PhysSystem *system) {
+    system->stepped = false;
+}
+
 uint32_t phys_particle_count(const PhysSystem *system) {
     return system->particle_count;
 }
@@ -263,4 +268,48 @@ bool phys_position_finite(const PhysSystem *system, uint32_t particle) {
 
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle) {
     return !has_mark(system, particle, PHYS_LOST_VELOCITY);
+}
+
+bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description) {
+    const double *row = phys_position(system, particle);
+    if (!row)
+        return false;
+    const ParticleRecord *record = (const ParticleRecord *)system->particles.bytes + particle;
+    size_t n = system->dimensions;
+    *description = (PhysParticle){
+        .position = row,
+        .velocity = row + n,
+        .force = row + 2 * n,
+        .ease = record->ease,
+        .radius = record->radius,
+        .mass = record->mass,
+        .charge = record->charge,
+        .anchor = record->anchor,
+    };
+    return true;
+}
+
+bool phys_force_on(const PhysSystem *system, uint32_t particle, double *sum) {
+    if (!system->stepped || !system->options.keep_forces || particle >= system->particle_count ||
+        ((const ParticleRecord *)system->particles.bytes)[particle].anchor)
+        return false;
+    const Columns *columns = &system->columns;
+    for (size_t k = 0; k < columns->dimensions; k++)
+        sum[k] = columns->force[k * columns->stride + system->place[particle]];
+    return true;
+}
+
+uint32_t phys_force_count(const PhysSystem *system) {
+    return system->force_count;
+}
+
+bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force) {
+    if (number >= system->force_count)
+        return false;
+    const ForceRecord *record = (const ForceRecord *)system->force_records.bytes + number;
+    const double *vectors = system->vectors.bytes;
+    *force = record->given;
+    force->vector = record->vector ? vectors + record->vector - 1 : NULL;
+    force->vector2 = record->vector2 ? vectors + record->vector2 - 1 : NULL;
+    return true;
 }

@@ -90,6 +90,7 @@ typedef struct PhysOptions {
     CpuLevel cpu; // at most cpu_detect()
     PhysNeighbours neighbours;
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
+    bool keep_forces;  // for phys_force_on; costs one store per particle and step
 } PhysOptions;
 
 // A new system has one thread, the detected level and lists where they pay.
@@ -154,6 +155,9 @@ typedef struct PhysResult {
 // Simulates one frame (spec section 4). Deterministic to the last bit.
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 
+// A frame in which nothing is simulated.
+void phys_rest(PhysSystem *system);
+
 uint32_t phys_particle_count(const PhysSystem *system);
 // The n doubles of a particle, by handle; the velocity follows the position. They stay where they are until phys_begin,
 // and stay readable until the phys_begin after that. They may be non-finite. Before phys_simulate they are what was
@@ -163,5 +167,15 @@ const double *phys_velocity(const PhysSystem *system, uint32_t particle);
 // Were they finite after the last phys_simulate, if that settled them?
 bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
+
+// For showing a system as it stands after phys_simulate. All vectors are valid until the next phys_begin.
+// The description of a particle, its position and velocity as simulated; false for a handle that does not exist.
+bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description);
+// Copies the sum of the forces on a particle in the last step, n doubles. False if nothing was simulated since
+// phys_begin or phys_rest, the forces were not kept, or it is an anchor, on which no force acts.
+bool phys_force_on(const PhysSystem *system, uint32_t particle, double *sum);
+uint32_t phys_force_count(const PhysSystem *system);
+// Force appliers and barriers, by number from 0 in the order of the calls; false beyond the last.
+bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);
 
 #endif

@@ -52,6 +52,7 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         phys_step(system, result.clock, delta, time->speed_of_light);
         result.clock += delta;
         result.steps++;
+        system->stepped = true;
         last += delta;
         remaining = time->now - last;
         more =

@@ -248,10 +248,12 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     if (!physics_reuse(&tree))
         describe(&tree);
     uint64_t steps = 0;
-    if (settings->time > last)
+    if (settings->time > last) {
         clock = simulate(&tree, reader, settings, last, clock, &steps);
-    else
+    } else {
+        phys_rest(tree.engine);
         physics_store(&tree, false);
+    }
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     return steps;
@@ -283,5 +285,5 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     if (system->occurrence > 0)
         reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
-    return update(scene, system, &reader, &settings, frame);
+    return system->steps = update(scene, system, &reader, &settings, frame);
 }

@@ -126,3 +126,24 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     }
     return steps;
 }
+
+bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view) {
+    for (const PhysicsSystem *system = scene->systems; system; system = system->next) {
+        if (system->seen != scene->frame_number || !system->engine || !system->dimensions || number-- > 0)
+            continue;
+        uint32_t count = phys_particle_count(system->engine), listed = system->slot_count / 2;
+        *view = (SceneView){.engine = system->engine,
+                            .prefix = state_slot_key(state, system->start),
+                            .dimensions = system->dimensions,
+                            .particle_count = count < listed ? count : listed,
+                            .steps = system->steps,
+                            .slots = system->slots};
+        return true;
+    }
+    return false;
+}
+
+Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle) {
+    Value key = state_slot_key(state, view->slots[2 * particle]);
+    return value_slice(arena, key, view->prefix.len, key.len - view->prefix.len);
+}

@@ -40,6 +40,19 @@ typedef struct SceneSystem {
 bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *system);
 // Takes a system back, as scene_next_system gave it; false if memory is used up.
 bool scene_restore_system(Scene *scene, const SceneSystem *system, const SceneFrame *frame);
+// For showing: the systems of the last update, by number from 0; false beyond the last. `slots` has a pair for each
+// particle by its number in the engine, position and velocity. Valid until the next update.
+typedef struct SceneView {
+    const PhysSystem *engine;
+    Value prefix;
+    uint32_t dimensions;
+    uint32_t particle_count;
+    uint64_t steps; // made in the last update
+    const StateSlot *slots;
+} SceneView;
+bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view);
+// The id of a particle of a view: what its key has beyond the prefix.
+Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);
 // Updates all systems from the node elements of `tree`; returns the simulation steps made.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 

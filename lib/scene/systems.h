@@ -36,7 +36,8 @@ struct PhysicsSystem {
     StateSlot *slots; // positions and velocities, in pairs, of the particles in the last frame's tree, by handle
     uint32_t slot_count;
     uint32_t slot_capacity;
-    uint64_t seen; // number of the scene's frame in which it was updated last
+    uint64_t steps; // of the last update
+    uint64_t seen;  // number of the scene's frame in which it was updated last
 
     StateViewer viewer;
     bool described;
@@ -44,7 +45,7 @@ struct PhysicsSystem {
     StateSlot *old_slots; // of the description before, whose rows entries may still show
     uint32_t old_count;
     uint32_t old_capacity;
-    uint32_t dimensions;
+    uint32_t dimensions;         // in the last update
     uint64_t generation;         // of the nodes below
     const Node *const *children; // of the tree, if they are kept, else NULL
     uint32_t child_count;

@@ -52,7 +52,7 @@ static void log_machine(void *host, Str text) {
 
 // The environment may choose how physics is computed; results do not depend on it. Unknown words count as none.
 static PhysOptions physics_options(const PetriOptions *options) {
-    PhysOptions physics = {.threads = options->threads};
+    PhysOptions physics = {.threads = options->threads, .keep_forces = options->keep_forces};
     cpu_choose(getenv("PETRI_CPU"), &physics.cpu);
     const char *neighbours = getenv("PETRI_NEIGHBOURS");
     if (neighbours && !strcmp(neighbours, "never"))

@@ -1,0 +1,49 @@
+# record.sh: `petri run --trajectory` and `--stats`. Part of run.sh.
+
+cat >pair.fl <<'END'
+%pragma fps 10
+!physics state=:w dimensions=2 time=time resolution=0.1
+    !anchor id='a,"b' position=1;2
+    !particle id=7 mass=2 radius=0.5 charge=-3 position=3;4 velocity=5;0
+    !particle id=8 mass=1 position=0;0 velocity=0;-10
+!physics state=:line dimensions=1 time=time
+    !particle id=:p position=0.1
+END
+petri run pair.fl --frames 3 --trajectory way.csv
+check "a trajectory is written" status_is 0
+check "… as CSV, with a row for each particle and frame" lines_are way.csv 13
+check "… with a header" has way.csv "frame,time,system,id,anchor,x1,x2,v1,v2,radius,mass,charge"
+check "… ids quoted where they must be" has way.csv "0,0,:w,\"'a,\"\"b'\",1,1,2,0,0,0,1,0"
+check "… where they are and how fast" has way.csv "2,0.20000000000000001,:w,7,0,4,4,5,0,0.5,2,-3"
+check "… components that a system lacks left empty" has way.csv "0,0,:line,:p,0,0.10000000000000001,,0,,0,1,0"
+check "… and nothing beside it" [ -z "$(find . -name '*.tmp')" ]
+petri run pair.fl --frames 5 --every 2 --trajectory way.xyz
+check "extended XYZ holds a block for each K-th frame" count_is way.xyz "Properties=species:S:1:pos:R:3:velo:R:3:" 3
+check "… all systems together" lines_are way.xyz 18
+check "… missing dimensions are 0" has way.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
+petri run pair.fl --trajectory way.txt
+check "other kinds of trajectory are refused" status_is 2
+check "… naming those there are" has err "a file name that ends in .xyz or .csv"
+petri run pair.fl --trajectory absent/way.csv
+check "a trajectory that cannot be made is an error" status_is 1
+check "… which names the file" has err "cannot write absent/way.csv"
+cp way.csv before.csv
+(
+    trap '' XFSZ # the disk is full
+    ulimit -f 8
+    exec timeout 100 "$petri" run pair.fl --frames 5000 --trajectory way.csv >out 2>err </dev/null
+)
+status=$?
+check "a trajectory that the disk cannot hold is an error" status_is 1
+check "… told once" count_is err "cannot write way.csv: File too large" 1
+check "… the old file is left alone" cmp -s way.csv before.csv
+check "… and no half of a new one" [ -z "$(find . -name '*.tmp')" ]
+
+petri run pair.fl --frames 11 --stats
+check "--stats closes with a table" has err "  frames            11"
+check "… of steps" has err "  simulation steps  20"
+check "… and of each system" has err "  system :w, 2-dimensional: 2 particles, 1 anchor"
+check "… its kinetic energy" has err "    kinetic energy    75"
+check "… its momentum" has err "    momentum          10;-10"
+check "… its fastest particle" has err "    fastest particle  8 at 10"
+check "… and nothing on standard output" empty out
