@@ -76,6 +76,7 @@ static bool open_session(Run *run, const Host *host) {
     options.colour = run->options.colour;
     options.stack_bytes = host->stack_bytes;
     options.threads = run->options.threads;
+    options.neighbours = (PetriNeighbours)run->options.neighbours;
     options.simplify = run->options.simplify;
     options.diagnostic = on_diagnostic;
     options.host = run;

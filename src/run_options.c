@@ -22,6 +22,7 @@ enum {
     OPT_EVERY,
     OPT_STATE,
     OPT_THREADS,
+    OPT_NEIGHBOURS,
     OPT_NOSIMPLIFY,
     OPT_QUIET,
     OPT_VERBOSE,
@@ -45,6 +46,8 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
     {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},
     {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
+    {"neighbours", 0, OPT_NEIGHBOURS, "WHEN",
+     "lists of neighbours in physics: auto, never or always; results never depend on it"},
     {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
     {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
@@ -168,6 +171,8 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return true;
     case OPT_THREADS:
         return read_threads(args, &options->threads);
+    case OPT_NEIGHBOURS:
+        return args_choice(args, (const char *const[]){"auto", "never", "always", NULL}, &options->neighbours);
     case OPT_COLOR:
         return args_colour(args, &options->colour);
     case OPT_DUMP:

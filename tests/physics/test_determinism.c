@@ -134,23 +134,23 @@ static const struct {
 static const struct {
     const char *name;
     int threads;
-    const char *cpu;        // PETRI_CPU, or NULL; a level that this processor lacks is the best one below it
-    const char *neighbours; // PETRI_NEIGHBOURS, or NULL
+    const char *cpu; // PETRI_CPU, or NULL; a level that this processor lacks is the best one below it
+    PetriNeighbours neighbours;
 } ways[] = {
-    {"1 thread", 1, NULL, NULL},
-    {"2 threads", 2, NULL, NULL},
-    {"3 threads", 3, NULL, NULL},
-    {"8 threads", 8, NULL, NULL},
-    {"as many threads as processors", 0, NULL, NULL},
-    {"plain C", 1, "scalar", NULL},
-    {"plain C, 3 threads", 3, "scalar", NULL},
-    {"AVX2", 1, "avx2", NULL},
-    {"AVX2, 3 threads", 3, "avx2", NULL},
-    {"AVX-512", 1, "avx512", NULL},
-    {"AVX-512, 3 threads", 3, "avx512", NULL},
-    {"neighbour lists always", 2, NULL, "always"},
-    {"neighbour lists never", 2, NULL, "never"},
-    {"AVX2, neighbour lists always", 1, "avx2", "always"},
+    {"1 thread", 1, NULL, PETRI_NEIGHBOURS_AUTO},
+    {"2 threads", 2, NULL, PETRI_NEIGHBOURS_AUTO},
+    {"3 threads", 3, NULL, PETRI_NEIGHBOURS_AUTO},
+    {"8 threads", 8, NULL, PETRI_NEIGHBOURS_AUTO},
+    {"as many threads as processors", 0, NULL, PETRI_NEIGHBOURS_AUTO},
+    {"plain C", 1, "scalar", PETRI_NEIGHBOURS_AUTO},
+    {"plain C, 3 threads", 3, "scalar", PETRI_NEIGHBOURS_AUTO},
+    {"AVX2", 1, "avx2", PETRI_NEIGHBOURS_AUTO},
+    {"AVX2, 3 threads", 3, "avx2", PETRI_NEIGHBOURS_AUTO},
+    {"AVX-512", 1, "avx512", PETRI_NEIGHBOURS_AUTO},
+    {"AVX-512, 3 threads", 3, "avx512", PETRI_NEIGHBOURS_AUTO},
+    {"neighbour lists always", 2, NULL, PETRI_NEIGHBOURS_ALWAYS},
+    {"neighbour lists never", 2, NULL, PETRI_NEIGHBOURS_NEVER},
+    {"AVX2, neighbour lists always", 1, "avx2", PETRI_NEIGHBOURS_ALWAYS},
 };
 
 static void set_variable(const char *name, const char *value) {
@@ -165,7 +165,7 @@ static uint64_t run(size_t scene, size_t way) {
     PetriOptions options = petri_default_options();
     options.threads = ways[way].threads;
     set_variable("PETRI_CPU", ways[way].cpu);
-    set_variable("PETRI_NEIGHBOURS", ways[way].neighbours);
+    options.neighbours = ways[way].neighbours;
     world_open_with(&world, options, scenes[scene].script);
     world_to(&world, scenes[scene].frames);
     EXPECT_TOLD(&world, "");
