@@ -263,10 +263,8 @@ static void test_sensitive(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_constants),
-        cmocka_unit_test(test_ways),
-        cmocka_unit_test(test_bad_input),
-        cmocka_unit_test(test_sessions_side_by_side),
+        cmocka_unit_test(test_constants), cmocka_unit_test(test_ways),
+        cmocka_unit_test(test_bad_input), cmocka_unit_test(test_sessions_side_by_side),
         cmocka_unit_test(test_sensitive),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
