@@ -1,7 +1,7 @@
 // internal.h: what the files of lib/physics share; nobody else includes it.
 //
 // A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
-// particle a row of 3 n doubles (position, velocity, force), which is also where results are read. To simulate, it is
+// particle a row of 2 n doubles (position, velocity), which is also where results are read. To simulate, it is
 // arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups,
 // each group's own first; forces are sorted by group and by the stage in which they act. Then
 //
@@ -75,7 +75,7 @@ typedef struct Columns {
     size_t stride; // >= count
     double *position;
     double *velocity;
-    double *thrust; // the particle's own force
+    double *thrust; // the particle's own force; valid, as `ease` is, if there are any
     double *force;  // sum of all forces of the step
     double *ease;
     double *radius;
@@ -104,11 +104,13 @@ struct PhysSystem {
     uint32_t particle_count;
     uint32_t force_count;
     bool stepped;            // simulated since phys_begin or phys_rest: the force columns hold the last step's sums
-    bool eased;              // the own force of some particle is eased in
+    bool pushed;             // some particle has a force of its own
+    bool eased;              // … or one that is eased in; then `pushed` is set too
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     Buffer particles;        // ParticleRecord by handle
-    Buffer rows;             // 3 n doubles by handle
+    Buffer rows;             // 2 n doubles by handle
+    Buffer thrusts;          // n doubles by handle, the particles' own forces, if they have any
     Buffer last_rows;        // those of the description before
     Buffer unfinished;       // uint8_t by handle: what was not finite when it should have settled
     Buffer force_records;    // ForceRecord in order of the calls
@@ -134,6 +136,11 @@ typedef struct ForceRange {
 
 // system.c: the vector kernels of the chosen level; NULL: there are none.
 const struct Kernels *phys_kernels(const PhysSystem *system);
+
+// The doubles of a row.
+static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
+    return (double *)system->rows.bytes + (size_t)2 * system->dimensions * particle;
+}
 
 // buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
 // `system->failed` set, if memory is used up.

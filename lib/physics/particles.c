@@ -74,17 +74,21 @@ static void load_share(void *context, int worker, int workers) {
     for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = &particles[handle];
-        columns->ease[i] = particle->ease;
         columns->radius[i] = particle->radius;
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;
         columns->anchor[i] = particle->anchor;
-        const double *row = (const double *)system->rows.bytes + 3 * n * handle;
+        const double *row = phys_row(system, handle);
         for (size_t k = 0; k < n; k++) {
             columns->position[k * stride + i] = row[k];
             columns->velocity[k * stride + i] = row[n + k];
-            columns->thrust[k * stride + i] = row[2 * n + k];
         }
+        if (!system->pushed)
+            continue;
+        const double *thrust = (const double *)system->thrusts.bytes + n * handle;
+        columns->ease[i] = particle->ease;
+        for (size_t k = 0; k < n; k++)
+            columns->thrust[k * stride + i] = thrust[k];
     }
 }
 
@@ -117,7 +121,7 @@ static inline void settle_range(Storing *storing, size_t n, size_t i, size_t end
     const Columns *columns = &system->columns;
     size_t stride = columns->stride;
     for (; i < end; i++) {
-        double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
+        double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
         bool position = settle(columns->position + i, stride, row, n);
         bool velocity = settle(columns->velocity + i, stride, row + n, n);
         if (position && velocity)
@@ -144,7 +148,7 @@ static void store_share(void *context, int worker, int workers) {
         return;
     }
     for (size_t i = first; i < end; i++) {
-        double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
+        double *row = phys_row(system, system->order[i]);
         for (size_t k = 0; k < n; k++) {
             row[k] = columns->position[k * stride + i];
             row[n + k] = columns->velocity[k * stride + i];

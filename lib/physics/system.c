@@ -12,7 +12,7 @@ _Static_assert(PHYS_MAX_BYTES / sizeof(ParticleRecord) < UINT32_MAX, "particle h
 _Static_assert(PHYS_MAX_BYTES / sizeof(ForceRecord) < UINT32_MAX, "force numbers must fit");
 _Static_assert(PHYS_MAX_BYTES < SIZE_MAX, "sizes must fit");
 
-enum { ROW_VECTORS = 3 }; // position, velocity, force
+enum { ROW_VECTORS = 2 }; // position, velocity
 
 PhysSystem *phys_new(void) {
     Arena home;
@@ -40,7 +40,7 @@ void phys_free(PhysSystem *system) {
         return;
     Buffer *buffers[] = {&system->groups,    &system->particles, &system->rows,   &system->force_records,
                          &system->vectors,   &system->indices,   &system->forces, &system->column_data,
-                         &system->last_rows, &system->unfinished};
+                         &system->last_rows, &system->unfinished, &system->thrusts};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
@@ -86,7 +86,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->group_count = 0;
     system->particle_count = 0;
     system->force_count = 0;
-    system->eased = false;
+    system->eased = system->pushed = false;
     system->stepped = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
@@ -113,6 +113,26 @@ static void copy_vector(double *to, PhysVector from, size_t dimensions) {
         memset(to, 0, dimensions * sizeof *to);
 }
 
+// Keeps a particle's own force. There is no room for such forces until the first one comes.
+static void keep_thrust(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
+    size_t n = system->dimensions, first = system->pushed ? handle : 0;
+    if (!force && !(ease > 0) && !system->pushed)
+        return;
+    if (!phys_buffer_reserve(system, &system->thrusts, first * n * sizeof(double), system->particle_count,
+                             n * sizeof(double)))
+        return;
+    double *thrusts = system->thrusts.bytes;
+    if (!system->pushed) {
+        memset(thrusts, 0, system->particle_count * n * sizeof *thrusts);
+        system->arranged = false; // the columns have none
+    }
+    if (ease > 0 && !system->eased)
+        system->arranged = false;
+    copy_vector(thrusts + n * handle, force, n);
+    system->pushed = true;
+    system->eased |= ease > 0;
+}
+
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle) {
     uint32_t handle = system->particle_count;
     size_t n = system->dimensions;
@@ -128,12 +148,11 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
         .group = group,
         .anchor = particle->anchor,
     };
-    double *row = (double *)system->rows.bytes + ROW_VECTORS * n * handle;
+    double *row = phys_row(system, handle);
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
-    copy_vector(row + 2 * n, particle->anchor ? NULL : particle->force, n);
-    system->eased |= particle->ease > 0;
     system->particle_count++;
+    keep_thrust(system, handle, particle->anchor ? NULL : particle->force, particle->anchor ? 0 : particle->ease);
     return handle;
 }
 
@@ -145,21 +164,24 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
     size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
     if (columns->radius[i] != record->radius)
         system->radii_raised = false;
-    columns->ease[i] = record->ease;
     columns->radius[i] = record->radius;
     columns->mass[i] = record->mass;
     columns->charge[i] = record->charge;
     for (size_t k = 0; k < n; k++) {
         columns->position[k * stride + i] = row[k];
         columns->velocity[k * stride + i] = row[n + k];
-        columns->thrust[k * stride + i] = row[2 * n + k];
     }
+    if (!system->pushed)
+        return;
+    columns->ease[i] = record->ease;
+    for (size_t k = 0; k < n; k++)
+        columns->thrust[k * stride + i] = ((const double *)system->thrusts.bytes)[n * handle + k];
 }
 
 void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysKeep keep) {
     size_t n = system->dimensions;
     ParticleRecord *record = (ParticleRecord *)system->particles.bytes + particle;
-    double *row = (double *)system->rows.bytes + ROW_VECTORS * n * particle;
+    double *row = phys_row(system, particle);
     record->ease = numbers->ease;
     record->radius = numbers->radius;
     record->mass = numbers->mass;
@@ -168,8 +190,7 @@ void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParti
         copy_vector(row, numbers->position, n);
     if (!keep.velocity)
         copy_vector(row + n, record->anchor ? NULL : numbers->velocity, n);
-    copy_vector(row + 2 * n, record->anchor ? NULL : numbers->force, n);
-    system->eased |= numbers->ease > 0;
+    keep_thrust(system, particle, record->anchor ? NULL : numbers->force, record->anchor ? 0 : numbers->ease);
     update_columns(system, particle, record, row);
 }
 
@@ -250,7 +271,7 @@ uint32_t phys_particle_count(const PhysSystem *system) {
 const double *phys_position(const PhysSystem *system, uint32_t particle) {
     if (particle >= system->particle_count)
         return NULL; // a handle from a call that failed
-    return (const double *)system->rows.bytes + (size_t)ROW_VECTORS * system->dimensions * particle;
+    return phys_row(system, particle);
 }
 
 const double *phys_velocity(const PhysSystem *system, uint32_t particle) {
@@ -279,7 +300,7 @@ bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle
     *description = (PhysParticle){
         .position = row,
         .velocity = row + n,
-        .force = row + 2 * n,
+        .force = system->pushed ? (const double *)system->thrusts.bytes + n * particle : NULL,
         .ease = record->ease,
         .radius = record->radius,
         .mass = record->mass,
