@@ -76,7 +76,7 @@ static bool set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
 }
 
 // The marks of the tree that was read before are of others from now on.
-static void clear_marks(PhysicsTree *tree) {
+static void clear_marks(const PhysicsTree *tree) {
     enum { HIGHEST = 1 << 29 }; // leaves room for as many bodies
     Scene *scene = tree->scene;
     scene->marked = NULL;
@@ -97,6 +97,17 @@ static int64_t find_slot(const PhysicsTree *tree, StateSlot slot) {
 
 bool physics_has_position(const PhysicsTree *tree, StateSlot slot) {
     return find_slot(tree, slot) != NO_BODY;
+}
+
+void physics_forget_slots(const PhysicsTree *tree) {
+    enum { MANY = 1 << 16 }; // that are worth their memory
+    Scene *scene = tree->scene;
+    if (!tree->root->kept_children || scene->body_capacity < MANY)
+        return;
+    clear_marks(tree);
+    free(scene->bodies);
+    scene->bodies = NULL;
+    scene->body_capacity = 0;
 }
 
 // Marks the slots of a tree that was not read in this frame, or not as the last one.
@@ -135,9 +146,19 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
 // Makes room for one more body in the system's lists.
 static bool reserve_body(PhysicsSystem *system, uint32_t count) {
     return scene_reserve((void **)&system->slots, &system->slot_capacity, 2 * count + 1, sizeof *system->slots) &&
-           scene_reserve((void **)&system->nodes, &system->node_capacity, count, sizeof *system->nodes) &&
            scene_reserve((void **)&system->anchors, &system->anchor_capacity, system->anchor_count,
                          sizeof *system->anchors);
+}
+
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node) {
+    PhysicsSystem *system = tree->system;
+    if (tree->root->kept_children || !node->kept)
+        return; // the whole tree is known by its address, or the node does not last
+    if (!scene_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
+        return;
+    while (system->node_count <= body)
+        system->nodes[system->node_count++] = NULL;
+    system->nodes[body] = node;
 }
 
 // Remembers a body under its slots. False if memory is used up.
@@ -150,7 +171,7 @@ static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, Stat
     tree->shared |= mark_of(tree, velocity) != mark + 1;
     system->slots[2 * (size_t)body] = position;
     system->slots[2 * (size_t)body + 1] = velocity;
-    system->nodes[body] = node->kept ? node : NULL;
+    physics_keep_node(tree, body, node);
     if (anchor)
         system->anchors[system->anchor_count++] = body;
     tree->body_count++;
@@ -227,6 +248,7 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 void physics_read_bodies(PhysicsTree *tree) {
     clear_marks(tree);
     tree->system->anchor_count = 0;
+    tree->system->node_count = 0;
     read_group_bodies(tree, tree->root, 0);
     tree->scene->body_count = tree->body_count;
     tree->scene->marked = tree->system;

@@ -55,7 +55,7 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
         phys_particle_group(tree->engine, body) != group)
         return false;
     bool kept = node->kept && system->generation == tree->frame->generation;
-    if (kept && system->nodes[body] == node)
+    if (kept && body < system->node_count && system->nodes[body] == node)
         return true;
     Value id;
     PhysParticle numbers;
@@ -69,7 +69,9 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
         keep.velocity = state_slot_get(tree->frame->state, slots[1]).len > 0;
     }
     phys_update_particle(tree->engine, body, &numbers, keep);
-    system->nodes[body] = node->kept ? node : NULL;
+    if (body < system->node_count)
+        system->nodes[body] = NULL;
+    physics_keep_node(tree, body, node);
     return true;
 }
 

@@ -134,6 +134,7 @@ static void finish_description(PhysicsTree *tree, bool shown) {
         state_take_disturbed(state, system->viewer); // by none but itself
     system->old_count = 0;
     system->open = false;
+    physics_forget_slots(tree);
 }
 
 void physics_store(PhysicsTree *tree, bool simulated) {

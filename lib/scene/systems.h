@@ -49,7 +49,8 @@ struct PhysicsSystem {
     uint64_t generation;         // of the nodes below
     const Node *const *children; // of the tree, if they are kept, else NULL
     uint32_t child_count;
-    const Node **nodes; // by handle: the particle's node if that is kept, else NULL
+    const Node **nodes; // by handle: the particle's node if that is kept, else NULL; not for kept children
+    uint32_t node_count;
     uint32_t node_capacity;
     uint32_t *anchors; // handles
     uint32_t anchor_count;
@@ -121,6 +122,10 @@ bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id);
 // Is this the slot of a position, or of a position or a velocity, in the tree that was read last?
 bool physics_has_position(const PhysicsTree *tree, StateSlot slot);
 bool physics_has_slot(const PhysicsTree *tree, StateSlot slot);
+// Frees what the two know, if it is much and will hardly be needed again.
+void physics_forget_slots(const PhysicsTree *tree);
+// Remembers the node of a particle, if that can help in the next frame.
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node);
 
 // physics_reuse.c: brings the engine's description up to date with the tree. False if that is not possible: then it
 // must be read from scratch.
