@@ -134,7 +134,7 @@ typedef struct ForceRange {
     Force *end;
 } ForceRange;
 
-// system.c: the vector kernels of the chosen level; NULL: there are none.
+// system.c: the kernels of the chosen level.
 const struct Kernels *phys_kernels(const PhysSystem *system);
 
 // The doubles of a row.

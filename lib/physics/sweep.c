@@ -67,7 +67,7 @@ bool phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
     const Group *group = (const Group *)system->groups.bytes + number;
     Columns *columns = &system->columns;
     SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light};
-    if (!kernels || columns->dimensions > PHYS_VECTOR_DIMENSIONS || group->count < FEW ||
+    if (!kernels->sweep || columns->dimensions > PHYS_VECTOR_DIMENSIONS || group->count < FEW ||
         !collect(system, number, STAGE_SINGLE, pass.singles, &pass.single_count) ||
         !collect(system, number, STAGE_BARRIER, pass.barriers, &pass.barrier_count))
         return false;

@@ -38,8 +38,8 @@ PhysSystem *phys_new(void) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,    &system->particles, &system->rows,   &system->force_records,
-                         &system->vectors,   &system->indices,   &system->forces, &system->column_data,
+    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,   &system->force_records,
+                         &system->vectors,   &system->indices,    &system->forces, &system->column_data,
                          &system->last_rows, &system->unfinished, &system->thrusts};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
@@ -67,14 +67,14 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
 }
 
 const Kernels *phys_kernels(const PhysSystem *system) {
-#ifdef PETRI_X86
     static const Kernels *const levels[CPU_LEVELS] = {
-        [CPU_AVX2] = &phys_kernels_avx2, [CPU_AVX512] = &phys_kernels_avx512};
-    return levels[system->options.cpu];
-#else
-    (void)system;
-    return NULL;
+        [CPU_SCALAR] = &phys_kernels_plain,
+#ifdef PETRI_X86
+        [CPU_AVX2] = &phys_kernels_avx2,
+        [CPU_AVX512] = &phys_kernels_avx512,
 #endif
+    };
+    return levels[system->options.cpu];
 }
 
 void phys_begin(PhysSystem *system, uint32_t dimensions) {

@@ -150,6 +150,7 @@ static const struct {
     {"AVX-512, 3 threads", 3, "avx512", PETRI_NEIGHBOURS_AUTO},
     {"neighbour lists always", 2, NULL, PETRI_NEIGHBOURS_ALWAYS},
     {"neighbour lists never", 2, NULL, PETRI_NEIGHBOURS_NEVER},
+    {"plain C, neighbour lists always", 1, "scalar", PETRI_NEIGHBOURS_ALWAYS},
     {"AVX2, neighbour lists always", 1, "avx2", PETRI_NEIGHBOURS_ALWAYS},
 };
 
