@@ -10,6 +10,7 @@
 
 #include "base/cpu.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -127,13 +128,14 @@ void phys_begin_forces(PhysSystem *system);
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key);
 
 typedef struct PhysTime {
-    double last;           // time up to which the state has been simulated
-    double now;            // time of this frame; > last
-    double clock;          // simulation clock at `last`
-    double resolution;     // longest step; > 0 and finite
-    bool lockstep;         // always catch up
-    double performance;    // engine performance, decides about the one extra step in real time
-    double speed_of_light; // <= 0: no limit
+    double last;                  // time up to which the state has been simulated
+    double now;                   // time of this frame; > last
+    double clock;                 // simulation clock at `last`
+    double resolution;            // longest step; > 0 and finite
+    bool lockstep;                // always catch up
+    double performance;           // engine performance, decides about the one extra step in real time
+    double speed_of_light;        // <= 0: no limit
+    const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
     bool settle; // a position or velocity that is not finite afterwards, or equal to what it was, stays what it
                  // was before the frame: to the last bit, and for the frames to come
 } PhysTime;
@@ -141,6 +143,7 @@ typedef struct PhysTime {
 typedef enum PhysStatus {
     PHYS_OK,
     PHYS_DROPPED_TIME, // the step limit or the precision of the clock was reached; the rest of the frame was dropped
+    PHYS_INTERRUPTED,  // positions and velocities are those of some step in between
     PHYS_NO_MEMORY,    // an allocation failed or PHYS_MAX_BYTES would be exceeded; nothing was simulated
 } PhysStatus;
 

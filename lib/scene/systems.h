@@ -3,6 +3,7 @@
 #define PETRI_SCENE_SYSTEMS_H
 
 #include "physics/system.h"
+#include "scene/input_bind.h"
 #include "scene/scene.h"
 
 // A force whose key changes from frame to frame.
@@ -66,6 +67,7 @@ struct PhysicsSystem {
 
 struct Scene {
     Schema schema;
+    Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;
     PhysOptions physics;

@@ -38,22 +38,18 @@ static uint32_t attr_find(const Attr *attrs, uint32_t count, const Symbol *name)
     return i;
 }
 
-// The greatest height of the nodes in a vector, and *count of them.
-static uint32_t highest(Value v, uint32_t *count) {
+uint32_t value_height(Value v) {
     uint32_t height = 0;
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
-        if (v.as.items[i].type == ITEM_NODE) {
-            if (v.as.items[i].as.node->height > height)
-                height = v.as.items[i].as.node->height;
-            ++*count;
-        }
+        if (v.as.items[i].type == ITEM_NODE && v.as.items[i].as.node->height > height)
+            height = v.as.items[i].as.node->height;
     return height;
 }
 
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t set_count) {
-    uint32_t height = node->height, nodes = 0;
+    uint32_t height = node->height;
     for (uint32_t i = 0; i < set_count; i++) {
-        uint32_t inner = highest(set[i].value, &nodes) + 1;
+        uint32_t inner = value_height(set[i].value) + 1;
         height = inner > height ? inner : height;
     }
     if (height > NODE_MAX_HEIGHT)
@@ -79,17 +75,23 @@ Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t s
     return copy;
 }
 
-NodeList node_list(Arena *arena, Value children) {
-    uint32_t count = 0;
-    NodeList list = {.height = (uint16_t)highest(children, &count)};
-    if (count == 0)
-        return list;
-    const Node **nodes = arena_alloc_array(arena, count, sizeof *nodes);
-    for (uint32_t i = 0; i < children.len; i++)
-        if (children.as.items[i].type == ITEM_NODE)
-            nodes[list.count++] = children.as.items[i].as.node;
-    list.nodes = nodes;
+NodeList node_list_in(const Node **nodes, Value children) {
+    NodeList list = {.nodes = nodes};
+    for (uint32_t i = 0; children.kind == VALUE_MIXED && i < children.len; i++) {
+        if (children.as.items[i].type != ITEM_NODE)
+            continue;
+        const Node *node = children.as.items[i].as.node;
+        if (node->height > list.height)
+            list.height = node->height;
+        nodes[list.count++] = node;
+    }
     return list;
+}
+
+NodeList node_list(Arena *arena, Value children) {
+    if (value_height(children) == 0)
+        return (NodeList){0};
+    return node_list_in(arena_alloc_array(arena, children.len, sizeof(const Node *)), children);
 }
 
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {

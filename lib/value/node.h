@@ -53,6 +53,10 @@ typedef struct NodeList {
     bool kept;       // as in Node
 } NodeList;
 NodeList node_list(Arena *arena, Value children);
+// The same in an array that has room for as many nodes as there are elements.
+NodeList node_list_in(const Node **nodes, Value children);
+// The greatest height of the nodes in a vector, 0 if there are none.
+uint32_t value_height(Value v);
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Marks the nodes of a value that lives as long as its program, and all that are in them.
 void value_keep(Value v);
