@@ -17,121 +17,6 @@ static double clamp(double x, double low, double high) {
     return x < low ? low : x > high ? high : x;
 }
 
-// Room for the numbers of a key, so that the usual ones need no memory.
-enum { KEY_NUMBERS = 24 };
-
-// prefix;id, or prefix;id;:velocity.
-static Value body_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[KEY_NUMBERS]) {
-    const Symbol *last = velocity ? tree->scene->key_velocity : NULL;
-    Value prefix = tree->prefix;
-    if (!value_is_numeric(prefix) || !value_is_numeric(id) || prefix.len >= KEY_NUMBERS / 3 ||
-        id.len >= KEY_NUMBERS / 3)
-        return scene_key(tree->frame->arena, prefix, id, last);
-    memcpy(numbers, value_numbers(&prefix), prefix.len * sizeof *numbers);
-    memcpy(numbers + prefix.len, value_numbers(&id), id.len * sizeof *numbers);
-    uint32_t len = prefix.len + id.len;
-    if (velocity)
-        numbers[len++] = last->number;
-    return value_numbers_view(numbers, len);
-}
-
-bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id) {
-    double numbers[KEY_NUMBERS];
-    const State *state = tree->frame->state;
-    StateSlot slot = tree->system->slots[2 * (size_t)body];
-    Value key = state_slot_key(state, slot);
-    if (id.len == 0)
-        return false;
-    if (!value_is_numeric(key) || !value_is_numeric(id))
-        return state_find(state, body_key(tree, id, false, numbers)) == slot;
-    // The prefix of a system never changes.
-    return key.len == tree->prefix.len + id.len &&
-           !memcmp(value_numbers(&key) + tree->prefix.len, value_numbers(&id), id.len * sizeof(double));
-}
-
-// What the scene knows of a slot: 0, or 2 * (base + body), + 1 for a velocity.
-static uint32_t mark_of(const PhysicsTree *tree, StateSlot slot) {
-    const Scene *scene = tree->scene;
-    uint32_t mark = slot < scene->body_capacity ? scene->bodies[slot] : 0;
-    return mark / 2 < scene->body_base ? 0 : mark;
-}
-
-bool physics_has_slot(const PhysicsTree *tree, StateSlot slot) {
-    return mark_of(tree, slot) != 0;
-}
-
-static bool set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
-    Scene *scene = tree->scene;
-    if (slot >= scene->body_capacity) {
-        uint32_t capacity = slot < 128 ? 256 : slot + slot / 2;
-        uint32_t *larger = realloc(scene->bodies, capacity * sizeof *larger);
-        if (!larger)
-            return false;
-        memset(larger + scene->body_capacity, 0, (capacity - scene->body_capacity) * sizeof *larger);
-        scene->bodies = larger;
-        scene->body_capacity = capacity;
-    }
-    scene->bodies[slot] = mark;
-    return true;
-}
-
-// The marks of the tree that was read before are of others from now on.
-static void clear_marks(const PhysicsTree *tree) {
-    enum { HIGHEST = 1 << 29 }; // leaves room for as many bodies
-    Scene *scene = tree->scene;
-    scene->marked = NULL;
-    scene->body_base += scene->body_count + 1;
-    if (scene->body_base < HIGHEST)
-        return;
-    if (scene->bodies)
-        memset(scene->bodies, 0, scene->body_capacity * sizeof *scene->bodies);
-    scene->body_base = 1;
-}
-
-enum { NO_BODY = -1 };
-
-static int64_t find_slot(const PhysicsTree *tree, StateSlot slot) {
-    uint32_t mark = mark_of(tree, slot);
-    return mark && mark % 2 == 0 ? (int64_t)(mark / 2 - tree->scene->body_base) : NO_BODY;
-}
-
-bool physics_has_position(const PhysicsTree *tree, StateSlot slot) {
-    return find_slot(tree, slot) != NO_BODY;
-}
-
-void physics_forget_slots(const PhysicsTree *tree) {
-    enum { MANY = 1 << 16 }; // that are worth their memory
-    Scene *scene = tree->scene;
-    if (!tree->root->kept_children || scene->body_capacity < MANY)
-        return;
-    clear_marks(tree);
-    free(scene->bodies);
-    scene->bodies = NULL;
-    scene->body_capacity = 0;
-}
-
-// Marks the slots of a tree that was not read in this frame, or not as the last one.
-static void mark_again(PhysicsTree *tree) {
-    const PhysicsSystem *system = tree->system;
-    if (tree->scene->marked == system)
-        return;
-    clear_marks(tree);
-    for (uint32_t i = 0; i < system->slot_count; i++)
-        if (!set_mark(tree, system->slots[i], 2 * (tree->scene->body_base + i / 2) + i % 2))
-            tree->failed = true;
-    tree->scene->body_count = tree->body_count;
-    tree->scene->marked = system;
-}
-
-// The body with this id, or NO_BODY.
-static int64_t find_body(const PhysicsTree *tree, Value id) {
-    double numbers[KEY_NUMBERS];
-    if (id.len == 0)
-        return NO_BODY;
-    StateSlot slot = state_find(tree->frame->state, body_key(tree, id, false, numbers));
-    return slot == STATE_NO_SLOT ? NO_BODY : find_slot(tree, slot);
-}
-
 // The system's own keys are prefix;:last and so on: a particle of that id fights with them.
 static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     const Scene *scene = tree->scene;
@@ -165,10 +50,10 @@ void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node)
 static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, StateSlot position, StateSlot velocity) {
     PhysicsSystem *system = tree->system;
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
-    if (velocity == STATE_NO_SLOT || !reserve_body(system, body) || !set_mark(tree, position, mark) ||
-        (!mark_of(tree, velocity) && !set_mark(tree, velocity, mark + 1)))
+    if (velocity == STATE_NO_SLOT || !reserve_body(system, body) || !physics_set_mark(tree, position, mark) ||
+        (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
         return false;
-    tree->shared |= mark_of(tree, velocity) != mark + 1;
+    tree->shared |= physics_mark(tree, velocity) != mark + 1;
     system->slots[2 * (size_t)body] = position;
     system->slots[2 * (size_t)body + 1] = velocity;
     physics_keep_node(tree, body, node);
@@ -180,21 +65,21 @@ static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, Stat
 
 // Adds a body; false if it has no usable id or one that was seen already (reported), or memory is used up.
 static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor) {
-    double numbers[KEY_NUMBERS];
+    double numbers[PHYSICS_KEY_NUMBERS];
     Reader reader = reader_of(tree, node);
-    StateSlot slot = id.len ? state_slot(tree->frame->state, body_key(tree, id, false, numbers)) : STATE_NO_SLOT;
+    StateSlot slot = id.len ? state_slot(tree->frame->state, physics_key(tree, id, false, numbers)) : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT) {
         reader_report(&reader, "missing-id", "",
                       id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
         return false;
     }
-    if (find_slot(tree, slot) != NO_BODY) {
+    if (physics_find_slot(tree, slot) != PHYSICS_NO_BODY) {
         reader_report(&reader, "duplicate-id", "", STR("a particle with this id is there already; ignored"));
         return false;
     }
     check_reserved(tree, &reader, id);
-    tree->shared |= mark_of(tree, slot) != 0; // the velocity of another
-    StateSlot velocity = state_slot(tree->frame->state, body_key(tree, id, true, numbers));
+    tree->shared |= physics_mark(tree, slot) != 0; // the velocity of another
+    StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
     if (remember_body(tree, node, anchor, slot, velocity))
         return true;
     tree->failed = true;
@@ -246,7 +131,7 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 }
 
 void physics_read_bodies(PhysicsTree *tree) {
-    clear_marks(tree);
+    physics_clear_marks(tree);
     tree->system->anchor_count = 0;
     tree->system->node_count = 0;
     read_group_bodies(tree, tree->root, 0);
@@ -280,11 +165,10 @@ static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool 
             physics_has_id(tree, link->to, to))
             return true;
     }
-    mark_again(tree);
-    int64_t first = find_body(tree, from), second = find_body(tree, to);
-    *has_first = first != NO_BODY;
+    int64_t first = physics_find_body(tree, from), second = physics_find_body(tree, to);
+    *has_first = first != PHYSICS_NO_BODY;
     *link = (Link){(uint32_t)first, (uint32_t)second};
-    if (first == NO_BODY || second == NO_BODY)
+    if (first == PHYSICS_NO_BODY || second == PHYSICS_NO_BODY)
         return false;
     bool room = scene_reserve((void **)&system->links, &system->link_capacity, number, sizeof *link);
     if (room && number <= system->link_count) {

@@ -117,5 +117,5 @@ bool physics_reuse(PhysicsTree *tree) {
         return false;
     phys_begin_forces(tree->engine);
     physics_read_forces(tree);
-    return true;
+    return !tree->failed;
 }

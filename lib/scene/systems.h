@@ -119,15 +119,27 @@ void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
 // The key of the stream of a random force in this frame.
 uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before);
+// Remembers the node of a particle, if that can help in the next frame.
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node);
+
+// physics_slots.c
+enum { PHYSICS_NO_BODY = -1, PHYSICS_KEY_NUMBERS = 24 };
+// The key prefix;id, or prefix;id;:velocity; usual ones are made in `numbers`.
+Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[PHYSICS_KEY_NUMBERS]);
 // Is this the id of particle number `body`?
 bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id);
+// The particle of the tree with this id, or with this position slot, or PHYSICS_NO_BODY.
+int64_t physics_find_body(PhysicsTree *tree, Value id);
+int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot);
 // Is this the slot of a position, or of a position or a velocity, in the tree that was read last?
 bool physics_has_position(const PhysicsTree *tree, StateSlot slot);
 bool physics_has_slot(const PhysicsTree *tree, StateSlot slot);
-// Frees what the two know, if it is much and will hardly be needed again.
+// The mark of a slot in the tree that is being read, or 0; sets one (false if memory is used up); begins a tree.
+uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot);
+bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark);
+void physics_clear_marks(const PhysicsTree *tree);
+// Frees the marks, if they are many and will hardly be needed again.
 void physics_forget_slots(const PhysicsTree *tree);
-// Remembers the node of a particle, if that can help in the next frame.
-void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node);
 
 // physics_reuse.c: brings the engine's description up to date with the tree. False if that is not possible: then it
 // must be read from scratch.
