@@ -22,6 +22,7 @@ enum {
     OPT_EVERY,
     OPT_STATE,
     OPT_THREADS,
+    OPT_NEIGHBOURS,
     OPT_NOSIMPLIFY,
     OPT_PROFILE,
     OPT_QUIET,
@@ -42,7 +43,10 @@ enum {
 #define WORLD_OPTIONS                                                                                                  \
     {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},                        \
         {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},              \
-        {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"}, {            \
+        {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},              \
+        {"neighbours", 0, OPT_NEIGHBOURS, "WHEN",                                                                      \
+         "lists of neighbours in physics: auto, never or always; results never depend on it"},                         \
+    {                                                                                                                  \
         "nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"        \
     }
 #define LOG_OPTIONS                                                                                                    \
@@ -195,6 +199,8 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return true;
     case OPT_THREADS:
         return read_threads(args, &options->threads);
+    case OPT_NEIGHBOURS:
+        return args_choice(args, (const char *const[]){"auto", "never", "always", NULL}, &options->neighbours);
     case OPT_COLOR:
         return args_colour(args, &options->colour);
     case OPT_DUMP:
@@ -302,6 +308,7 @@ int run_options_open(const RunOptions *options, const Host *host,
     wanted.colour = options->colour;
     wanted.stack_bytes = host->stack_bytes;
     wanted.threads = options->threads;
+    wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = options->simplify;
     wanted.profile = options->profile;
     wanted.diagnostic = diagnostic;

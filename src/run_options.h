@@ -20,6 +20,7 @@ typedef struct RunOptions {
     int64_t every;
     unsigned sections; // PETRI_PRINT_...; 0: logs alone
     int threads;
+    int neighbours; // PetriNeighbours
     Verbosity verbosity;
     bool colour;
     bool simplify;

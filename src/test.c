@@ -14,7 +14,7 @@
 #include "report.h"
 #include "scripts.h"
 
-enum { OPT_UPDATE = 1, OPT_FILTER, OPT_JUNIT, OPT_JOBS, OPT_NOSIMPLIFY };
+enum { OPT_UPDATE = 1, OPT_FILTER, OPT_JUNIT, OPT_JOBS, OPT_THREADS, OPT_NEIGHBOURS, OPT_NOSIMPLIFY };
 
 enum { MOST_JOBS = 256 };
 
@@ -23,6 +23,8 @@ static const OptionSpec OPTIONS[] = {
     {"filter", 0, OPT_FILTER, "TEXT", "only scripts with TEXT in their path below PATH"},
     {"junit", 0, OPT_JUNIT, "FILE", "also write the results to FILE, in the form that CI systems read"},
     {"jobs", 0, OPT_JOBS, "N", "run N scripts at a time (as many as CPUs)"},
+    {"threads", 0, OPT_THREADS, "N", "as with run, for all scripts"},
+    {"neighbours", 0, OPT_NEIGHBOURS, "WHEN", "as with run, for all scripts"},
     {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
     {0},
 };
@@ -47,6 +49,8 @@ typedef struct Suite {
     const char *junit;
     int64_t jobs;
     bool update;
+    const char *threads;    // NULL: what the goldens ask for
+    const char *neighbours; // likewise
     bool nosimplify;
     bool unreadable; // some path could not be read
     size_t reported; // cases whose result was printed
@@ -85,12 +89,22 @@ static void add_case(Suite *suite, const Script *script) {
     };
 }
 
+// An option that overrides the golden's; what is wrong with its value, `petri run` will say.
+static void add_override(char **argv, int *argc, Bytes *text, const char *name, const char *value) {
+    if (value != NULL) {
+        bytes_format(text, "--%s=%s", name, value);
+        argv[(*argc)++] = text->data;
+    }
+}
+
 static void start_child(Suite *suite, Case *item) {
     const char *slash = strrchr(item->script, '/');
     size_t length = slash == NULL ? 0 : (size_t)(slash - item->script) + 1;
     char *folder = slash == NULL ? memory_copied(".", 1) : memory_copied(item->script, length);
     const Golden *golden = &item->golden;
-    char **argv = memory_zeroed(((size_t)golden->option_count + 8) * sizeof *argv);
+    char **argv = memory_zeroed(((size_t)golden->option_count + 10) * sizeof *argv);
+    Bytes threads = {0};
+    Bytes neighbours = {0};
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
@@ -102,6 +116,8 @@ static void start_child(Suite *suite, Case *item) {
     for (int i = 0; i < golden->option_count; i++) {
         argv[argc++] = golden->options[i];
     }
+    add_override(argv, &argc, &threads, "threads", suite->threads);
+    add_override(argv, &argc, &neighbours, "neighbours", suite->neighbours);
     if (suite->nosimplify) {
         argv[argc++] = "--nosimplify";
     }
@@ -112,6 +128,8 @@ static void start_child(Suite *suite, Case *item) {
         bytes_format(&item->result.trouble, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
+    bytes_free(&threads);
+    bytes_free(&neighbours);
     free(argv);
     free(folder);
 }
@@ -246,6 +264,12 @@ static bool apply(Suite *suite, const Args *args, int id) {
         return true;
     case OPT_JOBS:
         return args_integer(args, 1, MOST_JOBS, &suite->jobs);
+    case OPT_THREADS:
+        suite->threads = args->value;
+        return true;
+    case OPT_NEIGHBOURS:
+        suite->neighbours = args->value;
+        return true;
     case OPT_NOSIMPLIFY:
         suite->nosimplify = true;
         return true;

@@ -47,6 +47,9 @@ typedef struct PetriDiagnostic {
     const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
 } PetriDiagnostic;
 
+// When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
+typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
+
 typedef struct PetriOptions {
     double fps;      // target frame rate; a script's `%pragma fps` wins. Default 60
     bool realtime;   // follow the wall clock: petri_step waits until the frame is due. Default false: lockstep
@@ -57,8 +60,9 @@ typedef struct PetriOptions {
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
     // enough.
     size_t stack_bytes;
-    size_t memory_bytes; // for the values of one frame. Default 2 GiB
-    int threads;         // worker threads, 0: as many as processors. Results never depend on it
+    size_t memory_bytes;        // for the values of one frame. Default 2 GiB
+    int threads;                // worker threads, 0: as many as processors. Results never depend on it
+    PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that petri_interrupt can give up a frame whose systems are
     // being updated; a frame that is given up does not count then. Default false: only evaluation is interrupted.
     bool interruptible;

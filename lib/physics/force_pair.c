@@ -148,9 +148,10 @@ typedef struct Pass {
     const Columns *columns;
     ForceRange forces;
     PairRow *row;
-    const Kernels *kernels;
+    const Kernels *kernels;   // NULL: not for this pass
     const PairKernel *kernel; // NULL: rows only
     size_t lanes;
+    const PhysSystem *system;
     int threads;
     PairPass vector; // what the kernel is given
 } Pass;
@@ -183,7 +184,7 @@ static void choose_kernel(const PhysSystem *system, Pass *pass) {
     const Columns *columns = pass->columns;
     size_t terms = (size_t)(pass->forces.end - pass->forces.begin);
     enum { FEW = 4 }; // particles that are not worth a vector
-    if (!kernels || columns->dimensions > PHYS_VECTOR_DIMENSIONS || terms > PHYS_MOST_TERMS || columns->count < FEW)
+    if (columns->dimensions > PHYS_VECTOR_DIMENSIONS || terms > PHYS_MOST_TERMS || columns->count < FEW)
         return;
     pass->vector = (PairPass){
         .dimensions = columns->dimensions,
@@ -198,8 +199,9 @@ static void choose_kernel(const PhysSystem *system, Pass *pass) {
     for (size_t t = 0; t < terms; t++)
         pass->vector.terms[t] = pair_term_of(&pass->forces.begin[t]);
     pass->kernels = kernels;
-    pass->kernel = kernels->pair(&pass->vector);
+    pass->kernel = kernels->pair ? kernels->pair(&pass->vector) : NULL;
     pass->lanes = kernels->lanes;
+    pass->system = system;
     pass->threads = system->options.threads;
 }
 
@@ -208,7 +210,7 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
     if (pass->kernel && pass->threads > 1 && count * count / 2 >= PAIRS_FOR_THREADS) {
         PairWave wave = {pass->kernel, &pass->vector, true, first, end, first, end};
-        phys_pair_wave(&wave, pass->threads);
+        phys_pair_wave(pass->system, &wave);
         return;
     }
     if (pass->kernel && count > 2) {
@@ -236,7 +238,7 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
     if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
         wave = (PairWave){pass->kernel, &pass->vector, false, other, other_end, first, end};
     if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
-        phys_pair_wave(&wave, pass->threads);
+        phys_pair_wave(pass->system, &wave);
     else
         pass->kernel->tiles(&pass->vector, wave.row, wave.row_end, wave.column, wave.column_end);
 }
@@ -249,7 +251,7 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     Pass pass = {.columns = &system->columns, .forces = phys_forces(system, level, STAGE_PAIR)};
     pass.row = row_for(pass.columns->dimensions);
     choose_kernel(system, &pass);
-    if (pass.kernel && phys_neighbour_pass(system, pass.kernels, &pass.vector, number, level))
+    if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.vector, number, level))
         return;
     size_t first = group->first, end = first + group->count;
     pass_triangle(&pass, first, end);

@@ -141,8 +141,8 @@ static void find_blocks(void *context, int worker, int workers) {
 
 // Runs the search, with more memory if there was too little.
 static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
-    bool crowded[PHYS_MOST_THREADS] = {0}, full[PHYS_MOST_THREADS] = {0};
-    uint64_t scanned[PHYS_MOST_THREADS] = {0}, padded[PHYS_MOST_THREADS] = {0};
+    bool crowded[PHYS_MOST_SHARES] = {0}, full[PHYS_MOST_SHARES] = {0};
+    uint64_t scanned[PHYS_MOST_SHARES] = {0}, padded[PHYS_MOST_SHARES] = {0};
     search->crowded = crowded;
     search->full = full;
     search->scanned = scanned;
@@ -158,11 +158,10 @@ static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
         if (!phys_buffer_reserve(system, &list->entries, 0, search->capacity, sizeof(uint32_t)))
             return false;
         list->view.entries = list->entries.bytes;
-        int threads = system->options.threads < PHYS_MOST_THREADS ? system->options.threads : PHYS_MOST_THREADS;
-        phys_parallel(list->total < PHYS_FEW_PARTICLES ? 1 : threads, find_blocks, search);
+        phys_parallel(system, phys_shares(system, list->total, PHYS_FEW_PARTICLES), find_blocks, search);
         bool too_full = false;
         list->scanned = list->padded = 0;
-        for (int w = 0; w < PHYS_MOST_THREADS; w++) {
+        for (int w = 0; w < PHYS_MOST_SHARES; w++) {
             if (crowded[w])
                 return false;
             too_full |= full[w];

@@ -63,7 +63,7 @@ static Force arranged_force(const PhysSystem *system, const ForceRecord *record)
 
 // The same sort for forces, by group and stage.
 static void arrange_forces(PhysSystem *system) {
-    const ForceRecord *records = system->force_records.bytes;
+    ForceRecord *records = system->force_records.bytes;
     Force *forces = system->forces.bytes;
     size_t slots = (size_t)system->group_count * STAGE_COUNT;
     for (size_t s = 0; s <= slots; s++)
@@ -72,8 +72,10 @@ static void arrange_forces(PhysSystem *system) {
         system->starts[slot_of(&records[i])]++;
     for (size_t s = 1; s <= slots; s++)
         system->starts[s] += system->starts[s - 1];
-    for (uint32_t i = system->force_count; i-- > 0;)
-        forces[--system->starts[slot_of(&records[i])]] = arranged_force(system, &records[i]);
+    for (uint32_t i = system->force_count; i-- > 0;) {
+        records[i].arranged = --system->starts[slot_of(&records[i])];
+        forces[records[i].arranged] = arranged_force(system, &records[i]);
+    }
 }
 
 // Short cuts past enclosing groups that have nothing to say, which make deep nesting cheap.
@@ -92,13 +94,18 @@ static void link_groups(PhysSystem *system) {
 
 bool phys_arrange(PhysSystem *system) {
     uint64_t particles = system->particle_count, slots = (uint64_t)system->group_count * STAGE_COUNT;
-    if (!phys_buffer_reserve(system, &system->indices, 0, 2 * particles + slots + 1, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &system->forces, 0, system->force_count, sizeof(Force)))
+    if (!phys_buffer_reserve(system, &system->indices, 0, 2 * particles + slots + 1, sizeof(uint32_t)))
         return false;
     system->order = system->indices.bytes;
     system->place = system->order + particles;
     system->starts = system->place + particles;
     arrange_particles(system);
+    return true;
+}
+
+bool phys_arrange_forces(PhysSystem *system) {
+    if (!phys_buffer_reserve(system, &system->forces, 0, system->force_count, sizeof(Force)))
+        return false;
     arrange_forces(system);
     link_groups(system);
     return true;

@@ -1,7 +1,7 @@
 // internal.h: what the files of lib/physics share; nobody else includes it.
 //
 // A system exists in two forms. The description is what the scene gave, in order of the calls: records, and for each
-// particle a row of 3 n doubles (position, velocity, force), which is also where results are read. To simulate, it is
+// particle a row of 2 n doubles (position, velocity), which is also where results are read. To simulate, it is
 // arranged: particles go into columns, component k of particle i at [k * stride + i], in pre-order of their groups,
 // each group's own first; forces are sorted by group and by the stage in which they act. Then
 //
@@ -32,10 +32,9 @@ typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_
 #define NO_GROUP UINT32_MAX
 
 enum {
-    PHYS_MOST_THREADS = 64,
     PHYS_MOST_LISTS = 8,       // passes that have neighbour lists
     PHYS_MOST_RANGES = 8,      // groups whose particles take part in such a pass
-    PHYS_FEW_PARTICLES = 1500, // for which one thread is enough, if the work for each is small
+    PHYS_FEW_PARTICLES = 1500, // that one thread has done when another is ready, if the work for each is small
 };
 
 typedef struct Group {
@@ -60,6 +59,7 @@ typedef struct ForceRecord {
     uint64_t vector;  // where the copy begins in the vector buffer, plus 1; 0 stands for all zeros
     uint64_t vector2; // likewise
     uint32_t group;
+    uint32_t arranged; // its number among the arranged forces
 } ForceRecord;
 
 // A force as the kernels see it: vectors point to the copies, `from` and `to` are columns.
@@ -75,7 +75,7 @@ typedef struct Columns {
     size_t stride; // >= count
     double *position;
     double *velocity;
-    double *thrust; // the particle's own force
+    double *thrust; // the particle's own force; valid, as `ease` is, if there are any
     double *force;  // sum of all forces of the step
     double *ease;
     double *radius;
@@ -91,18 +91,28 @@ struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // capacity of all buffers together
     bool failed;    // memory was used up since phys_begin
+    bool arranged;  // particles and forces are arranged as described
+    bool forces_arranged;
+    bool radii_raised; // radius powers are those of the columns' radii and of the forces
+    bool lost;         // `unfinished` has a mark
     PhysOptions options;
+    PhysThreads *threads; // those of the options, or its own; NULL: none
+    bool owns_threads;
     // description
     uint32_t dimensions;
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool stepped;            // simulated since phys_begin: the force columns hold the last step's sums
-    bool eased;              // the own force of some particle is eased in
+    bool stepped;            // simulated since phys_begin or phys_rest: the force columns hold the last step's sums
+    bool pushed;             // some particle has a force of its own
+    bool eased;              // … or one that is eased in; then `pushed` is set too
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     Buffer particles;        // ParticleRecord by handle
-    Buffer rows;             // 3 n doubles by handle
+    Buffer rows;             // 2 n doubles by handle
+    Buffer thrusts;          // n doubles by handle, the particles' own forces, if they have any
+    Buffer last_rows;        // those of the description before
+    Buffer unfinished;       // uint8_t by handle: what was not finite when it should have settled
     Buffer force_records;    // ForceRecord in order of the calls
     Buffer vectors;          // double
     // arranged for simulation
@@ -124,20 +134,29 @@ typedef struct ForceRange {
     Force *end;
 } ForceRange;
 
-// system.c: the vector kernels of the chosen level; NULL: there are none.
+// system.c: the kernels of the chosen level.
 const struct Kernels *phys_kernels(const PhysSystem *system);
+
+// The doubles of a row.
+static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
+    return (double *)system->rows.bytes + (size_t)2 * system->dimensions * particle;
+}
 
 // buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
 // `system->failed` set, if memory is used up.
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
-// groups.c: sorts particles and forces by group. False if memory is used up.
+// groups.c: sorts particles, or forces, by group. False if memory is used up. Particles come first.
 bool phys_arrange(PhysSystem *system);
+bool phys_arrange_forces(PhysSystem *system);
 
-// particles.c: rows into columns and back. phys_load is false if memory is used up.
+// particles.c: rows into columns and back. phys_load and phys_clear_marks are false if memory is used up.
+enum { PHYS_LOST_POSITION = 1, PHYS_LOST_VELOCITY = 2 }; // marks of `unfinished`
+bool phys_clear_marks(PhysSystem *system);
 bool phys_load(PhysSystem *system);
-void phys_store(PhysSystem *system);
+void phys_raise_radii(PhysSystem *system);
+void phys_store(PhysSystem *system, bool settle);
 
 // step.c: one step of `delta` at `clock`.
 void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);

@@ -2,7 +2,8 @@
 //
 // The kernels are written once (kernel_*.c over simd.h) and compiled once per instruction set, into one table each.
 // Where there is no table, for more dimensions, and for what is too small, the scalar code of the other files runs. It
-// is the truth: every kernel gives its bits. That rests on three rules:
+// is the truth: every kernel gives its bits. Plain C has neighbour lists in common with the others, and nothing else.
+// That rests on three rules:
 //
 //   - a lane is a target, or a pair whose term goes to two targets one after the other in the right order;
 //   - a term that does not apply leaves its sum alone. Adding +0.0 would not (-0.0 + +0.0 is +0.0), so lanes are
@@ -105,8 +106,10 @@ typedef struct Kernels {
     void list_forces_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                      \
     void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);      \
     void sweep_all_##isa(struct SweepPass *pass, size_t first, size_t end);
+ISA_KERNELS(plain)
 ISA_KERNELS(avx2)
 ISA_KERNELS(avx512)
+extern const Kernels phys_kernels_plain; // NULL for `pair` and `sweep`
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;
 

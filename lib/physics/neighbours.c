@@ -74,7 +74,7 @@ typedef struct Sweep {
     const Kernels *kernels;
     const PairPass *pass;
     const Neighbours *list;
-    bool held[PHYS_MOST_THREADS];
+    bool held[PHYS_MOST_SHARES];
 } Sweep;
 
 // Whole blocks for each worker.
@@ -99,16 +99,16 @@ static void force_share(void *context, int worker, int workers) {
     sweep->kernels->list_forces(sweep->pass, view, first, sweep_share(sweep, view->regular, worker + 1, workers));
 }
 
-static int threads_for(const PhysSystem *system, const Neighbours *list) {
-    return list->total < PHYS_FEW_PARTICLES ? 1 : system->options.threads;
+static int shares_for(const PhysSystem *system, const Neighbours *list) {
+    return phys_shares(system, list->total, PHYS_FEW_PARTICLES);
 }
 
 // Brings the list's copy of the particles up to date. False if something has left its skin.
 static bool refresh(const PhysSystem *system, Sweep *sweep) {
     memset(sweep->held, true, sizeof sweep->held);
-    phys_parallel(threads_for(system, sweep->list), refresh_share, sweep);
+    phys_parallel(system, shares_for(system, sweep->list), refresh_share, sweep);
     bool held = still_idle(sweep->pass, sweep->list);
-    for (int w = 0; w < PHYS_MOST_THREADS; w++)
+    for (int w = 0; w < PHYS_MOST_SHARES; w++)
         held &= sweep->held[w];
     return held;
 }
@@ -231,7 +231,7 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
         refresh(system, &sweep);
     }
     list->age++;
-    phys_parallel(threads_for(system, list), force_share, &sweep);
+    phys_parallel(system, shares_for(system, list), force_share, &sweep);
     large_forces(&sweep);
     return true;
 }

@@ -61,12 +61,12 @@ static void follow(void *context, int worker, int workers) {
         }
 }
 
-void phys_pair_wave(const PairWave *pairs, int threads) {
+void phys_pair_wave(const PhysSystem *system, const PairWave *pairs) {
     Wave wave = {.pairs = pairs};
     size_t rows = pairs->row_end - pairs->row, columns = pairs->column_end - pairs->column;
     wave.block = (rows / BLOCK_PART + BLOCK_ALIGN - 1) / BLOCK_ALIGN * BLOCK_ALIGN;
     wave.block = wave.block < BLOCK_LEAST ? BLOCK_LEAST : wave.block;
     wave.rows = (rows + wave.block - 1) / wave.block;
     wave.columns = (columns + wave.block - 1) / wave.block;
-    phys_parallel((int)least((size_t)threads, wave.rows), follow, &wave);
+    phys_parallel(system, (int)least((size_t)system->options.threads, wave.rows), follow, &wave);
 }

@@ -2,6 +2,7 @@
 #ifndef PETRI_PHYSICS_PAIR_WAVE_H
 #define PETRI_PHYSICS_PAIR_WAVE_H
 
+#include "physics/internal.h"
 #include "physics/kernels.h"
 
 // The pairs of one range (a triangle; the columns are its rows), or of two.
@@ -13,6 +14,6 @@ typedef struct PairWave {
     size_t column, column_end;
 } PairWave;
 
-void phys_pair_wave(const PairWave *pairs, int threads);
+void phys_pair_wave(const PhysSystem *system, const PairWave *pairs);
 
 #endif

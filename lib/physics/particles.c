@@ -50,7 +50,8 @@ static void raise_radii(const Columns *columns, double power, double *to) {
 }
 
 // radius^(n-1) and radius^n are wanted at every step.
-static void compute_radius_powers(const PhysSystem *system, const Columns *columns) {
+void phys_raise_radii(PhysSystem *system) {
+    const Columns *columns = &system->columns;
     const Force *forces = system->forces.bytes;
     bool drag = false, buoyancy = false;
     for (uint32_t i = 0; i < system->force_count; i++) {
@@ -62,6 +63,7 @@ static void compute_radius_powers(const PhysSystem *system, const Columns *colum
         raise_radii(columns, n - 1, columns->section);
     if (buoyancy)
         raise_radii(columns, n, columns->volume);
+    system->radii_raised = true;
 }
 
 static void load_share(void *context, int worker, int workers) {
@@ -72,26 +74,81 @@ static void load_share(void *context, int worker, int workers) {
     for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = &particles[handle];
-        columns->ease[i] = particle->ease;
         columns->radius[i] = particle->radius;
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;
         columns->anchor[i] = particle->anchor;
-        const double *row = (const double *)system->rows.bytes + 3 * n * handle;
+        const double *row = phys_row(system, handle);
         for (size_t k = 0; k < n; k++) {
             columns->position[k * stride + i] = row[k];
             columns->velocity[k * stride + i] = row[n + k];
-            columns->thrust[k * stride + i] = row[2 * n + k];
         }
+        if (!system->pushed)
+            continue;
+        const double *thrust = (const double *)system->thrusts.bytes + n * handle;
+        columns->ease[i] = particle->ease;
+        for (size_t k = 0; k < n; k++)
+            columns->thrust[k * stride + i] = thrust[k];
+    }
+}
+
+typedef struct Storing {
+    PhysSystem *system;
+    bool settle;
+    bool lost[PHYS_MOST_SHARES]; // something was not finite
+} Storing;
+
+// A vector that is finite and differs from what it was replaces that in the row, else the row's replaces it. False if
+// it was not finite.
+static inline bool settle(double *column, size_t stride, double *row, size_t n) {
+    bool finite = true, equal = true;
+    for (size_t k = 0; k < n; k++) {
+        double x = column[k * stride];
+        finite &= x - x == 0;
+        equal &= x == row[k];
+    }
+    if (finite && !equal)
+        for (size_t k = 0; k < n; k++)
+            row[k] = column[k * stride];
+    else
+        for (size_t k = 0; k < n; k++)
+            column[k * stride] = row[k];
+    return finite;
+}
+
+static inline void settle_range(Storing *storing, size_t n, size_t i, size_t end, int worker) {
+    PhysSystem *system = storing->system;
+    const Columns *columns = &system->columns;
+    size_t stride = columns->stride;
+    for (; i < end; i++) {
+        double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
+        bool position = settle(columns->position + i, stride, row, n);
+        bool velocity = settle(columns->velocity + i, stride, row + n, n);
+        if (position && velocity)
+            continue;
+        ((uint8_t *)system->unfinished.bytes)[system->order[i]] =
+            (uint8_t)((position ? 0 : PHYS_LOST_POSITION) | (velocity ? 0 : PHYS_LOST_VELOCITY));
+        storing->lost[worker] = true;
     }
 }
 
 static void store_share(void *context, int worker, int workers) {
-    PhysSystem *system = context;
+    Storing *storing = context;
+    PhysSystem *system = storing->system;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
-    for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
-        double *row = (double *)system->rows.bytes + 3 * n * system->order[i];
+    size_t first = phys_share(columns->count, worker, workers);
+    if (storing->settle) {
+        if (n == 2)
+            settle_range(storing, 2, first, end, worker);
+        else if (n == 3)
+            settle_range(storing, 3, first, end, worker);
+        else
+            settle_range(storing, n, first, end, worker);
+        return;
+    }
+    for (size_t i = first; i < end; i++) {
+        double *row = phys_row(system, system->order[i]);
         for (size_t k = 0; k < n; k++) {
             row[k] = columns->position[k * stride + i];
             row[n + k] = columns->velocity[k * stride + i];
@@ -99,19 +156,31 @@ static void store_share(void *context, int worker, int workers) {
     }
 }
 
-static int threads_for(const PhysSystem *system) {
-    enum { MANY = 10000 }; // particles whose copies are worth a second thread
-    return system->particle_count < MANY ? 1 : system->options.threads;
+bool phys_clear_marks(PhysSystem *system) {
+    uint64_t before = system->unfinished.capacity;
+    if (!phys_buffer_reserve(system, &system->unfinished, 0, system->particle_count, 1))
+        return false;
+    if ((system->lost || system->unfinished.capacity != before) && system->unfinished.capacity)
+        memset(system->unfinished.bytes, 0, system->unfinished.capacity);
+    system->lost = false;
+    return true;
+}
+
+static int shares_for(const PhysSystem *system) {
+    enum { FEW = 10000 }; // that are copied before a second thread is ready
+    return phys_shares(system, system->particle_count, FEW);
 }
 
 bool phys_load(PhysSystem *system) {
     if (!reserve_columns(system))
         return false;
-    phys_parallel(threads_for(system), load_share, system);
-    compute_radius_powers(system, &system->columns);
+    phys_parallel(system, shares_for(system), load_share, system);
     return true;
 }
 
-void phys_store(PhysSystem *system) {
-    phys_parallel(threads_for(system), store_share, system);
+void phys_store(PhysSystem *system, bool settle_them) {
+    Storing storing = {.system = system, .settle = settle_them};
+    phys_parallel(system, shares_for(system), store_share, &storing);
+    for (int w = 0; w < PHYS_MOST_SHARES; w++)
+        system->lost |= storing.lost[w];
 }

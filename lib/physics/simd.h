@@ -4,6 +4,10 @@
 #ifndef PETRI_PHYSICS_SIMD_H
 #define PETRI_PHYSICS_SIMD_H
 
+#ifdef PETRI_PLAIN
+#include "physics/simd_plain.h"
+#else
+
 #include <float.h>
 #include <immintrin.h>
 #include <math.h>
@@ -267,5 +271,7 @@ KERNEL Real real_sqrt(Real a) {
 KERNEL Real real_larger(Real a, Real b) {
     return SIMD(max)(a, b);
 }
+
+#endif // PETRI_PLAIN
 
 #endif

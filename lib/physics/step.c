@@ -1,5 +1,6 @@
 // step.c: one step as the ordered list of stages of section 4.
 #include "physics/sweep.h"
+#include "physics/threads.h"
 
 #include <string.h>
 
@@ -11,19 +12,36 @@ static void ease_strengths(const PhysSystem *system, double clock) {
 }
 
 // The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
-static void start_forces(const PhysSystem *system, double clock) {
+typedef struct Start {
+    const PhysSystem *system;
+    double clock;
+} Start;
+
+static void start_share(void *context, int share, int shares) {
+    const Start *start = context;
+    const PhysSystem *system = start->system;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride;
-    if (!system->eased) {
-        if (columns->count)
-            memcpy(columns->force, columns->thrust, n * stride * sizeof(double));
-        return;
+    size_t first = phys_share(columns->count, share, shares);
+    size_t count = phys_share(columns->count, share + 1, shares) - first;
+    for (size_t k = 0; k < n; k++) {
+        double *force = columns->force + k * stride + first;
+        const double *thrust = columns->thrust + k * stride + first;
+        if (!system->pushed)
+            memset(force, 0, count * sizeof *force);
+        else if (!system->eased)
+            memcpy(force, thrust, count * sizeof *force);
+        else
+            for (size_t i = 0; i < count; i++)
+                force[i] = thrust[i] * phys_ramp(columns->ease[first + i], start->clock);
     }
-    for (size_t i = 0; i < columns->count; i++) {
-        double factor = phys_ramp(columns->ease[i], clock);
-        for (size_t k = 0; k < n; k++)
-            columns->force[k * stride + i] = columns->thrust[k * stride + i] * factor;
-    }
+}
+
+static void start_forces(const PhysSystem *system, double clock) {
+    enum { FEW = 50000 }; // that are set before a second thread is ready
+    Start start = {system, clock};
+    if (system->columns.count)
+        phys_parallel(system, phys_shares(system, system->columns.count, FEW), start_share, &start);
 }
 
 // Single-particle forces, then barrier constraint forces: those of the group itself first, then its parent's, …

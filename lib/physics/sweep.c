@@ -67,7 +67,7 @@ bool phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
     const Group *group = (const Group *)system->groups.bytes + number;
     Columns *columns = &system->columns;
     SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light};
-    if (!kernels || columns->dimensions > PHYS_VECTOR_DIMENSIONS || group->count < FEW ||
+    if (!kernels->sweep || columns->dimensions > PHYS_VECTOR_DIMENSIONS || group->count < FEW ||
         !collect(system, number, STAGE_SINGLE, pass.singles, &pass.single_count) ||
         !collect(system, number, STAGE_BARRIER, pass.barriers, &pass.barrier_count))
         return false;
@@ -78,7 +78,7 @@ bool phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
         share.random |= pass.singles[f]->given.kind == PHYS_RANDOM;
     }
     uint32_t few = share.random ? PHYS_FEW_PARTICLES / 4 : PHYS_FEW_PARTICLES;
-    phys_parallel(group->count < few ? 1 : system->options.threads, sweep_share, &share);
+    phys_parallel(system, phys_shares(system, group->count, few), sweep_share, &share);
     if (share.random) {
         uint64_t taken =
             columns->dimensions * moving_between(columns, group->first, (size_t)group->first + group->count);

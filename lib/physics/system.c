@@ -1,6 +1,7 @@
 // system.c: the description of a system (see system.h).
 #include "physics/internal.h"
 #include "physics/neighbours.h"
+#include "physics/threads.h"
 
 #include <assert.h>
 #include <string.h>
@@ -11,7 +12,7 @@ _Static_assert(PHYS_MAX_BYTES / sizeof(ParticleRecord) < UINT32_MAX, "particle h
 _Static_assert(PHYS_MAX_BYTES / sizeof(ForceRecord) < UINT32_MAX, "force numbers must fit");
 _Static_assert(PHYS_MAX_BYTES < SIZE_MAX, "sizes must fit");
 
-enum { ROW_VECTORS = 3 }; // position, velocity, force
+enum { ROW_VECTORS = 2 }; // position, velocity
 
 PhysSystem *phys_new(void) {
     Arena home;
@@ -37,12 +38,15 @@ PhysSystem *phys_new(void) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,  &system->particles, &system->rows,   &system->force_records,
-                         &system->vectors, &system->indices,   &system->forces, &system->column_data};
+    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,   &system->force_records,
+                         &system->vectors,   &system->indices,    &system->forces, &system->column_data,
+                         &system->last_rows, &system->unfinished, &system->thrusts};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         phys_neighbours_free(&system->lists[i]);
+    if (system->owns_threads)
+        phys_threads_free(system->threads);
     Arena home = system->home; // the struct goes with it
     arena_free(&home);
 }
@@ -56,27 +60,33 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
         system->options.threads = PHYS_MOST_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
+    if (system->owns_threads)
+        phys_threads_free(system->threads);
+    system->owns_threads = !options->pool && system->options.threads > 1;
+    system->threads = system->owns_threads ? phys_threads_new(system->options.threads) : options->pool;
 }
 
 const Kernels *phys_kernels(const PhysSystem *system) {
-#ifdef PETRI_X86
     static const Kernels *const levels[CPU_LEVELS] = {
-        [CPU_AVX2] = &phys_kernels_avx2, [CPU_AVX512] = &phys_kernels_avx512};
-    return levels[system->options.cpu];
-#else
-    (void)system;
-    return NULL;
+        [CPU_SCALAR] = &phys_kernels_plain,
+#ifdef PETRI_X86
+        [CPU_AVX2] = &phys_kernels_avx2,
+        [CPU_AVX512] = &phys_kernels_avx512,
 #endif
+    };
+    return levels[system->options.cpu];
 }
 
 void phys_begin(PhysSystem *system, uint32_t dimensions) {
-    system->failed = false;
-    system->frame++;
+    Buffer rows = system->last_rows;
+    system->last_rows = system->rows;
+    system->rows = rows;
+    system->failed = system->arranged = system->forces_arranged = false;
     system->dimensions = dimensions;
     system->group_count = 0;
     system->particle_count = 0;
     system->force_count = 0;
-    system->eased = false;
+    system->eased = system->pushed = false;
     system->stepped = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
@@ -103,6 +113,26 @@ static void copy_vector(double *to, PhysVector from, size_t dimensions) {
         memset(to, 0, dimensions * sizeof *to);
 }
 
+// Keeps a particle's own force. There is no room for such forces until the first one comes.
+static void keep_thrust(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
+    size_t n = system->dimensions, first = system->pushed ? handle : 0;
+    if (!force && !(ease > 0) && !system->pushed)
+        return;
+    if (!phys_buffer_reserve(system, &system->thrusts, first * n * sizeof(double), system->particle_count,
+                             n * sizeof(double)))
+        return;
+    double *thrusts = system->thrusts.bytes;
+    if (!system->pushed) {
+        memset(thrusts, 0, system->particle_count * n * sizeof *thrusts);
+        system->arranged = false; // the columns have none
+    }
+    if (ease > 0 && !system->eased)
+        system->arranged = false;
+    copy_vector(thrusts + n * handle, force, n);
+    system->pushed = true;
+    system->eased |= ease > 0;
+}
+
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle) {
     uint32_t handle = system->particle_count;
     size_t n = system->dimensions;
@@ -118,13 +148,50 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
         .group = group,
         .anchor = particle->anchor,
     };
-    double *row = (double *)system->rows.bytes + ROW_VECTORS * n * handle;
+    double *row = phys_row(system, handle);
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
-    copy_vector(row + 2 * n, particle->anchor ? NULL : particle->force, n);
-    system->eased |= particle->ease > 0;
     system->particle_count++;
+    keep_thrust(system, handle, particle->anchor ? NULL : particle->force, particle->anchor ? 0 : particle->ease);
     return handle;
+}
+
+// Takes new numbers of a particle into the columns too, if they are made.
+static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
+    if (!system->arranged)
+        return;
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
+    if (columns->radius[i] != record->radius)
+        system->radii_raised = false;
+    columns->radius[i] = record->radius;
+    columns->mass[i] = record->mass;
+    columns->charge[i] = record->charge;
+    for (size_t k = 0; k < n; k++) {
+        columns->position[k * stride + i] = row[k];
+        columns->velocity[k * stride + i] = row[n + k];
+    }
+    if (!system->pushed)
+        return;
+    columns->ease[i] = record->ease;
+    for (size_t k = 0; k < n; k++)
+        columns->thrust[k * stride + i] = ((const double *)system->thrusts.bytes)[n * handle + k];
+}
+
+void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysKeep keep) {
+    size_t n = system->dimensions;
+    ParticleRecord *record = (ParticleRecord *)system->particles.bytes + particle;
+    double *row = phys_row(system, particle);
+    record->ease = numbers->ease;
+    record->radius = numbers->radius;
+    record->mass = numbers->mass;
+    record->charge = numbers->charge;
+    if (!keep.position)
+        copy_vector(row, numbers->position, n);
+    if (!keep.velocity)
+        copy_vector(row + n, record->anchor ? NULL : numbers->velocity, n);
+    keep_thrust(system, particle, record->anchor ? NULL : numbers->force, record->anchor ? 0 : numbers->ease);
+    update_columns(system, particle, record, row);
 }
 
 // Copies a vector of a force; returns where it begins plus 1, or 0 for all zeros (or no memory).
@@ -152,17 +219,49 @@ static int vectors_of(PhysForceKind kind) {
     }
 }
 
-void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
+uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
-        return;
+        return 0;
     assert(group < system->group_count);
     int vectors = vectors_of(force->kind);
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? keep_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? keep_vector(system, force->vector2) : 0;
     if (system->failed)
-        return;
-    ((ForceRecord *)system->force_records.bytes)[system->force_count++] = record;
+        return 0;
+    ((ForceRecord *)system->force_records.bytes)[system->force_count] = record;
+    return system->force_count++;
+}
+
+void phys_begin_forces(PhysSystem *system) {
+    system->force_count = 0;
+    system->vector_doubles = 0;
+    system->forces_arranged = false;
+}
+
+void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
+    if (force >= system->force_count)
+        return; // a number from a call that failed
+    ForceRecord *record = (ForceRecord *)system->force_records.bytes + force;
+    record->given.key = key;
+    if (system->forces_arranged)
+        ((Force *)system->forces.bytes)[record->arranged].given.key = key;
+}
+
+uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle) {
+    return ((const ParticleRecord *)system->particles.bytes)[particle].group;
+}
+
+uint32_t phys_group_count(const PhysSystem *system) {
+    return system->group_count;
+}
+
+uint32_t phys_group_parent(const PhysSystem *system, uint32_t group) {
+    return ((const Group *)system->groups.bytes)[group].parent;
+}
+
+void phys_rest(PhysSystem *system) {
+    system->stepped = false;
 }
 
 uint32_t phys_particle_count(const PhysSystem *system) {
@@ -172,12 +271,24 @@ uint32_t phys_particle_count(const PhysSystem *system) {
 const double *phys_position(const PhysSystem *system, uint32_t particle) {
     if (particle >= system->particle_count)
         return NULL; // a handle from a call that failed
-    return (const double *)system->rows.bytes + (size_t)ROW_VECTORS * system->dimensions * particle;
+    return phys_row(system, particle);
 }
 
 const double *phys_velocity(const PhysSystem *system, uint32_t particle) {
     const double *position = phys_position(system, particle);
     return position ? position + system->dimensions : NULL;
+}
+
+static bool has_mark(const PhysSystem *system, uint32_t particle, uint8_t mark) {
+    return system->lost && (((const uint8_t *)system->unfinished.bytes)[particle] & mark);
+}
+
+bool phys_position_finite(const PhysSystem *system, uint32_t particle) {
+    return !has_mark(system, particle, PHYS_LOST_POSITION);
+}
+
+bool phys_velocity_finite(const PhysSystem *system, uint32_t particle) {
+    return !has_mark(system, particle, PHYS_LOST_VELOCITY);
 }
 
 bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description) {
@@ -189,7 +300,7 @@ bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle
     *description = (PhysParticle){
         .position = row,
         .velocity = row + n,
-        .force = row + 2 * n,
+        .force = system->pushed ? (const double *)system->thrusts.bytes + n * particle : NULL,
         .ease = record->ease,
         .radius = record->radius,
         .mass = record->mass,

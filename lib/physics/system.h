@@ -1,7 +1,8 @@
 // system.h: a particle system as arrays of doubles, and how it moves (spec physics.md section 4).
 //
 // This room knows no Flitter word: the scene translates `!physics` trees into calls of these functions and puts the
-// results into the state. A system is described anew for each frame (phys_begin … phys_add_…) and then simulated.
+// results into the state. A system is described (phys_begin … phys_add_…) and then simulated, frame after frame; what
+// changes in between is said with phys_update_particle, phys_begin_forces and phys_set_key, or by a new description.
 // All arithmetic is IEEE double in the order that the specification fixes; the results do not depend on how the
 // particles are stored or on how many threads share the work.
 #ifndef PETRI_PHYSICS_SYSTEM_H
@@ -79,12 +80,18 @@ typedef enum PhysNeighbours {
     PHYS_NEIGHBOURS_ALWAYS, // lists wherever the forces of a pass have a bounded reach
 } PhysNeighbours;
 
+// Threads that systems can share; they start when there is work for them. NULL if memory is used up.
+typedef struct PhysThreads PhysThreads;
+PhysThreads *phys_threads_new(int count); // with the caller; 0: as many as processors
+void phys_threads_free(PhysThreads *threads);
+
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
     CpuLevel cpu; // at most cpu_detect()
     PhysNeighbours neighbours;
-    bool keep_forces; // for phys_force_on; costs one store per particle and step
+    PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
+    bool keep_forces;  // for phys_force_on; costs one store per particle and step
 } PhysOptions;
 
 // A new system has one thread, the detected level and lists where they pay.
@@ -101,8 +108,24 @@ void phys_begin(PhysSystem *system, uint32_t dimensions);
 uint32_t phys_add_group(PhysSystem *system, uint32_t parent);
 // Adds a particle to a group and returns its handle: 0, 1, 2, … in the order of the calls. Vectors are copied.
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle);
-// Adds a force applier or barrier to a group.
-void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
+// Adds a force applier or barrier to a group and returns its number: 0, 1, 2, … in the order of the calls.
+uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
+
+// Changes of a description. What a call leaves out stays as it is after the last frame.
+// Gives a particle new numbers. Its group stays, and so does whether it is an anchor; so do, if they are to be kept,
+// its position and velocity.
+typedef struct PhysKeep {
+    bool position;
+    bool velocity;
+} PhysKeep;
+void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysKeep keep);
+uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle);
+uint32_t phys_group_count(const PhysSystem *system);
+uint32_t phys_group_parent(const PhysSystem *system, uint32_t group);
+// Drops all forces; phys_add_force gives new ones.
+void phys_begin_forces(PhysSystem *system);
+// The key of a random force for the next frame.
+void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key);
 
 typedef struct PhysTime {
     double last;                  // time up to which the state has been simulated
@@ -113,6 +136,8 @@ typedef struct PhysTime {
     double performance;           // engine performance, decides about the one extra step in real time
     double speed_of_light;        // <= 0: no limit
     const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
+    bool settle; // a position or velocity that is not finite afterwards, or equal to what it was, stays what it
+                 // was before the frame: to the last bit, and for the frames to come
 } PhysTime;
 
 typedef enum PhysStatus {
@@ -133,17 +158,24 @@ typedef struct PhysResult {
 // Simulates one frame (spec section 4). Deterministic to the last bit.
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 
+// A frame in which nothing is simulated.
+void phys_rest(PhysSystem *system);
+
 uint32_t phys_particle_count(const PhysSystem *system);
-// The n doubles of a particle, by handle; valid until the next phys_begin. They may be non-finite. Before phys_simulate
-// they are what was given.
+// The n doubles of a particle, by handle; the velocity follows the position. They stay where they are until phys_begin,
+// and stay readable until the phys_begin after that. They may be non-finite. Before phys_simulate they are what was
+// given.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
+// Were they finite after the last phys_simulate, if that settled them?
+bool phys_position_finite(const PhysSystem *system, uint32_t particle);
+bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 
 // For showing a system as it stands after phys_simulate. All vectors are valid until the next phys_begin.
 // The description of a particle, its position and velocity as simulated; false for a handle that does not exist.
 bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description);
 // Copies the sum of the forces on a particle in the last step, n doubles. False if nothing was simulated since
-// phys_begin, the forces were not kept, or it is an anchor, on which no force acts.
+// phys_begin or phys_rest, the forces were not kept, or it is an anchor, on which no force acts.
 bool phys_force_on(const PhysSystem *system, uint32_t particle, double *sum);
 uint32_t phys_force_count(const PhysSystem *system);
 // Force appliers and barriers, by number from 0 in the order of the calls; false beyond the last.

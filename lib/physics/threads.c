@@ -1,19 +1,175 @@
 // threads.c: see threads.h.
 #include "physics/threads.h"
+#include "physics/internal.h"
 
-#ifdef _OPENMP
-#include <omp.h>
+#include <pthread.h>
+#include <sched.h>
+#include <stdatomic.h>
+#include <stdlib.h>
+
+// What there is to claim, in one word: number of the job, its shares, and those claimed already.
+enum { CLAIMED_BITS = 8, SHARES_BITS = 8, JOB_SHIFT = CLAIMED_BITS + SHARES_BITS };
+_Static_assert(PHYS_MOST_SHARES < 1 << CLAIMED_BITS, "the number of claimed shares must fit");
+
+enum {
+    PATIENCE = 4000, // looks for new work before a thread goes to sleep, and at others before it leaves the processor
+};
+
+struct PhysThreads {
+    int count; // that are running, without the caller
+    pthread_t threads[PHYS_MOST_THREADS];
+    bool started;
+    int wanted;
+    // the job
+    PhysWork *work;
+    void *context;
+    _Alignas(64) atomic_uint_fast64_t ticket;
+    _Alignas(64) atomic_int done;
+    // sleep
+    _Alignas(64) atomic_int sleeping;
+    bool stop;
+    pthread_mutex_t mutex;
+    pthread_cond_t wake;
+};
+
+static int claimed_of(uint64_t ticket) {
+    return (int)(ticket & ((1u << CLAIMED_BITS) - 1));
+}
+
+static int shares_of(uint64_t ticket) {
+    return (int)(ticket >> CLAIMED_BITS & ((1u << SHARES_BITS) - 1));
+}
+
+// Claims a share; false if there is none. A claim keeps the job alive, so its fields may be read afterwards.
+static bool claim(PhysThreads *threads, int *share, int *shares) {
+    uint64_t ticket = atomic_load_explicit(&threads->ticket, memory_order_acquire);
+    while (claimed_of(ticket) < shares_of(ticket))
+        if (atomic_compare_exchange_weak_explicit(&threads->ticket, &ticket, ticket + 1, memory_order_acq_rel,
+                                                  memory_order_acquire)) {
+            *share = claimed_of(ticket);
+            *shares = shares_of(ticket);
+            return true;
+        }
+    return false;
+}
+
+static bool work_some(PhysThreads *threads) {
+    int share, shares;
+    bool any = false;
+    while (claim(threads, &share, &shares)) {
+        threads->work(threads->context, share, shares);
+        atomic_fetch_add_explicit(&threads->done, 1, memory_order_release);
+        any = true;
+    }
+    return any;
+}
+
+static inline void pause_a_little(void) {
+#if defined(__x86_64__) || defined(__i386__)
+    __builtin_ia32_pause();
 #endif
+}
 
-void phys_parallel(int threads, void (*work)(void *context, int worker, int workers), void *context) {
-#ifdef _OPENMP
-    if (threads > 1) {
-#pragma omp parallel num_threads(threads) default(none) shared(work, context)
-        work(context, omp_get_thread_num(), omp_get_num_threads());
+static bool has_work(PhysThreads *threads) {
+    uint64_t ticket = atomic_load(&threads->ticket);
+    return claimed_of(ticket) < shares_of(ticket);
+}
+
+// False if the threads are to end.
+static bool sleep_until_work(PhysThreads *threads) {
+    pthread_mutex_lock(&threads->mutex);
+    atomic_fetch_add(&threads->sleeping, 1);
+    while (!threads->stop && !has_work(threads))
+        pthread_cond_wait(&threads->wake, &threads->mutex);
+    atomic_fetch_sub(&threads->sleeping, 1);
+    bool go_on = !threads->stop;
+    pthread_mutex_unlock(&threads->mutex);
+    return go_on;
+}
+
+static void *serve(void *argument) {
+    PhysThreads *threads = argument;
+    for (;;) {
+        for (int looks = 0; looks < PATIENCE; looks++) {
+            if (work_some(threads))
+                looks = 0;
+            pause_a_little();
+        }
+        if (!sleep_until_work(threads))
+            return NULL;
+    }
+}
+
+PhysThreads *phys_threads_new(int count) {
+    PhysThreads *threads = aligned_alloc(64, sizeof *threads);
+    if (!threads)
+        return NULL;
+    *threads = (PhysThreads){.wanted = count <= 0 ? cpu_count() : count};
+    if (threads->wanted > PHYS_MOST_THREADS)
+        threads->wanted = PHYS_MOST_THREADS;
+    pthread_mutex_init(&threads->mutex, NULL);
+    pthread_cond_init(&threads->wake, NULL);
+    return threads;
+}
+
+// Threads that cannot be had are done without.
+static void start(PhysThreads *threads) {
+    threads->started = true;
+    while (threads->count + 1 < threads->wanted &&
+           pthread_create(&threads->threads[threads->count], NULL, serve, threads) == 0)
+        threads->count++;
+}
+
+void phys_threads_free(PhysThreads *threads) {
+    if (!threads)
+        return;
+    pthread_mutex_lock(&threads->mutex);
+    threads->stop = true;
+    pthread_cond_broadcast(&threads->wake);
+    pthread_mutex_unlock(&threads->mutex);
+    for (int i = 0; i < threads->count; i++)
+        pthread_join(threads->threads[i], NULL);
+    pthread_cond_destroy(&threads->wake);
+    pthread_mutex_destroy(&threads->mutex);
+    free(threads);
+}
+
+static void publish(PhysThreads *threads, int shares, PhysWork *work, void *context) {
+    threads->work = work;
+    threads->context = context;
+    atomic_store_explicit(&threads->done, 0, memory_order_relaxed);
+    uint64_t job = (atomic_load(&threads->ticket) >> JOB_SHIFT) + 1;
+    atomic_store(&threads->ticket, job << JOB_SHIFT | (uint64_t)shares << CLAIMED_BITS);
+    if (atomic_load(&threads->sleeping) == 0)
+        return;
+    pthread_mutex_lock(&threads->mutex);
+    pthread_cond_broadcast(&threads->wake);
+    pthread_mutex_unlock(&threads->mutex);
+}
+
+void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context) {
+    PhysThreads *threads = system->threads;
+    if (threads && shares > 1 && !threads->started)
+        start(threads);
+    if (!threads || shares <= 1 || threads->count == 0) {
+        for (int share = 0; share < shares; share++)
+            work(context, share, shares);
         return;
     }
-#else
-    (void)threads;
-#endif
-    work(context, 0, 1);
+    publish(threads, shares, work, context);
+    work_some(threads);
+    for (int looks = 0; atomic_load_explicit(&threads->done, memory_order_acquire) < shares; looks++) {
+        if (looks < PATIENCE)
+            pause_a_little();
+        else
+            sched_yield();
+    }
+}
+
+int phys_shares(const PhysSystem *system, size_t count, size_t few) {
+    int threads = system->options.threads;
+    if (threads < 2 || count < few)
+        return 1;
+    int shares = threads * PHYS_SHARES_EACH;
+    return shares < PHYS_MOST_SHARES ? shares : PHYS_MOST_SHARES;
 }

@@ -1,15 +1,30 @@
 // threads.h: work that is shared by threads.
+//
+// A few threads wait for work. Work comes in shares, which are claimed one after the other by whoever is free, the
+// caller included: so on a busy machine, where a thread may not get a processor for milliseconds, the others do without
+// it, and the caller never waits for a thread that has not begun. What a share is depends on its number only.
 #ifndef PETRI_PHYSICS_THREADS_H
 #define PETRI_PHYSICS_THREADS_H
 
-#include <stddef.h>
+#include "physics/system.h"
 
-// Calls `work` for worker 0 … workers - 1 at the same time; there are at most `threads` of them, and at least one.
-void phys_parallel(int threads, void (*work)(void *context, int worker, int workers), void *context);
+enum {
+    PHYS_MOST_THREADS = 64,
+    PHYS_MOST_SHARES = 64,
+    PHYS_SHARES_EACH = 4, // shares for each thread, if the work can be cut freely
+};
 
-// Where worker number `worker` of so many begins, if `count` things are dealt out in equal runs.
-static inline size_t phys_share(size_t count, int worker, int workers) {
-    return (size_t)((unsigned long long)count * (unsigned)worker / (unsigned)workers);
+typedef void PhysWork(void *context, int share, int shares);
+
+// Calls `work` for share 0 … shares - 1 on all threads of the system. Shares begin in ascending order.
+void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context);
+
+// Shares for `count` things of which one thread does `few` in the time in which another would get ready.
+int phys_shares(const PhysSystem *system, size_t count, size_t few);
+
+// Where share number `share` of so many begins, if `count` things are dealt out in equal runs.
+static inline size_t phys_share(size_t count, int share, int shares) {
+    return (size_t)((unsigned long long)count * (unsigned)share / (unsigned)shares);
 }
 
 #endif

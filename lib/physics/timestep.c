@@ -10,9 +10,34 @@
 //   until not (more and (lockstep or this is the frame's first step and performance > 1.5))
 #include "physics/internal.h"
 
+// Brings into simulation order what has changed since the last frame. False if memory is used up.
+static bool arrange(PhysSystem *system) {
+    if (system->failed)
+        return false;
+    if (!system->arranged) {
+        system->forces_arranged = system->radii_raised = false;
+        system->arranged = phys_arrange(system) && phys_load(system);
+        if (!system->arranged)
+            return false;
+    }
+    if (!system->forces_arranged) {
+        system->radii_raised = false; // perhaps nobody wanted them so far
+        system->forces_arranged = phys_arrange_forces(system);
+        if (!system->forces_arranged)
+            return false;
+    }
+    if (!system->radii_raised)
+        phys_raise_radii(system);
+    Force *forces = system->forces.bytes;
+    for (uint32_t i = 0; i < system->force_count; i++)
+        forces[i].item = 0;
+    return true;
+}
+
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
-    if (system->failed || !phys_arrange(system) || !phys_load(system)) {
+    system->frame++;
+    if (!arrange(system) || (time->settle && !phys_clear_marks(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
@@ -37,6 +62,6 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
-    phys_store(system);
+    phys_store(system, time->settle);
     return result;
 }

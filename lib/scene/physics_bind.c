@@ -65,21 +65,29 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     PhysicsSystem *system = known_system(scene, start, &occurrence);
     if (!system)
         return new_system(scene, start, occurrence, frame);
-    if (system->seen + 1 != scene->frame_number)
-        system->slot_count = 0; // it was absent: its keys stay, and it has no last tree
+    if (system->seen + 1 != scene->frame_number) { // it was absent: its keys stay, and it has no last tree
+        physics_store_settle(system, frame->state);
+        system->slot_count = 0;
+    }
     return system;
+}
+
+bool scene_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size) {
+    if (count < *capacity)
+        return true;
+    uint32_t wanted = count < 32 ? 64 : count + count / 2;
+    void *larger = realloc(*array, wanted * size);
+    if (!larger)
+        return false;
+    *array = larger;
+    *capacity = wanted;
+    return true;
 }
 
 // Keeps a copy of the slots of a tree's particles.
 static bool keep_slots(PhysicsSystem *system, const StateSlot *slots, uint32_t count) {
-    system->slot_count = 0;
-    if (system->slot_capacity < count) {
-        StateSlot *larger = realloc(system->slots, count * sizeof *larger);
-        if (!larger)
-            return false;
-        system->slots = larger;
-        system->slot_capacity = count;
-    }
+    if (!scene_reserve((void **)&system->slots, &system->slot_capacity, count, sizeof *slots))
+        return false;
     if (count)
         memcpy(system->slots, slots, count * sizeof *slots);
     system->slot_count = count;
@@ -113,49 +121,7 @@ static void forget_particles(PhysicsSystem *system, const SceneFrame *frame) {
     for (uint32_t i = 0; i < system->slot_count; i++)
         state_slot_set(frame->state, system->slots[i], VALUE_NULL);
     system->slot_count = 0;
-}
-
-// Removes the keys of particles that were in the last frame's tree and are not in this one's, and remembers this one's.
-static void remember_particles(PhysicsSystem *system, const PhysicsTree *tree) {
-    uint32_t count = 2 * tree->body_count;
-    bool same = system->slot_count == count;
-    for (uint32_t i = 0; same && i < tree->body_count; i++)
-        same = system->slots[2 * i] == tree->bodies[i].position;
-    if (same)
-        return;
-    for (uint32_t i = 0; i < system->slot_count; i += 2)
-        if (!physics_find_slot(tree, system->slots[i])) {
-            state_slot_set(tree->frame->state, system->slots[i], VALUE_NULL);
-            state_slot_set(tree->frame->state, system->slots[i + 1], VALUE_NULL);
-        }
-    StateSlot *slots = arena_alloc_array(tree->frame->arena, count, sizeof *slots);
-    for (uint32_t i = 0; i < tree->body_count; i++) {
-        slots[2 * i] = tree->bodies[i].position;
-        slots[2 * i + 1] = tree->bodies[i].velocity;
-    }
-    keep_slots(system, slots, count);
-}
-
-static bool all_finite(const double *numbers, uint32_t n) {
-    for (uint32_t k = 0; k < n; k++)
-        if (!isfinite(numbers[k]))
-            return false;
-    return true;
-}
-
-static void store(const PhysicsTree *tree, bool simulated) {
-    uint32_t n = tree->dimensions;
-    for (uint32_t i = 0; i < tree->body_count; i++) {
-        const Body *body = &tree->bodies[i];
-        if (!simulated && !body->anchor)
-            continue;
-        const double *position = phys_position(tree->engine, body->handle);
-        const double *velocity = phys_velocity(tree->engine, body->handle);
-        if (all_finite(position, n))
-            state_slot_set(tree->frame->state, body->position, value_numbers_view(position, n));
-        if (all_finite(velocity, n))
-            state_slot_set(tree->frame->state, body->velocity, value_numbers_view(velocity, n));
-    }
+    system->described = false;
 }
 
 // The system's own attributes.
@@ -219,8 +185,8 @@ static bool fits_in_memory(const Reader *reader, const Settings *settings) {
 }
 
 // Step 6: simulates up to `settings->time`; returns the clock afterwards.
-static double simulate(const PhysicsTree *tree, const Reader *reader, const Settings *settings, double last,
-                       double clock, uint64_t *steps) {
+static double simulate(PhysicsTree *tree, const Reader *reader, const Settings *settings, double last, double clock,
+                       uint64_t *steps) {
     PhysTime time = {.last = last,
                      .now = settings->time,
                      .clock = clock,
@@ -228,6 +194,7 @@ static double simulate(const PhysicsTree *tree, const Reader *reader, const Sett
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
                      .speed_of_light = settings->speed_of_light,
+                     .settle = physics_can_show(tree),
                      .interrupt = tree->frame->interrupt};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
@@ -237,8 +204,19 @@ static double simulate(const PhysicsTree *tree, const Reader *reader, const Sett
     else if (result.status == PHYS_DROPPED_TIME)
         reader_report(reader, "dropped-time", "",
                       STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
-    store(tree, result.status != PHYS_NO_MEMORY);
+    tree->failed |= result.status == PHYS_NO_MEMORY;
+    tree->system->described &= !tree->failed;
+    physics_store(tree, result.status != PHYS_NO_MEMORY);
     return result.status == PHYS_NO_MEMORY ? clock : result.clock;
+}
+
+// Reads a tree from scratch.
+static void describe(PhysicsTree *tree) {
+    tree->body_count = tree->next_anchor = 0;
+    physics_store_begin(tree);
+    physics_read_bodies(tree);
+    physics_read_forces(tree);
+    physics_store_remove_vanished(tree);
 }
 
 static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader, const Settings *settings,
@@ -260,6 +238,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
         set_number(frame, system->start, settings->time);
 
     PhysicsTree tree = {.scene = scene,
+                        .system = system,
                         .frame = frame,
                         .root = reader->node,
                         .dimensions = reader->dimensions,
@@ -268,18 +247,17 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
                         .from_state = iteration > 0,
                         .run = settings->run,
                         .iteration = iteration};
-    phys_begin(tree.engine, tree.dimensions);
-    physics_read_bodies(&tree);
-    physics_read_forces(&tree);
-    remember_particles(system, &tree);
+    if (!physics_reuse(&tree))
+        describe(&tree);
     uint64_t steps = 0;
-    if (settings->time > last)
+    if (settings->time > last) {
         clock = simulate(&tree, reader, settings, last, clock, &steps);
-    else if (tree.particle_count > 0)
-        store(&tree, false); // anchors; the recorded language cases leave out those of a system without particles
+    } else {
+        phys_rest(tree.engine);
+        physics_store(&tree, false);
+    }
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
-    index_free(&tree.by_slot);
     return steps;
 }
 
@@ -309,6 +287,5 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     if (system->occurrence > 0)
         reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
-    system->dimensions = reader.dimensions;
     return system->steps = update(scene, system, &reader, &settings, frame);
 }

@@ -6,6 +6,8 @@
 #include "value/seed.h"
 
 #include <math.h>
+#include <stdlib.h>
+#include <string.h>
 
 static Reader reader_of(const PhysicsTree *tree, const Node *node) {
     return (Reader){&tree->scene->schema, tree->frame->arena, node, tree->dimensions};
@@ -15,110 +17,98 @@ static double clamp(double x, double low, double high) {
     return x < low ? low : x > high ? high : x;
 }
 
-static bool has_slot(const void *owner, uint32_t entry, const void *key) {
-    return ((const PhysicsTree *)owner)->bodies[entry].position == *(const StateSlot *)key;
-}
-
-const Body *physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
-    uint32_t found = index_find(&tree->by_slot, hash_mix(slot + UINT64_C(1)), has_slot, tree, &slot);
-    return found == INDEX_NONE ? NULL : &tree->bodies[found];
-}
-
-const Body *physics_find_body(const PhysicsTree *tree, Value id) {
-    if (id.len == 0)
-        return NULL;
-    StateSlot slot = state_find(tree->frame->state, scene_key(tree->frame->arena, tree->prefix, id, NULL));
-    return slot == STATE_NO_SLOT ? NULL : physics_find_slot(tree, slot);
-}
-
 // The system's own keys are prefix;:last and so on: a particle of that id fights with them.
-static void check_reserved(const PhysicsTree *tree, const Reader *reader, Value id) {
+static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     const Scene *scene = tree->scene;
     const Symbol *const reserved[] = {scene->key_last, scene->key_clock, scene->key_run, scene->key_iteration};
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
-        if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number)
+        if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number) {
             reader_report(reader, "reserved-id", "", STR("the system keeps a value of its own under this id"));
-}
-
-// Remembers a body; NULL (reported) if it has no usable id or one that was seen already.
-static Body *add_body(PhysicsTree *tree, const Reader *reader, AttrRow id_row, bool anchor) {
-    Arena *arena = tree->frame->arena;
-    Value id = attr_value(reader, id_row);
-    StateSlot slot = id.len ? state_slot(tree->frame->state, scene_key(arena, tree->prefix, id, NULL)) : STATE_NO_SLOT;
-    if (slot == STATE_NO_SLOT) {
-        reader_report(reader, "missing-id", "",
-                      id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
-        return NULL;
-    }
-    if (physics_find_slot(tree, slot)) {
-        reader_report(reader, "duplicate-id", "", STR("a particle with this id is there already; ignored"));
-        return NULL;
-    }
-    check_reserved(tree, reader, id);
-    if (tree->body_count == tree->body_capacity) {
-        uint32_t capacity = tree->body_capacity ? tree->body_capacity * 2 : 64;
-        tree->bodies = arena_grow(arena, tree->bodies, tree->body_capacity * sizeof *tree->bodies,
-                                  capacity * sizeof *tree->bodies);
-        tree->body_capacity = capacity;
-    }
-    if (!index_add(&tree->by_slot, hash_mix(slot + UINT64_C(1)), tree->body_count))
-        return NULL;
-    Body *body = &tree->bodies[tree->body_count++];
-    tree->particle_count += !anchor;
-    *body = (Body){
-        .node = reader->node,
-        .position = slot,
-        .velocity = state_slot(tree->frame->state, scene_key(arena, tree->prefix, id, tree->scene->key_velocity)),
-        .anchor = anchor,
-    };
-    return body;
-}
-
-// The state's vector, if the run goes on and it has one of n numbers; else the attribute's.
-static const double *stored_or_attr(const PhysicsTree *tree, const Reader *reader, StateSlot slot, AttrRow row) {
-    if (tree->from_state) {
-        Value stored = state_slot_get(tree->frame->state, slot);
-        if (stored.kind == VALUE_NUMBERS && stored.len == tree->dimensions) {
-            Value copy = value_copy(tree->frame->arena, stored);
-            return copy.len == 1 ? arena_copy(tree->frame->arena, &copy.as.number, sizeof(double)) : copy.as.numbers;
+            tree->shared = true;
         }
+}
+
+// Makes room for one more body in the system's lists.
+static bool reserve_body(PhysicsSystem *system, uint32_t count) {
+    return scene_reserve((void **)&system->slots, &system->slot_capacity, 2 * count + 1, sizeof *system->slots) &&
+           scene_reserve((void **)&system->anchors, &system->anchor_capacity, system->anchor_count,
+                         sizeof *system->anchors);
+}
+
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node) {
+    PhysicsSystem *system = tree->system;
+    if (tree->root->kept_children || !node->kept)
+        return; // the whole tree is known by its address, or the node does not last
+    if (!scene_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
+        return;
+    while (system->node_count <= body)
+        system->nodes[system->node_count++] = NULL;
+    system->nodes[body] = node;
+}
+
+// Remembers a body under its slots. False if memory is used up.
+static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, StateSlot position, StateSlot velocity) {
+    PhysicsSystem *system = tree->system;
+    uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
+    if (velocity == STATE_NO_SLOT || !reserve_body(system, body) || !physics_set_mark(tree, position, mark) ||
+        (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
+        return false;
+    tree->shared |= physics_mark(tree, velocity) != mark + 1;
+    system->slots[2 * (size_t)body] = position;
+    system->slots[2 * (size_t)body + 1] = velocity;
+    physics_keep_node(tree, body, node);
+    if (anchor)
+        system->anchors[system->anchor_count++] = body;
+    tree->body_count++;
+    return true;
+}
+
+// Adds a body; false if it has no usable id or one that was seen already (reported), or memory is used up.
+static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor) {
+    double numbers[PHYSICS_KEY_NUMBERS];
+    Reader reader = reader_of(tree, node);
+    StateSlot slot = id.len ? state_slot(tree->frame->state, physics_key(tree, id, false, numbers)) : STATE_NO_SLOT;
+    if (slot == STATE_NO_SLOT) {
+        reader_report(&reader, "missing-id", "",
+                      id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
+        return false;
     }
-    return attr_vector(reader, row);
+    if (physics_find_slot(tree, slot) != PHYSICS_NO_BODY) {
+        reader_report(&reader, "duplicate-id", "", STR("a particle with this id is there already; ignored"));
+        return false;
+    }
+    check_reserved(tree, &reader, id);
+    tree->shared |= physics_mark(tree, slot) != 0; // the velocity of another
+    StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
+    if (remember_body(tree, node, anchor, slot, velocity))
+        return true;
+    tree->failed = true;
+    return false;
 }
 
-__attribute__((noinline)) static void read_particle(PhysicsTree *tree, const Node *node, uint32_t group) {
-    Reader reader = reader_of(tree, node);
-    reader_check_names(&reader, KIND_PARTICLE);
-    Body *body = add_body(tree, &reader, ROW_PARTICLE_ID, false);
-    if (!body)
-        return;
-    body->handle =
-        phys_add_particle(tree->engine, group,
-                          &(PhysParticle){
-                              .position = stored_or_attr(tree, &reader, body->position, ROW_PARTICLE_POSITION),
-                              .velocity = stored_or_attr(tree, &reader, body->velocity, ROW_PARTICLE_VELOCITY),
-                              .force = attr_vector(&reader, ROW_PARTICLE_FORCE),
-                              .ease = attr_float(&reader, ROW_PARTICLE_EASE),
-                              .radius = clamp(attr_float(&reader, ROW_PARTICLE_RADIUS), 0, INFINITY),
-                              .mass = clamp(attr_float(&reader, ROW_PARTICLE_MASS), 0, INFINITY),
-                              .charge = attr_float(&reader, ROW_PARTICLE_CHARGE),
-                          });
+// The state's vector, if the run goes on and it has one of n numbers; else the attribute's. One number is copied to
+// *single.
+static PhysVector stored_or(const PhysicsTree *tree, StateSlot slot, PhysVector given, double *single) {
+    Value stored = tree->from_state ? state_slot_get(tree->frame->state, slot) : VALUE_NULL;
+    if (stored.kind != VALUE_NUMBERS || stored.len != tree->dimensions)
+        return given;
+    *single = stored.as.number;
+    return stored.len == 1 ? single : stored.as.numbers;
 }
 
-__attribute__((noinline)) static void read_anchor(PhysicsTree *tree, const Node *node, uint32_t group) {
-    Reader reader = reader_of(tree, node);
-    reader_check_names(&reader, KIND_ANCHOR);
-    Body *body = add_body(tree, &reader, ROW_ANCHOR_ID, true);
-    if (!body)
+__attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, bool anchor, uint32_t group) {
+    Value id;
+    PhysParticle numbers;
+    double position, velocity;
+    physics_read_particle(tree, node, anchor, &id, &numbers);
+    if (!add_body(tree, node, id, anchor))
         return;
-    body->handle = phys_add_particle(tree->engine, group,
-                                     &(PhysParticle){
-                                         .position = attr_vector(&reader, ROW_ANCHOR_POSITION),
-                                         .radius = clamp(attr_float(&reader, ROW_ANCHOR_RADIUS), 0, INFINITY),
-                                         .mass = clamp(attr_float(&reader, ROW_ANCHOR_MASS), 0, INFINITY),
-                                         .charge = attr_float(&reader, ROW_ANCHOR_CHARGE),
-                                         .anchor = true,
-                                     });
+    if (!anchor) {
+        const StateSlot *slots = tree->system->slots + 2 * (size_t)(tree->body_count - 1);
+        numbers.position = stored_or(tree, slots[0], numbers.position, &position);
+        numbers.velocity = stored_or(tree, slots[1], numbers.velocity, &velocity);
+    }
+    phys_add_particle(tree->engine, group, &numbers);
 }
 
 static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t group) {
@@ -126,10 +116,10 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
         const Node *child = parent->children[i];
         switch (schema_kind(&tree->scene->schema, child)) {
         case KIND_PARTICLE:
-            read_particle(tree, child, group);
+            read_body(tree, child, false, group);
             break;
         case KIND_ANCHOR:
-            read_anchor(tree, child, group);
+            read_body(tree, child, true, group);
             break;
         case KIND_GROUP:
             read_group_bodies(tree, child, phys_add_group(tree->engine, group));
@@ -141,7 +131,13 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 }
 
 void physics_read_bodies(PhysicsTree *tree) {
+    physics_clear_marks(tree);
+    tree->system->anchor_count = 0;
+    tree->system->node_count = 0;
     read_group_bodies(tree, tree->root, 0);
+    tree->scene->body_count = tree->body_count;
+    tree->scene->marked = tree->system;
+    tree->system->slot_count = 2 * tree->body_count;
 }
 
 static PhysForce pair_force(const Reader *reader, PhysForceKind kind, AttrRow strength, AttrRow ease,
@@ -159,12 +155,36 @@ static void read_bounds(const Reader *reader, PhysForce *force, const AttrRow lo
     force->has_maximum = attr_first(reader, upper, 3, &force->maximum);
 }
 
-static bool read_distance(const PhysicsTree *tree, const Reader *reader, PhysForce *force) {
+// The ends of a distance force; those of the force at this place in the last frame are tried first.
+static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool *has_first) {
+    PhysicsSystem *system = tree->system;
+    uint32_t number = tree->next_link++;
+    if (number < system->link_count) {
+        *link = system->links[number];
+        if (link->from < tree->body_count && physics_has_id(tree, link->from, from) && link->to < tree->body_count &&
+            physics_has_id(tree, link->to, to))
+            return true;
+    }
+    int64_t first = physics_find_body(tree, from), second = physics_find_body(tree, to);
+    *has_first = first != PHYSICS_NO_BODY;
+    *link = (Link){(uint32_t)first, (uint32_t)second};
+    if (first == PHYSICS_NO_BODY || second == PHYSICS_NO_BODY)
+        return false;
+    bool room = scene_reserve((void **)&system->links, &system->link_capacity, number, sizeof *link);
+    if (room && number <= system->link_count) {
+        system->links[number] = *link;
+        system->link_count += number == system->link_count;
+    }
+    return true;
+}
+
+static bool read_distance(PhysicsTree *tree, const Reader *reader, PhysForce *force) {
     static const AttrRow lower[] = {ROW_DISTANCE_FIXED, ROW_DISTANCE_MINIMUM, ROW_DISTANCE_MIN};
     static const AttrRow upper[] = {ROW_DISTANCE_FIXED, ROW_DISTANCE_MAXIMUM, ROW_DISTANCE_MAX};
     Value from = attr_value(reader, ROW_DISTANCE_FROM), to = attr_value(reader, ROW_DISTANCE_TO);
-    const Body *first = physics_find_body(tree, from), *second = physics_find_body(tree, to);
-    if (!first || !second) {
+    Link link;
+    bool first = false;
+    if (!find_ends(tree, from, to, &link, &first)) {
         Text text = text_new(reader->arena);
         text_add_format(&text, "%s=", first ? "to" : "from");
         format_value(&text, reader->schema->symbols, first ? to : from);
@@ -176,8 +196,8 @@ static bool read_distance(const PhysicsTree *tree, const Reader *reader, PhysFor
                          .strength = attr_float(reader, ROW_DISTANCE_STRENGTH),
                          .ease = attr_float(reader, ROW_DISTANCE_EASE),
                          .power = attr_float(reader, ROW_DISTANCE_POWER),
-                         .from = first->handle,
-                         .to = second->handle};
+                         .from = link.from,
+                         .to = link.to};
     read_bounds(reader, force, lower, upper);
     return true;
 }
@@ -233,7 +253,7 @@ static PhysForce read_buoyancy(const Reader *reader) {
 }
 
 // The seed of a !random: prefix;run;iteration and a 0 for each !random before it (spec 4.2).
-static uint64_t random_key(const PhysicsTree *tree, uint32_t randoms_before) {
+uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before) {
     Vector seed = vector_new(tree->frame->arena);
     vector_add(&seed, tree->prefix);
     vector_add_number(&seed, tree->run);
@@ -245,8 +265,7 @@ static uint64_t random_key(const PhysicsTree *tree, uint32_t randoms_before) {
 }
 
 // Fills `force` from a force applier or barrier; false if it is to be ignored.
-static bool read_force(const PhysicsTree *tree, const Reader *reader, SceneKind kind, uint32_t randoms,
-                       PhysForce *force) {
+static bool read_force(PhysicsTree *tree, const Reader *reader, SceneKind kind, uint32_t randoms, PhysForce *force) {
     switch (kind) {
     case KIND_CONSTANT:
         *force = (PhysForce){.kind = PHYS_CONSTANT,
@@ -259,7 +278,7 @@ static bool read_force(const PhysicsTree *tree, const Reader *reader, SceneKind 
         *force = (PhysForce){.kind = PHYS_RANDOM,
                              .strength = attr_float(reader, ROW_RANDOM_STRENGTH),
                              .ease = attr_float(reader, ROW_RANDOM_EASE),
-                             .key = random_key(tree, randoms)};
+                             .key = physics_random_key(tree, randoms)};
         return true;
     case KIND_FIELD:
         *force = (PhysForce){.kind = PHYS_FIELD,
@@ -332,8 +351,17 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
         return;
     }
     reader_check_names(&reader, kind);
-    if (read_force(tree, &reader, kind, randoms, &force))
-        phys_add_force(tree->engine, group, &force);
+    if (!read_force(tree, &reader, kind, randoms, &force))
+        return;
+    uint32_t number = phys_add_force(tree->engine, group, &force);
+    PhysicsSystem *system = tree->system;
+    if (kind != KIND_RANDOM)
+        return;
+    if (scene_reserve((void **)&system->randoms, &system->random_capacity, system->random_count,
+                      sizeof *system->randoms))
+        system->randoms[system->random_count++] = (RandomForce){number, randoms};
+    else
+        tree->failed = true;
 }
 
 static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t group, uint32_t randoms) {
@@ -351,5 +379,7 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
 
 void physics_read_forces(PhysicsTree *tree) {
     tree->next_group = 1;
+    tree->next_link = 0;
+    tree->system->random_count = 0;
     read_group_forces(tree, tree->root, 0, 0);
 }

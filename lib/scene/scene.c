@@ -26,22 +26,38 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host) {
 }
 
 void scene_set_physics(Scene *scene, const PhysOptions *options) {
+    phys_threads_free(scene->physics.pool);
     scene->physics = *options;
+    scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
-void scene_reset(Scene *scene) {
+static void free_system(PhysicsSystem *system) {
+    phys_free(system->engine);
+    free(system->slots);
+    free(system->old_slots);
+    free(system->nodes);
+    free(system->anchors);
+    free(system->randoms);
+    free(system->links);
+    free(system);
+}
+
+void scene_reset(Scene *scene, State *state) {
     for (PhysicsSystem *system = scene->systems, *next; system; system = next) {
         next = system->next;
-        phys_free(system->engine);
-        free(system->slots);
-        free(system);
+        if (state)
+            physics_store_settle(system, state);
+        free_system(system);
     }
     scene->systems = NULL;
+    scene->marked = NULL;
 }
 
 void scene_free(Scene *scene) {
     if (scene) {
-        scene_reset(scene);
+        scene_reset(scene, NULL);
+        phys_threads_free(scene->physics.pool);
+        free(scene->bodies);
         input_free(&scene->input);
     }
     free(scene);
@@ -64,6 +80,9 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     uint32_t count = state_slot_count(frame->state);
     if (count < MANY || count / 2 < state_count(frame->state))
         return;
+    for (PhysicsSystem *system = scene->systems; system; system = system->next)
+        if (system->open)
+            return; // an update broke off: its lists are not in order
     uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
     StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
     memset(used, 0, count);
@@ -76,6 +95,7 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     }
     if (!state_compact(frame->state, used, moved))
         return;
+    scene->marked = NULL;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         own_slots(system, own);
         for (int i = 0; i < OWN_SLOTS; i++)

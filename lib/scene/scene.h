@@ -28,8 +28,9 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host);
 void scene_free(Scene *scene);
 // How the physics of new systems is computed (not what: results do not depend on it).
 void scene_set_physics(Scene *scene, const PhysOptions *options);
-// Forgets what was in the last frame's tree (for when the state dictionary has been replaced).
-void scene_reset(Scene *scene);
+// Forgets what was in the last frame's tree (for when the state dictionary is replaced). `state` is the dictionary that
+// was used so far, which keeps its entries; NULL: it is not needed any more, or gone already.
+void scene_reset(Scene *scene, State *state);
 // For saving: the systems and the state keys of the particles in their last frame's trees, which decide what a later
 // frame removes. `*cursor` starts at NULL; false at the end. Slots come in pairs: position, velocity.
 typedef struct SceneSystem {

@@ -6,7 +6,24 @@
 #include "scene/input_bind.h"
 #include "scene/scene.h"
 
+// A force whose key changes from frame to frame.
+typedef struct RandomForce {
+    uint32_t force;   // its number in the engine
+    uint32_t randoms; // random forces before it
+} RandomForce;
+
+// The ends of a distance force, as particle handles.
+typedef struct Link {
+    uint32_t from;
+    uint32_t to;
+} Link;
+
 // What a system keeps from frame to frame. It is the same system as long as its prefix is the same.
+//
+// The engine keeps the description of the last frame's tree, and the state's entries show the positions and velocities
+// where the engine has them (state.h, views). So a tree that is the same in the next frame costs nothing, and one with
+// the same particles costs what has changed: `described` says that this is possible. Anything out of the ordinary
+// clears it, and the next frame's tree is read from scratch, with positions and velocities from the state.
 typedef struct PhysicsSystem PhysicsSystem;
 struct PhysicsSystem {
     PhysicsSystem *next;
@@ -17,12 +34,35 @@ struct PhysicsSystem {
     StateSlot clock;
     StateSlot last;
     PhysSystem *engine;
-    StateSlot *slots; // positions and velocities, in pairs, of the particles in the last frame's tree
+    StateSlot *slots; // positions and velocities, in pairs, of the particles in the last frame's tree, by handle
     uint32_t slot_count;
     uint32_t slot_capacity;
-    uint32_t dimensions; // in the last update
-    uint64_t steps;      // likewise
-    uint64_t seen;       // number of the scene's frame in which it was updated last
+    uint64_t steps; // of the last update
+    uint64_t seen;  // number of the scene's frame in which it was updated last
+
+    StateViewer viewer;
+    bool described;
+    bool open;            // a description was begun and not finished
+    StateSlot *old_slots; // of the description before, whose rows entries may still show
+    uint32_t old_count;
+    uint32_t old_capacity;
+    uint32_t dimensions;         // in the last update
+    uint64_t generation;         // of the nodes below
+    const Node *const *children; // of the tree, if they are kept, else NULL
+    uint32_t child_count;
+    const Node **nodes; // by handle: the particle's node if that is kept, else NULL; not for kept children
+    uint32_t node_count;
+    uint32_t node_capacity;
+    uint32_t *anchors; // handles
+    uint32_t anchor_count;
+    uint32_t anchor_capacity;
+    uint32_t absent; // positions and velocities of particles that the state does not have yet
+    RandomForce *randoms;
+    uint32_t random_count;
+    uint32_t random_capacity;
+    Link *links; // in the order of the tree
+    uint32_t link_count;
+    uint32_t link_capacity;
 };
 
 struct Scene {
@@ -31,6 +71,11 @@ struct Scene {
     PhysicsSystem *systems;
     uint64_t frame_number;
     PhysOptions physics;
+    uint32_t *bodies; // by slot: 2 * (base + handle) of the particle whose position it is, + 1 if it is its velocity
+    uint32_t body_capacity;
+    uint32_t body_base;          // of the tree that was read last; what is below is of others
+    uint32_t body_count;         // of that tree
+    const PhysicsSystem *marked; // whose tree that was
     // Symbols of state keys
     const Symbol *key_run;
     const Symbol *key_iteration;
@@ -40,44 +85,77 @@ struct Scene {
     const Symbol *key_time;
 };
 
-// A particle or anchor of the tree.
-typedef struct Body {
-    const Node *node;
-    StateSlot position;
-    StateSlot velocity;
-    uint32_t handle;
-    bool anchor;
-} Body;
-
 // A `!physics` tree being read.
 typedef struct PhysicsTree {
     Scene *scene;
+    PhysicsSystem *system;
     const SceneFrame *frame;
     const Node *root;
     uint32_t dimensions;
     Value prefix;
-    Body *bodies;
-    uint32_t body_count;
-    uint32_t body_capacity;
-    uint32_t particle_count; // bodies that are not anchors
-    Index by_slot;           // bodies by the slot of their position; heap, freed by physics_tree_free
     PhysSystem *engine;
-    bool from_state; // positions and velocities come from the state where it has them
+    uint32_t body_count; // particles and anchors
+    bool from_state;     // positions and velocities come from the state where it has them
+    bool shared;         // two of its keys are one, or one of the system's own
+    bool failed;         // memory was used up
     double run;
     double iteration;
     uint32_t next_group;
+    uint32_t next_link;
+    uint32_t next_anchor;
 } PhysicsTree;
 
 // prefix;id or prefix;id;symbol as a key.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
 double scene_number(const State *state, StateSlot slot, double fallback);
+// Makes room for one more element; false if memory is used up.
+bool scene_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
-// Fills the engine from the tree: groups and particles, then forces.
+// physics_particle.c: the attributes of a !particle or !anchor; what is wrong is reported. Vectors are borrowed.
+void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, Value *id, PhysParticle *numbers);
+
+// physics_read.c: fills the engine from the tree: groups and particles, then forces.
 void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
-// The body with this position slot, or with this id; NULL if there is none.
-const Body *physics_find_slot(const PhysicsTree *tree, StateSlot slot);
-const Body *physics_find_body(const PhysicsTree *tree, Value id);
+// The key of the stream of a random force in this frame.
+uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before);
+// Remembers the node of a particle, if that can help in the next frame.
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node);
+
+// physics_slots.c
+enum { PHYSICS_NO_BODY = -1, PHYSICS_KEY_NUMBERS = 24 };
+// The key prefix;id, or prefix;id;:velocity; usual ones are made in `numbers`.
+Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[PHYSICS_KEY_NUMBERS]);
+// Is this the id of particle number `body`?
+bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id);
+// The particle of the tree with this id, or with this position slot, or PHYSICS_NO_BODY.
+int64_t physics_find_body(PhysicsTree *tree, Value id);
+int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot);
+// Is this the slot of a position, or of a position or a velocity, in the tree that was read last?
+bool physics_has_position(const PhysicsTree *tree, StateSlot slot);
+bool physics_has_slot(const PhysicsTree *tree, StateSlot slot);
+// The mark of a slot in the tree that is being read, or 0; sets one (false if memory is used up); begins a tree.
+uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot);
+bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark);
+void physics_clear_marks(const PhysicsTree *tree);
+// Frees the marks, if they are many and will hardly be needed again.
+void physics_forget_slots(const PhysicsTree *tree);
+
+// physics_reuse.c: brings the engine's description up to date with the tree. False if that is not possible: then it
+// must be read from scratch.
+bool physics_reuse(PhysicsTree *tree);
+
+// physics_store.c: the system's entries in the state.
+// Begins a new description: what the entries show stays readable.
+void physics_store_begin(PhysicsTree *tree);
+// Removes the keys of particles that were in the last frame's tree and are in this one's no longer.
+void physics_store_remove_vanished(const PhysicsTree *tree);
+// Can the entries of this tree show the engine's numbers? If not, results are copied.
+bool physics_can_show(const PhysicsTree *tree);
+// Puts the frame's results into the state; `simulated`: there are some.
+void physics_store(PhysicsTree *tree, bool simulated);
+// Lets the entries keep copies of what they show, since the engine goes away or forgets it.
+void physics_store_settle(PhysicsSystem *system, State *state);
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame);
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame);

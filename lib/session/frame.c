@@ -163,7 +163,7 @@ double petri_resolution(const PetriSession *session) {
 
 void petri_clear(PetriSession *session) {
     state_clear(session->state);
-    scene_reset(session->scene);
+    scene_reset(session->scene, NULL);
     session_clear_frame(session);
     rewind_clock(session);
     session_change_setup(session, false);

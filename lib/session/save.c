@@ -249,10 +249,10 @@ static bool restore_text(Restore *restore, const char **why) {
     }
     if (!hash_matches(&restore->rest))
         return false;
-    scene_reset(restore->session->scene);
+    scene_reset(restore->session->scene, restore->session->state);
     if (read_body(restore))
         return true;
-    scene_reset(restore->session->scene);
+    scene_reset(restore->session->scene, restore->session->state);
     return false;
 }
 

@@ -50,15 +50,16 @@ static void log_machine(void *host, Str text) {
     diag_report(&session->log, &(Diag){.level = DIAG_NOTE, .text = text});
 }
 
-// The environment may choose how physics is computed; results do not depend on it. Unknown words count as none.
+_Static_assert((int)PETRI_NEIGHBOURS_NEVER == (int)PHYS_NEIGHBOURS_NEVER &&
+                   (int)PETRI_NEIGHBOURS_ALWAYS == (int)PHYS_NEIGHBOURS_ALWAYS,
+               "the public choices are those of the engine");
+
+// The environment may choose the instruction set; results do not depend on it. Unknown words count as none.
 static PhysOptions physics_options(const PetriOptions *options) {
-    PhysOptions physics = {.threads = options->threads, .keep_forces = options->keep_forces};
+    PhysOptions physics = {.threads = options->threads,
+                           .neighbours = (PhysNeighbours)options->neighbours,
+                           .keep_forces = options->keep_forces};
     cpu_choose(getenv("PETRI_CPU"), &physics.cpu);
-    const char *neighbours = getenv("PETRI_NEIGHBOURS");
-    if (neighbours && !strcmp(neighbours, "never"))
-        physics.neighbours = PHYS_NEIGHBOURS_NEVER;
-    else if (neighbours && !strcmp(neighbours, "always"))
-        physics.neighbours = PHYS_NEIGHBOURS_ALWAYS;
     return physics;
 }
 

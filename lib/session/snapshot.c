@@ -146,7 +146,7 @@ static State *take_state(SnapshotReader *reader) {
 static bool take_systems(SnapshotReader *reader, PetriSession *session) {
     SceneFrame frame = {.state = session->state, .arena = reader->arena};
     bool done = true;
-    scene_reset(session->scene);
+    scene_reset(session->scene, NULL);
     for (uint64_t left = take_word(reader); left > 0 && done; left--) {
         SceneSystem system = {.prefix = (StateSlot)take_word(reader)};
         system.occurrence = (uint32_t)take_word(reader);

@@ -1,6 +1,7 @@
 // state.c: see state.h.
 #include "state/state.h"
 
+#include "base/arena.h"
 #include "base/random.h"
 #include "base/table.h"
 
@@ -9,9 +10,10 @@
 #include <string.h>
 
 typedef struct StateEntry {
-    uint64_t hash;
-    Value key;   // owned: one heap block, or inline
-    Value value; // owned likewise; null: the slot is empty
+    Value key;   // in `keys`, or inline
+    Value value; // one heap block, or inline; a view if there is a viewer. Null: the slot is empty
+    uint32_t hash;
+    StateViewer viewer;
 } StateEntry;
 
 struct State {
@@ -20,10 +22,31 @@ struct State {
     uint32_t capacity;
     uint32_t live;
     Index index;
+    Arena keys;
+    bool *disturbed; // by viewer
+    uint32_t viewer_count;
 };
 
+static void start_keys(Arena *keys) {
+    arena_init(keys, "state keys", SIZE_MAX);
+}
+
 State *state_new(void) {
-    return calloc(1, sizeof(State));
+    State *state = calloc(1, sizeof(State));
+    if (state)
+        start_keys(&state->keys);
+    return state;
+}
+
+// A copy of a key; false if memory is used up.
+static bool own_key(Arena *keys, Value *copy, Value key) {
+    jmp_buf escape;
+    keys->escape = &escape;
+    if (setjmp(escape))
+        return false;
+    *copy = value_copy(keys, key);
+    keys->escape = NULL;
+    return true;
 }
 
 // A mixed vector is kept as one heap block: items, then Strings, then their bytes.
@@ -68,8 +91,11 @@ static bool own(Value *copy, Value v) {
     return true;
 }
 
-static void disown(Value *v) {
-    if (v->kind == VALUE_MIXED)
+static void disown(StateEntry *entry) {
+    Value *v = &entry->value;
+    if (entry->viewer)
+        entry->viewer = 0;
+    else if (v->kind == VALUE_MIXED)
         free((void *)v->as.items);
     else if (v->len > 1)
         free((void *)v->as.numbers);
@@ -77,12 +103,13 @@ static void disown(Value *v) {
 }
 
 void state_clear(State *state) {
-    for (uint32_t i = 0; i < state->count; i++) {
-        disown(&state->entries[i].key);
-        disown(&state->entries[i].value);
-    }
+    for (uint32_t i = 0; i < state->count; i++)
+        disown(&state->entries[i]);
     state->count = state->live = 0;
     index_clear(&state->index);
+    arena_reset(&state->keys);
+    for (uint32_t i = 0; i < state->viewer_count; i++)
+        state->disturbed[i] = true;
 }
 
 void state_free(State *state) {
@@ -90,6 +117,8 @@ void state_free(State *state) {
         return;
     state_clear(state);
     index_free(&state->index);
+    arena_free(&state->keys);
+    free(state->disturbed);
     free(state->entries);
     free(state);
 }
@@ -159,11 +188,11 @@ StateSlot state_slot(State *state, Value key) {
         state->entries = entries;
         state->capacity = capacity;
     }
-    StateEntry entry = {.hash = hash};
-    if (!own(&entry.key, key))
+    StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
+    if (!index_add(&state->index, hash, state->count))
         return STATE_NO_SLOT;
-    if (!index_add(&state->index, hash, state->count)) {
-        disown(&entry.key);
+    if (!own_key(&state->keys, &entry.key, key)) {
+        index_remove(&state->index, hash, state->count);
         return STATE_NO_SLOT;
     }
     state->entries[state->count] = entry;
@@ -183,30 +212,80 @@ Value state_slot_key(const State *state, StateSlot slot) {
     return slot < state->count ? state->entries[slot].key : VALUE_NULL;
 }
 
+// Puts a value that the entry owns from now on in the place of the one it has.
+static void replace(State *state, StateEntry *entry, Value owned) {
+    state->live += (owned.len > 0);
+    state->live -= (entry->value.len > 0);
+    if (entry->viewer)
+        state->disturbed[entry->viewer - 1] = true;
+    disown(entry);
+    entry->value = owned;
+}
+
 bool state_slot_set(State *state, StateSlot slot, Value value) {
     if (slot >= state->count)
         return slot != STATE_NO_SLOT;
     StateEntry *entry = &state->entries[slot];
     Value *stored = &entry->value;
-    if (value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len && value.len > 0) {
-        // In place, element by element only if the whole differs: an equal value leaves the stored bits alone.
-        if (!value_equal(*stored, value)) {
-            if (value.len == 1)
-                *stored = value;
-            else
-                memcpy((void *)stored->as.numbers, value.as.numbers, value.len * sizeof(double));
-        }
+    if (value.len > 0 && value_equal(*stored, value))
+        return true; // equal values leave the stored bits alone
+    if (!entry->viewer && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
+        value.len > 0) {
+        if (value.len == 1)
+            *stored = value;
+        else
+            memcpy((void *)stored->as.numbers, value.as.numbers, value.len * sizeof(double));
         return true;
     }
-    if (value.len > 0 && value_equal(*stored, value))
-        return true;
     Value copy;
     if (!own(&copy, value.len ? value : VALUE_NULL))
         return false;
-    state->live += (copy.len > 0);
-    state->live -= (stored->len > 0);
-    disown(stored);
-    *stored = copy;
+    replace(state, entry, copy);
+    return true;
+}
+
+StateViewer state_add_viewer(State *state) {
+    bool *larger = realloc(state->disturbed, (state->viewer_count + 1) * sizeof *larger);
+    if (!larger)
+        return 0;
+    state->disturbed = larger;
+    larger[state->viewer_count] = false;
+    return ++state->viewer_count;
+}
+
+bool state_take_disturbed(State *state, StateViewer viewer) {
+    bool disturbed = state->disturbed[viewer - 1];
+    state->disturbed[viewer - 1] = false;
+    return disturbed;
+}
+
+void state_slot_view(State *state, StateSlot slot, StateViewer viewer, const double *numbers, uint32_t len) {
+    if (slot >= state->count)
+        return;
+    StateEntry *entry = &state->entries[slot];
+    if (entry->viewer == viewer && entry->value.len == len) {
+        entry->value.as.numbers = numbers;
+        return;
+    }
+    replace(state, entry, value_numbers_view(numbers, len));
+    entry->viewer = viewer;
+}
+
+bool state_slot_viewed(const State *state, StateSlot slot, StateViewer viewer) {
+    return slot < state->count && state->entries[slot].viewer == viewer;
+}
+
+bool state_slot_settle(State *state, StateSlot slot, StateViewer viewer) {
+    if (!state_slot_viewed(state, slot, viewer))
+        return true;
+    StateEntry *entry = &state->entries[slot];
+    Value copy;
+    if (!own(&copy, entry->value)) {
+        replace(state, entry, VALUE_NULL);
+        return false;
+    }
+    entry->value = copy;
+    entry->viewer = 0;
     return true;
 }
 
@@ -232,25 +311,44 @@ uint32_t state_slot_count(const State *state) {
     return state->count;
 }
 
-bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
-    Index index = {0};
+// Indexes the slots that are kept, under their new numbers, and copies their keys. False if memory is used up.
+static bool index_kept(const State *state, const uint8_t *used, StateSlot *moved, Index *index, Arena *keys,
+                       Value *copies) {
     uint32_t count = 0;
     for (uint32_t i = 0; i < state->count; i++) {
-        bool kept = used[i] || state->entries[i].value.len > 0;
-        moved[i] = kept ? count : STATE_NO_SLOT;
-        if (kept && !index_add(&index, state->entries[i].hash, count++)) {
-            index_free(&index);
+        const StateEntry *entry = &state->entries[i];
+        moved[i] = used[i] || entry->value.len > 0 ? count++ : STATE_NO_SLOT;
+        if (moved[i] != STATE_NO_SLOT &&
+            (!own_key(keys, &copies[moved[i]], entry->key) || !index_add(index, (uint64_t)entry->hash << 32, moved[i])))
             return false;
-        }
     }
+    return true;
+}
+
+bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
+    Index index = {0};
+    Arena keys;
+    start_keys(&keys);
+    Value *copies = malloc((state->count + 1) * sizeof *copies);
+    if (!copies || !index_kept(state, used, moved, &index, &keys, copies)) {
+        index_free(&index);
+        arena_free(&keys);
+        free(copies);
+        return false;
+    }
+    uint32_t count = 0;
     for (uint32_t i = 0; i < state->count; i++) {
         if (moved[i] == STATE_NO_SLOT)
-            disown(&state->entries[i].key);
-        else
-            state->entries[moved[i]] = state->entries[i];
+            continue;
+        state->entries[moved[i]] = state->entries[i];
+        state->entries[moved[i]].key = copies[moved[i]];
+        count++;
     }
+    free(copies);
     index_free(&state->index);
+    arena_free(&state->keys);
     state->index = index;
+    state->keys = keys;
     state->count = count;
     return true;
 }

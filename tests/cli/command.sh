@@ -62,7 +62,7 @@ check "an unknown command names the nearest one" has err "petri check"
 petri run --frames
 check "an option without its value is a wrong command line" status_is 2
 for wrong in --frames=-1 --frames=x --frames=1.5 --frames= --every=0 --fps=0 --fps=nan --runtime=soon --threads=0 \
-    --print=trees --print= --color=sometimes --dump=all --quiet=1 -D1 --define==1 -q; do
+    --print=trees --print= --color=sometimes --dump=all --neighbours=few --quiet=1 -D1 --define==1 -q; do
     petri run "$wrong" plain.fl
     check "$wrong is a wrong command line" status_is 2
     check "$wrong gives one message" lines_are err 1
@@ -106,8 +106,8 @@ check "--print takes several sections" out_is "@0 time=0 beat=0
 > 0"
 petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
 check "--realtime runs" lines_are out 2
-petri run --threads 3 --nosimplify --lockstep --frames 1 -D x=1 count.fl
-check "--threads, --nosimplify and --lockstep are accepted" out_is "> 0"
+petri run --threads 3 --neighbours always --nosimplify --lockstep --frames 1 -D x=1 count.fl
+check "--threads, --neighbours, --nosimplify and --lockstep are accepted" out_is "> 0"
 petri run --dump=ast plain.fl
 check "--dump=ast prints the syntax tree" test -s out
 petri run --dump code plain.fl

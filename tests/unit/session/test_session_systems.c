@@ -87,6 +87,20 @@ static void test_forces_of_many(void **state) {
     }
 }
 
+// A frame in which no time passes has no forces, though the tree is the same.
+static void test_rest(void **state) {
+    Player *player = *state;
+    open_keeping(player, true);
+    player_run(player, "!physics state=:a dimensions=2 time=frame//2\n    !particle id=1\n    !constant force=6;8\n",
+               2);
+    for (int frame = 1; frame < 6; frame++) {
+        PetriParticle particle;
+        assert_true(petri_particle(player->session, 0, 0, &particle));
+        assert_true((frame % 2 == 0) == (particle.force != NULL));
+        player_step(player, 1);
+    }
+}
+
 static void test_forces(void **state) {
     Player *player = *state;
     player_run(player, SCRIPT, 2);
@@ -107,10 +121,8 @@ static void test_forces(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_systems),
-        PLAYER_TEST(test_particles),
-        PLAYER_TEST(test_forces_of_many),
-        PLAYER_TEST(test_forces),
+        PLAYER_TEST(test_systems), PLAYER_TEST(test_particles), PLAYER_TEST(test_forces_of_many),
+        PLAYER_TEST(test_rest),    PLAYER_TEST(test_forces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,116 @@
+// physics_slots.c: ids, keys and slots of particles, without hashing where that can be had.
+//
+// The scene marks the slots of the tree that was read last with the particles that they are of, in one array for all
+// systems: 2 * (base + handle) for a position, one more for a velocity. What is below 2 * base is left over from trees
+// before.
+#include "scene/systems.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[PHYSICS_KEY_NUMBERS]) {
+    const Symbol *last = velocity ? tree->scene->key_velocity : NULL;
+    Value prefix = tree->prefix;
+    if (!value_is_numeric(prefix) || !value_is_numeric(id) || prefix.len >= PHYSICS_KEY_NUMBERS / 3 ||
+        id.len >= PHYSICS_KEY_NUMBERS / 3)
+        return scene_key(tree->frame->arena, prefix, id, last);
+    memcpy(numbers, value_numbers(&prefix), prefix.len * sizeof *numbers);
+    memcpy(numbers + prefix.len, value_numbers(&id), id.len * sizeof *numbers);
+    uint32_t len = prefix.len + id.len;
+    if (velocity)
+        numbers[len++] = last->number;
+    return value_numbers_view(numbers, len);
+}
+
+bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id) {
+    double numbers[PHYSICS_KEY_NUMBERS];
+    const State *state = tree->frame->state;
+    StateSlot slot = tree->system->slots[2 * (size_t)body];
+    Value key = state_slot_key(state, slot);
+    if (id.len == 0)
+        return false;
+    if (!value_is_numeric(key) || !value_is_numeric(id))
+        return state_find(state, physics_key(tree, id, false, numbers)) == slot;
+    // The prefix of a system never changes.
+    return key.len == tree->prefix.len + id.len &&
+           !memcmp(value_numbers(&key) + tree->prefix.len, value_numbers(&id), id.len * sizeof(double));
+}
+
+uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot) {
+    const Scene *scene = tree->scene;
+    uint32_t mark = slot < scene->body_capacity ? scene->bodies[slot] : 0;
+    return mark / 2 < scene->body_base ? 0 : mark;
+}
+
+bool physics_has_slot(const PhysicsTree *tree, StateSlot slot) {
+    return physics_mark(tree, slot) != 0;
+}
+
+bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
+    Scene *scene = tree->scene;
+    if (slot >= scene->body_capacity) {
+        uint32_t capacity = slot < 128 ? 256 : slot + slot / 2;
+        uint32_t *larger = realloc(scene->bodies, capacity * sizeof *larger);
+        if (!larger)
+            return false;
+        memset(larger + scene->body_capacity, 0, (capacity - scene->body_capacity) * sizeof *larger);
+        scene->bodies = larger;
+        scene->body_capacity = capacity;
+    }
+    scene->bodies[slot] = mark;
+    return true;
+}
+
+void physics_clear_marks(const PhysicsTree *tree) {
+    enum { HIGHEST = 1 << 29 }; // leaves room for as many bodies
+    Scene *scene = tree->scene;
+    scene->marked = NULL;
+    scene->body_base += scene->body_count + 1;
+    if (scene->body_base < HIGHEST)
+        return;
+    if (scene->bodies)
+        memset(scene->bodies, 0, scene->body_capacity * sizeof *scene->bodies);
+    scene->body_base = 1;
+}
+
+int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
+    uint32_t mark = physics_mark(tree, slot);
+    return mark && mark % 2 == 0 ? (int64_t)(mark / 2 - tree->scene->body_base) : PHYSICS_NO_BODY;
+}
+
+bool physics_has_position(const PhysicsTree *tree, StateSlot slot) {
+    return physics_find_slot(tree, slot) != PHYSICS_NO_BODY;
+}
+
+void physics_forget_slots(const PhysicsTree *tree) {
+    enum { MANY = 1 << 16 }; // that are worth their memory
+    Scene *scene = tree->scene;
+    if (!tree->root->kept_children || scene->body_capacity < MANY)
+        return;
+    physics_clear_marks(tree);
+    free(scene->bodies);
+    scene->bodies = NULL;
+    scene->body_capacity = 0;
+}
+
+// Marks the slots of a tree that was not read in this frame, or not as the last one.
+static void mark_again(PhysicsTree *tree) {
+    const PhysicsSystem *system = tree->system;
+    if (tree->scene->marked == system)
+        return;
+    physics_clear_marks(tree);
+    for (uint32_t i = 0; i < system->slot_count; i++)
+        if (!physics_set_mark(tree, system->slots[i], 2 * (tree->scene->body_base + i / 2) + i % 2))
+            tree->failed = true;
+    tree->scene->body_count = tree->body_count;
+    tree->scene->marked = system;
+}
+
+int64_t physics_find_body(PhysicsTree *tree, Value id) {
+    double numbers[PHYSICS_KEY_NUMBERS];
+    if (id.len == 0)
+        return PHYSICS_NO_BODY;
+    mark_again(tree);
+    StateSlot slot = state_find(tree->frame->state, physics_key(tree, id, false, numbers));
+    return slot == STATE_NO_SLOT ? PHYSICS_NO_BODY : physics_find_slot(tree, slot);
+}
