@@ -107,8 +107,8 @@ static void fill_plan(Bench *bench) {
     plan->budget = plan->tiny ? 0.001 : bench->quick ? 0.04 : 0.2;
     plan->warm_steps = plan->tiny ? 2 : bench->quick ? 40 : 100;
     plan->starts = plan->tiny ? 1 : bench->quick ? 2 : 3;
+    plan->patience = bench->quick ? 5 : 60;
     plan->largest = bench->quick ? 20000 : UINT32_MAX;
-    plan->limits = true;
 }
 
 // The path of this executable, which is started again for the workers.
@@ -130,8 +130,10 @@ static Results measure_all(const Bench *bench) {
     }
     for (size_t i = 0; i < case_count; i++)
         if (measure_wanted(plan, &cases[i])) {
-            fprintf(stderr, "bench: %s\n", cases[i].name);
+            fprintf(stderr, "bench: %s", cases[i].name);
             results.figures[i] = measure_case(plan, &cases[i]);
+            fprintf(stderr, ": %.4g us a frame, %.4g us on %d threads\n", results.figures[i].frame * 1e6,
+                    results.figures[i].frame_threads * 1e6, plan->threads);
         }
     for (int k = 0; k < 2 && !plan->tiny && !plan->only; k++)
         results.kernels[k] = measure_kernel(plan, 2 + k);

@@ -125,7 +125,7 @@ static void run_round(const Plan *plan, const Case *c, Rounds *r, int round, int
     }
     for (int i = 0; i < plan->starts && (i == 0 || c->n < 100000); i++)
         r->starts[r->start_count++] = time_start(plan, c);
-    if (plan->limits && round < 2) {
+    if (round < 2) {
         double limit = limit_once(c);
         r->limit = round == 0 ? limit : fmin(r->limit, limit);
     }
@@ -133,7 +133,12 @@ static void run_round(const Plan *plan, const Case *c, Rounds *r, int round, int
 
 static Figures figures_of(const Case *c, Rounds *r, int rounds) {
     const Sample *one = r->samples[0];
-    Figures f = {.done = true, .physics_threads = NAN, .frame_threads = NAN, .other_physics = NAN, .other_frame = NAN};
+    Figures f = {.done = true,
+                 .rounds = rounds,
+                 .physics_threads = NAN,
+                 .frame_threads = NAN,
+                 .other_physics = NAN,
+                 .other_frame = NAN};
     f.evaluation = median_of(one, rounds, offsetof(Sample, evaluation));
     f.physics = median_of(one, rounds, offsetof(Sample, physics));
     f.frame = median_of(one, rounds, offsetof(Sample, frame));
@@ -163,16 +168,19 @@ Figures measure_case(const Plan *plan, const Case *c) {
     Rounds r = {.present = {true, plan->threads > 1, plan->other != NULL}};
     const char *executables[VARIANTS] = {plan->self, plan->self, plan->other};
     int rounds = c->n > 200000 && plan->rounds > 3 ? 3 : plan->rounds;
+    double start = clock_now();
     for (int k = 0; k < VARIANTS; k++)
         if (r.present[k])
             r.workers[k] = measure_warm_worker(plan, c, executables[k], k == 0 ? 1 : plan->threads);
     int frames = measure_round_frames(&r.workers[0], c, plan->budget);
-    for (int round = 0; round < rounds; round++)
-        run_round(plan, c, &r, round, frames);
+    int done = 0;
+    do
+        run_round(plan, c, &r, done++, frames);
+    while (done < rounds && clock_now() - start < plan->patience);
     for (int k = 0; k < VARIANTS; k++)
         if (r.present[k])
             worker_stop(&r.workers[k]);
-    return figures_of(c, &r, rounds);
+    return figures_of(c, &r, done);
 }
 
 // Both sides run on this thread only, so its own time tells the least disturbed figure.

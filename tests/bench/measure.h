@@ -9,13 +9,13 @@
 
 typedef struct Plan {
     int rounds;
-    double budget;  // seconds that a variant runs in one round, at least
-    int warm_steps; // before anything is measured
-    int starts;     // processes started per round
-    int threads;    // of the variant that is compared with one thread
+    double budget;   // seconds that a variant runs in one round, at least
+    int warm_steps;  // before anything is measured
+    int starts;      // processes started per round
+    double patience; // seconds after which a row makes do with the rounds that it has
+    int threads;     // of the variant that is compared with one thread
     uint32_t largest;
-    bool tiny; // only what shows that everything works
-    bool limits;
+    bool tiny;           // only what shows that everything works
     const char *only;    // the first words of the wanted rows, or NULL
     const char *self;    // this executable
     const char *scripts; // folder
@@ -28,7 +28,8 @@ typedef struct Figures {
     bool done;
     // On one thread.
     double evaluation, physics, frame, output;
-    double least;       // the frame of the fastest round
+    double least; // the frame of the fastest round
+    int rounds;
     double steps;       // of simulation per frame
     double allocations; // per frame
     double load;

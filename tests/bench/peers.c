@@ -109,22 +109,24 @@ static void measure_peer(const Plan *plan, const char *folder, const Case *c, Ta
         workers[k] = measure_warm_worker(plan, &c[k], plan->self, plan->threads);
         frames[k] = measure_round_frames(&workers[k], &c[k], plan->budget);
     }
-    for (int round = 0; round < rounds; round++)
+    double start = clock_now();
+    int done = 0;
+    for (; done < rounds && (done == 0 || clock_now() - start < 2 * plan->patience); done++)
         for (int k = 0; k < 2; k++) {
             Sample s = worker_run(&workers[k], frames[k], false);
-            rate[k][round] = c->n * s.steps / s.frame;
-            runs[k][round] = run_peer(folder, c, styles[k], plan);
+            rate[k][done] = c->n * s.steps / s.frame;
+            runs[k][done] = run_peer(folder, c, styles[k], plan);
         }
     for (int k = 0; k < 2; k++) {
         worker_stop(&workers[k]);
-        ours[k] = measure_median(rate[k], rounds);
+        ours[k] = measure_median(rate[k], done);
     }
     for (int style = 0; style < STYLES; style++)
         for (int k = 0; k < 2; k++) {
             int clean;
-            double theirs = clean_median(runs[style], rounds, &clean);
+            double theirs = clean_median(runs[style], done, &clean);
             char clean_text[24];
-            snprintf(clean_text, sizeof clean_text, "%d of %d", clean, rounds);
+            snprintf(clean_text, sizeof clean_text, "%d of %d", clean, done);
             Cell *row = table_row(table);
             row[0] = cell_text(c->name);
             row[1] = cell_number(c[k].steps);
