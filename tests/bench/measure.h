@@ -28,8 +28,8 @@ typedef struct Figures {
     bool done;
     // On one thread.
     double evaluation, physics, frame, output;
-    double least; // the frame of the fastest round
-    int rounds;
+    double least;       // the frame of the fastest round
+    int rounds, clean;  // how many there were, and in how many no variant had to share its processor
     double steps;       // of simulation per frame
     double allocations; // per frame
     double load;
@@ -56,6 +56,8 @@ KernelFigures measure_kernel(const Plan *plan, int dimensions);
 Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executable, int threads);
 // How many frames make a round of `budget` seconds.
 int measure_round_frames(Worker *worker, const Case *c, double budget);
+// Whether the worker had a processor for itself in this round.
+bool measure_clean(const Sample *round);
 // Sorts the values.
 double measure_median(double *values, int count);
 
