@@ -195,6 +195,19 @@ static void write_markdown(const Bench *bench, const NamedTable *tables, size_t 
     close_file(file, bench->markdown);
 }
 
+// Figures from a busy machine must not pass for good ones.
+static void warn_if_busy(const Results *results) {
+    int rows = 0, disturbed = 0;
+    for (size_t i = 0; i < case_count; i++)
+        if (results->figures[i].done) {
+            rows++;
+            disturbed += results->figures[i].clean == 0;
+        }
+    if (disturbed > 0)
+        fprintf(stderr, "bench: the machine was busy: %d of %d rows have no clean round, and are too slow\n", disturbed,
+                rows);
+}
+
 static void run(const Bench *bench) {
     enum { TABLES_MOST = 4 };
     NamedTable tables[TABLES_MOST];
@@ -213,6 +226,8 @@ static void run(const Bench *bench) {
     printf("%s%s%s\n\n%s", bench->machine, bench->lammps[0] ? "; LAMMPS " : "", bench->lammps, notes);
     for (size_t i = 0; i < count; i++)
         table_write_text(&tables[i].table, stdout);
+    fflush(stdout);
+    warn_if_busy(&results);
     if (bench->csv)
         write_csv(bench->csv, tables, count);
     if (bench->markdown)
