@@ -107,8 +107,8 @@ static void fill_plan(Bench *bench) {
     plan->budget = plan->tiny ? 0.001 : bench->quick ? 0.04 : 0.2;
     plan->warm_steps = plan->tiny ? 2 : bench->quick ? 40 : 100;
     plan->starts = plan->tiny ? 1 : bench->quick ? 2 : 3;
+    plan->patience = bench->quick ? 5 : 60;
     plan->largest = bench->quick ? 20000 : UINT32_MAX;
-    plan->limits = true;
 }
 
 // The path of this executable, which is started again for the workers.
@@ -130,8 +130,10 @@ static Results measure_all(const Bench *bench) {
     }
     for (size_t i = 0; i < case_count; i++)
         if (measure_wanted(plan, &cases[i])) {
-            fprintf(stderr, "bench: %s\n", cases[i].name);
+            fprintf(stderr, "bench: %s", cases[i].name);
             results.figures[i] = measure_case(plan, &cases[i]);
+            fprintf(stderr, ": %.4g us a frame, %.4g us on %d threads\n", results.figures[i].frame * 1e6,
+                    results.figures[i].frame_threads * 1e6, plan->threads);
         }
     for (int k = 0; k < 2 && !plan->tiny && !plan->only; k++)
         results.kernels[k] = measure_kernel(plan, 2 + k);
@@ -193,6 +195,19 @@ static void write_markdown(const Bench *bench, const NamedTable *tables, size_t 
     close_file(file, bench->markdown);
 }
 
+// Figures from a busy machine must not pass for good ones.
+static void warn_if_busy(const Results *results) {
+    int rows = 0, disturbed = 0;
+    for (size_t i = 0; i < case_count; i++)
+        if (results->figures[i].done) {
+            rows++;
+            disturbed += results->figures[i].clean == 0;
+        }
+    if (disturbed > 0)
+        fprintf(stderr, "bench: the machine was busy: %d of %d rows have no clean round, and are too slow\n", disturbed,
+                rows);
+}
+
 static void run(const Bench *bench) {
     enum { TABLES_MOST = 4 };
     NamedTable tables[TABLES_MOST];
@@ -211,6 +226,8 @@ static void run(const Bench *bench) {
     printf("%s%s%s\n\n%s", bench->machine, bench->lammps[0] ? "; LAMMPS " : "", bench->lammps, notes);
     for (size_t i = 0; i < count; i++)
         table_write_text(&tables[i].table, stdout);
+    fflush(stdout);
+    warn_if_busy(&results);
     if (bench->csv)
         write_csv(bench->csv, tables, count);
     if (bench->markdown)

@@ -11,7 +11,6 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
-#include <time.h>
 #include <unistd.h>
 
 enum { VARIANTS = 3, STARTS_MOST = 8 };
@@ -40,12 +39,20 @@ double measure_median(double *values, int count) {
     return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
 }
 
-// The median over rounds of the member at this offset.
+bool measure_clean(const Sample *round) {
+    return round->share >= 0.97;
+}
+
+// The median over rounds of the member at this offset. Rounds that are not clean count only if none is.
 static double median_of(const Sample *rounds, int count, size_t member) {
     double values[ROUNDS_MOST];
+    int clean = 0, kept = 0;
     for (int i = 0; i < count; i++)
-        memcpy(&values[i], (const char *)&rounds[i] + member, sizeof *values);
-    return measure_median(values, count);
+        clean += measure_clean(&rounds[i]);
+    for (int i = 0; i < count; i++)
+        if (clean == 0 || measure_clean(&rounds[i]))
+            memcpy(&values[kept++], (const char *)&rounds[i] + member, sizeof *values);
+    return measure_median(values, kept);
 }
 
 static double least_frame(const Sample *rounds, int count) {
@@ -115,25 +122,38 @@ typedef struct Rounds {
     double starts[ROUNDS_MOST * STARTS_MOST];
     int start_count;
     double limit;
+    int done, clean; // rounds; those clean for all variants
 } Rounds;
 
-static void run_round(const Plan *plan, const Case *c, Rounds *r, int round, int frames) {
+static void run_round(const Plan *plan, const Case *c, Rounds *r, int frames) {
+    int round = r->done++;
+    bool clean = true;
     for (int turn = 0; turn < VARIANTS; turn++) {
         int k = (turn + round) % VARIANTS;
-        if (r->present[k])
+        if (r->present[k]) {
             r->samples[k][round] = worker_run(&r->workers[k], frames, k == 0);
+            clean = clean && measure_clean(&r->samples[k][round]);
+        }
     }
+    r->clean += clean;
     for (int i = 0; i < plan->starts && (i == 0 || c->n < 100000); i++)
         r->starts[r->start_count++] = time_start(plan, c);
-    if (plan->limits && round < 2) {
+    if (round < 2) {
         double limit = limit_once(c);
         r->limit = round == 0 ? limit : fmin(r->limit, limit);
     }
 }
 
-static Figures figures_of(const Case *c, Rounds *r, int rounds) {
+static Figures figures_of(const Case *c, Rounds *r) {
+    int rounds = r->done;
     const Sample *one = r->samples[0];
-    Figures f = {.done = true, .physics_threads = NAN, .frame_threads = NAN, .other_physics = NAN, .other_frame = NAN};
+    Figures f = {.done = true,
+                 .rounds = rounds,
+                 .clean = r->clean,
+                 .physics_threads = NAN,
+                 .frame_threads = NAN,
+                 .other_physics = NAN,
+                 .other_frame = NAN};
     f.evaluation = median_of(one, rounds, offsetof(Sample, evaluation));
     f.physics = median_of(one, rounds, offsetof(Sample, physics));
     f.frame = median_of(one, rounds, offsetof(Sample, frame));
@@ -163,25 +183,23 @@ Figures measure_case(const Plan *plan, const Case *c) {
     Rounds r = {.present = {true, plan->threads > 1, plan->other != NULL}};
     const char *executables[VARIANTS] = {plan->self, plan->self, plan->other};
     int rounds = c->n > 200000 && plan->rounds > 3 ? 3 : plan->rounds;
+    double start = clock_now();
     for (int k = 0; k < VARIANTS; k++)
         if (r.present[k])
             r.workers[k] = measure_warm_worker(plan, c, executables[k], k == 0 ? 1 : plan->threads);
     int frames = measure_round_frames(&r.workers[0], c, plan->budget);
-    for (int round = 0; round < rounds; round++)
-        run_round(plan, c, &r, round, frames);
+    // More rounds than wanted if some were disturbed.
+    int most = 3 * rounds < ROUNDS_MOST ? 3 * rounds : ROUNDS_MOST;
+    do
+        run_round(plan, c, &r, frames);
+    while (r.clean < rounds && r.done < most && clock_now() - start < plan->patience);
     for (int k = 0; k < VARIANTS; k++)
         if (r.present[k])
             worker_stop(&r.workers[k]);
-    return figures_of(c, &r, rounds);
+    return figures_of(c, &r);
 }
 
 // Both sides run on this thread only, so its own time tells the least disturbed figure.
-static double thread_seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
-}
-
 KernelFigures measure_kernel(const Plan *plan, int dimensions) {
     enum { N = 4000, STEPS = 5 };
     PhysOptions options = {.threads = 1};
@@ -190,9 +208,9 @@ KernelFigures measure_kernel(const Plan *plan, int dimensions) {
     double best = INFINITY, limit = INFINITY;
     workload_frame(&w, STEPS);
     for (int round = 0; round < plan->rounds; round++) {
-        double begin = thread_seconds();
+        double begin = clock_thread();
         workload_frame(&w, STEPS);
-        best = fmin(best, thread_seconds() - begin);
+        best = fmin(best, clock_thread() - begin);
         limit = fmin(limit, limit_pair(N, dimensions));
     }
     workload_close(&w);

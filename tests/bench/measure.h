@@ -9,13 +9,13 @@
 
 typedef struct Plan {
     int rounds;
-    double budget;  // seconds that a variant runs in one round, at least
-    int warm_steps; // before anything is measured
-    int starts;     // processes started per round
-    int threads;    // of the variant that is compared with one thread
+    double budget;   // seconds that a variant runs in one round, at least
+    int warm_steps;  // before anything is measured
+    int starts;      // processes started per round
+    double patience; // seconds after which a row makes do with the rounds that it has
+    int threads;     // of the variant that is compared with one thread
     uint32_t largest;
-    bool tiny; // only what shows that everything works
-    bool limits;
+    bool tiny;           // only what shows that everything works
     const char *only;    // the first words of the wanted rows, or NULL
     const char *self;    // this executable
     const char *scripts; // folder
@@ -29,6 +29,7 @@ typedef struct Figures {
     // On one thread.
     double evaluation, physics, frame, output;
     double least;       // the frame of the fastest round
+    int rounds, clean;  // how many there were, and in how many no variant had to share its processor
     double steps;       // of simulation per frame
     double allocations; // per frame
     double load;
@@ -55,6 +56,8 @@ KernelFigures measure_kernel(const Plan *plan, int dimensions);
 Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executable, int threads);
 // How many frames make a round of `budget` seconds.
 int measure_round_frames(Worker *worker, const Case *c, double budget);
+// Whether the worker had a processor for itself in this round.
+bool measure_clean(const Sample *round);
 // Sorts the values.
 double measure_median(double *values, int count);
 

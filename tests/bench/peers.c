@@ -21,11 +21,11 @@ static const struct {
     {"soft3d", 22, {18.5, 13.4}},  {"soft3d", 46, {15.6, 8.65}},  {"soft3d", 100, {13.8, 7.66}},
 };
 
-// One run of LAMMPS.
+// One run of LAMMPS, or a round of petri.
 typedef struct PeerRun {
-    char style[16]; // the one used
+    char style[16]; // the one used; empty for petri
     double rate;    // particle-steps per second
-    double share;   // of a processor that each rank had, in percent
+    double share;   // of a processor that each rank or the script's thread had, in percent
 } PeerRun;
 
 static FILE *open_command(const char *folder, const char *arguments) {
@@ -80,7 +80,9 @@ static const Column columns[] = {
     {"lammps_style", "LAMMPS", "style"},
     {"lammps_million_per_s", "LAMMPS", "M/s"},
     {"ratio", "petri /", "LAMMPS"},
-    {"clean_runs", "clean", "runs"},
+    {"petri_clean_runs", "clean", "petri"},
+    {"lammps_clean_runs", "clean", "LAMMPS"},
+    {"runs", "of", "runs"},
     {"published_million_per_s", "published", "M/s"},
 };
 
@@ -102,40 +104,39 @@ static void keep_ratio(PeerRatios *ratios, const Case *c, int ten, double ratio)
 static void measure_peer(const Plan *plan, const char *folder, const Case *c, Table *table, PeerRatios *ratios) {
     Worker workers[2];
     int frames[2];
-    double rate[2][ROUNDS_MOST], ours[2];
-    PeerRun runs[STYLES][ROUNDS_MOST];
+    PeerRun ours[2][ROUNDS_MOST], runs[STYLES][ROUNDS_MOST];
     int rounds = c->n > 200000 && plan->rounds > 3 ? 3 : plan->rounds < 5 ? plan->rounds : 5;
     for (int k = 0; k < 2; k++) {
         workers[k] = measure_warm_worker(plan, &c[k], plan->self, plan->threads);
         frames[k] = measure_round_frames(&workers[k], &c[k], plan->budget);
     }
-    for (int round = 0; round < rounds; round++)
+    double start = clock_now();
+    int done = 0;
+    for (; done < rounds && (done == 0 || clock_now() - start < 2 * plan->patience); done++)
         for (int k = 0; k < 2; k++) {
             Sample s = worker_run(&workers[k], frames[k], false);
-            rate[k][round] = c->n * s.steps / s.frame;
-            runs[k][round] = run_peer(folder, c, styles[k], plan);
+            ours[k][done] = (PeerRun){.rate = c->n * s.steps / s.frame, .share = s.share * 100};
+            runs[k][done] = run_peer(folder, c, styles[k], plan);
         }
-    for (int k = 0; k < 2; k++) {
+    for (int k = 0; k < 2; k++)
         worker_stop(&workers[k]);
-        ours[k] = measure_median(rate[k], rounds);
-    }
     for (int style = 0; style < STYLES; style++)
         for (int k = 0; k < 2; k++) {
-            int clean;
-            double theirs = clean_median(runs[style], rounds, &clean);
-            char clean_text[24];
-            snprintf(clean_text, sizeof clean_text, "%d of %d", clean, rounds);
+            int clean[2];
+            double mine = clean_median(ours[k], done, &clean[0]), theirs = clean_median(runs[style], done, &clean[1]);
             Cell *row = table_row(table);
             row[0] = cell_text(c->name);
             row[1] = cell_number(c[k].steps);
-            row[2] = cell_number(ours[k] * 1e-6);
+            row[2] = cell_number(mine * 1e-6);
             row[3] = cell_text(runs[style][0].style);
             row[4] = cell_number(theirs * 1e-6);
-            row[5] = cell_number(ours[k] / theirs);
-            row[6] = cell_text(clean_text);
-            row[7] = cell_number(published_rate(c, style));
+            row[5] = cell_number(mine / theirs);
+            row[6] = cell_number(clean[0]);
+            row[7] = cell_number(clean[1]);
+            row[8] = cell_number(done);
+            row[9] = cell_number(published_rate(c, style));
             if (style == 0)
-                keep_ratio(ratios, c, k, ours[k] / theirs);
+                keep_ratio(ratios, c, k, mine / theirs);
         }
 }
 

@@ -9,6 +9,8 @@ static const Column workload_columns[] = {
     {"physics_us", "physics", "us"},
     {"frame_us", "frame", "us"},
     {"frame_spread_percent", "spread", "%"},
+    {"clean_rounds", "clean", "rounds"},
+    {"rounds", "of", "rounds"},
     {"output_us", "output", "us"},
     {"unit", "counted", "by"},
     {"unit_ns", "ns", "each"},
@@ -58,6 +60,8 @@ static void workload_row(const Results *results, size_t index, Cell *row) {
     row[k++] = cell_number(f->physics * 1e6);
     row[k++] = cell_number(f->frame * 1e6);
     row[k++] = cell_number((f->frame / f->least - 1) * 100);
+    row[k++] = cell_number(f->clean);
+    row[k++] = cell_number(f->rounds);
     row[k++] = cell_number(f->output * 1e6);
     row[k++] = cell_text(units[c->unit]);
     row[k++] = cell_number(unit);

@@ -13,10 +13,18 @@
 #include <time.h>
 #include <unistd.h>
 
-double clock_now(void) {
+static double clock_read(clockid_t clock) {
     struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
+    clock_gettime(clock, &t);
     return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+double clock_now(void) {
+    return clock_read(CLOCK_MONOTONIC);
+}
+
+double clock_thread(void) {
+    return clock_read(CLOCK_THREAD_CPUTIME_ID);
 }
 
 static void give_up(const char *what) {
@@ -53,6 +61,7 @@ static double memory_figure(const char *name) {
 }
 
 static bool run_frames(PetriSession *session, int frames, Sample *sum) {
+    double start = clock_now(), mine = clock_thread();
     for (int i = 0; i < frames; i++) {
         uint64_t before = allocations_so_far();
         double begin = clock_now();
@@ -67,6 +76,7 @@ static bool run_frames(PetriSession *session, int frames, Sample *sum) {
         sum->physics += frame.physics_seconds;
         sum->steps += (double)frame.physics_steps;
     }
+    sum->share = (clock_thread() - mine) / (clock_now() - start);
     sum->frame /= frames;
     sum->allocations /= frames;
     sum->evaluation /= frames;
@@ -96,8 +106,8 @@ static int serve(PetriSession *session, double base, double load) {
         s.peak = memory_figure("VmHWM");
         if (with_output)
             s.output = time_output(session);
-        printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s.frame, s.evaluation, s.physics, s.output, s.steps,
-               s.allocations, s.load, s.base, s.peak);
+        printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s.frame, s.evaluation, s.physics, s.output,
+               s.steps, s.share, s.allocations, s.load, s.base, s.peak);
         fflush(stdout);
     }
     return 0;
@@ -157,8 +167,8 @@ Sample worker_run(Worker *worker, int frames, bool with_output) {
     Sample s;
     fprintf(worker->to, "%d %d\n", frames, with_output);
     fflush(worker->to);
-    if (fscanf(worker->from, "%lf %lf %lf %lf %lf %lf %lf %lf %lf", &s.frame, &s.evaluation, &s.physics, &s.output,
-               &s.steps, &s.allocations, &s.load, &s.base, &s.peak) != 9) {
+    if (fscanf(worker->from, "%lf %lf %lf %lf %lf %lf %lf %lf %lf %lf", &s.frame, &s.evaluation, &s.physics, &s.output,
+               &s.steps, &s.share, &s.allocations, &s.load, &s.base, &s.peak) != 10) {
         fputs("bench: a worker ended before its time\n", stderr);
         exit(1);
     }

@@ -17,6 +17,7 @@ typedef struct Sample {
     double physics;
     double output; // writing the last frame's state as text; 0 if not asked for
     double steps;  // of simulation
+    double share;  // of a processor that the thread which runs the script had
     double allocations;
     double load; // petri_load, once per worker
     double base; // bytes of memory in use before the session was opened
@@ -40,5 +41,7 @@ int worker_main(int argc, char **argv);
 
 // Seconds from some fixed time.
 double clock_now(void);
+// Seconds that this thread had a processor.
+double clock_thread(void);
 
 #endif
