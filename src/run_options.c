@@ -1,7 +1,8 @@
-// run_options.c: the command line of `petri run`.
+// run_options.c: the command lines of `petri run` and of those that run scripts as it does.
 #include "run_options.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,29 +32,62 @@ enum {
     OPT_DUMP,
     OPT_STATS,
     OPT_TRAJECTORY,
+    OPT_OUTPUT,
+    OPT_FRAME,
+    OPT_SIZE,
+    OPT_SCALE,
+    OPT_AUTO,
 };
+
+// Options that mean the same everywhere, by where help lists them.
+#define FRAME_RATE                                                                                                     \
+    { "fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins" }
+#define WORLD_OPTIONS                                                                                                  \
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},                        \
+        {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},              \
+        {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"}, {            \
+        "nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"        \
+    }
+#define LOG_OPTIONS                                                                                                    \
+    {"quiet", 0, OPT_QUIET, NULL, "report errors only"},                                                               \
+        {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},                                         \
+        {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},                            \
+        {"trace", 0, OPT_TRACE, NULL, "also report the time that every frame took"}, {                                 \
+        "color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"                                        \
+    }
 
 const OptionSpec RUN_OPTION_SPECS[] = {
     {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
-    {"fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins"},
+    FRAME_RATE,
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
     {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},
     {"print", 0, OPT_PRINT, "LIST",
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
-    {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},
-    {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
-    {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
+    WORLD_OPTIONS,
     {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
-    {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
-    {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},
-    {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},
-    {"trace", 0, OPT_TRACE, NULL, "also report the time that every frame took"},
-    {"color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"},
+    LOG_OPTIONS,
     {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
+    {0},
+};
+
+const OptionSpec RENDER_OPTION_SPECS[] = {
+    {"output", 'o', OPT_OUTPUT, "FILE",
+     "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif"},
+    {"frame", 0, OPT_FRAME, "N", "draw frame N (0 is the first); the last one if not given"},
+    {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
+    {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
+    {"every", 0, OPT_EVERY, "K", "draw each K-th frame, starting with frame 0"},
+    {"size", 0, OPT_SIZE, "WxH", "size of the picture in pixels (that of the script's window)"},
+    {"scale", 0, OPT_SCALE, "S", "S pixels for each unit of the window's size (1)"},
+    {"auto", 0, OPT_AUTO, NULL, "draw the particles themselves, not the script's own canvas"},
+    FRAME_RATE,
+    {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
+    WORLD_OPTIONS,
+    LOG_OPTIONS,
     {0},
 };
 
@@ -137,6 +171,21 @@ static bool read_definition(const Args *args, RunOptions *options) {
     return true;
 }
 
+// WIDTHxHEIGHT.
+static bool read_size(const Args *args, RunOptions *options) {
+    char *end = NULL;
+    long width = strtol(args->value, &end, 10);
+    long height = end != args->value && (*end == 'x' || *end == 'X') ? strtol(end + 1, &end, 10) : 0;
+    if (*end != '\0' || width < 1 || height < 1 || width > PETRI_MOST_PIXELS || height > PETRI_MOST_PIXELS) {
+        char expected[80];
+        snprintf(expected, sizeof expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MOST_PIXELS);
+        return args_wrong_value(args, expected);
+    }
+    options->width = (int)width;
+    options->height = (int)height;
+    return true;
+}
+
 static bool read_script(const Args *args, RunOptions *options) {
     if (options->script != NULL) {
         message("one script at a time: '%s' and '%s' were given", options->script, args->value);
@@ -172,6 +221,15 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return args_colour(args, &options->colour);
     case OPT_DUMP:
         return read_dump(args, &options->dump);
+    case OPT_OUTPUT:
+        options->output = args->value;
+        return true;
+    case OPT_FRAME:
+        return args_integer(args, 0, INT64_MAX - 1, &options->frame);
+    case OPT_SIZE:
+        return read_size(args, options);
+    case OPT_SCALE:
+        return args_positive(args, &options->scale);
     case OPT_TRAJECTORY:
         return read_trajectory(args, &options->trajectory);
     default:
@@ -191,6 +249,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_STATS:
         options->stats = true;
+        return true;
+    case OPT_AUTO:
+        options->automatic = true;
         return true;
     case OPT_QUIET:
         options->verbosity = LOG_QUIET;
@@ -212,25 +273,27 @@ static bool apply_flag(int id, RunOptions *options) {
 static int read_all(RunOptions *options, Args *args) {
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(&RUN_COMMAND);
+            return help_for(args->command);
         }
         if (id == ARG_WRONG || (!apply_flag(id, options) && !apply_option(args, id, options))) {
             return STATUS_USAGE;
         }
     }
     if (options->script == NULL) {
-        message("no script was given; usage: petri run [options] SCRIPT.fl");
+        message("no script was given; usage: petri %s [options] SCRIPT.fl", args->command->name);
         return STATUS_USAGE;
     }
     return RUN_OPTIONS_OK;
 }
 
-int run_options_read(RunOptions *options, int argc, char **argv) {
+int run_options_read(RunOptions *options, const Command *command, int argc, char **argv) {
     *options = (RunOptions){
         .frames = -1,
         .run_time = NAN,
         .fps = 60,
         .every = 1,
+        .frame = -1,
+        .scale = 1,
         .verbosity = LOG_NORMAL,
         .colour = colour_by_default(),
         .simplify = true,
@@ -242,7 +305,7 @@ int run_options_read(RunOptions *options, int argc, char **argv) {
         message("out of memory");
         return STATUS_FAILED;
     }
-    Args args = args_start(&RUN_COMMAND, argc, argv);
+    Args args = args_start(command, argc, argv);
     int status = read_all(options, &args);
     if (options->frames < 0) {
         options->frames = isnan(options->run_time) ? DEFAULT_FRAMES : INT64_MAX;
@@ -253,4 +316,32 @@ int run_options_read(RunOptions *options, int argc, char **argv) {
 void run_options_free(RunOptions *options) {
     free(options->definitions);
     options->definitions = NULL;
+}
+
+int run_options_open(const RunOptions *options, const Host *host,
+                     void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
+                     PetriSession **session) {
+    PetriOptions wanted = petri_default_options();
+    wanted.fps = options->fps;
+    wanted.realtime = options->realtime;
+    wanted.run_time = options->run_time;
+    wanted.colour = options->colour;
+    wanted.stack_bytes = host->stack_bytes;
+    wanted.threads = options->threads;
+    wanted.simplify = options->simplify;
+    wanted.diagnostic = diagnostic;
+    wanted.host = context;
+    *session = petri_open(&wanted);
+    if (*session == NULL) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    for (size_t i = 0; i < options->definition_count; i++) {
+        if (petri_define(*session, options->definitions[i]) != PETRI_OK) {
+            message("option '--define' expects NAME=VALUE, not '%s'", options->definitions[i]);
+            petri_close(session);
+            return STATUS_USAGE;
+        }
+    }
+    return RUN_OPTIONS_OK;
 }
