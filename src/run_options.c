@@ -37,6 +37,7 @@ enum {
     OPT_SIZE,
     OPT_SCALE,
     OPT_AUTO,
+    OPT_TERMINAL,
 };
 
 // Options that mean the same everywhere, by where help lists them.
@@ -86,6 +87,19 @@ const OptionSpec RENDER_OPTION_SPECS[] = {
     FRAME_RATE,
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
     {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
+    WORLD_OPTIONS,
+    LOG_OPTIONS,
+    {0},
+};
+
+const OptionSpec VIEW_OPTION_SPECS[] = {
+    {"terminal", 0, OPT_TERMINAL, NULL, "show it in the terminal, even if there is a display"},
+    {"auto", 0, OPT_AUTO, NULL, "show the particles themselves, not the script's own canvas"},
+    {"frames", 0, OPT_FRAMES, "N", "close after N frames"},
+    {"runtime", 0, OPT_RUNTIME, "T", "close after T seconds, or a time code (m:s, h:m:s)"},
+    FRAME_RATE,
+    {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock (the default)"},
     WORLD_OPTIONS,
     LOG_OPTIONS,
     {0},
@@ -250,6 +264,9 @@ static bool apply_flag(int id, RunOptions *options) {
     case OPT_STATS:
         options->stats = true;
         return true;
+    case OPT_TERMINAL:
+        options->terminal = true;
+        return true;
     case OPT_AUTO:
         options->automatic = true;
         return true;
@@ -291,6 +308,7 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
         .frames = -1,
         .run_time = NAN,
         .fps = 60,
+        .realtime = command == &VIEW_COMMAND,
         .every = 1,
         .frame = -1,
         .scale = 1,
@@ -308,7 +326,7 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
     Args args = args_start(command, argc, argv);
     int status = read_all(options, &args);
     if (options->frames < 0) {
-        options->frames = isnan(options->run_time) ? DEFAULT_FRAMES : INT64_MAX;
+        options->frames = isnan(options->run_time) && command != &VIEW_COMMAND ? DEFAULT_FRAMES : INT64_MAX;
     }
     return status;
 }

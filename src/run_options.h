@@ -33,6 +33,7 @@ typedef struct RunOptions {
     int width;              // of pictures; 0: what the script says
     int height;
     double scale;
+    bool terminal; // view: in the terminal
 } RunOptions;
 
 enum { RUN_OPTIONS_OK = -1 };
@@ -49,5 +50,6 @@ int run_options_open(const RunOptions *options, const Host *host,
 
 extern const OptionSpec RUN_OPTION_SPECS[];
 extern const OptionSpec RENDER_OPTION_SPECS[];
+extern const OptionSpec VIEW_OPTION_SPECS[];
 
 #endif

@@ -1,0 +1,27 @@
+// watch.h: tells when files have changed on disk.
+//
+// What counts is what the files are, not what was done to them: a change is told when a file's size, time, or identity
+// (editors write a new file and rename it) is another than when it was told last, has been so for a moment, and nobody
+// is seen to be writing it still. A file that is away has not changed: it is told when it is back. inotify wakes us
+// where there is one; all files are looked at from time to time as well, for file systems whose changes it cannot see.
+#ifndef PETRI_SRC_WATCH_H
+#define PETRI_SRC_WATCH_H
+
+#include <stdbool.h>
+
+typedef struct Watch Watch;
+
+// A watch over no files. NULL if memory is used up.
+Watch *watch_new(void);
+// NULL is fine.
+void watch_free(Watch *watch);
+// Watches a file from now on, whether it exists or not; its present content is known. A path that is watched already
+// stays as it was. False if memory is used up.
+bool watch_file(Watch *watch, const char *path);
+// True once after some files have changed. Never waits; call it whenever the descriptor is readable, or often.
+bool watch_changed(Watch *watch);
+// For poll: becomes readable when watch_changed should be called (also when a change is to be told only after a moment
+// of quiet). -1 where there is no such thing: then call watch_changed every now and then.
+int watch_descriptor(const Watch *watch);
+
+#endif

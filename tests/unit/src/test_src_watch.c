@@ -1,0 +1,192 @@
+// test_src_watch.c: changes on disk are told once, however an editor makes them, and not before they are whole.
+#include "folder.h"
+
+#include "watch.h"
+
+#include <poll.h>
+#include <time.h>
+
+enum { PATIENCE_MS = 20000, QUIET_MS = 300 };
+
+typedef struct Site {
+    Folder folder;
+    Watch *watch;
+} Site;
+
+static int site_open(void **state) {
+    Site *site = calloc(1, sizeof *site);
+    assert_non_null(site);
+    folder_open(&site->folder);
+    site->watch = watch_new();
+    assert_non_null(site->watch);
+    *state = site;
+    return 0;
+}
+
+static int site_close(void **state) {
+    Site *site = *state;
+    watch_free(site->watch);
+    folder_close(&site->folder);
+    free(site);
+    return 0;
+}
+
+static long milliseconds(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return time.tv_sec * 1000 + time.tv_nsec / 1000000;
+}
+
+// Waits as a host does, by poll where that is possible, until a change is told; false after `limit`.
+static bool wait_changed(Watch *watch, long limit) {
+    long end = milliseconds() + limit;
+    for (long left = limit; left > 0; left = end - milliseconds()) {
+        int descriptor = watch_descriptor(watch);
+        struct pollfd wake = {.fd = descriptor, .events = POLLIN};
+        poll(&wake, 1, (int)(descriptor < 0 ? 20 : left));
+        if (watch_changed(watch))
+            return true;
+    }
+    return false;
+}
+
+static void write_plainly(Folder *folder, const char *name, const char *text) {
+    FILE *file = fopen(folder_file(folder, name), "wb");
+    assert_non_null(file);
+    assert_true(fputs(text, file) >= 0);
+    assert_int_equal(fclose(file), 0);
+}
+
+static void test_nothing_changes(void **state) {
+    Site *site = *state;
+    assert_false(watch_changed(site->watch));
+    folder_write(&site->folder, "a.fl", "1");
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "a.fl")));
+    assert_false(wait_changed(site->watch, QUIET_MS));
+    write_plainly(&site->folder, "b.fl", "a neighbour");
+    assert_false(wait_changed(site->watch, QUIET_MS));
+}
+
+static void test_written_in_place(void **state) {
+    Site *site = *state;
+    folder_write(&site->folder, "a.fl", "1");
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "a.fl")));
+    for (int i = 0; i < 3; i++) {
+        folder_write(&site->folder, "a.fl", "2");
+        assert_true(wait_changed(site->watch, PATIENCE_MS));
+        assert_false(wait_changed(site->watch, QUIET_MS)); // once
+    }
+}
+
+static void test_replaced_by_rename(void **state) {
+    Site *site = *state;
+    char to[600];
+    folder_write(&site->folder, "a.fl", "1");
+    snprintf(to, sizeof to, "%s", folder_file(&site->folder, "a.fl"));
+    assert_true(watch_file(site->watch, to));
+    for (int i = 0; i < 3; i++) {
+        folder_write(&site->folder, "a.fl~", "22");
+        assert_int_equal(rename(folder_file(&site->folder, "a.fl~"), to), 0);
+        assert_true(wait_changed(site->watch, PATIENCE_MS));
+        assert_false(wait_changed(site->watch, QUIET_MS));
+    }
+}
+
+static void test_removed_and_made_again(void **state) {
+    Site *site = *state;
+    folder_write(&site->folder, "a.fl", "1");
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "a.fl")));
+    assert_int_equal(remove(folder_file(&site->folder, "a.fl")), 0);
+    assert_false(wait_changed(site->watch, QUIET_MS));
+    folder_write(&site->folder, "a.fl", "2");
+    assert_true(wait_changed(site->watch, PATIENCE_MS));
+}
+
+static void test_made_later(void **state) {
+    Site *site = *state;
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "later.fl")));
+    assert_false(wait_changed(site->watch, QUIET_MS));
+    folder_write(&site->folder, "later.fl", "1");
+    assert_true(wait_changed(site->watch, PATIENCE_MS));
+}
+
+static void test_folder_made_again(void **state) {
+    Site *site = *state;
+    char folder[600], file[700];
+    snprintf(folder, sizeof folder, "%s", folder_file(&site->folder, "inner"));
+    snprintf(file, sizeof file, "%s/a.fl", folder);
+    assert_true(watch_file(site->watch, file));
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(mkdir(folder, 0700), 0);
+        folder_write(&site->folder, "inner/a.fl", "1");
+        assert_true(wait_changed(site->watch, PATIENCE_MS));
+        assert_int_equal(remove(file) | rmdir(folder), 0);
+        assert_false(wait_changed(site->watch, QUIET_MS));
+    }
+}
+
+// A writer that has not closed its file is waited for, though it pauses for longer than the usual quiet.
+static void test_half_written(void **state) {
+    Site *site = *state;
+    if (watch_descriptor(site->watch) < 0)
+        skip(); // a look by time cannot know that the file is still open
+    folder_write(&site->folder, "a.fl", "1");
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "a.fl")));
+    FILE *file = fopen(folder_file(&site->folder, "a.fl"), "wb");
+    assert_non_null(file);
+    assert_true(fputs("!group", file) >= 0 && fflush(file) == 0);
+    assert_false(wait_changed(site->watch, QUIET_MS));
+    assert_true(fputs(" size=1\n", file) >= 0 && fclose(file) == 0);
+    assert_true(wait_changed(site->watch, PATIENCE_MS));
+    assert_false(wait_changed(site->watch, QUIET_MS));
+}
+
+static void test_link(void **state) {
+    Site *site = *state;
+    Folder other;
+    folder_open(&other);
+    folder_write(&other, "target.fl", "1");
+    assert_int_equal(symlink(folder_file(&other, "target.fl"), folder_file(&site->folder, "a.fl")), 0);
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "a.fl")));
+    folder_write(&other, "target.fl", "2");
+    assert_true(wait_changed(site->watch, PATIENCE_MS));
+    folder_close(&other);
+}
+
+static void test_several_files_at_once(void **state) {
+    Site *site = *state;
+    static const char *const names[] = {"a.fl", "b.fl", "c.fl"};
+    for (int i = 0; i < 3; i++) {
+        folder_write(&site->folder, names[i], "1");
+        assert_true(watch_file(site->watch, folder_file(&site->folder, names[i])));
+        assert_true(watch_file(site->watch, folder_file(&site->folder, names[i]))); // twice is once
+    }
+    for (int i = 0; i < 3; i++)
+        folder_write(&site->folder, names[i], "2");
+    assert_true(wait_changed(site->watch, PATIENCE_MS));
+    while (wait_changed(site->watch, QUIET_MS)) // a slow machine may tell them one by one
+        ;
+    folder_write(&site->folder, names[1], "3");
+    assert_true(wait_changed(site->watch, PATIENCE_MS));
+}
+
+static void test_free_nothing(void **state) {
+    (void)state;
+    watch_free(NULL);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_nothing_changes, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_written_in_place, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_replaced_by_rename, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_removed_and_made_again, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_made_later, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_folder_made_again, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_half_written, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_link, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_several_files_at_once, site_open, site_close),
+        cmocka_unit_test(test_free_nothing),
+    };
+    return cmocka_run_group_tests_name("watch", tests, NULL, NULL);
+}
