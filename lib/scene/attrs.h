@@ -36,6 +36,15 @@ typedef struct Schema {
 } Schema;
 
 void schema_init(Schema *schema, SymbolTable *symbols, SceneHost host);
+// For help: names, types and defaults as words. False beyond the last attribute.
+typedef struct SchemaHelp {
+    const char *name;
+    const char *type;
+    const char *fallback;
+} SchemaHelp;
+const char *schema_kind_name(SceneKind kind);
+const char *schema_kind_help(SceneKind kind);
+bool schema_attribute_help(SceneKind kind, size_t attribute, SchemaHelp *help);
 // KIND_COUNT_OF if the schema does not know the node.
 SceneKind schema_kind(const Schema *schema, const Node *node);
 

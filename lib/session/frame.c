@@ -2,6 +2,7 @@
 #include "session/session.h"
 
 #include <math.h>
+#include <string.h>
 #include <time.h>
 
 enum { TEMPO = 120, QUANTUM = 4 }; // without pragmas
@@ -65,6 +66,7 @@ static ClockRates rates_of(PetriSession *session, const Program *program) {
 static void rewind_clock(PetriSession *session) {
     session->frame = (PetriFrame){.number = -1, .fps = session->frame.fps, .tempo = session->frame.tempo};
     session->base = (ClockBase){0};
+    memset(session->auto_frames, 0, sizeof session->auto_frames);
     session->delta = 0;
     session->start = 0;
     session->performance = session->options.realtime ? 1 : 2;

@@ -6,6 +6,8 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
+#include "canvas/automatic.h"
+#include "canvas/read.h"
 #include "scene/scene.h"
 #include "vm/vm.h"
 
@@ -73,12 +75,16 @@ struct PetriSnapshot {
     size_t capacity;
 };
 
+enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
+
 struct PetriSession {
     PetriOptions options;
     Arena arena; // session lifetime: symbols, definitions
     SymbolTable symbols;
     State *state;
     Scene *scene;
+    CanvasSchema canvas;
+    AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;
     const Define *defines; // replaced as a whole: setups share it

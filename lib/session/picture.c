@@ -1,0 +1,417 @@
+// picture.c: pictures of the last frame, as petri.h shows them.
+#include "session/session.h"
+
+#include "base/file.h"
+#include "canvas/canvas.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+enum { DEFAULT_WIDTH = 1920, DEFAULT_HEIGHT = 1080, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
+
+struct PetriPicture {
+    Arena arena; // all that follows
+    CanvasPicture picture;
+    AutoPicture automatic;
+    int width; // in pixels
+    int height;
+    int64_t frame;
+    const char *title;
+    const char **records;
+    uint32_t record_count;
+    DiagSink faults; // found since, by whoever draws
+};
+
+struct PetriPainter {
+    CanvasPainter *painter;
+};
+
+PetriPictureOptions petri_default_picture_options(void) {
+    return (PetriPictureOptions){.scale = 1, .window = -1};
+}
+
+// What petri_picture is working on.
+typedef struct Request {
+    PetriSession *session;
+    const PetriPictureOptions *options;
+    PetriPicture *picture;
+    const char *problem; // why there is no picture; may be NULL
+} Request;
+
+static bool is_window(const PetriSession *session, const Item *item) {
+    if (item->type != ITEM_NODE)
+        return false;
+    DrawKind kind = canvas_kind(&session->canvas, item->as.node);
+    return kind == DRAW_WINDOW || kind == DRAW_OFFSCREEN;
+}
+
+static bool has_canvas(const PetriSession *session, const Node *window) {
+    for (uint32_t i = 0; i < window->child_count; i++)
+        if (canvas_kind(&session->canvas, window->children[i]) == DRAW_CANVAS)
+            return true;
+    return false;
+}
+
+// The window of that number; of none in particular, the first with something to draw, or else the first.
+static const Node *find_window(const PetriSession *session, int number) {
+    const Node *first = NULL;
+    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
+        const Item *item = &session->tree.as.items[i];
+        if (!is_window(session, item))
+            continue;
+        if (number < 0 ? has_canvas(session, item->as.node) : number-- == 0)
+            return item->as.node;
+        first = first || number >= 0 ? first : item->as.node;
+    }
+    return first;
+}
+
+static bool finite_vector(const double *v, uint32_t n) {
+    for (uint32_t k = 0; k < n; k++)
+        if (!isfinite(v[k]))
+            return false;
+    return true;
+}
+
+// At most three of a vector's numbers; the missing ones are 0.
+static void take_three(double out[3], const double *v, uint32_t n) {
+    for (uint32_t k = 0; k < 3; k++)
+        out[k] = v && k < n ? v[k] : 0;
+}
+
+// Takes the particles that are somewhere; `numbers` tells where each has gone.
+static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system, uint32_t *numbers) {
+    double most = 0;
+    system->bodies = arena_alloc_array(arena, view->particle_count, sizeof *system->bodies);
+    for (uint32_t i = 0; i < view->particle_count; i++) {
+        PhysParticle particle;
+        numbers[i] = UINT32_MAX;
+        if (!phys_get_particle(view->engine, i, &particle) || !finite_vector(particle.position, view->dimensions))
+            continue;
+        AutoBody *body = &system->bodies[system->body_count];
+        numbers[i] = system->body_count++;
+        *body = (AutoBody){.radius = isfinite(particle.radius) ? particle.radius : 0, .anchor = particle.anchor};
+        take_three(body->position, particle.position, view->dimensions);
+        body->shade = isfinite(particle.charge) ? particle.charge : 0;
+        most = fmax(most, fabs(body->shade));
+    }
+    system->charged = most > 0;
+    for (uint32_t i = 0; i < system->body_count && most > 0; i++)
+        system->bodies[i].shade /= most;
+}
+
+// Without charges the shade is the speed: half way up where the frame would be crossed in two seconds.
+static void shade_by_speed(const SceneView *view, AutoSystem *system, const uint32_t *numbers) {
+    for (uint32_t i = 0; i < view->particle_count; i++) {
+        PhysParticle particle;
+        double v[3];
+        if (numbers[i] == UINT32_MAX || !phys_get_particle(view->engine, i, &particle) || !particle.velocity)
+            continue;
+        take_three(v, particle.velocity, view->dimensions);
+        double speed = hypot(hypot(v[0], v[1]), v[2]);
+        system->bodies[numbers[i]].shade = isfinite(speed) ? speed / (speed + system->frame.half) : 1;
+    }
+}
+
+static void copy_forces(Arena *arena, const SceneView *view, AutoSystem *system, const uint32_t *numbers) {
+    uint32_t count = phys_force_count(view->engine), n = view->dimensions;
+    system->links = arena_alloc_array(arena, count, sizeof *system->links);
+    system->barriers = arena_alloc_array(arena, count, sizeof *system->barriers);
+    for (uint32_t i = 0; i < count; i++) {
+        PhysForce force;
+        if (!phys_get_force(view->engine, i, &force))
+            continue;
+        if (force.kind == PHYS_DISTANCE && force.from < view->particle_count && force.to < view->particle_count &&
+            numbers[force.from] != UINT32_MAX && numbers[force.to] != UINT32_MAX) {
+            system->links[system->link_count++] = (AutoLink){numbers[force.from], numbers[force.to]};
+        } else if (force.kind == PHYS_BARRIER && (!force.vector || finite_vector(force.vector, n)) && force.vector2 &&
+                   finite_vector(force.vector2, n)) {
+            AutoBarrier *barrier = &system->barriers[system->barrier_count++];
+            take_three(barrier->position, force.vector, n);
+            take_three(barrier->normal, force.vector2, n);
+        }
+    }
+}
+
+static void copy_system(PetriSession *session, Arena *arena, const SceneView *view, AutoFrame *frame,
+                        AutoSystem *system) {
+    uint32_t *numbers = arena_alloc_array(arena, view->particle_count, sizeof *numbers);
+    *system = (AutoSystem){.name = value_text(arena, &session->symbols, view->prefix),
+                           .dimensions = view->dimensions > 3 ? 3 : view->dimensions};
+    copy_bodies(arena, view, system, numbers);
+    copy_forces(arena, view, system, numbers);
+    auto_frame(frame, system);
+    system->frame = *frame;
+    if (!system->charged)
+        shade_by_speed(view, system, numbers);
+}
+
+static uint32_t count_systems(const PetriSession *session) {
+    SceneView view;
+    uint32_t count = 0;
+    while (count < MOST_AUTO_SYSTEMS && scene_view(session->scene, session->state, count, &view))
+        count++;
+    return count;
+}
+
+static void copy_systems(PetriSession *session, PetriPicture *picture, uint32_t count) {
+    AutoSystem *systems = arena_alloc_array(&picture->arena, count, sizeof *systems);
+    for (uint32_t i = 0; i < count; i++) {
+        SceneView view;
+        if (scene_view(session->scene, session->state, i, &view))
+            copy_system(session, &picture->arena, &view, &session->auto_frames[i], &systems[i]);
+    }
+    picture->automatic = (AutoPicture){systems, count};
+    picture->picture.automatic = &picture->automatic;
+}
+
+static void take_window(Request *request, const Node *node) {
+    PetriPicture *picture = request->picture;
+    PetriSession *session = request->session;
+    Arena *arena = &picture->arena;
+    const DrawNode *window = canvas_read(&session->canvas, arena, node);
+    const DrawAttr *title = draw_attr(window, NAME_TITLE);
+    picture->picture.window = window;
+    picture->picture.opaque = window->kind == DRAW_WINDOW;
+    picture->title = title ? title->as.text.bytes : "";
+    picture->records = arena_alloc_array(arena, window->child_count, sizeof *picture->records);
+    for (uint32_t i = 0; i < window->child_count; i++) {
+        const DrawAttr *file =
+            window->children[i]->kind == DRAW_RECORD ? draw_attr(window->children[i], NAME_FILENAME) : NULL;
+        if (file && file->as.text.len)
+            picture->records[picture->record_count++] =
+                str_to_c(arena, path_join(arena, picture->picture.directory, file->as.text));
+    }
+}
+
+// The size in the script's units: that of the window, else that of its first canvas, else the usual one. False if what
+// the window says makes no sense.
+static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *name) {
+    const DrawNode *window = picture->window;
+    double size[2];
+    picture->width = window ? DEFAULT_WIDTH : AUTO_SIDE;
+    picture->height = window ? DEFAULT_HEIGHT : AUTO_SIDE;
+    if (!window)
+        return true;
+    bool found = draw_pair(window, NAME_SIZE, size);
+    if (!found && node_get(node, name).len > 0)
+        return false;
+    for (uint32_t i = 0; i < window->child_count && !found; i++)
+        found = window->children[i]->kind == DRAW_CANVAS && draw_pair(window->children[i], NAME_SIZE, size);
+    if (found) {
+        picture->width = size[0];
+        picture->height = size[1];
+    }
+    return true;
+}
+
+static bool is_good_size(double width, double height) {
+    return width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS;
+}
+
+static void report_size(Request *request, double width, double height) {
+    request->problem = str_to_c(&request->session->scene_arena,
+                                str_format(&request->session->scene_arena,
+                                           "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
+                                           PETRI_MOST_PIXELS, width, height));
+}
+
+static bool choose_pixels(Request *request) {
+    PetriPicture *picture = request->picture;
+    const PetriPictureOptions *options = request->options;
+    double width = options->width, height = options->height;
+    if (!is_good_size(picture->picture.width, picture->picture.height)) {
+        report_size(request, picture->picture.width, picture->picture.height);
+        return false;
+    }
+    if (width == 0 && height == 0) {
+        width = floor(picture->picture.width * options->scale + 0.5);
+        height = floor(picture->picture.height * options->scale + 0.5);
+    }
+    if (!is_good_size(width, height)) {
+        report_size(request, width, height);
+        return false;
+    }
+    picture->width = (int)width;
+    picture->height = (int)height;
+    return true;
+}
+
+// Fills the picture; false if there is none, with the problem if it is not told already.
+static bool make_picture(Request *request) {
+    PetriSession *session = request->session;
+    PetriPicture *picture = request->picture;
+    const PetriPictureOptions *options = request->options;
+    const Node *window = find_window(session, options->window);
+    uint32_t systems = options->automatic == PETRI_AUTO_NEVER ? 0 : count_systems(session);
+    bool drawable = window && has_canvas(session, window);
+    bool automatic = options->automatic == PETRI_AUTO_ALWAYS || (!drawable && systems > 0);
+    picture->frame = session->frame.number;
+    picture->title = "";
+    picture->picture.directory = str_copy(&picture->arena, session->program->source->directory);
+    if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
+        request->problem = "there is nothing to draw by itself: the frame has no !physics";
+        return false;
+    }
+    if (!window && (!automatic || options->window >= 0)) {
+        request->problem = options->window > 0 ? "there is nothing to draw: the frame has no window of this number"
+                                               : "there is nothing to draw: the frame has neither a !window with a "
+                                                 "!canvas nor !physics";
+        return false;
+    }
+    if (window)
+        take_window(request, window);
+    if (!choose_size(&picture->picture, window, session->canvas.names[NAME_SIZE])) {
+        request->problem = "the size of the window makes no sense";
+        return false;
+    }
+    if (automatic) {
+        copy_systems(session, picture, systems);
+        picture->picture.window = NULL;
+        picture->picture.opaque = true;
+    }
+    return choose_pixels(request);
+}
+
+static PetriStatus make_guarded(Request *request) {
+    jmp_buf escape;
+    PetriStatus status = PETRI_MEMORY;
+    request->picture->arena.escape = request->session->scene_arena.escape = &escape;
+    if (setjmp(escape) == 0)
+        status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
+    request->picture->arena.escape = request->session->scene_arena.escape = NULL;
+    return status;
+}
+
+PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
+    *out = NULL;
+    PetriPicture *picture = calloc(1, sizeof *picture);
+    if (!picture)
+        return PETRI_MEMORY;
+    arena_init(&picture->arena, "picture", session->options.memory_bytes);
+    Request request = {.session = session, .options = options, .picture = picture};
+    PetriStatus status = PETRI_INVALID;
+    if (session->program && session->frame.number >= 0)
+        status = make_guarded(&request);
+    else
+        request.problem = "there is nothing to draw: no frame has been made yet";
+    if (status == PETRI_OK) {
+        picture->faults = diag_sink_new(&picture->arena, MOST_FAULTS);
+        *out = picture;
+        return PETRI_OK;
+    }
+    if (request.problem)
+        session_tell_text(session, DIAG_ERROR, "cannot-draw", str_from(request.problem));
+    petri_picture_free(&picture);
+    return status;
+}
+
+void petri_picture_free(PetriPicture **handle) {
+    PetriPicture *picture = *handle;
+    *handle = NULL;
+    if (!picture)
+        return;
+    diag_sink_free(&picture->faults);
+    arena_free(&picture->arena);
+    free(picture);
+}
+
+void petri_picture_size(const PetriPicture *picture, int *width, int *height) {
+    *width = picture->width;
+    *height = picture->height;
+}
+
+const char *petri_picture_title(const PetriPicture *picture) {
+    return picture->title;
+}
+
+int64_t petri_picture_frame(const PetriPicture *picture) {
+    return picture->frame;
+}
+
+const char *petri_picture_record(const PetriPicture *picture, size_t index) {
+    return index < picture->record_count ? picture->records[index] : NULL;
+}
+
+PetriPainter *petri_painter_open(void) {
+    PetriPainter *painter = calloc(1, sizeof *painter);
+    if (painter)
+        painter->painter = canvas_painter_new();
+    if (painter && !painter->painter)
+        petri_painter_close(&painter);
+    return painter;
+}
+
+void petri_painter_close(PetriPainter **handle) {
+    PetriPainter *painter = *handle;
+    *handle = NULL;
+    if (painter)
+        canvas_painter_free(painter->painter);
+    free(painter);
+}
+
+static PetriStatus status_of(CanvasResult result) {
+    static const PetriStatus statuses[] = {[CANVAS_DONE] = PETRI_OK,
+                                           [CANVAS_FAILED] = PETRI_INVALID,
+                                           [CANVAS_MISSING] = PETRI_MISSING,
+                                           [CANVAS_MEMORY] = PETRI_MEMORY};
+    return statuses[result];
+}
+
+PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
+                               size_t stride) {
+    if (!is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
+        return PETRI_INVALID;
+    return status_of(canvas_draw(painter->painter, &picture->picture, pixels, width, height, stride, &picture->faults));
+}
+
+static bool find_format(const char *file, CanvasFormat *format) {
+    static const char *const suffixes[CANVAS_FORMAT_COUNT] = {
+        [CANVAS_PNG] = ".png", [CANVAS_SVG] = ".svg", [CANVAS_PDF] = ".pdf"};
+    for (int i = 0; i < CANVAS_FORMAT_COUNT; i++)
+        if (str_ends_with(str_from(file), str_from(suffixes[i]))) {
+            *format = (CanvasFormat)i;
+            return true;
+        }
+    return false;
+}
+
+bool petri_picture_format(const char *file) {
+    CanvasFormat format;
+    return find_format(file, &format);
+}
+
+static void report_file(PetriPicture *picture, const char *file, const char *problem) {
+    Str text = str_format(&picture->arena, "cannot write '%s': %s", file, problem);
+    diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
+}
+
+PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
+    CanvasFormat format = CANVAS_PNG;
+    if (!find_format(file, &format)) {
+        report_file(picture, file, "a picture's name ends in .png, .svg or .pdf");
+        return PETRI_INVALID;
+    }
+    Arena arena; // the file's bytes, apart from the picture's data and its faults
+    jmp_buf escape;
+    PetriStatus status = PETRI_MEMORY;
+    arena_init(&arena, "file", SIZE_MAX);
+    arena.escape = &escape;
+    if (setjmp(escape) == 0) {
+        Str bytes;
+        const char *problem;
+        CanvasResult result = canvas_encode(painter->painter, &picture->picture, format, picture->width,
+                                            picture->height, &arena, &bytes, &picture->faults);
+        status = status_of(result);
+        if (result == CANVAS_DONE && !file_replace(&arena, file, bytes, &problem)) {
+            report_file(picture, file, problem);
+            status = PETRI_INVALID;
+        }
+    }
+    arena_free(&arena);
+    return status;
+}
+
+void petri_picture_tell(PetriSession *session, PetriPicture *picture) {
+    session_tell_all(session, &picture->faults);
+}
