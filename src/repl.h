@@ -11,7 +11,7 @@
 
 typedef struct Repl {
     PetriSession *session;
-    History history;
+    ReplHistory history;
     Output output;
     Watch *files;      // NULL: changes are not noticed
     char *script;      // NULL: none was named

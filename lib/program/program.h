@@ -98,7 +98,7 @@ typedef struct Program {
     const Source *source;
     const Expr *body;
     uint32_t frame_size;
-    uint32_t param_count; // the first slots: values that the host gives
+    uint32_t param_count;  // the first slots: values that the host gives
     const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
     uint32_t export_count;
     const Pragma *pragmas;

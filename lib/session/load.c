@@ -135,8 +135,7 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loading;
     session->loading = unit;
-    const Program *program =
-        program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
+    const Program *program = program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
     session->loading = outer;
     sort_by_place(&unit->sink);
     unit_tell(session, unit);

@@ -45,8 +45,7 @@ bool vm_work(Vm *vm, const Expr *at) {
     enum { BETWEEN_LOOKS = 1024 }; // a power of two
     if (vm->stopped)
         return false;
-    if (++vm->work % BETWEEN_LOOKS == 0 && vm->interrupt &&
-        atomic_load_explicit(vm->interrupt, memory_order_relaxed)) {
+    if (++vm->work % BETWEEN_LOOKS == 0 && vm->interrupt && atomic_load_explicit(vm->interrupt, memory_order_relaxed)) {
         vm->stopped = true;
         return false;
     }

@@ -52,7 +52,7 @@ typedef struct Vm {
     uint32_t depth;
     uint64_t work;
     uint64_t work_limit;
-    bool stopped;       // the work is used up, or the host has asked for an end
+    bool stopped;                 // the work is used up, or the host has asked for an end
     const atomic_bool *interrupt; // the host's wish for an end, looked at now and then; NULL: none
     uint64_t run;       // number of the evaluation, unique over a session's machines: closures may outlive a frame
     bool is_static;     // evaluating ahead: dynamic things have no value yet
