@@ -35,6 +35,8 @@ static bool run_until(Repl *repl, const char *rest) {
     if (good && expression[0] == '\0') {
         good = repl_fail(repl, ".until needs an expression");
     }
+    PetriResult result; // of the present frame: whether it is an expression at all
+    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
     good = good && repl_walk(repl, &(Walk){.count = limit, .until = expression});
     free(expression);
     return good;
