@@ -1,7 +1,7 @@
 // repl_edit.c: see repl_edit.h.
 #include "repl_edit.h"
 
-#ifdef PETRI_LIBEDIT
+#ifdef HAVE_LIBEDIT
 
 #include <errno.h>
 #include <histedit.h>

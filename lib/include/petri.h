@@ -30,8 +30,8 @@ typedef enum PetriStatus {
     PETRI_INVALID,     // the script cannot be loaded, a definition cannot be read; diagnostics tell why
     PETRI_LIMIT,       // a limit was reached: the frame was given up and changed nothing
     PETRI_MEMORY,      // memory is used up
-    PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
     PETRI_MISSING,     // this libpetri was built without the library that it takes; a diagnostic tells which
+    PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
 } PetriStatus;
 
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
@@ -95,6 +95,13 @@ PetriStatus petri_check(PetriSession *session, const char *file);
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
 PetriStatus petri_step(PetriSession *session);
 
+// In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
+// 0 if it is due, and in lockstep.
+double petri_due(const PetriSession *session);
+// In real time: the time that has passed since the last frame does not count, so that the next one follows it as if
+// nothing had happened in between. For hosts that pause, or take long over something.
+void petri_hold(PetriSession *session);
+
 // The frame that petri_step made last.
 typedef struct PetriFrame {
     int64_t number; // -1 before the first
@@ -109,6 +116,28 @@ typedef struct PetriFrame {
 
 PetriFrame petri_frame(const PetriSession *session);
 
+// What the user's hands do, for the `!pointer` and `!key` nodes inside a script's `!window`. Report it whenever it
+// happens; the next frame sees it in the state dictionary, from the second frame with the node on. What was pressed and
+// let go between two frames counts as pressed for one. A session that is told nothing writes nothing.
+enum {
+    PETRI_BUTTON_LEFT = 1,
+    PETRI_BUTTON_MIDDLE = 2,
+    PETRI_BUTTON_RIGHT = 4, // further buttons: 8, 16, 32, 64, 128
+};
+typedef struct PetriPointer {
+    bool inside;      // the pointer is over the window
+    double x;         // if it is: 0 at the left edge to 1 at the right; what is beyond counts as the edge
+    double y;         // 0 at the top to 1 at the bottom
+    unsigned buttons; // those that are down, as bits
+} PetriPointer;
+// NULL: the user has turned away; the pointer is outside, all buttons and keys are let go. PETRI_INVALID for a position
+// that is not finite.
+PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
+// A key goes down or up: a letter, a digit, or a word such as "space", "left", "page_up", "f1", "left_shift" (README).
+// PETRI_INVALID for other names.
+PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
+// Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
+bool petri_key_bound(PetriSession *session, const char *name);
 // Asks for an end of the petri_step, petri_prompt or petri_evaluate that is under way, or of the next one: it returns
 // PETRI_INTERRUPTED, soon. The one function that may be called from a signal handler or from another thread.
 void petri_interrupt(PetriSession *session);

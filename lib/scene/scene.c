@@ -11,6 +11,10 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host) {
     if (!scene)
         return NULL;
     schema_init(&scene->schema, symbols, host);
+    if (!input_init(&scene->input, symbols)) {
+        scene_free(scene);
+        return NULL;
+    }
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
@@ -36,9 +40,15 @@ void scene_reset(Scene *scene) {
 }
 
 void scene_free(Scene *scene) {
-    if (scene)
+    if (scene) {
         scene_reset(scene);
+        input_free(&scene->input);
+    }
     free(scene);
+}
+
+Input *scene_input(Scene *scene) {
+    return &scene->input;
 }
 
 // The slots that a system holds besides its list.
@@ -105,6 +115,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
         done[kind] = true;
         steps += update_kind(scene, kind, tree, i, frame);
     }
+    input_bind(&scene->input, &scene->schema, tree, frame->arena);
     return steps;
 }
 

@@ -2,12 +2,12 @@
 //
 // After each evaluation the frame's top-level nodes are handed to the scene, which updates its systems: kinds in the
 // order in which they first appear, and nodes of a kind in order. Systems read and write the state dictionary.
+// Windows only tell where the user's input goes.
 #ifndef PETRI_SCENE_SCENE_H
 #define PETRI_SCENE_SCENE_H
 
 #include "physics/system.h"
-#include "scene/attrs.h"
-#include "state/state.h"
+#include "scene/input_bind.h"
 
 typedef struct Scene Scene;
 
@@ -18,6 +18,7 @@ typedef struct SceneFrame {
     double fps;
     double performance;
     bool lockstep;
+    uint64_t generation;          // another one: programs have been dropped, and what was kept (value/node.h) with them
     double resolution;            // of all systems, whatever they say themselves; 0: as they say
     const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
@@ -53,6 +54,8 @@ typedef struct SceneView {
 bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view);
 // The id of a particle of a view: what its key has beyond the prefix.
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);
+// What the host reports of the user's hands, for `!pointer` and `!key` (input_bind.h).
+Input *scene_input(Scene *scene);
 // Updates all systems from the node elements of `tree`; returns the simulation steps made.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 

@@ -123,6 +123,14 @@ ATTR(COUNTER, MIN, "min", 0)
 ATTR(COUNTER, MAXIMUM, "maximum", 0)
 ATTR(COUNTER, MAX, "max", 0)
 ATTR(COUNTER, RESET, "reset", 0)
+
+// In a window; help tells of these with the other nodes that stand there (canvas_list.h).
+KIND(POINTER, "pointer")
+ATTR(POINTER, STATE, "state", 0)
+
+KIND(KEY, "key")
+ATTR(KEY, NAME, "name", 0)
+ATTR(KEY, STATE, "state", 0)
 // clang-format on
 
 #undef KIND

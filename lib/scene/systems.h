@@ -3,6 +3,7 @@
 #define PETRI_SCENE_SYSTEMS_H
 
 #include "physics/system.h"
+#include "scene/input_bind.h"
 #include "scene/scene.h"
 
 // What a system keeps from frame to frame. It is the same system as long as its prefix is the same.
@@ -26,6 +27,7 @@ struct PhysicsSystem {
 
 struct Scene {
     Schema schema;
+    Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;
     PhysOptions physics;

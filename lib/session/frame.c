@@ -168,15 +168,23 @@ void session_resume(PetriSession *session, int64_t number) {
     frame->beat = frame->time / (60 / frame->tempo);
 }
 
-// In real time: sleeps until frame `number` is due and returns the monotonic time.
+// The clock of a session in real time: the monotonic one without the time that the host has held it.
+static double session_clock(const PetriSession *session) {
+    return now(CLOCK_MONOTONIC) - session->held;
+}
+
+// A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
+static const double LATEST = 0.1;
+
+// In real time: sleeps until frame `number` is due and returns the time.
 static double wait_for_frame(PetriSession *session, int64_t number) {
-    double at = now(CLOCK_MONOTONIC);
+    double at = session_clock(session);
     if (session->start == 0) { // the first frame, or the first after a restored state
         session->start = at - (double)number / session->frame.fps;
+        session->due = at + 1 / session->frame.fps;
         return at;
     }
-    double due = session->start + (double)number / session->frame.fps;
-    double spare = due - at;
+    double spare = session->due - at;
     session->slow_frame = spare < 0;
     session->performance += spare > 0.001 ? 0.001 : -0.01;
     session->performance = fmin(2, fmax(0.5, session->performance));
@@ -184,7 +192,21 @@ static double wait_for_frame(PetriSession *session, int64_t number) {
         struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
         nanosleep(&pause, NULL);
     }
-    return now(CLOCK_MONOTONIC);
+    session->due = fmax(session->due, at - LATEST) + 1 / session->frame.fps;
+    return session_clock(session);
+}
+
+double petri_due(const PetriSession *session) {
+    return session->options.realtime && session->start != 0 ? fmax(0, session->due - session_clock(session)) : 0;
+}
+
+void petri_hold(PetriSession *session) {
+    if (!session->options.realtime || session->start == 0)
+        return;
+    double late = session_clock(session) - (session->frame.time + 1 / session->frame.fps);
+    if (late > 0)
+        session->held += late;
+    session->due = session->frame.time + 1 / session->frame.fps;
 }
 
 static void advance_clocks(PetriSession *session) {
@@ -272,6 +294,7 @@ bool session_evaluate(PetriSession *session) {
 }
 
 static void evaluate(PetriSession *session) {
+    input_write(scene_input(session->scene), session->state, &session->frame_arena, session->frame.beat);
     session_evaluate(session);
 }
 
@@ -282,6 +305,7 @@ static void update_systems(PetriSession *session) {
                         .fps = session->frame.fps,
                         .performance = session->performance,
                         .lockstep = !session->options.realtime,
+                        .generation = session->generation,
                         .resolution = session->resolution,
                         .interrupt = session->options.interruptible ? &session->interrupt : NULL};
     session->frame.physics_steps = scene_update(session->scene, session->tree, &frame);

@@ -15,6 +15,7 @@ static Unit *unit_new(PetriSession *session) {
     if (!unit)
         return NULL;
     unit->references = 1;
+    session->generation++;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
     unit->arena.escape = session->frame_arena.escape;
     return unit;

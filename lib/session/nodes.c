@@ -1,9 +1,12 @@
 // nodes.c: the kinds of nodes and their attributes, for help and completion.
 #include "session/session.h"
 
+// The scene's kinds from this one on stand in windows, with whose kinds they are listed.
+enum { FIRST_IN_WINDOW = KIND_POINTER };
+
 bool petri_node_kind(size_t number, PetriNodeKind *out) {
     CanvasHelp help;
-    size_t physics = KIND_COUNT_OF;
+    size_t physics = FIRST_IN_WINDOW;
     if (number < physics) {
         *out = (PetriNodeKind){schema_kind_name((SceneKind)number), "physics", schema_kind_help((SceneKind)number)};
         return true;
@@ -16,7 +19,7 @@ bool petri_node_kind(size_t number, PetriNodeKind *out) {
 
 bool petri_node_attribute(size_t kind, size_t number, PetriNodeAttribute *out) {
     CanvasHelp help;
-    size_t physics = KIND_COUNT_OF;
+    size_t physics = FIRST_IN_WINDOW;
     if (kind < physics) {
         SchemaHelp row;
         if (!schema_attribute_help((SceneKind)kind, number, &row))

@@ -29,6 +29,8 @@ struct Unit {
     bool retired;  // replaced; freed when no frame can refer to it any more
 };
 
+enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
+
 // A statement typed at the prompt that is kept. Its parameters are the exports of the script and of the statements
 // before it.
 typedef struct Prompt {
@@ -75,8 +77,6 @@ struct PetriSnapshot {
     size_t capacity;
 };
 
-enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
-
 struct PetriSession {
     PetriOptions options;
     Arena arena; // session lifetime: symbols, definitions
@@ -99,6 +99,7 @@ struct PetriSession {
     uint64_t setup_number; // of the present setup
     uint64_t last_number;  // given so far
     Unit *modules;         // list
+    uint64_t generation;   // counts the units made: what lies in a new one may lie where a dropped one did
     Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
     Unit *loading;         // whose compiler calls back
     bool lint;             // petri_check is at work
@@ -123,7 +124,9 @@ struct PetriSession {
     PetriFrame frame;
     double quantum;
     double delta;
-    double start;       // of realtime: monotonic time of frame 0
+    double start;       // of realtime: the session's time of frame 0
+    double due;         // of realtime: when the next frame is due
+    double held;        // of realtime: seconds by which the session's clock is behind the monotonic one
     double performance; // of realtime
     bool slow_frame;
     bool in_frame;

@@ -1,6 +1,8 @@
 // test_session_settings.c: pragmas, -D definitions and engine names (language.md L12, L16).
 #include "player.h"
 
+#include <time.h>
+
 static void test_pragmas(void **state) {
     static const ScriptRow rows[] = {
         {"!a v=tempo;quantum;fps\n", "!a v=120;4;60\n"},
@@ -130,11 +132,37 @@ static void test_load_starts_again(void **state) {
     assert_text("pragmas are the script's own, the state stays", player_tree(player), "!a v=0;60;0;0.4\n");
 }
 
+// A host that pauses takes the time in between out of the script's time.
+static void test_hold(void **state) {
+    Player *player = *state;
+    player_run(player, "!a\n", 3);
+    assert_number("lockstep", petri_due(player->session), 0);
+    petri_hold(player->session); // nothing to hold
+    player_step(player, 1);
+    assert_number("lockstep", petri_frame(player->session).time, 3.0 / 60);
+
+    PetriOptions options = player_options(player);
+    options.realtime = true;
+    options.fps = 10;
+    player_reopen(player, &options);
+    assert_number("nothing loaded", petri_due(player->session), 0);
+    player_run(player, "!a\n", 2);
+    double due = petri_due(player->session), before = petri_frame(player->session).time;
+    assert_claim("due", due >= 0 && due <= 0.1);
+    nanosleep(&(struct timespec){.tv_sec = 2}, NULL);
+    assert_number("overdue", petri_due(player->session), 0);
+    petri_hold(player->session);
+    player_step(player, 1);
+    double passed = petri_frame(player->session).time - before;
+    assert_claim("held", passed > 0.0999 && passed < 1.9);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings), PLAYER_TEST(test_definitions),
-        PLAYER_TEST(test_precedence),        PLAYER_TEST(test_engine_names),    PLAYER_TEST(test_options),
-        PLAYER_TEST(test_load_starts_again),
+        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings),
+        PLAYER_TEST(test_definitions),       PLAYER_TEST(test_precedence),
+        PLAYER_TEST(test_engine_names),      PLAYER_TEST(test_options),
+        PLAYER_TEST(test_load_starts_again), PLAYER_TEST(test_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

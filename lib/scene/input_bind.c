@@ -1,0 +1,295 @@
+// input_bind.c: see input_bind.h.
+#include "scene/input_bind.h"
+
+#include "value/format.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Names of keys besides those of one character.
+static const char *const key_names[] = {
+    "space",
+    "apostrophe",
+    "comma",
+    "minus",
+    "period",
+    "slash",
+    "semicolon",
+    "equal",
+    "left_bracket",
+    "backslash",
+    "right_bracket",
+    "grave_accent",
+    "escape",
+    "enter",
+    "tab",
+    "backspace",
+    "insert",
+    "delete",
+    "right",
+    "left",
+    "down",
+    "up",
+    "page_up",
+    "page_down",
+    "home",
+    "end",
+    "caps_lock",
+    "scroll_lock",
+    "num_lock",
+    "print_screen",
+    "pause",
+    "f1",
+    "f2",
+    "f3",
+    "f4",
+    "f5",
+    "f6",
+    "f7",
+    "f8",
+    "f9",
+    "f10",
+    "f11",
+    "f12",
+    "kp_0",
+    "kp_1",
+    "kp_2",
+    "kp_3",
+    "kp_4",
+    "kp_5",
+    "kp_6",
+    "kp_7",
+    "kp_8",
+    "kp_9",
+    "kp_decimal",
+    "kp_divide",
+    "kp_multiply",
+    "kp_subtract",
+    "kp_add",
+    "kp_enter",
+    "kp_equal",
+    "left_shift",
+    "left_control",
+    "left_alt",
+    "left_super",
+    "right_shift",
+    "right_control",
+    "right_alt",
+    "right_super",
+    "menu",
+};
+
+static const char short_names[] = "abcdefghijklmnopqrstuvwxyz0123456789";
+
+enum { LONG_KEYS = sizeof key_names / sizeof key_names[0], KEYS = LONG_KEYS + sizeof short_names - 1 };
+
+static const char *const button_names[INPUT_BUTTONS] = {
+    "left", "middle", "right", "button_4", "button_5", "button_6", "button_7", "button_8",
+};
+enum { USUAL_BUTTONS = 3 }; // written even before they are used
+
+int input_key_number(Str name) {
+    if (name.len == 1) {
+        const char *at = memchr(short_names, name.bytes[0], sizeof short_names - 1);
+        return at ? LONG_KEYS + (int)(at - short_names) : INPUT_KEY_NONE;
+    }
+    for (int i = 0; i < LONG_KEYS; i++)
+        if (str_equal(name, str_from(key_names[i])))
+            return i;
+    return INPUT_KEY_NONE;
+}
+
+static const InputSwitch NEVER_PRESSED = {.pushed = NAN, .released = NAN};
+
+bool input_init(Input *input, SymbolTable *symbols) {
+    *input = (Input){.keys = calloc(KEYS, sizeof *input->keys)};
+    arena_init(&input->arena, "input", SIZE_MAX);
+    if (!input->keys)
+        return false;
+    for (int i = 0; i < KEYS; i++)
+        input->keys[i] = NEVER_PRESSED;
+    for (int i = 0; i < INPUT_BUTTONS; i++)
+        input->buttons[i] = NEVER_PRESSED;
+    input->window = symbol_intern(symbols, STR("window"));
+    for (int i = 0; i < INPUT_BUTTONS; i++)
+        input->button_words[i] = symbol_know(symbols, str_from(button_names[i]));
+    input->pushed = symbol_know(symbols, STR("pushed"));
+    input->released = symbol_know(symbols, STR("released"));
+    input->toggled = symbol_know(symbols, STR("toggled"));
+    input->beat = symbol_know(symbols, STR("beat"));
+    return true;
+}
+
+void input_free(Input *input) {
+    arena_free(&input->arena);
+    free(input->keys);
+}
+
+bool input_key_bound(const Input *input, int key) {
+    for (uint32_t i = 0; i < input->binding_count; i++)
+        if (input->bindings[i].key == key)
+            return key != INPUT_KEY_NONE;
+    return false;
+}
+
+static void press(InputSwitch *item, bool pressed) {
+    item->pushes += pressed && !item->down;
+    item->down = pressed;
+}
+
+void input_key(Input *input, int key, bool pressed) {
+    input->heard = true;
+    press(&input->keys[key], pressed);
+}
+
+void input_pointer(Input *input, const double *position, uint32_t buttons) {
+    input->heard = true;
+    input->inside = position != NULL;
+    if (position)
+        memcpy(input->position, position, sizeof input->position);
+    for (int i = 0; i < INPUT_BUTTONS; i++)
+        press(&input->buttons[i], buttons >> i & 1);
+}
+
+void input_let_go(Input *input) {
+    for (int i = 0; i < KEYS; i++)
+        press(&input->keys[i], false);
+    input_pointer(input, NULL, 0);
+}
+
+// The key that a `!key` names, by a symbol or a string.
+static int named_key(const Reader *reader) {
+    Value name = attr_value(reader, ROW_KEY_NAME);
+    const Symbol *symbol =
+        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(reader->schema->symbols, name.as.number) : NULL;
+    Str word = {0};
+    if (symbol)
+        word = symbol->name;
+    else if (name.kind == VALUE_MIXED && name.len == 1 && name.as.items[0].type == ITEM_STRING)
+        word = name.as.items[0].as.string->text;
+    return input_key_number(word);
+}
+
+static void report_key(const Reader *reader) {
+    Value name = attr_value(reader, ROW_KEY_NAME);
+    Text out = text_new(reader->arena);
+    text_add_c(&out, name.len ? "there is no key called " : "it names no key");
+    if (name.len > 8)
+        text_add_format(&out, "by %u elements", name.len);
+    else if (name.len)
+        format_value(&out, reader->schema->symbols, name);
+    text_add_c(&out, "; skipped");
+    reader_report(reader, "skipped-input", "name", text_str(&out));
+}
+
+static void bind_node(Input *input, Reader *reader, SceneKind kind, uint32_t *capacity) {
+    reader_check_names(reader, kind);
+    Value state = attr_value(reader, kind == KIND_KEY ? ROW_KEY_STATE : ROW_POINTER_STATE);
+    InputBinding binding = {.key = kind == KIND_KEY ? named_key(reader) : INPUT_KEY_NONE};
+    if (state.len == 0 || !state_key_valid(state)) {
+        reader_report(reader, "skipped-input", "state", STR("no usable state key; skipped"));
+        return;
+    }
+    if (kind == KIND_KEY && binding.key == INPUT_KEY_NONE) {
+        report_key(reader);
+        return;
+    }
+    binding.state = value_copy(&input->arena, state);
+    if (input->binding_count == *capacity) {
+        size_t old = *capacity * sizeof binding;
+        *capacity = *capacity ? *capacity * 2 : 8;
+        input->bindings = arena_grow(&input->arena, input->bindings, old, *capacity * sizeof binding);
+    }
+    input->bindings[input->binding_count++] = binding;
+}
+
+void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena) {
+    uint32_t capacity = 0;
+    arena_reset(&input->arena);
+    input->arena.escape = arena->escape;
+    input->bindings = NULL;
+    input->binding_count = 0;
+    for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
+        const Node *window = tree.as.items[i].type == ITEM_NODE ? tree.as.items[i].as.node : NULL;
+        if (!window || window->kind != input->window)
+            continue;
+        for (uint32_t j = 0; j < window->child_count; j++) {
+            Reader reader = {schema, arena, window->children[j], 1};
+            SceneKind kind = schema_kind(schema, reader.node);
+            if (kind == KIND_POINTER || kind == KIND_KEY)
+                bind_node(input, &reader, kind, &capacity);
+        }
+    }
+    input->arena.escape = NULL;
+}
+
+// Turns what was reported into what the frame of this beat sees.
+static void show(InputSwitch *item, double beat) {
+    bool shown = item->down || item->pushes > 0;
+    if (item->pushes > 0)
+        item->pushed = beat;
+    if (item->shown && !shown)
+        item->released = beat;
+    item->toggled ^= item->pushes & 1;
+    item->pushes = 0;
+    item->shown = shown;
+}
+
+typedef struct Writer {
+    State *state;
+    Arena *arena; // temporaries
+} Writer;
+
+// Writes a value under state;first;second, of which the words may be NULL. Null removes it.
+static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
+    ArenaMark mark = arena_mark(writer->arena);
+    Vector key = vector_new(writer->arena);
+    vector_add(&key, prefix);
+    if (first)
+        vector_add_number(&key, first->number);
+    if (second)
+        vector_add_number(&key, second->number);
+    state_set(writer->state, vector_finish(&key), value);
+    arena_rewind(writer->arena, mark);
+}
+
+static void write_pointer(const Writer *writer, const Input *input, Value prefix) {
+    Value position = input->inside ? value_numbers_view(input->position, 2) : VALUE_NULL;
+    write_word(writer, prefix, NULL, NULL, position);
+    for (int i = 0; i < INPUT_BUTTONS; i++) {
+        const InputSwitch *button = &input->buttons[i];
+        if (i < USUAL_BUTTONS || !isnan(button->pushed))
+            write_word(writer, prefix, input->button_words[i], NULL, value_number(button->shown));
+    }
+}
+
+static Value beat_value(double beat) {
+    return isnan(beat) ? VALUE_NULL : value_number(beat);
+}
+
+static void write_key(const Writer *writer, const Input *input, Value prefix, const InputSwitch *key) {
+    write_word(writer, prefix, NULL, NULL, value_number(key->shown));
+    write_word(writer, prefix, input->pushed, NULL, value_number(key->shown));
+    write_word(writer, prefix, input->released, NULL, value_number(!key->shown));
+    write_word(writer, prefix, input->toggled, NULL, value_number(key->toggled));
+    write_word(writer, prefix, input->pushed, input->beat, beat_value(key->pushed));
+    write_word(writer, prefix, input->released, input->beat, beat_value(key->released));
+}
+
+void input_write(Input *input, State *state, Arena *arena, double beat) {
+    const Writer writer = {state, arena};
+    if (!input->heard)
+        return;
+    for (int i = 0; i < KEYS; i++)
+        show(&input->keys[i], beat);
+    for (int i = 0; i < INPUT_BUTTONS; i++)
+        show(&input->buttons[i], beat);
+    for (uint32_t i = 0; i < input->binding_count; i++) {
+        const InputBinding *binding = &input->bindings[i];
+        if (binding->key == INPUT_KEY_NONE)
+            write_pointer(&writer, input, binding->state);
+        else
+            write_key(&writer, input, binding->state, &input->keys[binding->key]);
+    }
+}

@@ -1,0 +1,69 @@
+// input_bind.h: `!pointer` and `!key` inside a `!window`: what the user's hands do, in the state dictionary.
+//
+// The host reports what happens whenever it happens; the state is written between two frames, so that one frame sees
+// one thing throughout. What was pressed and let go again between two frames counts as pressed for one frame. Until the
+// host has reported something, nothing is written.
+#ifndef PETRI_SCENE_INPUT_BIND_H
+#define PETRI_SCENE_INPUT_BIND_H
+
+#include "scene/attrs.h"
+#include "state/state.h"
+
+enum { INPUT_BUTTONS = 8, INPUT_KEY_NONE = -1 };
+
+// Something that is pressed and let go.
+typedef struct InputSwitch {
+    bool down;       // as reported
+    bool shown;      // as the present frame sees it
+    bool toggled;    // changes with each push
+    uint32_t pushes; // not shown yet
+    double pushed;   // beat of the frame that saw the last push; nan: there was none
+    double released; // beat of the frame that saw the last release; nan: there was none
+} InputSwitch;
+
+// A node of the last frame's tree: where its input goes. Keys of the state live in the input's arena.
+typedef struct InputBinding {
+    Value state;
+    int key; // INPUT_KEY_NONE: a pointer
+} InputBinding;
+
+typedef struct Input {
+    Arena arena; // bindings
+    InputBinding *bindings;
+    uint32_t binding_count;
+    InputSwitch *keys; // by number of their names
+    InputSwitch buttons[INPUT_BUTTONS];
+    bool heard; // the host has reported something
+    bool inside;
+    double position[2];
+    // Kinds and the words of state keys
+    const Symbol *window;
+    const Symbol *button_words[INPUT_BUTTONS];
+    const Symbol *pushed;
+    const Symbol *released;
+    const Symbol *toggled;
+    const Symbol *beat;
+} Input;
+
+// False if memory is used up.
+bool input_init(Input *input, SymbolTable *symbols);
+void input_free(Input *input);
+
+// The number of a key's name; INPUT_KEY_NONE if there is no such key.
+int input_key_number(Str name);
+// Whether a node of the last frame's tree asks for the key.
+bool input_key_bound(const Input *input, int key);
+
+// What the host reports. A press while pressed changes nothing.
+void input_key(Input *input, int key, bool pressed);
+// `position` is NULL outside the window, else two finite numbers; bit i of `buttons` is button i.
+void input_pointer(Input *input, const double *position, uint32_t buttons);
+// Everything is let go and the pointer is outside.
+void input_let_go(Input *input);
+
+// Takes the bindings from the windows of a frame's tree; `arena` is for messages, and its escape the one to use.
+void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena);
+// Writes the state before the frame of this beat is evaluated; `arena` is for temporaries.
+void input_write(Input *input, State *state, Arena *arena, double beat);
+
+#endif

@@ -1,0 +1,32 @@
+// input.c: what the host reports of the user's hands; see petri.h.
+#include "session/session.h"
+
+#include <math.h>
+
+PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer) {
+    Input *input = scene_input(session->scene);
+    if (!pointer) {
+        input_let_go(input);
+        return PETRI_OK;
+    }
+    if (!pointer->inside) {
+        input_pointer(input, NULL, pointer->buttons);
+        return PETRI_OK;
+    }
+    if (!isfinite(pointer->x) || !isfinite(pointer->y))
+        return PETRI_INVALID;
+    input_pointer(input, (double[]){fmin(1, fmax(0, pointer->x)), fmin(1, fmax(0, pointer->y))}, pointer->buttons);
+    return PETRI_OK;
+}
+
+PetriStatus petri_key(PetriSession *session, const char *name, bool pressed) {
+    int key = input_key_number(str_from(name));
+    if (key == INPUT_KEY_NONE)
+        return PETRI_INVALID;
+    input_key(scene_input(session->scene), key, pressed);
+    return PETRI_OK;
+}
+
+bool petri_key_bound(PetriSession *session, const char *name) {
+    return input_key_bound(scene_input(session->scene), input_key_number(str_from(name)));
+}
