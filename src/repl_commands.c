@@ -123,6 +123,11 @@ static bool run_plot(Repl *repl, const char *rest) {
     return repl_plot(repl, rest);
 }
 
+static bool run_show(Repl *repl, const char *rest) {
+    (void)rest;
+    return repl_show_picture(repl);
+}
+
 static bool run_set(Repl *repl, const char *rest) {
     PetriSetup *before = petri_setup(repl->session);
     if (before == NULL) {
@@ -156,6 +161,7 @@ static bool run_tempo(Repl *repl, const char *rest) {
     if (rest[0] != '\0' && !(read_rate(repl, rest, &tempo) && petri_set_tempo(repl->session, tempo) == PETRI_OK)) {
         return false;
     }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
     show_number(repl, "tempo", petri_frame(repl->session).tempo);
     return true;
 }
@@ -165,6 +171,7 @@ static bool run_fps(Repl *repl, const char *rest) {
     if (rest[0] != '\0' && !(read_rate(repl, rest, &fps) && petri_set_fps(repl->session, fps) == PETRI_OK)) {
         return false;
     }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
     show_number(repl, "fps", petri_frame(repl->session).fps);
     return true;
 }

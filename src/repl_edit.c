@@ -36,9 +36,14 @@ static int read_character(EditLine *line, wchar_t *character) {
     mbstate_t state = {0};
     for (;;) {
         char byte;
-        if (!plain_wait(editor->repl)) {
+        PlainWait wait = plain_wait(editor->repl);
+        if (wait == WAIT_INTERRUPTED) {
             errno = EINTR;
             return -1;
+        }
+        if (wait == WAIT_NOTICED) {
+            el_set(line, EL_REFRESH);
+            continue;
         }
         ssize_t got = read(STDIN_FILENO, &byte, 1);
         if (got < 0 && errno == EINTR && !repl_interrupted()) {

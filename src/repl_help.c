@@ -110,14 +110,14 @@ static bool tell_nearest(Repl *repl, const char *topic) {
     size_t best = SIZE_MAX;
     PetriBuiltin builtin;
     PetriNodeKind kind;
+    for (const ReplCommand *command = REPL_COMMANDS; command->name != NULL; command++) {
+        nearest = is_nearer(topic, command->name + (topic[0] != '.'), &best) ? command->name : nearest;
+    }
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         nearest = is_nearer(topic, builtin.name, &best) ? builtin.name : nearest;
     }
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         nearest = is_nearer(topic + (topic[0] == '!'), kind.name, &best) ? kind.name : nearest;
-    }
-    for (const ReplCommand *command = REPL_COMMANDS; command->name != NULL; command++) {
-        nearest = is_nearer(topic, command->name + (topic[0] != '.'), &best) ? command->name : nearest;
     }
     return nearest == NULL ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
                            : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest);

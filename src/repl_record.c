@@ -53,8 +53,9 @@ static bool may_record(Repl *repl, const char *script) {
     if (history->epochs[0].setup != petri_setup_number(repl->session)) {
         return repl_fail(repl, "things were changed after these frames were made; .reset and step again");
     }
-    if (petri_resolution(repl->session) > 0) {
-        return repl_fail(repl, "a golden cannot repeat .resolution; turn it off and step again");
+    if (petri_resolution(repl->session) > 0 || repl->rates_changed) {
+        return repl_fail(repl, "a golden cannot repeat %s; .load the script again",
+                         repl->rates_changed ? ".tempo and .fps" : ".resolution");
     }
     if (repl->loaded && !same_folder(repl->script, script)) {
         return repl_fail(repl, "a recording must lie in the folder of '%s', for names of files are relative to it",
@@ -128,7 +129,7 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
     if (good) {
         repl_busy(repl);
         PetriStatus status = gather(repl, &text, last, every, &why);
-        bool stopped = repl_idle();
+        bool stopped = repl_idle(repl);
         if (status != PETRI_OK) {
             history_goto(&repl->history, repl->session, last, &why);
             good = repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "not recorded");
