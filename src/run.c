@@ -68,34 +68,6 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     }
 }
 
-static bool open_session(Run *run, const Host *host) {
-    PetriOptions options = petri_default_options();
-    options.fps = run->options.fps;
-    options.realtime = run->options.realtime;
-    options.run_time = run->options.run_time;
-    options.colour = run->options.colour;
-    options.stack_bytes = host->stack_bytes;
-    options.threads = run->options.threads;
-    options.simplify = run->options.simplify;
-    options.diagnostic = on_diagnostic;
-    options.host = run;
-    run->session = petri_open(&options);
-    if (run->session == NULL) {
-        message("out of memory");
-    }
-    return run->session != NULL;
-}
-
-static bool define_names(Run *run) {
-    for (size_t i = 0; i < run->options.definition_count; i++) {
-        if (petri_define(run->session, run->options.definitions[i]) != PETRI_OK) {
-            message("option '--define' expects NAME=VALUE, not '%s'", run->options.definitions[i]);
-            return false;
-        }
-    }
-    return true;
-}
-
 static double current_fps(const Run *run) {
     double fps = petri_frame(run->session).fps;
     return fps > 0 ? fps : run->options.fps;
@@ -221,9 +193,6 @@ static int run_frames(Run *run) {
 }
 
 static int run_session(Run *run) {
-    if (!define_names(run)) {
-        return STATUS_USAGE;
-    }
     PetriStatus status = petri_load(run->session, run->options.script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
@@ -256,9 +225,12 @@ static int run_run(const Host *host, int argc, char **argv) {
     }
     output_start(&run->output, STDOUT_FILENO);
     run->to_terminal = isatty(STDOUT_FILENO);
-    int status = run_options_read(&run->options, argc, argv);
+    int status = run_options_read(&run->options, &RUN_COMMAND, argc, argv);
     if (status == RUN_OPTIONS_OK) {
-        status = open_session(run, host) ? run_session(run) : STATUS_FAILED;
+        status = run_options_open(&run->options, host, on_diagnostic, run, &run->session);
+    }
+    if (status == RUN_OPTIONS_OK) {
+        status = run_session(run);
         petri_close(&run->session);
         status = output_finish(&run->output, status);
     }

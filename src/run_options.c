@@ -1,4 +1,4 @@
-// run_options.c: the command line of `petri run`.
+// run_options.c: the command lines of `petri run` and of those that run scripts as it does.
 #include "run_options.h"
 
 #include <math.h>
@@ -31,29 +31,54 @@ enum {
     OPT_DUMP,
     OPT_STATS,
     OPT_TRAJECTORY,
+    OPT_TERMINAL,
+    OPT_AUTO,
 };
+
+// Options that mean the same everywhere, by where help lists them.
+#define FRAME_RATE                                                                                                     \
+    { "fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins" }
+#define WORLD_OPTIONS                                                                                                  \
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},                        \
+        {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},              \
+        {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"}, {            \
+        "nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"        \
+    }
+#define LOG_OPTIONS                                                                                                    \
+    {"quiet", 0, OPT_QUIET, NULL, "report errors only"},                                                               \
+        {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},                                         \
+        {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},                            \
+        {"trace", 0, OPT_TRACE, NULL, "also report the time that every frame took"}, {                                 \
+        "color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"                                        \
+    }
 
 const OptionSpec RUN_OPTION_SPECS[] = {
     {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
-    {"fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins"},
+    FRAME_RATE,
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
     {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},
     {"print", 0, OPT_PRINT, "LIST",
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
-    {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},
-    {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
-    {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
+    WORLD_OPTIONS,
     {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
-    {"quiet", 0, OPT_QUIET, NULL, "report errors only"},
-    {"verbose", 0, OPT_VERBOSE, NULL, "also report a summary at the end"},
-    {"debug", 0, OPT_DEBUG, NULL, "also report the time that each printed frame took"},
-    {"trace", 0, OPT_TRACE, NULL, "also report the time that every frame took"},
-    {"color", 0, OPT_COLOR, "WHEN", "colour messages: auto, always or never"},
+    LOG_OPTIONS,
     {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
+    {0},
+};
+
+const OptionSpec VIEW_OPTION_SPECS[] = {
+    {"terminal", 0, OPT_TERMINAL, NULL, "show it in the terminal, even if there is a display"},
+    {"auto", 0, OPT_AUTO, NULL, "show the particles themselves, not the script's own canvas"},
+    {"frames", 0, OPT_FRAMES, "N", "close after N frames"},
+    {"runtime", 0, OPT_RUNTIME, "T", "close after T seconds, or a time code (m:s, h:m:s)"},
+    FRAME_RATE,
+    {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock (the default)"},
+    WORLD_OPTIONS,
+    LOG_OPTIONS,
     {0},
 };
 
@@ -192,6 +217,12 @@ static bool apply_flag(int id, RunOptions *options) {
     case OPT_STATS:
         options->stats = true;
         return true;
+    case OPT_TERMINAL:
+        options->terminal = true;
+        return true;
+    case OPT_AUTO:
+        options->automatic = true;
+        return true;
     case OPT_QUIET:
         options->verbosity = LOG_QUIET;
         return true;
@@ -212,24 +243,25 @@ static bool apply_flag(int id, RunOptions *options) {
 static int read_all(RunOptions *options, Args *args) {
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(&RUN_COMMAND);
+            return help_for(args->command);
         }
         if (id == ARG_WRONG || (!apply_flag(id, options) && !apply_option(args, id, options))) {
             return STATUS_USAGE;
         }
     }
     if (options->script == NULL) {
-        message("no script was given; usage: petri run [options] SCRIPT.fl");
+        message("no script was given; usage: petri %s [options] SCRIPT.fl", args->command->name);
         return STATUS_USAGE;
     }
     return RUN_OPTIONS_OK;
 }
 
-int run_options_read(RunOptions *options, int argc, char **argv) {
+int run_options_read(RunOptions *options, const Command *command, int argc, char **argv) {
     *options = (RunOptions){
         .frames = -1,
         .run_time = NAN,
         .fps = 60,
+        .realtime = command == &VIEW_COMMAND,
         .every = 1,
         .verbosity = LOG_NORMAL,
         .colour = colour_by_default(),
@@ -242,10 +274,10 @@ int run_options_read(RunOptions *options, int argc, char **argv) {
         message("out of memory");
         return STATUS_FAILED;
     }
-    Args args = args_start(&RUN_COMMAND, argc, argv);
+    Args args = args_start(command, argc, argv);
     int status = read_all(options, &args);
     if (options->frames < 0) {
-        options->frames = isnan(options->run_time) ? DEFAULT_FRAMES : INT64_MAX;
+        options->frames = isnan(options->run_time) && command == &RUN_COMMAND ? DEFAULT_FRAMES : INT64_MAX;
     }
     return status;
 }
@@ -253,4 +285,32 @@ int run_options_read(RunOptions *options, int argc, char **argv) {
 void run_options_free(RunOptions *options) {
     free(options->definitions);
     options->definitions = NULL;
+}
+
+int run_options_open(const RunOptions *options, const Host *host,
+                     void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
+                     PetriSession **session) {
+    PetriOptions wanted = petri_default_options();
+    wanted.fps = options->fps;
+    wanted.realtime = options->realtime;
+    wanted.run_time = options->run_time;
+    wanted.colour = options->colour;
+    wanted.stack_bytes = host->stack_bytes;
+    wanted.threads = options->threads;
+    wanted.simplify = options->simplify;
+    wanted.diagnostic = diagnostic;
+    wanted.host = context;
+    *session = petri_open(&wanted);
+    if (*session == NULL) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    for (size_t i = 0; i < options->definition_count; i++) {
+        if (petri_define(*session, options->definitions[i]) != PETRI_OK) {
+            message("option '--define' expects NAME=VALUE, not '%s'", options->definitions[i]);
+            petri_close(session);
+            return STATUS_USAGE;
+        }
+    }
+    return RUN_OPTIONS_OK;
 }

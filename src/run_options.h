@@ -1,10 +1,11 @@
-// run_options.h: the command line of `petri run`.
+// run_options.h: the command lines of `petri run` and of those that run scripts as it does.
 #ifndef PETRI_SRC_RUN_OPTIONS_H
 #define PETRI_SRC_RUN_OPTIONS_H
 
 #include <stdint.h>
 
 #include "cli.h"
+#include "petri.h"
 
 typedef enum Verbosity { LOG_QUIET, LOG_NORMAL, LOG_VERBOSE, LOG_DEBUG, LOG_TRACE } Verbosity;
 
@@ -26,15 +27,23 @@ typedef struct RunOptions {
     int dump;               // PetriDump, or -1
     bool stats;
     const char *trajectory; // NULL: none is written
+    bool terminal;          // view: in the terminal
+    bool automatic;         // the particles themselves are drawn
 } RunOptions;
 
 enum { RUN_OPTIONS_OK = -1 };
 
-// Reads the options. RUN_OPTIONS_OK, or the status to exit with because help was asked for or something is wrong.
-// Texts point into argv.
-int run_options_read(RunOptions *options, int argc, char **argv);
+// Reads the options of a command. RUN_OPTIONS_OK, or the status to exit with because help was asked for or something is
+// wrong. Texts point into argv.
+int run_options_read(RunOptions *options, const Command *command, int argc, char **argv);
 void run_options_free(RunOptions *options);
+// Opens a session as the options say, with the names that they define. RUN_OPTIONS_OK, or the status to exit with after
+// a message; *session is then NULL.
+int run_options_open(const RunOptions *options, const Host *host,
+                     void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
+                     PetriSession **session);
 
 extern const OptionSpec RUN_OPTION_SPECS[];
+extern const OptionSpec VIEW_OPTION_SPECS[];
 
 #endif

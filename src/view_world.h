@@ -1,0 +1,50 @@
+// view_world.h: what `petri view` looks at: a script that runs, is loaded anew when it is saved, and has pictures.
+//
+// A script that cannot be loaded, or a frame that cannot be made, is told and changes nothing: the last good program
+// goes on, or waits.
+#ifndef PETRI_SRC_VIEW_WORLD_H
+#define PETRI_SRC_VIEW_WORLD_H
+
+#include "bytes.h"
+#include "petri.h"
+#include "run_options.h"
+#include "watch.h"
+
+typedef struct World {
+    RunOptions options;
+    const Host *host;
+    PetriSession *session;
+    PetriPainter *painter;
+    PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
+    Watch *watch;
+    int64_t frames; // made since the view was opened
+    bool halted;    // a frame could not be made; the next load or reset goes on
+    bool failed;    // something could not be read, written or recorded
+    bool state_lost;
+    // Messages
+    bool mute;     // standard error belongs to the display: messages are kept in `log` until it is closed
+    bool shown;    // the last diagnostic that was no note was shown
+    Bytes log;     // bounded
+    Bytes trouble; // what is wrong now, for the overlay
+} World;
+
+// Opens and loads; the status to exit with, or RUN_OPTIONS_OK. The options have been read. Close in either case.
+int world_open(World *world, const Host *host);
+void world_close(World *world);
+// One frame and its picture; records what the script asks for. False if it could not be made.
+bool world_step(World *world);
+// If files of the script have changed: loads it, keeping state and clock. True if there was an attempt; then
+// world->trouble tells whether it went well.
+bool world_reload(World *world);
+// Starts anew: without state, before frame 0. False if the script could not be loaded; then all is as it was.
+bool world_reset(World *world);
+// What is wrong, "" if nothing is. Valid until the next call.
+const char *world_trouble(const World *world);
+// Writes the last frame's picture to a PNG file that did not exist, named after script and frame, in this folder. False
+// if it cannot be written. `name` gets what it is called.
+bool world_screenshot(World *world, char *name, size_t size);
+void world_save(World *world);
+// Writes what was kept while standard error was not ours, and writes there from now on.
+void world_unmute(World *world);
+
+#endif
