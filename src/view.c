@@ -93,8 +93,8 @@ static void update_status(View *view) {
         PetriFrame frame = petri_frame(view->world.session);
         double seconds = frame.beat * 60 / frame.tempo;
         snprintf(text, sizeof text,
-                 "%5.1f fps   frame %-7" PRId64 " %3d:%05.2f   beat %.2f\n"
-                 "script %.2f ms   physics %.2f ms, %" PRIu64 " steps\n"
+                 "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"
+                 "script %.2f ms  physics %.2f ms  steps %" PRIu64 "\n"
                  "space pause  . step  r reset  f full screen\n"
                  "s screenshot  h this  q quit",
                  view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
