@@ -7,7 +7,7 @@
 // - A session is used by one thread at a time; different sessions are independent.
 // - A parameter struct need only live until the call returns. Text is UTF-8; a length of PETRI_Z means NUL-terminated.
 // - A function that can fail returns a PetriStatus. Nothing is half done: a script that cannot be loaded leaves the
-//   one that is running, and a frame that hits a limit leaves the state as it was.
+//   one that is running, and a frame that hits a limit or is interrupted leaves the state as it was.
 // - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
 //   the library prints, exits or changes the process's locale, signals or working directory.
 #ifndef PETRI_H
@@ -30,6 +30,7 @@ typedef enum PetriStatus {
     PETRI_INVALID, // the script cannot be loaded, a definition cannot be read; diagnostics tell why
     PETRI_LIMIT,   // a limit was reached: the frame was given up and changed nothing
     PETRI_MEMORY,  // memory is used up
+    PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
     PETRI_MISSING, // this libpetri was built without the library that it takes; a diagnostic tells which
 } PetriStatus;
 
@@ -57,7 +58,10 @@ typedef struct PetriOptions {
     size_t stack_bytes;
     size_t memory_bytes; // for the values of one frame. Default 2 GiB
     int threads;         // worker threads, 0: as many as processors. Results never depend on it
-    bool keep_forces;    // let petri_particle tell the force on each particle
+    // Keep a copy of the state while a frame is made, so that petri_interrupt can give up a frame whose systems are
+    // being updated; a frame that is given up does not count then. Default false: only evaluation is interrupted.
+    bool interruptible;
+    bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
     uint32_t cookie; // set by petri_default_options; catches options that were not initialised
@@ -79,6 +83,12 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 PetriStatus petri_load(PetriSession *session, const char *file);
 // The same from text; `name` stands for the file.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
+// The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
+// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed.
+PetriStatus petri_reload(PetriSession *session, const char *file);
+// The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
+// script has imported. NULL beyond the last. Valid until the next load or step.
+const char *petri_source(PetriSession *session, size_t number);
 // Parses and compiles a file for its diagnostics only.
 PetriStatus petri_check(PetriSession *session, const char *file);
 
@@ -128,6 +138,42 @@ PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
 PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
 bool petri_key_bound(PetriSession *session, const char *name);
+
+// Asks for an end of the petri_step, petri_prompt or petri_evaluate that is under way, or of the next one: it returns
+// PETRI_INTERRUPTED, soon. The one function that may be called from a signal handler or from another thread.
+void petri_interrupt(PetriSession *session);
+// Whether such a wish has not been met yet; forgets it.
+bool petri_interrupted(PetriSession *session);
+
+// Changes the clock from here on: frame number, time and beat do not jump. PETRI_INVALID unless above 0 and finite.
+PetriStatus petri_set_tempo(PetriSession *session, double tempo);
+PetriStatus petri_set_fps(PetriSession *session, double fps);
+// The longest step of all systems, whatever they say themselves; 0: as they say. PETRI_INVALID below 0 or not finite.
+PetriStatus petri_set_resolution(PetriSession *session, double resolution);
+double petri_resolution(const PetriSession *session);
+// Forgets the state dictionary and goes to before frame 0.
+void petri_clear(PetriSession *session);
+
+// What a session computes with, as opposed to what it has computed: script, definitions, statements of the prompt, clock
+// rates, resolution. It is shared, not copied, and must be freed before the session is closed.
+typedef struct PetriSetup PetriSetup;
+// The present one, or NULL if memory is used up. Free with petri_setup_free, which takes NULL, too.
+PetriSetup *petri_setup(PetriSession *session);
+void petri_setup_free(PetriSetup *setup);
+// Goes back to a setup of this session; state and frame stay.
+void petri_setup_use(PetriSession *session, PetriSetup *setup);
+// A number that is another whenever the setup is; modules that changed on disk count as well.
+uint64_t petri_setup_number(const PetriSession *session);
+
+// A copy of all that decides how a session goes on: state, systems, clock and setup. Free it before the session.
+typedef struct PetriSnapshot PetriSnapshot;
+// NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
+PetriSnapshot *petri_snapshot(PetriSession *session);
+void petri_snapshot_free(PetriSnapshot *snapshot);
+size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a setup is shared
+// Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as long
+// as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
+PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
 // Writes the state dictionary, the frame number and what the systems need to go on to a file, which is replaced as a
 // whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
@@ -279,6 +325,51 @@ typedef bool PetriWrite(void *host, const char *text, size_t length);
 PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host);
 // Only the log lines of the frame, each `> text`.
 PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host);
+
+// A prompt: text typed by a person, evaluated in the frame made last, where it sees the names of the script's top level.
+// Before the first frame, and after anything but a step has changed what names stand for, the script is evaluated once
+// for that, in frame 0 or the present one, without effect.
+
+typedef enum PetriInput {
+    PETRI_INPUT_WHOLE, // the text is complete, or wrong whatever follows
+    PETRI_INPUT_OPEN,  // it is complete, and indented lines would go on with it
+    PETRI_INPUT_BLOCK, // indented lines must follow
+    PETRI_INPUT_PART,  // it cannot end here
+} PetriInput;
+// Whether more lines are needed.
+PetriInput petri_input(PetriSession *session, const char *text, size_t length);
+
+// What became of the statements of a text.
+typedef struct PetriPrompted {
+    uint32_t values;   // evaluated once and written
+    uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
+    uint32_t nodes;    // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
+                       // are added to those of the script; they are written, too, as they are now
+} PetriPrompted;
+// Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
+// PETRI_INVALID if it does not parse; a statement that was given up is not kept.
+PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
+                         PetriPrompted *done);
+// Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were.
+uint32_t petri_drop(PetriSession *session, bool bindings);
+// A statement that the prompt has kept, by number from 0; NULL beyond the last. Valid until the next prompt or drop.
+const char *petri_kept(PetriSession *session, size_t number);
+
+typedef struct PetriResult {
+    bool is_true;
+    uint32_t length; // of the vector
+    double number;   // NaN unless it is one number
+    double seconds;  // that the evaluation took, without compilation
+} PetriResult;
+// Evaluates one expression; its value is written in one line, without end, unless `write` is NULL. PETRI_INVALID if it
+// is none.
+PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
+                           PetriWrite *write, void *host);
+// Evaluates the script for the present frame, or frame 0, if petri_step has not done so: for petri_print.
+PetriStatus petri_preview(PetriSession *session);
+
+// A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
+const char *petri_name(PetriSession *session, size_t number);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code.

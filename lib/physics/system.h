@@ -9,6 +9,7 @@
 
 #include "base/cpu.h"
 
+#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -111,11 +112,13 @@ typedef struct PhysTime {
     bool lockstep;         // always catch up
     double performance;    // engine performance, decides about the one extra step in real time
     double speed_of_light; // <= 0: no limit
+    const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
 } PhysTime;
 
 typedef enum PhysStatus {
     PHYS_OK,
     PHYS_DROPPED_TIME, // the step limit or the precision of the clock was reached; the rest of the frame was dropped
+    PHYS_INTERRUPTED,  // positions and velocities are those of some step in between
     PHYS_NO_MEMORY,    // an allocation failed or PHYS_MAX_BYTES would be exceeded; nothing was simulated
 } PhysStatus;
 

@@ -24,6 +24,10 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
+        if (time->interrupt && atomic_load_explicit(time->interrupt, memory_order_relaxed)) {
+            result.status = PHYS_INTERRUPTED;
+            break;
+        }
         phys_step(system, result.clock, delta, time->speed_of_light);
         result.clock += delta;
         result.steps++;

@@ -391,13 +391,13 @@ static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program
 }
 
 // The top-level bindings that are visible at the end, oldest first.
-static void collect_exports(Compiler *compiler, Program *program) {
+static void collect_exports(Compiler *compiler, Program *program, const Binding *params) {
     uint32_t count = 0;
-    for (const Binding *binding = compiler->function->scope; binding; binding = binding->outer)
+    for (const Binding *binding = compiler->function->scope; binding != params; binding = binding->outer)
         count++;
     Export *exports = arena_alloc_array(compiler->arena, count, sizeof *exports);
     program->export_count = count;
-    for (const Binding *binding = compiler->function->scope; binding; binding = binding->outer)
+    for (const Binding *binding = compiler->function->scope; binding != params; binding = binding->outer)
         exports[--count] = (Export){binding->name, binding->slot};
     program->exports = exports;
 }
@@ -425,14 +425,17 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
     FunctionScope function;
     compile_function_open(&compiler, &function, NULL);
     compiler.repeats = options->module; // a module may be imported at several places
+    for (uint32_t i = 0; i < options->param_count; i++)
+        compile_bind(&compiler, BINDING_PARAM, options->params[i], (Span){0}, NULL);
+    const Binding *params = function.scope;
     Program *program = arena_alloc(arena, sizeof *program);
-    *program = (Program){.source = source};
+    *program = (Program){.source = source, .param_count = options->param_count};
     collect_pragmas(&compiler, ast, program);
     uint32_t skip = program->pragma_count;
     Ast *body = ast_new(arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
     program->body = compile_children(&compiler, EXPR_COMPOSE, body);
-    collect_exports(&compiler, program);
-    lint_unused(&compiler, compiler.function->scope, NULL);
+    collect_exports(&compiler, program, params);
+    lint_unused(&compiler, compiler.function->scope, params);
     program->frame_size = function.frame_size;
     return program;
 }

@@ -98,6 +98,7 @@ typedef struct Program {
     const Source *source;
     const Expr *body;
     uint32_t frame_size;
+    uint32_t param_count; // the first slots: values that the host gives
     const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
     uint32_t export_count;
     const Pragma *pragmas;
@@ -126,6 +127,8 @@ typedef struct CompileOptions {
     bool simplify;         // evaluate static parts now (L17.1)
     const Define *defines; // later ones count
     uint32_t define_count;
+    const Symbol *const *params; // names of values that the host gives to each run; of equal ones the last counts
+    uint32_t param_count;
     CompileHost host;
 } CompileOptions;
 

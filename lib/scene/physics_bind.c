@@ -91,7 +91,8 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
     if (!system)
         return false;
     *cursor = system;
-    *saved = (SceneSystem){system->start, system->occurrence, system->slots, system->slot_count};
+    bool absent = system->seen != scene->frame_number; // then it has no last tree
+    *saved = (SceneSystem){system->start, system->occurrence, system->slots, absent ? 0 : system->slot_count};
     return true;
 }
 
@@ -174,6 +175,8 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, Setting
         .run = floor(attr_float(reader, ROW_PHYSICS_RUN)),
         .speed_of_light = attr_float(reader, ROW_PHYSICS_SPEED_OF_LIGHT),
     };
+    if (frame->resolution > 0)
+        settings->resolution = frame->resolution;
     if (!isfinite(settings->run))
         settings->run = 0;
     Value prefix = attr_value(reader, ROW_PHYSICS_STATE);
@@ -224,7 +227,8 @@ static double simulate(const PhysicsTree *tree, const Reader *reader, const Sett
                      .resolution = settings->resolution,
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
-                     .speed_of_light = settings->speed_of_light};
+                     .speed_of_light = settings->speed_of_light,
+                     .interrupt = tree->frame->interrupt};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
     if (result.status == PHYS_NO_MEMORY)

@@ -91,6 +91,8 @@ static uint64_t update_kind(Scene *scene, SceneKind kind, Value tree, uint32_t f
         const Item *item = &tree.as.items[i];
         if (item->type != ITEM_NODE || schema_kind(&scene->schema, item->as.node) != kind)
             continue;
+        if (frame->interrupt && atomic_load_explicit(frame->interrupt, memory_order_relaxed))
+            break;
         if (kind == KIND_PHYSICS)
             steps += physics_update(scene, item->as.node, frame);
         else

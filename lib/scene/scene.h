@@ -18,6 +18,8 @@ typedef struct SceneFrame {
     double fps;
     double performance;
     bool lockstep;
+    double resolution;            // of all systems, whatever they say themselves; 0: as they say
+    const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
 
 // NULL if memory is used up. The symbol table must outlive the scene.

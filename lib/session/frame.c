@@ -35,8 +35,11 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
     return fallback;
 }
 
-static void clear_frame(PetriSession *session) {
+void session_clear_frame(PetriSession *session) {
     session->tree = VALUE_NULL;
+    session->evaluated = false;
+    session->values = NULL;
+    session->value_count = session->value_capacity = 0;
     diag_sink_free(&session->log);
     diag_sink_free(&session->errors);
     arena_reset(&session->frame_arena);
@@ -45,20 +48,24 @@ static void clear_frame(PetriSession *session) {
     session_free_retired(session);
 }
 
-void session_start(PetriSession *session, const Program *program) {
-    clear_frame(session);
-    double fps = session->options.fps, tempo = TEMPO, quantum = QUANTUM;
+static ClockRates rates_of(PetriSession *session, const Program *program) {
+    ClockRates rates = {session->options.fps, TEMPO, QUANTUM};
     for (uint32_t i = 0; i < program->pragma_count; i++) {
         const Pragma *pragma = &program->pragmas[i];
         if (str_equal(pragma->name->name, STR("fps")))
-            fps = pragma_number(session, pragma, true, session->options.fps);
+            rates.fps = pragma_number(session, pragma, true, session->options.fps);
         else if (str_equal(pragma->name->name, STR("tempo")))
-            tempo = pragma_number(session, pragma, true, TEMPO);
+            rates.tempo = pragma_number(session, pragma, true, TEMPO);
         else if (str_equal(pragma->name->name, STR("quantum")))
-            quantum = pragma_number(session, pragma, false, QUANTUM);
+            rates.quantum = pragma_number(session, pragma, false, QUANTUM);
     }
-    session->frame = (PetriFrame){.number = -1, .fps = fps, .tempo = tempo};
-    session->quantum = quantum;
+    return rates;
+}
+
+// Before frame 0 at the session's rates.
+static void rewind_clock(PetriSession *session) {
+    session->frame = (PetriFrame){.number = -1, .fps = session->frame.fps, .tempo = session->frame.tempo};
+    session->base = (ClockBase){0};
     memset(session->auto_frames, 0, sizeof session->auto_frames);
     session->delta = 0;
     session->start = 0;
@@ -66,8 +73,102 @@ void session_start(PetriSession *session, const Program *program) {
     session->slow_frame = false;
 }
 
+void session_start(PetriSession *session, const Program *program) {
+    session->said = rates_of(session, program);
+    session->frame.fps = session->said.fps;
+    session->frame.tempo = session->said.tempo;
+    session->quantum = session->said.quantum;
+    rewind_clock(session);
+    session_change_setup(session, false);
+}
+
+// What is due and what the beat is stay as they are; what comes is counted from here.
+static void rebase_clock(PetriSession *session) {
+    const PetriFrame *frame = &session->frame;
+    if (frame->number >= 0)
+        session->base = (ClockBase){true, frame->number, frame->time, frame->beat};
+}
+
+void session_keep_clock(PetriSession *session) {
+    const ClockBase *base = &session->base;
+    const PetriFrame *frame = &session->frame;
+    if (frame->number < 0 || session->options.realtime)
+        return;
+    double time = base->time + (double)(frame->number - base->frame) / frame->fps;
+    double beat = base->beat + (time - base->time) / (60 / frame->tempo);
+    if (time == frame->time && beat == frame->beat)
+        return;
+    rebase_clock(session);
+    session_change_setup(session, true);
+}
+
+static void set_fps(PetriSession *session, double fps) {
+    rebase_clock(session);
+    if (session->start != 0) // of real time: such that the present frame was due when it was
+        session->start += (double)session->frame.number / session->frame.fps - (double)session->frame.number / fps;
+    session->frame.fps = fps;
+}
+
+static void set_tempo(PetriSession *session, double tempo) {
+    rebase_clock(session);
+    session->frame.tempo = tempo;
+}
+
+void session_take_rates(PetriSession *session, const Program *program) {
+    ClockRates before = session->said, *said = &session->said;
+    *said = rates_of(session, program);
+    if (said->fps != before.fps)
+        set_fps(session, said->fps);
+    if (said->tempo != before.tempo)
+        set_tempo(session, said->tempo);
+    if (said->quantum != before.quantum)
+        session->quantum = said->quantum;
+}
+
+static bool is_rate(double x) {
+    return x > 0 && isfinite(x);
+}
+
+PetriStatus petri_set_tempo(PetriSession *session, double tempo) {
+    if (!is_rate(tempo))
+        return PETRI_INVALID;
+    set_tempo(session, tempo);
+    session_change_setup(session, true);
+    return PETRI_OK;
+}
+
+PetriStatus petri_set_fps(PetriSession *session, double fps) {
+    if (!is_rate(fps))
+        return PETRI_INVALID;
+    set_fps(session, fps);
+    session_change_setup(session, true);
+    return PETRI_OK;
+}
+
+PetriStatus petri_set_resolution(PetriSession *session, double resolution) {
+    if (!(resolution >= 0) || !isfinite(resolution))
+        return PETRI_INVALID;
+    session->resolution = resolution;
+    session_change_setup(session, true);
+    return PETRI_OK;
+}
+
+double petri_resolution(const PetriSession *session) {
+    return session->resolution;
+}
+
+void petri_clear(PetriSession *session) {
+    state_clear(session->state);
+    scene_reset(session->scene);
+    session_clear_frame(session);
+    rewind_clock(session);
+    session_change_setup(session, false);
+}
+
 void session_resume(PetriSession *session, int64_t number) {
     PetriFrame *frame = &session->frame;
+    session->base = (ClockBase){0};
+    session_change_setup(session, false);
     frame->number = number;
     frame->time = (double)number / frame->fps;
     frame->beat = frame->time / (60 / frame->tempo);
@@ -116,14 +217,15 @@ void petri_hold(PetriSession *session) {
 
 static void advance_clocks(PetriSession *session) {
     PetriFrame *frame = &session->frame;
+    const ClockBase *base = &session->base;
     double last_beat = frame->beat, beat_length = 60 / frame->tempo;
     frame->number++;
     if (session->options.realtime) {
         frame->time = wait_for_frame(session, frame->number);
-        frame->beat = (frame->time - session->start) / beat_length;
+        frame->beat = base->beat + (frame->time - (base->set ? base->time : session->start)) / beat_length;
     } else {
-        frame->time = (double)frame->number / frame->fps;
-        frame->beat = frame->time / beat_length;
+        frame->time = base->time + (double)(frame->number - base->frame) / frame->fps;
+        frame->beat = base->beat + (frame->time - base->time) / beat_length;
     }
     session->delta = frame->number == 0 ? 0 : frame->beat - last_beat;
 }
@@ -160,12 +262,46 @@ static void report_memory(PetriSession *session) {
     session_tell(session, &diag);
 }
 
-static void evaluate(PetriSession *session) {
+static uint32_t export_count(const PetriSession *session) {
+    uint32_t count = session->program->program->export_count;
+    for (uint32_t i = 0; i < session->prompt_count; i++)
+        count += session->prompts[i].program->export_count;
+    return count;
+}
+
+// One program, with the values so far as its parameters; its own follow them.
+static Value run_program(PetriSession *session, const Program *program) {
+    Value result = vm_run(&session->vm, program, session->values, session->values + session->value_count);
+    session->value_count += program->export_count;
+    return result;
+}
+
+bool session_evaluate(PetriSession *session) {
     session->vm.state = session->state;
+    session->vm.interrupt = &session->interrupt;
+    session->value_count = 0;
+    session->value_capacity = export_count(session);
+    session->values = arena_alloc_array(&session->frame_arena, session->value_capacity, sizeof(Value));
     session->in_frame = true;
-    input_write(scene_input(session->scene), session->state, &session->frame_arena, session->frame.beat);
-    session->tree = vm_run(&session->vm, session->program->program);
+    session->tree = run_program(session, session->program->program);
+    for (uint32_t i = 0; i < session->prompt_count && !session->vm.stopped; i++) {
+        const Prompt *prompt = &session->prompts[i];
+        Value more = run_program(session, prompt->program);
+        if (!prompt->adds)
+            continue;
+        Vector tree = vector_new(&session->frame_arena);
+        vector_add(&tree, session->tree);
+        vector_add(&tree, more);
+        session->tree = vector_finish(&tree);
+    }
     session->in_frame = false;
+    session->evaluated = !session->vm.stopped;
+    return session->evaluated;
+}
+
+static void evaluate(PetriSession *session) {
+    input_write(scene_input(session->scene), session->state, &session->frame_arena, session->frame.beat);
+    session_evaluate(session);
 }
 
 static void update_systems(PetriSession *session) {
@@ -174,7 +310,9 @@ static void update_systems(PetriSession *session) {
                         .time = session->frame.time,
                         .fps = session->frame.fps,
                         .performance = session->performance,
-                        .lockstep = !session->options.realtime};
+                        .lockstep = !session->options.realtime,
+                        .resolution = session->resolution,
+                        .interrupt = session->options.interruptible ? &session->interrupt : NULL};
     session->frame.physics_steps = scene_update(session->scene, session->tree, &frame);
 }
 
@@ -197,23 +335,55 @@ static bool guarded(PetriSession *session, void (*stage)(PetriSession *), double
     return done;
 }
 
-PetriStatus petri_step(PetriSession *session) {
-    if (!session->program)
-        return PETRI_INVALID;
-    clear_frame(session);
+void petri_interrupt(PetriSession *session) {
+    atomic_store(&session->interrupt, true);
+}
+
+bool petri_interrupted(PetriSession *session) {
+    return atomic_exchange(&session->interrupt, false);
+}
+
+static PetriStatus make_frame(PetriSession *session) {
+    session_clear_frame(session);
     advance_clocks(session);
     session_set_globals(session, &session->vm);
     session->frame.physics_steps = 0;
     if (!guarded(session, evaluate, &session->frame.evaluation_seconds)) {
-        session->tree = VALUE_NULL;
+        session_clear_frame(session);
         session->loading = NULL;
         report_memory(session);
         return PETRI_LIMIT;
     }
     // A frame that was cut short would look to the systems as if everything had vanished.
     if (session->vm.stopped)
-        return PETRI_LIMIT;
-    return guarded(session, update_systems, &session->frame.physics_seconds) ? PETRI_OK : PETRI_MEMORY;
+        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
+    if (!guarded(session, update_systems, &session->frame.physics_seconds))
+        return PETRI_MEMORY;
+    if (!session->options.interruptible || !petri_interrupted(session))
+        return PETRI_OK;
+    return snapshot_put(session, &session->undo) ? PETRI_INTERRUPTED : PETRI_MEMORY;
+}
+
+PetriStatus petri_step(PetriSession *session) {
+    if (!session->program)
+        return PETRI_INVALID;
+    if (petri_interrupted(session))
+        return PETRI_INTERRUPTED;
+    if (session->options.interruptible && !snapshot_take(session, &session->undo))
+        return PETRI_MEMORY;
+    PetriFrame frame = session->frame;
+    double delta = session->delta, start = session->start, performance = session->performance;
+    bool slow_frame = session->slow_frame;
+    PetriStatus status = make_frame(session);
+    if (status == PETRI_INTERRUPTED || (status == PETRI_LIMIT && session->options.interruptible)) {
+        session_clear_frame(session);
+        session->frame = frame;
+        session->delta = delta;
+        session->start = start;
+        session->performance = performance;
+        session->slow_frame = slow_frame;
+    }
+    return status;
 }
 
 PetriFrame petri_frame(const PetriSession *session) {

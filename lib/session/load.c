@@ -14,16 +14,17 @@ static Unit *unit_new(PetriSession *session) {
     Unit *unit = calloc(1, sizeof *unit);
     if (!unit)
         return NULL;
+    unit->references = 1;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
     unit->arena.escape = session->frame_arena.escape;
     return unit;
 }
 
 void unit_free(Unit *unit) {
-    if (unit) {
-        diag_sink_free(&unit->sink);
-        arena_free(&unit->arena);
-    }
+    if (!unit || --unit->references > 0)
+        return;
+    diag_sink_free(&unit->sink);
+    arena_free(&unit->arena);
     free(unit);
 }
 
@@ -122,35 +123,50 @@ static void sort_by_place(DiagSink *sink) {
     }
 }
 
-static void compile(PetriSession *session, Unit *unit, bool module) {
+const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, uint32_t param_count) {
     unit->sink = diag_sink_new(&unit->arena, MOST_ERRORS);
     CompileOptions options = {.module = module,
                               .lint = session->lint,
                               .simplify = session->options.simplify,
                               .defines = session->defines,
                               .define_count = session->define_count,
+                              .params = session->names,
+                              .param_count = param_count,
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loading;
     session->loading = unit;
-    unit->program = program_compile(&unit->arena, &session->symbols, unit->source, unit->ast, &options, &unit->sink);
+    const Program *program =
+        program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
     session->loading = outer;
     sort_by_place(&unit->sink);
     unit_tell(session, unit);
+    return program;
 }
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
     unit->source = source_new(&unit->arena, name, unit->path, text);
     unit->ast = parse(session, unit, unit->source);
     if (unit->ast)
-        compile(session, unit, module);
+        unit->program = unit_compile(session, unit, unit->ast, module, 0);
     else
         unit->why = STR("it does not parse");
 }
 
-Unit *unit_load_text(PetriSession *session, Str name, Str text) {
+Unit *unit_parse(PetriSession *session, Str name, Str text) {
     Unit *unit = session->fresh = unit_new(session);
     if (unit) {
         unit->path = name;
+        unit->source = source_new(&unit->arena, name, name, text);
+        unit->ast = parse(session, unit, unit->source);
+    }
+    return unit;
+}
+
+Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version) {
+    Unit *unit = session->fresh = unit_new(session);
+    if (unit) {
+        unit->path = str_copy(&unit->arena, path);
+        unit->version = str_copy(&unit->arena, version);
         load_text(session, unit, name, text, false);
     }
     return unit;
@@ -184,6 +200,7 @@ static Unit *cached_module(PetriSession *session, Str path, Str version) {
         if (str_equal(unit->version, version))
             return unit;
         unit->retired = true;
+        session_change_setup(session, true);
     }
     return NULL;
 }
@@ -205,6 +222,17 @@ const Program *session_module(void *host, Str path, Str *why) {
     }
     *why = unit->why;
     return unit->program;
+}
+
+const char *petri_source(PetriSession *session, size_t number) {
+    for (Unit *unit = session->program; unit; unit = unit == session->program ? session->modules : unit->next) {
+        if (unit->retired || !unit->version.len) // a text, or a file that could not be read
+            continue;
+        if (number <= unit->included_count)
+            return str_to_c(&session->text_arena, number == 0 ? unit->path : unit->included[number - 1]);
+        number -= unit->included_count + 1;
+    }
+    return NULL;
 }
 
 void session_free_retired(PetriSession *session) {

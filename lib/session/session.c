@@ -73,6 +73,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     arena_init(&session->frame_arena, "frame", options->memory_bytes);
     arena_init(&session->scene_arena, "systems", SIZE_MAX);
     arena_init(&session->text_arena, "text", SIZE_MAX);
+    arena_init(&session->prompt_arena, "expression", options->memory_bytes);
     session->symbols = symbol_table_new(&session->arena);
     session->log = diag_sink_new(&session->frame_arena, MOST_LINES);
     session->errors = diag_sink_new(&session->frame_arena, MOST_LINES);
@@ -101,6 +102,10 @@ void petri_close(PetriSession **handle) {
     *handle = NULL;
     if (!session)
         return;
+    prompt_free_all(session);
+    petri_setup_free(session->setup);
+    free(session->undo.bytes);
+    free(session->names);
     unit_free(session->program);
     for (Unit *unit = session->modules, *next; unit; unit = next) {
         next = unit->next;
@@ -120,6 +125,7 @@ void petri_close(PetriSession **handle) {
     arena_free(&session->frame_arena);
     arena_free(&session->scene_arena);
     arena_free(&session->text_arena);
+    arena_free(&session->prompt_arena);
     arena_free(&session->arena);
     free(session);
 }
@@ -171,7 +177,7 @@ static void tell_once(PetriSession *session, const Diag *diag, Str key) {
     ArenaMark mark = arena_mark(&session->text_arena);
     Text rendered = text_new(&session->text_arena);
     diag_format(&rendered, diag, session->options.colour);
-    if (key.len || told_add(session, text_str(&rendered))) {
+    if (key.len || told_add(session, text_str(&rendered)) || session->tell_again) {
         give(session, diag, text_str(&rendered));
         if (session->told_count == MOST_TOLD) {
             Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics were given; no more are shown")};
@@ -233,15 +239,16 @@ PetriStatus petri_define(PetriSession *session, const char *definition) {
     const char *equals = strchr(definition, '=');
     if (!equals || equals == definition || utf8_find_error(str_from(definition)) != strlen(definition))
         return PETRI_INVALID;
-    if (session->define_count == session->define_capacity) {
-        uint32_t old = session->define_capacity, capacity = old ? old * 2 : 8;
-        session->defines = arena_grow(&session->arena, session->defines, old * sizeof *session->defines,
-                                      capacity * sizeof *session->defines);
-        session->define_capacity = capacity;
-    }
+    uint32_t count = session->define_count;
+    Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
+    if (count)
+        memcpy(defines, session->defines, count * sizeof *defines);
     Str name = {definition, (size_t)(equals - definition)};
-    session->defines[session->define_count++] = (Define){
-        symbol_intern(&session->symbols, name), define_value(session, str_copy(&session->arena, str_from(equals + 1)))};
+    defines[count] = (Define){symbol_intern(&session->symbols, name),
+                              define_value(session, str_copy(&session->arena, str_from(equals + 1)))};
+    session->defines = defines;
+    session->define_count = count + 1;
+    session_change_setup(session, true);
     return PETRI_OK;
 }
 
@@ -249,6 +256,8 @@ typedef struct LoadRequest {
     const char *file; // or, if NULL, a text
     Str name;         // of either
     Str text;
+    Str path; // of the file that the text was read from, if it was, else the name
+    Str version; // likewise, else empty
 } LoadRequest;
 
 // Loads within an escape. What is known after a jump is in *unit, not in a local that the jump may have clobbered.
@@ -259,7 +268,7 @@ static bool load_guarded(PetriSession *session, const LoadRequest *request, Unit
     bool escaped = setjmp(escape) != 0;
     if (!escaped)
         *unit = request->file ? unit_load_file(session, request->file, false)
-                              : unit_load_text(session, request->name, request->text);
+                              : unit_load_text(session, request->name, request->path, request->text, request->version);
     session->frame_arena.escape = NULL;
     session->loading = NULL;
     return !escaped;
@@ -269,7 +278,22 @@ static void report_too_large(PetriSession *session) {
     session_tell_text(session, DIAG_ERROR, "memory-limit", STR("the script is too large: the limit is 4 GiB"));
 }
 
-static PetriStatus load(PetriSession *session, const LoadRequest *request, bool keep) {
+typedef enum LoadPurpose { LOAD_TO_CHECK, LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
+
+// Puts a unit in the place of the loaded script.
+static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
+    session_clear_frame(session); // its tree may lie in the old unit
+    unit_free(session->program);
+    session->program = unit;
+    if (purpose == LOAD_AFRESH)
+        session_start(session, unit->program);
+    else
+        session_take_rates(session, unit->program);
+    session_change_setup(session, false);
+    prompt_compile_all(session);
+}
+
+static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadPurpose purpose) {
     Unit *unit = NULL;
     PetriStatus status = PETRI_OK;
     session->told_count = 0; // each thing once per load
@@ -287,28 +311,36 @@ static PetriStatus load(PetriSession *session, const LoadRequest *request, bool 
                                      request->name.bytes, (int)unit->why.len, unit->why.bytes));
     if (!unit->program)
         status = PETRI_INVALID;
-    if (status == PETRI_OK && keep) {
-        unit_free(session->program);
-        session->program = unit;
-        session_start(session, unit->program);
-    } else {
+    if (status == PETRI_OK && purpose != LOAD_TO_CHECK)
+        adopt(session, unit, session->program ? purpose : LOAD_AFRESH);
+    else
         unit_free(unit);
-    }
     return status;
 }
 
 PetriStatus petri_load(PetriSession *session, const char *file) {
-    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, true);
+    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_AFRESH);
 }
 
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
     Str content = {text, length == PETRI_Z ? strlen(text) : length};
-    return load(session, &(LoadRequest){.name = str_from(name), .text = content}, true);
+    return load(session, &(LoadRequest){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
+}
+
+PetriStatus petri_reload(PetriSession *session, const char *file) {
+    if (file)
+        return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
+    if (!session->program)
+        return PETRI_INVALID;
+    const Unit *unit = session->program;
+    LoadRequest request = {
+        .name = unit->source->name, .text = unit->source->text, .path = unit->path, .version = unit->version};
+    return load(session, &request, LOAD_TO_GO_ON);
 }
 
 PetriStatus petri_check(PetriSession *session, const char *file) {
     session->lint = true;
-    PetriStatus status = load(session, &(LoadRequest){.file = file, .name = str_from(file)}, false);
+    PetriStatus status = load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_CHECK);
     session->lint = false;
     return status;
 }

@@ -22,10 +22,57 @@ struct Unit {
     const Ast *ast;
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
-    Str *included;          // canonical paths that an %include has taken
+    uint32_t references; // freed with the last
+    Str *included;       // canonical paths that an %include has taken
     uint32_t included_count;
     DiagSink sink; // of the parse or compilation that is under way
     bool retired;  // replaced; freed when no frame can refer to it any more
+};
+
+// A statement typed at the prompt that is kept. Its parameters are the exports of the script and of the statements
+// before it.
+typedef struct Prompt {
+    Unit *unit; // a reference
+    const Ast *ast;
+    const Program *program;
+    bool adds; // its value is nodes for the tree
+} Prompt;
+
+// From where on the clock runs at its present rates.
+typedef struct ClockBase {
+    bool set; // false: from frame 0 and, in real time, from `start`
+    int64_t frame;
+    double time;
+    double beat;
+} ClockBase;
+
+typedef struct ClockRates {
+    double fps;
+    double tempo;
+    double quantum;
+} ClockRates;
+
+struct PetriSetup {
+    uint32_t references;
+    uint64_t number;
+    Unit *program;
+    Prompt *prompts;
+    uint32_t prompt_count;
+    const Define *defines;
+    uint32_t define_count;
+    ClockRates said;
+    ClockRates rates;
+    ClockBase base;
+    double resolution;
+};
+
+struct PetriSnapshot {
+    PetriSetup *setup; // a reference
+    PetriFrame frame;
+    double delta;
+    unsigned char *bytes; // state and systems (snapshot.c)
+    size_t size;
+    size_t capacity;
 };
 
 enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
@@ -40,10 +87,17 @@ struct PetriSession {
     AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;
-    Define *defines;
+    const Define *defines; // replaced as a whole: setups share it
     uint32_t define_count;
-    uint32_t define_capacity;
     Unit *program; // the loaded script, or NULL
+    ClockRates said; // by its pragmas
+    ClockBase base;
+    double resolution; // 0: as systems say
+    Prompt *prompts;
+    uint32_t prompt_count;
+    PetriSetup *setup;     // of the present number, once somebody has asked for it
+    uint64_t setup_number; // of the present setup
+    uint64_t last_number;  // given so far
     Unit *modules; // list
     Unit *fresh;   // the script that was begun to be loaded last, for when its memory runs out
     Unit *loading; // whose compiler calls back
@@ -75,6 +129,19 @@ struct PetriSession {
     double performance; // of realtime
     bool slow_frame;
     bool in_frame;
+    // What the names of the top level stand for: exports of the script, then of each prompt statement. Values live in
+    // frame_arena; there are `value_count` of them, fewer if the frame was not evaluated (to the end).
+    const Symbol **names;
+    uint32_t name_count;
+    uint32_t name_capacity;
+    Value *values;
+    uint32_t value_count;
+    uint32_t value_capacity;
+    bool evaluated; // tree and values are those of the present frame and setup
+    Arena prompt_arena; // of one expression
+    bool tell_again;    // what a person types twice is told twice
+    atomic_bool interrupt;
+    PetriSnapshot undo; // the state before the frame that is being made
 };
 
 // Gives a diagnostic to the host unless it was given before.
@@ -86,8 +153,14 @@ void session_tell_all(PetriSession *session, const DiagSink *sink);
 
 // Loads a unit: reads, parses and compiles. The unit is returned even if that failed (program is NULL).
 Unit *unit_load_file(PetriSession *session, const char *file, bool module);
-Unit *unit_load_text(PetriSession *session, Str name, Str text);
+// `path` and `version` are those of the file that the text was read from; the name and nothing if there is none.
+Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version);
+// Gives a reference back; NULL is fine.
 void unit_free(Unit *unit);
+// A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
+Unit *unit_parse(PetriSession *session, Str name, Str text);
+// Compiles a tree of the unit as a program with the given parameters.
+const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, uint32_t param_count);
 // For the machine: the module at a path.
 const Program *session_module(void *host, Str path, Str *why);
 // Frees modules that were replaced.
@@ -99,5 +172,28 @@ void session_start(PetriSession *session, const Program *program);
 void session_set_globals(const PetriSession *session, Vm *vm);
 // Goes to just after a frame.
 void session_resume(PetriSession *session, int64_t frame);
+// Takes tempo, quantum and fps from the pragmas, where they differ from those of the script before.
+void session_take_rates(PetriSession *session, const Program *program);
+// After a setup from another frame was taken over: time and beat must not jump.
+void session_keep_clock(PetriSession *session);
+// Drops what was computed in the last frame: tree, log, values of names.
+void session_clear_frame(PetriSession *session);
+// Evaluates script and prompt statements; false if that was given up. Within escapes.
+bool session_evaluate(PetriSession *session);
+// Tells that the setup has changed; `frame_stays` says that what the last frame computed is still right.
+void session_change_setup(PetriSession *session, bool frame_stays);
+// The present setup, borrowed; NULL if memory is used up.
+PetriSetup *session_setup(PetriSession *session);
+
+// Copies state and systems into a snapshot's memory, which is used again; false if memory is used up.
+bool snapshot_take(PetriSession *session, PetriSnapshot *snapshot);
+// … and back; false, with nothing changed, if memory is used up.
+bool snapshot_put(PetriSession *session, const PetriSnapshot *snapshot);
+
+// Compiles all prompt statements anew, with the names of the present script.
+void prompt_compile_all(PetriSession *session);
+// Makes the names of what has been evaluated and is in sight: the script's and those of the statements.
+void prompt_collect_names(PetriSession *session);
+void prompt_free_all(PetriSession *session);
 
 #endif

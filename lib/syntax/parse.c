@@ -322,6 +322,64 @@ static void parse_text(ParseContext *context, Layout *layout) {
     gr_pstate_delete(parser);
 }
 
+// Does a statement that begins with this token like to have lines indented below it?
+static bool takes_children(int kind) {
+    return kind == NODE || kind == '@';
+}
+
+// An end of the text that more lines would move: an open string, or a backslash before the last line end.
+static bool is_cut_short(Str text, Span span) {
+    Str rest = {text.bytes + span.start, text.len - span.start};
+    return str_starts_with(rest, STR("'''")) || str_starts_with(rest, STR("\"\"\"")) || str_equal(rest, STR("\\\n"));
+}
+
+// What is needed after a line end that is the text's.
+static ParseNeed need_after_line(const Layout *layout, const gr_pstate *parser, int first) {
+    if (layout->level_count > 1)
+        return PARSE_OPEN;
+    if (!gr_accepts(parser, INDENT))
+        return PARSE_WHOLE;
+    return !gr_accepts(parser, END) ? PARSE_BLOCK : takes_children(first) ? PARSE_OPEN : PARSE_WHOLE;
+}
+
+static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser) {
+    Str text = context->source->text;
+    int first = NEWLINE; // the token with which the last statement at the top begins
+    bool begins = true;
+    for (;;) {
+        Token token = layout_next(layout);
+        settle_kind(context, layout, parser, &token);
+        if (token.kind == GR_UNDEF || token.error)
+            return !token.error && is_cut_short(text, token.span) ? PARSE_PART : PARSE_WHOLE;
+        if (token.kind == END)
+            return layout->paren_count > 0 ? PARSE_PART : PARSE_WHOLE;
+        if (begins && token.kind != NEWLINE)
+            first = token.kind;
+        begins = token.kind == NEWLINE && layout->level_count == 1;
+        if (push(context, layout, parser, &token) != YYPUSH_MORE || context->failed)
+            return PARSE_WHOLE;
+        if (token.kind == NEWLINE && token.span.end >= text.len)
+            return need_after_line(layout, parser, first);
+    }
+}
+
+ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source) {
+    DiagSink nowhere = diag_sink_new(arena, 0);
+    ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = &nowhere};
+    ParseNeed need = PARSE_WHOLE;
+    if (utf8_find_error(source->text) == source->text.len) {
+        Layout *layout = arena_alloc(arena, sizeof *layout);
+        layout_init(layout, source);
+        gr_pstate *parser = gr_pstate_new();
+        if (!parser)
+            arena_exhausted(arena);
+        need = probe(&context, layout, parser);
+        gr_pstate_delete(parser);
+    }
+    diag_sink_free(&nowhere);
+    return need;
+}
+
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
     if (check_text(&context))

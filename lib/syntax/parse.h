@@ -10,4 +10,14 @@
 // NULL if there was any.
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags);
 
+// Whether more lines can follow what was typed so far.
+typedef enum ParseNeed {
+    PARSE_WHOLE, // it is complete, or wrong whatever follows
+    PARSE_OPEN,  // it is complete, and indented lines would go on with it
+    PARSE_BLOCK, // indented lines must follow
+    PARSE_PART,  // it cannot end here
+} ParseNeed;
+// Reports nothing. The arena takes what the parser builds by the way.
+ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source);
+
 #endif

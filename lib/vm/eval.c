@@ -42,9 +42,15 @@ void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...)
 }
 
 bool vm_work(Vm *vm, const Expr *at) {
+    enum { BETWEEN_LOOKS = 1024 }; // a power of two
     if (vm->stopped)
         return false;
-    if (++vm->work <= vm->work_limit)
+    if (++vm->work % BETWEEN_LOOKS == 0 && vm->interrupt &&
+        atomic_load_explicit(vm->interrupt, memory_order_relaxed)) {
+        vm->stopped = true;
+        return false;
+    }
+    if (vm->work <= vm->work_limit)
         return true;
     vm->stopped = true;
     report(vm, at, DIAG_ERROR, "work-limit",

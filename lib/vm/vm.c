@@ -53,13 +53,17 @@ static void begin(Vm *vm, const char *stack_base) {
     vm->reported_count = 0;
 }
 
-Value vm_run(Vm *vm, const Program *program) {
+Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports) {
     begin(vm, __builtin_frame_address(0));
     ImportLink self = {NULL, program->source};
     vm->imports = &self;
     vm->builtins.directory = program->source->directory;
     Frame frame = new_frame(vm, program->frame_size);
+    for (uint32_t i = 0; i < program->param_count; i++)
+        frame.slots[i] = given[i];
     Value result = vm_eval(vm, &frame, program->body);
+    for (uint32_t i = 0; exports && i < program->export_count; i++)
+        exports[i] = frame.slots[program->exports[i].slot];
     vm->imports = NULL;
     return vm->stopped ? VALUE_NULL : result;
 }

@@ -11,6 +11,8 @@
 #include "program/program.h"
 #include "state/state.h"
 
+#include <stdatomic.h>
+
 enum {
     VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
     VM_CALL_DEPTH = 8192,   // nested calls of user functions
@@ -50,7 +52,8 @@ typedef struct Vm {
     uint32_t depth;
     uint64_t work;
     uint64_t work_limit;
-    bool stopped;       // the work is used up
+    bool stopped;       // the work is used up, or the host has asked for an end
+    const atomic_bool *interrupt; // the host's wish for an end, looked at now and then; NULL: none
     uint64_t run;       // number of the evaluation, unique over a session's machines: closures may outlive a frame
     bool is_static;     // evaluating ahead: dynamic things have no value yet
     bool met_dynamic;   // … and one was met
@@ -66,8 +69,9 @@ typedef struct Vm {
 void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes, bool is_static);
 void vm_free(Vm *vm);
 
-// Evaluates the main program: the composition of its statements.
-Value vm_run(Vm *vm, const Program *program);
+// Evaluates a main program: the composition of its statements. `given` are the values of its parameters (NULL if it has
+// none); what its exports are bound to in the end is stored in `exports`, unless that is NULL.
+Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports);
 // Evaluates an expression that reads no slot from outside in a fresh frame of `frame_size` slots; the value lives in
 // `arena`. False, and *value null, if that met anything dynamic (L17.2), a fault or a limit. For machines that run
 // nothing else.

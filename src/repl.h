@@ -1,0 +1,97 @@
+// repl.h: what the files of `petri repl` share: the session at the prompt and how it speaks.
+#ifndef PETRI_SRC_REPL_H
+#define PETRI_SRC_REPL_H
+
+#include "bytes.h"
+#include "cli.h"
+#include "output.h"
+#include "petri.h"
+#include "repl_history.h"
+#include "watch.h"
+
+typedef struct Repl {
+    PetriSession *session;
+    History history;
+    Output output;
+    Watch *files;      // NULL: changes are not noticed
+    char *script;      // NULL: none was named
+    bool loaded;       // the script named is the one that is running
+    Bytes script_text; // as it was loaded
+    bool changed;      // the script's files have changed since: it is reloaded before the next step
+    char **watched;    // expressions that are printed after each step
+    size_t watched_count;
+    int64_t limit; // frames that .run and .until make at the most
+    bool terminal; // a person types and reads
+    bool colour;
+    bool utf8;       // other characters than ASCII can be shown
+    bool failed;     // the input at hand was in error
+    bool any_failed; // some input was
+    bool quit;
+    bool record_fps; // --fps was given: goldens must say so
+    double fps;
+    char **definitions; // of -D and .set, as given
+    size_t definition_count;
+} Repl;
+
+// Writes a remark, `-- text`, in a line of its own.
+__attribute__((format(printf, 2, 3))) void repl_say(Repl *repl, const char *format, ...);
+// The same as a message of the command, on standard error; the input at hand has failed. Returns false.
+__attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *format, ...);
+// What a status means, unless diagnostics have told it; true for PETRI_OK.
+bool repl_status(Repl *repl, PetriStatus status);
+// Takes one line or suite, which is not blank: a command or something of the language.
+void repl_take(Repl *repl, const char *text, size_t length);
+// A PetriWrite to Bytes, and one to the output; `host` is the Bytes or the Repl.
+bool repl_collect(void *bytes, const char *text, size_t length);
+bool repl_write(void *repl, const char *text, size_t length);
+
+// Keeps a definition for recordings.
+void repl_keep_definition(Repl *repl, const char *definition);
+
+// While `busy`, Ctrl-C interrupts the session. Tells whether it was typed since, when that ends.
+void repl_busy(Repl *repl);
+bool repl_idle(void);
+// Whether Ctrl-C was typed since the last repl_busy.
+bool repl_interrupted(void);
+
+// Loading (repl_script.c). True if the script is running now.
+bool repl_load(Repl *repl, const char *file);
+bool repl_reload(Repl *repl);
+// Looks whether files have changed and says so.
+void repl_notice(Repl *repl);
+// Reloads if files have changed: before a step. The old script stays where the new one is wrong.
+void repl_refresh(Repl *repl);
+void repl_watch_files(Repl *repl);
+
+// Commands (repl_commands.c).
+typedef struct ReplCommand {
+    const char *name; // with its dot
+    const char *operands;
+    const char *help;
+    bool (*run)(Repl *repl, const char *rest); // false if it failed, after a message
+} ReplCommand;
+extern const ReplCommand REPL_COMMANDS[]; // the last has no name
+void repl_command(Repl *repl, const char *line);
+
+// Steps (repl_step.c): frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
+typedef struct Walk {
+    int64_t count;
+    const char *until; // NULL: no condition
+    bool limited;      // reaching the count is worth a word
+} Walk;
+bool repl_walk(Repl *repl, const Walk *walk);
+// Writes the present frame's `@` line, what it logged and what is watched.
+void repl_show_frame(Repl *repl);
+bool repl_goto(Repl *repl, int64_t frame);
+
+// Shows (repl_show.c, repl_plot.c, repl_help.c, repl_record.c).
+bool repl_show_state(Repl *repl, const char *prefix);
+bool repl_show_tree(Repl *repl, const char *kind);
+bool repl_show_particles(Repl *repl, const char *system);
+bool repl_show_energy(Repl *repl, const char *rest);
+bool repl_plot(Repl *repl, const char *rest);
+bool repl_time(Repl *repl, const char *rest);
+bool repl_help(Repl *repl, const char *topic);
+bool repl_record(Repl *repl, const char *rest);
+
+#endif

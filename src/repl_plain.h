@@ -1,0 +1,19 @@
+// repl_plain.h: lines without an editor.
+#ifndef PETRI_SRC_REPL_PLAIN_H
+#define PETRI_SRC_REPL_PLAIN_H
+
+#include "repl_line.h"
+
+typedef struct PlainReader {
+    Bytes text; // read and not taken yet, from `at` on
+    size_t at;
+    size_t searched; // for a line end
+    bool ended;
+} PlainReader;
+
+// Waits until there is input, and notices changed files meanwhile. False after Ctrl-C.
+bool plain_wait(Repl *repl);
+// As line_read.
+LineStatus plain_read(PlainReader *reader, Repl *repl, const char *prompt, Bytes *line);
+
+#endif

@@ -1,0 +1,16 @@
+// repl_words.h: reading what follows a command's name.
+#ifndef PETRI_SRC_REPL_WORDS_H
+#define PETRI_SRC_REPL_WORDS_H
+
+#include "repl.h"
+
+// A copy without blanks at its ends; to be freed.
+char *word_trimmed(const char *text);
+// A whole number from `least` on; an empty text leaves *count. False after a message.
+bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count);
+// Takes `--limit N` off the text's beginning or end. False after a message.
+bool word_limit(Repl *repl, char *text, int64_t *limit);
+// Takes a whole number off the text's end, if there is one after a blank and something before it.
+void word_last_count(char *text, int64_t *count);
+
+#endif
