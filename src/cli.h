@@ -32,6 +32,7 @@ typedef struct Command {
 } Command;
 
 extern const Command RUN_COMMAND;
+extern const Command RENDER_COMMAND;
 extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;

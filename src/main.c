@@ -10,7 +10,8 @@
 
 #include "cli.h"
 
-const Command *const COMMANDS[] = {&RUN_COMMAND, &VIEW_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &HELP_COMMAND, NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND, &RENDER_COMMAND, &TEST_COMMAND, &CHECK_COMMAND,
+                                   &HELP_COMMAND, NULL};
 
 const Command *command_find(const char *name) {
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
@@ -121,6 +122,8 @@ int main(int argc, char **argv) {
     open_standard_descriptors();
     // A closed pipe is seen as an error of write, not as the end of the process.
     signal(SIGPIPE, SIG_IGN);
+    // So is a file that grows beyond what is allowed.
+    signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
                .argc = argc,

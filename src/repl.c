@@ -396,7 +396,8 @@ const Command REPL_COMMAND = {
     .operands = "[SCRIPT.fl]",
     .summary = "step a script by hand: evaluate, go back and forth, change it",
     .details =
-        "Reads lines: expressions, whose value is printed; let, func, import and nodes, which stay; and commands, which\n"
+        "Reads lines: expressions, whose value is printed; let, func, import and nodes, which stay; and commands, "
+        "which\n"
         "begin with a dot (.help lists them). The script is loaded anew when it was changed, and the state stays.\n"
         "Ctrl-C stops what is being done, Ctrl-D or .quit leaves. The exit status is 0; if the lines come from a file\n"
         "or a pipe, it is 1 when one of them was in error.",

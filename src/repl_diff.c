@@ -116,11 +116,7 @@ static Counts compare(const Line *a, size_t rows, const Line *b, size_t columns,
 static void add_count(Bytes *what, size_t count, const char *verb) {
     bool first = what->length == 0;
     if (count > 0) {
-        bytes_format(what, "%s%zu %s%s", first ? "" : ", ", count,
-                     !first       ? ""
-                     : count == 1 ? "line "
-                                  : "lines ",
-                     verb);
+        bytes_format(what, "%s%zu %s%s", first ? "" : ", ", count, !first ? "" : count == 1 ? "line " : "lines ", verb);
     }
 }
 

@@ -142,7 +142,8 @@ PetriStatus history_step(History *history, PetriSession *session) {
         return status;
     }
     if (petri_setup_number(session) != setup) {
-        PetriStatus started = history_start(history, session, "a file that the script imports was changed") ? PETRI_OK : PETRI_MEMORY;
+        PetriStatus started =
+            history_start(history, session, "a file that the script imports was changed") ? PETRI_OK : PETRI_MEMORY;
         return status == PETRI_OK ? started : status;
     }
     if (frame > history->last) {
@@ -186,8 +187,8 @@ static PetriStatus go_back(History *history, PetriSession *session, int64_t fram
     }
     const Keyframe *from = frame < history->first ? NULL : keyframe_before(history, frame);
     if (from == NULL) {
-        bytes_format(why, "frame %" PRId64 " cannot be made again: the history begins with frame %" PRId64 "%s%s", frame,
-                     history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
+        bytes_format(why, "frame %" PRId64 " cannot be made again: the history begins with frame %" PRId64 "%s%s",
+                     frame, history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
         return PETRI_INVALID;
     }
     return replay(session, from, epoch_of(history, frame)->setup, frame);

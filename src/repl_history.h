@@ -1,13 +1,13 @@
 // repl_history.h: the frames that were made, so that one can go back to them.
 //
 // A timeline of frames from `first` to `last`. Some of them, the keyframes, are kept whole; a frame between two of them
-// is made again from the one before it, which gives the same bits. Keyframes are kept denser for the recent past, within
-// HISTORY_BYTES and HISTORY_MOST of them: when there are too many, the one goes whose absence lengthens the way to its
-// neighbours least, measured by how long ago that is.
+// is made again from the one before it, which gives the same bits. Keyframes are kept denser for the recent past,
+// within HISTORY_BYTES and HISTORY_MOST of them: when there are too many, the one goes whose absence lengthens the way
+// to its neighbours least, measured by how long ago that is.
 //
-// What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a keyframe
-// of its own: a frame is made again with what was in force when it was made. To step on from a frame in the past under a
-// changed setup gives the timeline another future: what was after that frame is forgotten then.
+// What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a
+// keyframe of its own: a frame is made again with what was in force when it was made. To step on from a frame in the
+// past under a changed setup gives the timeline another future: what was after that frame is forgotten then.
 #ifndef PETRI_SRC_REPL_HISTORY_H
 #define PETRI_SRC_REPL_HISTORY_H
 

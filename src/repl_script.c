@@ -50,7 +50,8 @@ bool repl_reload(Repl *repl) {
         return repl_fail(repl, "no script is loaded; .load FILE loads one");
     }
     // What was never running has no state that could stay.
-    PetriStatus status = repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
+    PetriStatus status =
+        repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
     bool first = !repl->loaded;
     if (!loaded(repl, status)) {
         return false;

@@ -1,94 +1,26 @@
 // run.c: `petri run`: runs frames without drawing them and prints what was asked for.
-#include <errno.h>
 #include <inttypes.h>
-#include <math.h>
-#include <signal.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 
-#include "args.h"
+#include "frames.h"
 #include "output.h"
-#include "petri.h"
-#include "progress.h"
-#include "run_options.h"
 #include "stats.h"
 #include "trajectory.h"
 
-enum { SECONDS_BETWEEN_SAVES = 5 };
-
-// A signal handler can reach nothing but a global.
-static volatile sig_atomic_t interrupted;
-
-static void on_interrupt(int signal_number) {
-    static const char note[] = "\r\033[Kpetri: stopping after this frame; Ctrl-C again stops at once\n";
-    interrupted = signal_number;
-    if (signal_number == SIGINT && isatty(STDERR_FILENO)) {
-        ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
-        (void)ignored;
-    }
-}
-
-// The first Ctrl-C (or SIGTERM) ends the run after the frame at hand, with its state saved; a second one ends the
-// process, should that frame not end.
-static void catch_interrupt(void) {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-}
-
 typedef struct Run {
-    RunOptions options;
-    PetriSession *session;
-    Progress progress;
-    double start;
+    Frames frames;
     bool to_terminal; // standard output is a terminal
-    bool shown_last;  // the last diagnostic that was no note was shown
-    bool state_lost;  // the state file could not be read or written
-    double saved;     // when the state was saved last
     Stats stats;
     Trajectory trajectory;
     Output output;
 } Run;
 
-static bool wants_diagnostic(Run *run, PetriLevel level) {
-    // Notes belong to the diagnostic before them.
-    if (level != PETRI_NOTE) {
-        run->shown_last = level == PETRI_ERROR || run->options.verbosity > LOG_QUIET;
-    }
-    return run->shown_last;
-}
-
-static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
-    Run *run = host;
-    if (wants_diagnostic(run, diagnostic->level)) {
-        progress_erase(&run->progress);
-        fputs(diagnostic->rendered, stderr);
-    }
-}
-
-static double current_fps(const Run *run) {
-    double fps = petri_frame(run->session).fps;
-    return fps > 0 ? fps : run->options.fps;
-}
-
-static bool frame_is_due(const Run *run) {
-    if (interrupted || run->output.error != 0 || run->trajectory.failed || run->stats.frames >= run->options.frames) {
-        return false;
-    }
-    if (isnan(run->options.run_time)) {
-        return true;
-    }
-    double time = run->options.realtime ? clock_seconds() - run->start : (double)run->stats.frames / current_fps(run);
-    return time < run->options.run_time;
-}
-
 static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
-    if (run->options.verbosity < (printed ? LOG_DEBUG : LOG_TRACE)) {
+    if (run->frames.options.verbosity < (printed ? LOG_DEBUG : LOG_TRACE)) {
         return;
     }
-    progress_erase(&run->progress);
+    progress_erase(&run->frames.progress);
     message("frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps", frame->number,
             frame->evaluation_seconds * 1e3, frame->physics_seconds * 1e3, frame->physics_steps);
 }
@@ -97,7 +29,7 @@ static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
 static bool write_text(void *host, const char *text, size_t length) {
     Run *run = host;
     if (run->to_terminal) {
-        progress_erase(&run->progress);
+        progress_erase(&run->frames.progress);
     }
     return output_write(&run->output, text, length);
 }
@@ -105,42 +37,27 @@ static bool write_text(void *host, const char *text, size_t length) {
 // What is printed and recorded of a frame.
 static void output_frame(Run *run) {
     double start = clock_seconds();
-    if (run->options.sections != 0) {
-        petri_print(run->session, run->options.sections, write_text, run);
+    if (run->frames.options.sections != 0) {
+        petri_print(run->frames.session, run->frames.options.sections, write_text, run);
     } else {
-        petri_print_log(run->session, write_text, run);
+        petri_print_log(run->frames.session, write_text, run);
     }
-    if (run->to_terminal || run->options.realtime) {
+    if (run->to_terminal || run->frames.options.realtime) {
         output_flush(&run->output);
     }
     if (run->trajectory.beside != NULL) {
-        trajectory_add(&run->trajectory, run->session);
+        trajectory_add(&run->trajectory, run->frames.session);
     }
     run->stats.output_seconds += clock_seconds() - start;
 }
 
-// A file that could not be read is left alone: it may be all that is left of something.
-static void save_state(Run *run) {
-    if (run->options.state_file != NULL && !run->state_lost) {
-        run->state_lost = petri_save(run->session, run->options.state_file) != PETRI_OK;
-        run->saved = clock_seconds();
-    }
-}
-
-// One frame; false if there is no going on: a limit that one frame has reached, the next will reach as well.
 static bool run_frame(Run *run) {
-    PetriStatus status = petri_step(run->session);
-    PetriFrame frame = petri_frame(run->session);
-    if (status != PETRI_OK) {
-        progress_erase(&run->progress);
-        message("stopped in frame %" PRId64 "%s", frame.number, status == PETRI_MEMORY ? ": out of memory" : "");
+    if (!frames_step(&run->frames)) {
         return false;
     }
-    if (clock_seconds() - run->saved > SECONDS_BETWEEN_SAVES) {
-        save_state(run);
-    }
-    stats_count(&run->stats, run->session);
-    bool printed = frame.number % run->options.every == 0;
+    PetriFrame frame = petri_frame(run->frames.session);
+    stats_count(&run->stats, run->frames.session);
+    bool printed = frame.number % run->frames.options.every == 0;
     if (printed) {
         output_frame(run);
     }
@@ -148,70 +65,65 @@ static bool run_frame(Run *run) {
     return true;
 }
 
+// What there is to see is told to a person who watches, and to nobody else.
+static void report_pictures(const Run *run) {
+    const RunOptions *options = &run->frames.options;
+    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session)) {
+        return;
+    }
+    if (command_find("view") != NULL) {
+        message("to see it: petri view %s", options->script);
+    }
+    message("to keep a picture of it: petri render %s -o OUT.png (or OUT.mp4)", options->script);
+}
+
 static void report_summary(Run *run) {
-    Verbosity verbosity = run->options.verbosity;
+    Verbosity verbosity = run->frames.options.verbosity;
     bool wanted = verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO));
     if (!wanted || run->output.error != 0) {
         return;
     }
-    double seconds = clock_seconds() - run->start;
+    double seconds = clock_seconds() - run->frames.start;
     message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->stats.frames,
             run->stats.frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->stats.frames / seconds : 0,
             run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
-static int64_t expected_frames(const Run *run) {
-    double by_time = run->options.run_time * current_fps(run);
-    if (!isnan(by_time) && by_time < (double)run->options.frames) {
-        return (int64_t)ceil(by_time);
-    }
-    return run->options.frames;
-}
-
 static int run_frames(Run *run) {
-    catch_interrupt();
-    bool shows_progress = run->options.verbosity > LOG_QUIET && progress_possible();
-    progress_start(&run->progress, shows_progress, expected_frames(run));
-    run->start = run->saved = clock_seconds();
+    Frames *frames = &run->frames;
+    frames_begin(frames);
     bool going = true;
-    while (going && frame_is_due(run)) {
-        progress_update(&run->progress, run->stats.frames);
+    while (going && run->output.error == 0 && !run->trajectory.failed && frames_due(frames)) {
         going = run_frame(run);
     }
-    progress_erase(&run->progress);
+    progress_erase(&frames->progress);
     output_flush(&run->output);
-    if (going) {
-        save_state(run);
-    }
+    frames_end(frames, going);
     bool recorded = trajectory_close(&run->trajectory);
     report_summary(run);
-    if (run->options.stats) {
-        stats_print(&run->stats, run->session, clock_seconds() - run->start);
+    if (frames->options.stats) {
+        stats_print(&run->stats, frames->session, clock_seconds() - frames->start);
     }
-    int status = !going || !recorded || run->state_lost ? STATUS_FAILED : STATUS_DONE;
-    return interrupted ? STATUS_SIGNAL + interrupted : status;
+    if (frames_signal() != 0) {
+        return STATUS_SIGNAL + frames_signal();
+    }
+    if (!going || !recorded || frames->state_lost) {
+        return STATUS_FAILED;
+    }
+    report_pictures(run);
+    return STATUS_DONE;
 }
 
 static int run_session(Run *run) {
-    PetriStatus status = petri_load(run->session, run->options.script);
-    if (status == PETRI_MEMORY) {
-        message("out of memory");
-    }
-    if (status != PETRI_OK) {
+    const RunOptions *options = &run->frames.options;
+    if (!frames_load(&run->frames)) {
         return STATUS_FAILED;
     }
-    if (run->options.dump >= 0) {
-        status = petri_dump(run->session, (PetriDump)run->options.dump, output_write, &run->output);
+    if (options->dump >= 0) {
+        PetriStatus status = petri_dump(run->frames.session, (PetriDump)options->dump, output_write, &run->output);
         return status == PETRI_OK || run->output.error != 0 ? STATUS_DONE : STATUS_FAILED;
     }
-    if (run->options.state_file != NULL) {
-        run->state_lost = petri_restore(run->session, run->options.state_file) != PETRI_OK;
-        if (run->state_lost) {
-            message("the run starts afresh; '%s' is left alone and nothing is saved", run->options.state_file);
-        }
-        save_state(run); // now, so that a file that cannot be written is known before the work is done
-    }
-    if (run->options.trajectory != NULL && !trajectory_open(&run->trajectory, run->options.trajectory)) {
+    if (options->trajectory != NULL && !trajectory_open(&run->trajectory, options->trajectory)) {
         return STATUS_FAILED;
     }
     return run_frames(run);
@@ -225,16 +137,11 @@ static int run_run(const Host *host, int argc, char **argv) {
     }
     output_start(&run->output, STDOUT_FILENO);
     run->to_terminal = isatty(STDOUT_FILENO);
-    int status = run_options_read(&run->options, &RUN_COMMAND, argc, argv);
+    int status = frames_open(&run->frames, &RUN_COMMAND, host, argc, argv);
     if (status == RUN_OPTIONS_OK) {
-        status = run_options_open(&run->options, host, on_diagnostic, run, &run->session);
+        status = output_finish(&run->output, run_session(run));
     }
-    if (status == RUN_OPTIONS_OK) {
-        status = run_session(run);
-        petri_close(&run->session);
-        status = output_finish(&run->output, status);
-    }
-    run_options_free(&run->options);
+    frames_close(&run->frames);
     free(run);
     return status;
 }

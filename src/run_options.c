@@ -2,6 +2,7 @@
 #include "run_options.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -31,8 +32,12 @@ enum {
     OPT_DUMP,
     OPT_STATS,
     OPT_TRAJECTORY,
-    OPT_TERMINAL,
+    OPT_OUTPUT,
+    OPT_FRAME,
+    OPT_SIZE,
+    OPT_SCALE,
     OPT_AUTO,
+    OPT_TERMINAL,
 };
 
 // Options that mean the same everywhere, by where help lists them.
@@ -66,6 +71,24 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     LOG_OPTIONS,
     {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
+    {0},
+};
+
+const OptionSpec RENDER_OPTION_SPECS[] = {
+    {"output", 'o', OPT_OUTPUT, "FILE",
+     "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif"},
+    {"frame", 0, OPT_FRAME, "N", "draw frame N (0 is the first); the last one if not given"},
+    {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
+    {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
+    {"every", 0, OPT_EVERY, "K", "draw each K-th frame, starting with frame 0"},
+    {"size", 0, OPT_SIZE, "WxH", "size of the picture in pixels (that of the script's window)"},
+    {"scale", 0, OPT_SCALE, "S", "S pixels for each unit of the window's size (1)"},
+    {"auto", 0, OPT_AUTO, NULL, "draw the particles themselves, not the script's own canvas"},
+    FRAME_RATE,
+    {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
+    WORLD_OPTIONS,
+    LOG_OPTIONS,
     {0},
 };
 
@@ -162,6 +185,21 @@ static bool read_definition(const Args *args, RunOptions *options) {
     return true;
 }
 
+// WIDTHxHEIGHT.
+static bool read_size(const Args *args, RunOptions *options) {
+    char *end = NULL;
+    long width = strtol(args->value, &end, 10);
+    long height = end != args->value && (*end == 'x' || *end == 'X') ? strtol(end + 1, &end, 10) : 0;
+    if (*end != '\0' || width < 1 || height < 1 || width > PETRI_MOST_PIXELS || height > PETRI_MOST_PIXELS) {
+        char expected[80];
+        snprintf(expected, sizeof expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MOST_PIXELS);
+        return args_wrong_value(args, expected);
+    }
+    options->width = (int)width;
+    options->height = (int)height;
+    return true;
+}
+
 static bool read_script(const Args *args, RunOptions *options) {
     if (options->script != NULL) {
         message("one script at a time: '%s' and '%s' were given", options->script, args->value);
@@ -197,6 +235,15 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return args_colour(args, &options->colour);
     case OPT_DUMP:
         return read_dump(args, &options->dump);
+    case OPT_OUTPUT:
+        options->output = args->value;
+        return true;
+    case OPT_FRAME:
+        return args_integer(args, 0, INT64_MAX - 1, &options->frame);
+    case OPT_SIZE:
+        return read_size(args, options);
+    case OPT_SCALE:
+        return args_positive(args, &options->scale);
     case OPT_TRAJECTORY:
         return read_trajectory(args, &options->trajectory);
     default:
@@ -263,6 +310,8 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
         .fps = 60,
         .realtime = command == &VIEW_COMMAND,
         .every = 1,
+        .frame = -1,
+        .scale = 1,
         .verbosity = LOG_NORMAL,
         .colour = colour_by_default(),
         .simplify = true,
@@ -277,7 +326,7 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
     Args args = args_start(command, argc, argv);
     int status = read_all(options, &args);
     if (options->frames < 0) {
-        options->frames = isnan(options->run_time) && command == &RUN_COMMAND ? DEFAULT_FRAMES : INT64_MAX;
+        options->frames = isnan(options->run_time) && command != &VIEW_COMMAND ? DEFAULT_FRAMES : INT64_MAX;
     }
     return status;
 }

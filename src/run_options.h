@@ -27,8 +27,13 @@ typedef struct RunOptions {
     int dump;               // PetriDump, or -1
     bool stats;
     const char *trajectory; // NULL: none is written
-    bool terminal;          // view: in the terminal
     bool automatic;         // the particles themselves are drawn
+    const char *output;     // render: what to write
+    int64_t frame;          // render: the only one to draw, or -1
+    int width;              // of pictures; 0: what the script says
+    int height;
+    double scale;
+    bool terminal; // view: in the terminal
 } RunOptions;
 
 enum { RUN_OPTIONS_OK = -1 };
@@ -44,6 +49,7 @@ int run_options_open(const RunOptions *options, const Host *host,
                      PetriSession **session);
 
 extern const OptionSpec RUN_OPTION_SPECS[];
+extern const OptionSpec RENDER_OPTION_SPECS[];
 extern const OptionSpec VIEW_OPTION_SPECS[];
 
 #endif

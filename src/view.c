@@ -220,12 +220,10 @@ static void take_screenshot(View *view) {
 }
 
 static void reset(View *view) {
-    if (world_reset(&view->world)) {
-        report_pointer(view, &view->pointer);
-        view->step_once = true; // so that the first frame is seen even while paused
-        notice(view, "reset");
-    }
+    world_reset(&view->world);
+    view->step_once = true; // so that the first frame is seen even while paused
     update_trouble(view);
+    notice(view, "reset");
 }
 
 static void obey(View *view, const char *key) {

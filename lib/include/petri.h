@@ -259,6 +259,11 @@ PetriPictureOptions petri_default_picture_options(void);
 
 enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
 
+// Whether the last frame has anything to draw: a window with a canvas, or physics.
+bool petri_drawable(PetriSession *session);
+// Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
+bool petri_records(const PetriSession *session);
+
 // The picture of the last frame in *picture, for the caller to free. PETRI_INVALID (with a diagnostic) if nothing is
 // loaded or there is nothing to draw, if the size makes no sense; PETRI_MEMORY. *picture is then NULL.
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **picture);

@@ -237,6 +237,23 @@ static bool choose_pixels(Request *request) {
     return true;
 }
 
+bool petri_drawable(PetriSession *session) {
+    const Node *window = find_window(session, -1);
+    return (window && has_canvas(session, window)) || count_systems(session) > 0;
+}
+
+bool petri_records(const PetriSession *session) {
+    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
+        const Item *item = &session->tree.as.items[i];
+        const Node *window = is_window(session, item) ? item->as.node : NULL;
+        for (uint32_t k = 0; window && k < window->child_count; k++)
+            if (canvas_kind(&session->canvas, window->children[k]) == DRAW_RECORD &&
+                node_get(window->children[k], session->canvas.names[NAME_FILENAME]).len > 0)
+                return true;
+    }
+    return false;
+}
+
 // Fills the picture; false if there is none, with the problem if it is not told already.
 static bool make_picture(Request *request) {
     PetriSession *session = request->session;

@@ -1,0 +1,28 @@
+// painting.h: draws and writes pictures in threads of their own, while the next frames are computed.
+//
+// Pictures wait in a short queue. Those that go to the film are drawn in their order by one thread; files have as many
+// threads as there are processors. After the first failure nothing more is written.
+#ifndef PETRI_SRC_PAINTING_H
+#define PETRI_SRC_PAINTING_H
+
+#include <stdbool.h>
+
+#include "petri.h"
+
+typedef struct Painting Painting;
+
+// A film of this name and speed (NULL: none) is made of the pictures that are added for it. NULL after a message.
+Painting *painting_start(const char *film, double fps);
+// Takes over a picture: for the film, for a file (whose name is copied) or NULL, and for the files that its own
+// `!record` nodes name. Waits while many are waiting. False if something has failed before.
+bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file);
+// Gives what was wrong with pictures that are done to the session's diagnostic callback, and frees them.
+void painting_tell(Painting *painting, PetriSession *session);
+// Waits for what is waiting and completes the film; with `abandon` gives up what is not done. False if something has
+// failed; *trouble is then the reason if there is one that was not told through pictures, valid until painting_free.
+bool painting_finish(Painting *painting, PetriSession *session, bool abandon, const char **trouble);
+// Seconds spent on drawing and writing, by all threads.
+double painting_seconds(const Painting *painting);
+void painting_free(Painting *painting);
+
+#endif
