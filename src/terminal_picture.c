@@ -83,8 +83,7 @@ TerminalPicture *terminal_picture_new(int fd, bool colour) {
     way->colours = colours_of(way->terminal, colour);
     way->pixels = pixels_of(way->terminal, colour);
     way->symbols = chafa_symbol_map_new();
-    chafa_symbol_map_add_by_tags(way->symbols, locale_is_utf8() ? CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_BLOCK |
-                                                                      CHAFA_SYMBOL_TAG_BORDER
+    chafa_symbol_map_add_by_tags(way->symbols, locale_is_utf8() ? CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_BLOCK
                                                                 : CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_ASCII);
     return way;
 }

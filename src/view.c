@@ -386,11 +386,11 @@ static bool open_display(View *view) {
     }
     view->kind = window ? window_display() : terminal_display();
     view->world.mute = !window && isatty(STDERR_FILENO);
-    view->display = view->kind->open(view->title, view->width, view->height, options->colour);
+    view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
     if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
         view->world.mute = isatty(STDERR_FILENO);
-        view->display = view->kind->open(view->title, view->width, view->height, options->colour);
+        view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
     }
     return view->display != NULL;
 }
