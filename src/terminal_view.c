@@ -38,6 +38,7 @@ struct Display {
     int top;
     Overlay shown;
     char title[200];
+    bool colour;
     bool clear; // everything has to be drawn anew
 };
 
@@ -154,6 +155,8 @@ static Display *terminal_open(const char *title, int width, int height, bool col
     }
     Display *display = memory_zeroed(sizeof *display);
     display->way = terminal_picture_new(STDOUT_FILENO, colour);
+    display->colour = colour;
+    display->clear = true;
     if (display->way == NULL) {
         message("out of memory");
         terminal_close(display);
@@ -234,16 +237,17 @@ static void add_lines(Bytes *out, const char *text, int row, const Display *disp
 
 // What is wrong at the top, the rest at the bottom.
 static void add_overlay(Bytes *out, const Display *display, const Overlay *overlay) {
+    static const char reverse[] = "\033[7m";
     char text[sizeof *overlay];
     int columns = display->columns - 2, row = display->rows;
     overlay_fit(text, sizeof text, overlay->trouble, columns);
-    add_lines(out, text, 0, display, "\033[97;41m");
+    add_lines(out, text, 0, display, display->colour ? "\033[38;5;224;48;5;52m" : reverse);
     overlay_fit(text, sizeof text, overlay->status, columns);
     row -= overlay_lines(text);
-    add_lines(out, text, row < 0 ? 0 : row, display, "\033[97;100m");
+    add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;253;48;5;234m" : reverse);
     overlay_fit(text, sizeof text, overlay->notice, columns);
     row -= overlay_lines(text);
-    add_lines(out, text, row < 0 ? 0 : row, display, "\033[30;46m");
+    add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;153;48;5;234m" : reverse);
 }
 
 static void add_picture(Bytes *out, const Display *display, const char *text, size_t length) {
@@ -274,7 +278,7 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     Bytes out = {0};
     bytes_format(&out, "%s", BEGIN);
     if (display->clear || !same_lines(overlay, &display->shown)) {
-        bytes_format(&out, "\033[0m\033[2J");
+        bytes_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
     }
     if (terminal_picture_is_graphics(display->way)) {
         bytes_format(&out, "%s", TAKE_AWAY);
