@@ -5,14 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-#if defined(__SANITIZE_ADDRESS__)
-#define ARENA_ASAN 1
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer)
-#define ARENA_ASAN 1
-#endif
-#endif
-#ifdef ARENA_ASAN
+#if ARENA_POISONS
 #include <sanitizer/asan_interface.h>
 #define POISON(address, size) ASAN_POISON_MEMORY_REGION(address, size)
 #define UNPOISON(address, size) ASAN_UNPOISON_MEMORY_REGION(address, size)
@@ -27,17 +20,6 @@ enum { FIRST_BLOCK = 64, LARGEST_BLOCK = 1024 };
 #else
 enum { FIRST_BLOCK = 16 << 10, LARGEST_BLOCK = 4 << 20 };
 #endif
-enum { ALIGNMENT = 16 };
-
-struct ArenaBlock {
-    ArenaBlock *next;
-    size_t capacity;
-    size_t fill;
-    size_t padding; // keeps `bytes` aligned to 16
-    unsigned char bytes[];
-};
-
-_Static_assert(offsetof(ArenaBlock, bytes) % ALIGNMENT == 0, "block payload must be aligned");
 
 void arena_init(Arena *arena, const char *name, size_t budget) {
     *arena = (Arena){.budget = budget, .name = name};
@@ -64,6 +46,8 @@ static void block_truncate(ArenaBlock *block, size_t fill) {
 }
 
 void arena_rewind(Arena *arena, ArenaMark mark) {
+    if (arena->used > arena->high_water)
+        arena->high_water = arena->used;
     ArenaBlock *block = mark.block ? mark.block->next : arena->first;
     ArenaBlock *end = arena->current ? arena->current->next : NULL; // later blocks are empty already
     for (; block != end && arena->current != mark.block; block = block->next)
@@ -116,10 +100,10 @@ static void arena_next_block(Arena *arena, size_t size) {
     arena->current = block;
 }
 
-void *arena_alloc(Arena *arena, size_t size) {
+void *arena_alloc_slow(Arena *arena, size_t size) {
     if (size > SIZE_MAX / 2 || size > arena->budget || arena->used > arena->budget - size)
         arena_exhausted(arena);
-    size_t rounded = (size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    size_t rounded = (size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
     ArenaBlock *block = arena->current;
     if (!block || block->capacity - block->fill < rounded) {
         arena_next_block(arena, rounded);
@@ -129,8 +113,6 @@ void *arena_alloc(Arena *arena, size_t size) {
     UNPOISON(bytes, size);
     block->fill += rounded;
     arena->used += rounded;
-    if (arena->used > arena->high_water)
-        arena->high_water = arena->used;
     return bytes;
 }
 
@@ -148,8 +130,8 @@ void *arena_copy(Arena *arena, const void *bytes, size_t size) {
 }
 
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) {
-    size_t old_rounded = (old_size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
-    size_t new_rounded = (new_size + ALIGNMENT - 1) & ~(size_t)(ALIGNMENT - 1);
+    size_t old_rounded = (old_size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
+    size_t new_rounded = (new_size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
     ArenaBlock *block = arena->current;
     if (block && old_rounded <= block->fill && (unsigned char *)bytes == block->bytes + block->fill - old_rounded &&
         block->capacity - block->fill >= new_rounded - old_rounded && new_size <= arena->budget &&
@@ -157,8 +139,6 @@ void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) {
         UNPOISON(bytes, new_size);
         block->fill += new_rounded - old_rounded;
         arena->used += new_rounded - old_rounded;
-        if (arena->used > arena->high_water)
-            arena->high_water = arena->used;
         return bytes;
     }
     void *larger = arena_alloc(arena, new_size);

@@ -11,13 +11,36 @@
 #include <stddef.h>
 #include <stdint.h>
 
+// Under the address sanitizer what is not handed out is poisoned.
+#if defined(__SANITIZE_ADDRESS__)
+#define ARENA_POISONS 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer)
+#define ARENA_POISONS 1
+#endif
+#endif
+#ifndef ARENA_POISONS
+#define ARENA_POISONS 0
+#endif
+
+enum { ARENA_ALIGNMENT = 16 };
+
 typedef struct ArenaBlock ArenaBlock;
+struct ArenaBlock {
+    ArenaBlock *next;
+    size_t capacity; // of bytes; a multiple of the alignment, as is `fill`
+    size_t fill;
+    size_t padding; // keeps `bytes` aligned
+    unsigned char bytes[];
+};
+
+_Static_assert(offsetof(ArenaBlock, bytes) % ARENA_ALIGNMENT == 0, "block payload must be aligned");
 
 typedef struct Arena {
     ArenaBlock *first;   // chain of blocks, oldest first; kept over a reset
     ArenaBlock *current; // the block that is being filled
     size_t used;         // bytes handed out since the last reset, block remainders included
-    size_t high_water;   // most that `used` has ever been
+    size_t high_water;   // most that `used` has ever been, up to the last rewind or reset
     size_t budget;       // bytes allowed between two resets
     jmp_buf *escape;     // where to go when memory is used up, or NULL to abort
     const char *name;    // for messages
@@ -39,8 +62,20 @@ void arena_free(Arena *arena);
 // bytes.
 void arena_reset(Arena *arena);
 
+// The same as arena_alloc, for when the block at hand has no room.
+void *arena_alloc_slow(Arena *arena, size_t size);
+
 // `size` bytes, aligned to 16, not cleared. Size 0 gives a valid pointer that must not be read.
-void *arena_alloc(Arena *arena, size_t size);
+static inline void *arena_alloc(Arena *arena, size_t size) {
+    ArenaBlock *block = arena->current;
+    if (!block || size > block->capacity - block->fill || arena->used + size > arena->budget || ARENA_POISONS)
+        return arena_alloc_slow(arena, size);
+    size_t rounded = (size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
+    void *bytes = block->bytes + block->fill;
+    block->fill += rounded;
+    arena->used += rounded;
+    return bytes;
+}
 
 // The same for `count` elements of `size` bytes each; an overflowing product counts as used-up memory.
 void *arena_alloc_array(Arena *arena, size_t count, size_t size);

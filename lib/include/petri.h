@@ -27,11 +27,11 @@ typedef struct PetriSession PetriSession;
 
 typedef enum PetriStatus {
     PETRI_OK,
-    PETRI_INVALID, // the script cannot be loaded, a definition cannot be read; diagnostics tell why
-    PETRI_LIMIT,   // a limit was reached: the frame was given up and changed nothing
-    PETRI_MEMORY,  // memory is used up
+    PETRI_INVALID,     // the script cannot be loaded, a definition cannot be read; diagnostics tell why
+    PETRI_LIMIT,       // a limit was reached: the frame was given up and changed nothing
+    PETRI_MEMORY,      // memory is used up
+    PETRI_MISSING,     // this libpetri was built without the library that it takes; a diagnostic tells which
     PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
-    PETRI_MISSING, // this libpetri was built without the library that it takes; a diagnostic tells which
 } PetriStatus;
 
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
@@ -138,7 +138,6 @@ PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
 PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
 bool petri_key_bound(PetriSession *session, const char *name);
-
 // Asks for an end of the petri_step, petri_prompt or petri_evaluate that is under way, or of the next one: it returns
 // PETRI_INTERRUPTED, soon. The one function that may be called from a signal handler or from another thread.
 void petri_interrupt(PetriSession *session);
@@ -154,8 +153,8 @@ double petri_resolution(const PetriSession *session);
 // Forgets the state dictionary and goes to before frame 0.
 void petri_clear(PetriSession *session);
 
-// What a session computes with, as opposed to what it has computed: script, definitions, statements of the prompt, clock
-// rates, resolution. It is shared, not copied, and must be freed before the session is closed.
+// What a session computes with, as opposed to what it has computed: script, definitions, statements of the prompt,
+// clock rates, resolution. It is shared, not copied, and must be freed before the session is closed.
 typedef struct PetriSetup PetriSetup;
 // The present one, or NULL if memory is used up. Free with petri_setup_free, which takes NULL, too.
 PetriSetup *petri_setup(PetriSession *session);
@@ -171,8 +170,8 @@ typedef struct PetriSnapshot PetriSnapshot;
 PetriSnapshot *petri_snapshot(PetriSession *session);
 void petri_snapshot_free(PetriSnapshot *snapshot);
 size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a setup is shared
-// Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as long
-// as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
+// Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as
+// long as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
 // Writes the state dictionary, the frame number and what the systems need to go on to a file, which is replaced as a
@@ -331,9 +330,9 @@ PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *wr
 // Only the log lines of the frame, each `> text`.
 PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host);
 
-// A prompt: text typed by a person, evaluated in the frame made last, where it sees the names of the script's top level.
-// Before the first frame, and after anything but a step has changed what names stand for, the script is evaluated once
-// for that, in frame 0 or the present one, without effect.
+// A prompt: text typed by a person, evaluated in the frame made last, where it sees the names of the script's top
+// level. Before the first frame, and after anything but a step has changed what names stand for, the script is
+// evaluated once for that, in frame 0 or the present one, without effect.
 
 typedef enum PetriInput {
     PETRI_INPUT_WHOLE, // the text is complete, or wrong whatever follows
@@ -348,8 +347,8 @@ PetriInput petri_input(PetriSession *session, const char *text, size_t length);
 typedef struct PetriPrompted {
     uint32_t values;   // evaluated once and written
     uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
-    uint32_t nodes;    // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
-                       // are added to those of the script; they are written, too, as they are now
+    uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
+                    // are added to those of the script; they are written, too, as they are now
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.

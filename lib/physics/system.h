@@ -105,13 +105,13 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 void phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
 
 typedef struct PhysTime {
-    double last;           // time up to which the state has been simulated
-    double now;            // time of this frame; > last
-    double clock;          // simulation clock at `last`
-    double resolution;     // longest step; > 0 and finite
-    bool lockstep;         // always catch up
-    double performance;    // engine performance, decides about the one extra step in real time
-    double speed_of_light; // <= 0: no limit
+    double last;                  // time up to which the state has been simulated
+    double now;                   // time of this frame; > last
+    double clock;                 // simulation clock at `last`
+    double resolution;            // longest step; > 0 and finite
+    bool lockstep;                // always catch up
+    double performance;           // engine performance, decides about the one extra step in real time
+    double speed_of_light;        // <= 0: no limit
     const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
 } PhysTime;
 

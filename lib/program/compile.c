@@ -3,6 +3,7 @@
 // One pass, in the order of evaluation: a binding becomes visible just after its value has been compiled, which is
 // exactly its scope (spec language.md L8.2).
 #include "program/compile.h"
+#include "program/code.h"
 
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count) {
     Expr *expr = arena_alloc(compiler->arena, sizeof *expr);
@@ -227,6 +228,14 @@ static void describe_closure(Expr *expr) {
             fold_depend(expr, code->defaults[i]);
 }
 
+const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_count) {
+    LowerOptions options = {.arena = compiler->arena,
+                            .values = compiler->arena,
+                            .places = &compiler->places,
+                            .lines = compiler->options->lines};
+    return program_lower(&options, expr, slot_count);
+}
+
 const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     const Ast *params = ast->children[0];
     FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
@@ -249,6 +258,7 @@ const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     code->body = compile_expr(compiler, ast->children[1]);
     compiler->repeats--;
     compile_function_close(compiler, &function, code);
+    code->code = compile_code(compiler, code->body, code->frame_size);
     Expr *expr = compile_expr_new(compiler, EXPR_FUNC, ast, NULL, 0);
     expr->as.function = code;
     describe_closure(expr);
@@ -437,6 +447,8 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
     collect_exports(&compiler, program, params);
     lint_unused(&compiler, compiler.function->scope, params);
     program->frame_size = function.frame_size;
+    program->code = compile_code(&compiler, program->body, program->frame_size);
+    program->place_count = compiler.places;
     return program;
 }
 

@@ -51,6 +51,7 @@ typedef struct Compiler {
     FunctionScope *function;
     bool ahead;       // compiling a syntax tree once more, for its static value
     uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
+    uint32_t places;  // look-ups so far
     bool is_module;   // the file only binds names: they are for others, so none is unused
 } Compiler;
 
@@ -60,6 +61,8 @@ typedef struct ScopeMark {
 } ScopeMark;
 
 const Expr *compile_expr(Compiler *compiler, const Ast *ast);
+// The code of an expression in a frame of so many slots.
+const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_count);
 // FUNC as a value, whether it has a name or not.
 const Expr *compile_closure(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);

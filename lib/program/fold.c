@@ -10,7 +10,6 @@
 // static particle tree comes to be one constant vector of nodes that all frames share.
 #include "program/compile.h"
 
-#include "value/node.h"
 #include "value/seed.h"
 
 // More elements than this are worth the time of evaluating them again rather than the memory of keeping them.
@@ -103,7 +102,18 @@ static const Expr *replace_by(Compiler *compiler, const Expr *expr, Value value)
     folded->count = 0;
     folded->as.value = value;
     fold_describe(folded);
+    value_keep(value);
     return folded;
+}
+
+// Constant children are one array that every frame's parent shares.
+static void keep_children(Compiler *compiler, Expr *expr) {
+    if (expr->kind != EXPR_APPEND || expr->children[1]->kind != EXPR_CONST)
+        return;
+    NodeList *list = arena_alloc(compiler->arena, sizeof *list);
+    *list = node_list(compiler->arena, expr->children[1]->as.value);
+    list->kept = true;
+    expr->as.kept = list;
 }
 
 // An `if` whose first test is known comes down to one branch or starts with the next test.
@@ -133,6 +143,7 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
     const Expr *pruned = expr->kind == EXPR_IF ? prune_branches(compiler, expr) : expr;
     if (pruned != expr)
         return pruned;
+    keep_children(compiler, expr);
     if (expr->dynamic || expr->enclosed || expr->lowest < mark || !is_candidate(compiler, expr))
         return expr;
     const CompileHost *host = &compiler->options->host;

@@ -1,68 +1,144 @@
-// print.c: a program as text, for --dump=code.
-#include "program/program.h"
+// print.c: a program's code as text, for --dump=code.
+#include "program/code.h"
 #include "value/format.h"
 
-static const char *kind_name(ExprKind kind) {
-    static const char *const names[] = {
-#define EXPR(kind, text) text,
-#include "program/expr_list.h"
-#undef EXPR
-    };
-    return names[kind];
+static const struct {
+    const char *name;
+    const char *operands;
+} opcodes[OP_COUNT] = {
+#define OPCODE(id, name, operands) {name, operands},
+#include "program/opcode_list.h"
+#undef OPCODE
+};
+
+enum { LONGEST_CONSTANT = 60 }; // characters of a constant that are shown
+
+static void print_constant(Text *out, const SymbolTable *symbols, Value value) {
+    Text text = text_new(out->arena);
+    format_value(&text, symbols, value);
+    Str shown = text_str(&text);
+    bool cut = shown.len > LONGEST_CONSTANT;
+    if (cut)
+        shown.len = LONGEST_CONSTANT;
+    while (cut && shown.len > 0 && (shown.bytes[shown.len] & 0xc0) == 0x80)
+        shown.len--; // not within a character
+    text_add(out, shown);
+    if (cut)
+        text_add_format(out, "… (%u elements)", value.len);
 }
 
-static void print_expr(Text *out, const SymbolTable *symbols, const Expr *expr, int depth);
-
-static void print_function(Text *out, const SymbolTable *symbols, const FunctionCode *code, int depth) {
-    text_add_format(out, " %.*s params=%u frame=%u captures=%u\n", (int)code->name.len, code->name.bytes,
-                    code->param_count, code->frame_size, code->capture_count);
-    for (uint32_t i = 0; i < code->capture_count; i++)
-        print_expr(out, symbols, code->captures[i], depth + 2);
-    print_expr(out, symbols, code->body, depth + 1);
+static void print_operand(Text *out, const SymbolTable *symbols, const Code *code, int32_t operand) {
+    if (operand == CODE_NO_OPERAND)
+        text_add_c(out, "none");
+    else if (operand < 0)
+        print_constant(out, symbols, code->constants[(int64_t)code->constant_count + operand]);
+    else
+        text_add_format(out, "r%d", operand);
 }
 
-static void print_operands(Text *out, const SymbolTable *symbols, const Expr *expr, int depth) {
-    switch (expr->kind) {
-    case EXPR_CONST:
-        text_add_char(out, ' ');
-        format_value(out, symbols, expr->as.value);
+static void print_list(Text *out, const SymbolTable *symbols, const Code *code, const Instr *instr) {
+    text_add_char(out, '(');
+    for (uint32_t i = 0; i < instr->count; i++) {
+        text_add_c(out, i ? ", " : "");
+        if (instr->op == OP_NODE)
+            text_add_format(out, "%.*s=", (int)instr->as.node->names[i]->name.len,
+                            instr->as.node->names[i]->name.bytes);
+        print_operand(out, symbols, code, code->operands[instr->list + i]);
+    }
+    text_add_char(out, ')');
+}
+
+// What only the expression, or what was prepared for the instruction, tells.
+static void print_extra(Text *out, const Instr *instr) {
+    Str name = {0};
+    switch ((Opcode)instr->op) {
+    case OP_GLOBAL:
+        name = str_from(engine_name_text((EngineName)instr->target));
         break;
-    case EXPR_NODE:
-    case EXPR_UNBOUND:
-        text_add_format(out, " %.*s", (int)expr->as.name->name.len, expr->as.name->name.bytes);
+    case OP_UNBOUND:
+        name = instr->at->as.name->name;
         break;
-    case EXPR_GLOBAL:
-        text_add_format(out, " %s", engine_name_text((EngineName)expr->slot));
+    case OP_CLOSURE:
+        name = instr->at->as.function->name;
         break;
-    case EXPR_SLOT:
-    case EXPR_CAPTURE:
-    case EXPR_ARITH:
-        text_add_format(out, " %u", expr->slot);
+    case OP_NODE:
+        name = instr->as.node->base->kind->name;
         break;
-    case EXPR_BIND:
-    case EXPR_FOR:
-    case EXPR_IMPORT:
-        text_add_format(out, " slots %u+%u", expr->slot, expr->slot_count);
+    case OP_BUILTIN:
+        name = str_from(instr->as.builtin->name);
         break;
-    case EXPR_FUNC:
-        print_function(out, symbols, expr->as.function, depth);
-        return;
+    case OP_DECORATE:
+        for (uint32_t i = 0; i < instr->at->as.decorate->attr_count; i++) {
+            Str attr = instr->at->as.decorate->names[i]->name;
+            text_add_format(out, "%s%.*s", i ? " " : "", (int)attr.len, attr.bytes);
+        }
+        break;
     default:
         break;
     }
-    text_add_char(out, '\n');
+    text_add(out, name);
 }
 
-static void print_expr(Text *out, const SymbolTable *symbols, const Expr *expr, int depth) {
-    for (int i = 0; i < depth; i++)
-        text_add_c(out, "  ");
-    text_add_c(out, kind_name(expr->kind));
-    print_operands(out, symbols, expr, depth);
-    for (uint32_t i = 0; i < expr->count; i++)
-        print_expr(out, symbols, expr->children[i], depth + 1);
+static void print_part(Text *out, const SymbolTable *symbols, const Code *code, const Instr *instr, char part) {
+    switch (part) {
+    case 'd':
+        text_add_format(out, "r%d =", instr->d);
+        break;
+    case 'a':
+        print_operand(out, symbols, code, instr->a);
+        break;
+    case 'b':
+        print_operand(out, symbols, code, instr->b);
+        break;
+    case 'c':
+        print_operand(out, symbols, code, instr->c);
+        break;
+    case 'l':
+        print_list(out, symbols, code, instr);
+        break;
+    case 'j':
+        text_add_format(out, "to %u", instr->target);
+        break;
+    case 's':
+        text_add_format(out, "r%d", instr->d);
+        if (instr->count > 1)
+            text_add_format(out, "-r%u", (uint32_t)instr->d + instr->count - 1);
+        text_add_c(out, " =");
+        break;
+    case 'o':
+        text_add_format(out, "loop %u", instr->loop);
+        break;
+    case 'i':
+        text_add_format(out, "#%u", instr->target);
+        break;
+    default:
+        print_extra(out, instr);
+    }
+}
+
+static void print_code(Text *out, const SymbolTable *symbols, const Code *code) {
+    for (uint32_t i = 0; i < code->count; i++) {
+        const Instr *instr = &code->instrs[i];
+        text_add_format(out, "%4u %4u  %-10s", i, source_locate(instr->at->source, instr->at->span.start).line,
+                        opcodes[instr->op].name);
+        for (const char *part = opcodes[instr->op].operands; *part; part++) {
+            text_add_char(out, ' ');
+            print_part(out, symbols, code, instr, *part);
+        }
+        text_add_char(out, '\n');
+    }
+    for (uint32_t i = 0; i < code->count; i++) {
+        if (code->instrs[i].op != OP_CLOSURE)
+            continue;
+        const FunctionCode *function = code->instrs[i].at->as.function;
+        text_add_format(out, "\n%.*s: parameters=%u captures=%u registers=%u\n", (int)function->name.len,
+                        function->name.bytes, function->param_count, function->capture_count,
+                        function->code->register_count);
+        print_code(out, symbols, function->code);
+    }
 }
 
 void program_print(Text *out, const SymbolTable *symbols, const Program *program) {
-    text_add_format(out, "frame=%u\n", program->frame_size);
-    print_expr(out, symbols, program->body, 0);
+    text_add_format(out, "number, line, instruction; registers=%u\n", program->code->register_count);
+    print_code(out, symbols, program->code);
 }

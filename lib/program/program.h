@@ -1,6 +1,7 @@
 // program.h: a compiled program: names resolved to slots, constants in place, nothing left to look up.
 //
-// A program is an immutable tree of expressions in one arena, replaced as a whole on reload. Every function, the main
+// A program is an immutable tree of expressions, and the code they come down to (code.h), in one arena, replaced as a
+// whole on reload. Every function, the main
 // program and every module runs in a frame of slots; a nested function reaches outer values only through what it has
 // captured by value when it was defined (spec language.md L9.1).
 #ifndef PETRI_PROGRAM_PROGRAM_H
@@ -8,11 +9,12 @@
 
 #include "base/diag.h"
 #include "syntax/ast.h"
+#include "value/node.h"
 #include "value/ops.h"
 #include "value/value.h"
 
 typedef enum ExprKind {
-#define EXPR(kind, text) EXPR_##kind,
+#define EXPR(kind) EXPR_##kind,
 #include "program/expr_list.h"
 #undef EXPR
 } ExprKind;
@@ -25,6 +27,7 @@ typedef enum EngineName {
 } EngineName;
 
 typedef struct Expr Expr;
+typedef struct Code Code; // program/code.h
 
 typedef struct FunctionCode {
     Str name; // "<anon>" without one
@@ -32,6 +35,7 @@ typedef struct FunctionCode {
     const Symbol *const *params;
     const Expr *const *defaults; // evaluated at the definition; NULL entries have none
     const Expr *body;
+    const Code *code;    // of the body
     uint32_t frame_size; // slots: parameters first
     uint32_t capture_count;
     const Expr *const *captures; // evaluated at the definition, in the enclosing frame
@@ -73,6 +77,7 @@ struct Expr {
         const ImportCode *import;
         const CallCode *call;
         const DecorateCode *decorate;
+        const NodeList *kept; // APPEND: the children, if they are constant; or NULL
     } as;
     const Expr *const *children;
 };
@@ -97,8 +102,10 @@ typedef struct Pragma {
 typedef struct Program {
     const Source *source;
     const Expr *body;
+    const Code *code; // of the body
     uint32_t frame_size;
-    uint32_t param_count; // the first slots: values that the host gives
+    uint32_t place_count;  // look-ups in the state, numbered for the machine to remember where they found what
+    uint32_t param_count;  // the first slots: values that the host gives
     const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
     uint32_t export_count;
     const Pragma *pragmas;
@@ -125,6 +132,7 @@ typedef struct CompileOptions {
     bool module;           // neither engine names nor -D names are visible; unbound names are reported when reached
     bool lint;             // report what is hardly meant, too
     bool simplify;         // evaluate static parts now (L17.1)
+    bool lines;            // note which lines instructions come from
     const Define *defines; // later ones count
     uint32_t define_count;
     const Symbol *const *params; // names of values that the host gives to each run; of equal ones the last counts

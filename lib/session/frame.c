@@ -311,6 +311,7 @@ static void update_systems(PetriSession *session) {
                         .fps = session->frame.fps,
                         .performance = session->performance,
                         .lockstep = !session->options.realtime,
+                        .generation = session->generation,
                         .resolution = session->resolution,
                         .interrupt = session->options.interruptible ? &session->interrupt : NULL};
     session->frame.physics_steps = scene_update(session->scene, session->tree, &frame);

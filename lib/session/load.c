@@ -15,6 +15,7 @@ static Unit *unit_new(PetriSession *session) {
     if (!unit)
         return NULL;
     unit->references = 1;
+    session->generation++;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
     unit->arena.escape = session->frame_arena.escape;
     return unit;
@@ -135,8 +136,7 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loading;
     session->loading = unit;
-    const Program *program =
-        program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
+    const Program *program = program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
     session->loading = outer;
     sort_by_place(&unit->sink);
     unit_tell(session, unit);

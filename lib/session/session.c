@@ -256,7 +256,7 @@ typedef struct LoadRequest {
     const char *file; // or, if NULL, a text
     Str name;         // of either
     Str text;
-    Str path; // of the file that the text was read from, if it was, else the name
+    Str path;    // of the file that the text was read from, if it was, else the name
     Str version; // likewise, else empty
 } LoadRequest;
 

@@ -22,12 +22,14 @@ struct Unit {
     const Ast *ast;
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
-    uint32_t references; // freed with the last
-    Str *included;       // canonical paths that an %include has taken
+    uint32_t references;    // freed with the last
+    Str *included;          // canonical paths that an %include has taken
     uint32_t included_count;
     DiagSink sink; // of the parse or compilation that is under way
     bool retired;  // replaced; freed when no frame can refer to it any more
 };
+
+enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
 
 // A statement typed at the prompt that is kept. Its parameters are the exports of the script and of the statements
 // before it.
@@ -75,8 +77,6 @@ struct PetriSnapshot {
     size_t capacity;
 };
 
-enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
-
 struct PetriSession {
     PetriOptions options;
     Arena arena; // session lifetime: symbols, definitions
@@ -89,7 +89,7 @@ struct PetriSession {
     NoiseCache *noise;
     const Define *defines; // replaced as a whole: setups share it
     uint32_t define_count;
-    Unit *program; // the loaded script, or NULL
+    Unit *program;   // the loaded script, or NULL
     ClockRates said; // by its pragmas
     ClockBase base;
     double resolution; // 0: as systems say
@@ -98,10 +98,11 @@ struct PetriSession {
     PetriSetup *setup;     // of the present number, once somebody has asked for it
     uint64_t setup_number; // of the present setup
     uint64_t last_number;  // given so far
-    Unit *modules; // list
-    Unit *fresh;   // the script that was begun to be loaded last, for when its memory runs out
-    Unit *loading; // whose compiler calls back
-    bool lint;     // petri_check is at work
+    Unit *modules;         // list
+    uint64_t generation;   // counts the units made: what lies in a new one may lie where a dropped one did
+    Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
+    Unit *loading;         // whose compiler calls back
+    bool lint;             // petri_check is at work
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
 
@@ -137,7 +138,7 @@ struct PetriSession {
     Value *values;
     uint32_t value_count;
     uint32_t value_capacity;
-    bool evaluated; // tree and values are those of the present frame and setup
+    bool evaluated;     // tree and values are those of the present frame and setup
     Arena prompt_arena; // of one expression
     bool tell_again;    // what a person types twice is told twice
     atomic_bool interrupt;

@@ -10,7 +10,9 @@ Node *node_new(Arena *arena, const Symbol *kind) {
 }
 
 static Node *node_clone(Arena *arena, const Node *node) {
-    return arena_copy(arena, node, sizeof *node);
+    Node *copy = arena_copy(arena, node, sizeof *node);
+    copy->kept = false;
+    return copy;
 }
 
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag) {
@@ -36,22 +38,18 @@ static uint32_t attr_find(const Attr *attrs, uint32_t count, const Symbol *name)
     return i;
 }
 
-// The greatest height of the nodes in a vector, and *count of them.
-static uint32_t highest(Value v, uint32_t *count) {
+uint32_t value_height(Value v) {
     uint32_t height = 0;
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
-        if (v.as.items[i].type == ITEM_NODE) {
-            if (v.as.items[i].as.node->height > height)
-                height = v.as.items[i].as.node->height;
-            ++*count;
-        }
+        if (v.as.items[i].type == ITEM_NODE && v.as.items[i].as.node->height > height)
+            height = v.as.items[i].as.node->height;
     return height;
 }
 
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t set_count) {
-    uint32_t height = node->height, nodes = 0;
+    uint32_t height = node->height;
     for (uint32_t i = 0; i < set_count; i++) {
-        uint32_t inner = highest(set[i].value, &nodes) + 1;
+        uint32_t inner = value_height(set[i].value) + 1;
         height = inner > height ? inner : height;
     }
     if (height > NODE_MAX_HEIGHT)
@@ -73,30 +71,71 @@ Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t s
     }
     copy->attrs = attrs;
     copy->attr_count = count;
-    copy->height = height;
+    copy->height = (uint16_t)height;
+    return copy;
+}
+
+NodeList node_list_in(const Node **nodes, Value children) {
+    NodeList list = {.nodes = nodes};
+    for (uint32_t i = 0; children.kind == VALUE_MIXED && i < children.len; i++) {
+        if (children.as.items[i].type != ITEM_NODE)
+            continue;
+        const Node *node = children.as.items[i].as.node;
+        if (node->height > list.height)
+            list.height = node->height;
+        nodes[list.count++] = node;
+    }
+    return list;
+}
+
+NodeList node_list(Arena *arena, Value children) {
+    if (value_height(children) == 0)
+        return (NodeList){0};
+    return node_list_in(arena_alloc_array(arena, children.len, sizeof(const Node *)), children);
+}
+
+Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
+    if (list->height >= NODE_MAX_HEIGHT)
+        return NULL;
+    Node *copy = node_clone(arena, node);
+    if (list->count == 0)
+        return copy;
+    if (node->child_count == 0) {
+        copy->children = list->nodes;
+        copy->kept_children = list->kept;
+    } else {
+        const Node **all = arena_alloc_array(arena, node->child_count + list->count, sizeof *all);
+        memcpy(all, node->children, node->child_count * sizeof *all);
+        memcpy(all + node->child_count, list->nodes, list->count * sizeof *all);
+        copy->children = all;
+        copy->kept_children = false;
+    }
+    copy->child_count += list->count;
+    if (list->height >= copy->height)
+        copy->height = (uint16_t)(list->height + 1);
     return copy;
 }
 
 Node *node_append(Arena *arena, const Node *node, Value children) {
-    uint32_t more = 0, height = highest(children, &more) + 1;
-    if (height < node->height)
-        height = node->height;
-    if (height > NODE_MAX_HEIGHT)
-        return NULL;
-    Node *copy = node_clone(arena, node);
-    if (more == 0)
-        return copy;
-    const Node **all = arena_alloc_array(arena, node->child_count + more, sizeof *all);
-    if (node->child_count)
-        memcpy(all, node->children, node->child_count * sizeof *all);
-    uint32_t count = node->child_count;
-    for (uint32_t i = 0; i < children.len; i++)
-        if (children.as.items[i].type == ITEM_NODE)
-            all[count++] = children.as.items[i].as.node;
-    copy->children = all;
-    copy->child_count = count;
-    copy->height = height;
-    return copy;
+    NodeList list = node_list(arena, children);
+    return node_append_list(arena, node, &list);
+}
+
+// Depth is limited by NODE_MAX_HEIGHT; what is marked already has been visited.
+static void node_keep(Node *node) {
+    if (node->kept)
+        return;
+    node->kept = node->kept_children = true;
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        value_keep(node->attrs[i].value);
+    for (uint32_t i = 0; i < node->child_count; i++)
+        node_keep((Node *)node->children[i]);
+}
+
+void value_keep(Value v) {
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
+        if (v.as.items[i].type == ITEM_NODE)
+            node_keep((Node *)v.as.items[i].as.node);
 }
 
 Value node_get(const Node *node, const Symbol *name) {
@@ -126,6 +165,7 @@ bool node_equal(const Node *a, const Node *b) {
 
 const Node *node_copy(Arena *arena, const Node *node) {
     Node *copy = node_clone(arena, node);
+    copy->kept_children = false;
     copy->tags = arena_copy(arena, node->tags, node->tag_count * sizeof *node->tags);
     Attr *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
     for (uint32_t i = 0; i < node->attr_count; i++)
@@ -171,12 +211,12 @@ Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, 
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
-Value value_append(Arena *arena, Value v, Value children, bool *too_high) {
+Value value_append(Arena *arena, Value v, const NodeList *list, bool *too_high) {
     if (v.kind != VALUE_MIXED)
         return v;
     Item *items = items_clone(arena, v);
     for (uint32_t i = 0; i < v.len; i++)
         if (items[i].type == ITEM_NODE)
-            replace_node(&items[i], node_append(arena, items[i].as.node, children), too_high);
+            replace_node(&items[i], node_append_list(arena, items[i].as.node, list), too_high);
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }

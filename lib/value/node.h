@@ -6,6 +6,8 @@
 
 #include "value/value.h"
 
+#include <stdbool.h>
+
 typedef struct Attr {
     const Symbol *name;
     Value value; // never null
@@ -19,8 +21,15 @@ struct Node {
     uint32_t tag_count;
     uint32_t attr_count;
     uint32_t child_count;
-    uint32_t height; // 1 + the greatest height of a child or of a node in an attribute
+    uint16_t height; // 1 + the greatest height of a child or of a node in an attribute
+    // Lives as long as the program that made it, not only for a frame: as long as no program is dropped, the same
+    // address means the same node with everything in it. The children may be kept though the node is not: then the
+    // same `children` and `child_count` mean the same children.
+    bool kept;
+    bool kept_children;
 };
+
+_Static_assert(sizeof(Node) == 48, "scripts make thousands of nodes a frame");
 
 enum { NODE_MAX_HEIGHT = 12000 }; // deeper trees are refused, so that walking one never exhausts the stack
 
@@ -36,6 +45,21 @@ Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
 // Appends the nodes of `children`; other elements are ignored. NULL if the tree would be too high.
 Node *node_append(Arena *arena, const Node *node, Value children);
+// The nodes of a vector, ready to be appended: a node that has no children yet shares the array.
+typedef struct NodeList {
+    const Node *const *nodes;
+    uint32_t count;
+    uint16_t height; // the greatest of a node
+    bool kept;       // as in Node
+} NodeList;
+NodeList node_list(Arena *arena, Value children);
+// The same in an array that has room for as many nodes as there are elements.
+NodeList node_list_in(const Node **nodes, Value children);
+// The greatest height of the nodes in a vector, 0 if there are none.
+uint32_t value_height(Value v);
+Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
+// Marks the nodes of a value that lives as long as its program, and all that are in them.
+void value_keep(Value v);
 // The attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name);
 // Structural equality (L7.5).
@@ -46,6 +70,6 @@ const Node *node_copy(Arena *arena, const Node *node);
 Value value_add_tag(Arena *arena, Value v, const Symbol *tag);
 // In these two *too_high is set if a node could not be extended and was left as it was.
 Value value_set_attrs(Arena *arena, Value v, const Attr *attrs, uint32_t count, bool *too_high);
-Value value_append(Arena *arena, Value v, Value children, bool *too_high);
+Value value_append(Arena *arena, Value v, const NodeList *list, bool *too_high);
 
 #endif

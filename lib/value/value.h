@@ -139,6 +139,20 @@ typedef struct Vector {
 
 Vector vector_new(Arena *arena);
 void vector_add(Vector *vector, Value part);
+// The same for the most common part: one more number or item of a vector that has room for it.
+static inline void vector_add_part(Vector *vector, const Value *part) {
+    if (vector->parts > 1 && part->len == 1 && vector->len < vector->capacity) {
+        if (part->kind == VALUE_NUMBERS && !vector->mixed) {
+            vector->as.numbers[vector->len++] = part->as.number;
+            return;
+        }
+        if (part->kind == VALUE_MIXED && vector->mixed) {
+            vector->as.items[vector->len++] = part->as.items[0];
+            return;
+        }
+    }
+    vector_add(vector, *part);
+}
 void vector_add_number(Vector *vector, double x);
 void vector_add_item(Vector *vector, Item item);
 Value vector_finish(Vector *vector);

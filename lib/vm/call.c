@@ -10,15 +10,23 @@ bool vm_stack_left(const Vm *vm) {
     return used < vm->stack_bytes / 2;
 }
 
-Value vm_make_closure(Vm *vm, Frame *frame, const Expr *expr) {
-    const FunctionCode *code = expr->as.function;
+// A closure captures names of the function that encloses it, and nothing else.
+static Value outer_value(const Frame *frame, const Expr *expr) {
+    switch (expr->kind) {
+    case EXPR_SLOT:
+        return frame->slots[expr->slot];
+    case EXPR_CAPTURE:
+        return frame->closure->captures[expr->slot];
+    default:
+        return frame->closure->self;
+    }
+}
+
+Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults) {
     Closure *closure = arena_alloc(vm->arena, sizeof *closure);
     Value *captures = arena_alloc_array(vm->arena, code->capture_count, sizeof *captures);
-    Value *defaults = arena_alloc_array(vm->arena, code->param_count, sizeof *defaults);
     for (uint32_t i = 0; i < code->capture_count; i++)
-        captures[i] = vm_eval(vm, frame, code->captures[i]);
-    for (uint32_t i = 0; i < code->param_count; i++)
-        defaults[i] = code->defaults[i] ? vm_eval(vm, frame, code->defaults[i]) : VALUE_NULL;
+        captures[i] = outer_value(frame, code->captures[i]);
     *closure = (Closure){.base = {.name = code->name},
                          .code = code,
                          .captures = captures,
@@ -67,12 +75,12 @@ static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const
     if (!may_enter(vm, closure, at))
         return VALUE_NULL;
     ArenaMark mark = arena_mark(&vm->slots);
-    Frame frame = {arena_alloc_array(&vm->slots, code->frame_size, sizeof(Value)), closure};
+    Frame frame = vm_frame(vm, code->code, closure);
     for (uint32_t i = 0; i < code->param_count; i++)
         frame.slots[i] = argument(closure, args, i);
     closure->active++;
     vm->depth++;
-    Value result = vm_eval(vm, &frame, code->body);
+    Value result = vm_eval(vm, &frame, code->code);
     vm->depth--;
     closure->active--;
     arena_rewind(&vm->slots, mark);
@@ -88,25 +96,14 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at)
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
-    vm->met_dynamic |= !builtin->pure;
-    if (vm->is_static && vm->met_dynamic)
-        return VALUE_NULL; // no debug line, no file is read ahead
-    const Expr *calling = vm->calling;
-    vm->calling = at;
-    Value result = vm_work(vm, at) ? builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names,
-                                                  args->named, args->named_count)
-                                   : VALUE_NULL;
-    vm->calling = calling;
-    return result;
+    if (!vm_may_call(vm, builtin, at))
+        return VALUE_NULL;
+    return builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names, args->named,
+                        args->named_count);
 }
 
-Value vm_call_expr(Vm *vm, Frame *frame, const Expr *expr) {
+Value vm_call(Vm *vm, const Expr *expr, Value callee, const Value *values) {
     const CallCode *code = expr->as.call;
-    Value callee = vm_eval(vm, frame, expr->children[0]);
-    uint32_t count = code->arg_count + code->named_count;
-    Value few[8], *values = count <= 8 ? few : arena_alloc_array(vm->arena, count, sizeof *values);
-    for (uint32_t i = 0; i < count; i++)
-        values[i] = vm_eval(vm, frame, expr->children[i + 1]);
     if (callee.kind != VALUE_MIXED) // null, a stream, numbers: null in silence (L9.3)
         return VALUE_NULL;
     Arguments args = {values, code->arg_count, code->names, values + code->arg_count, code->named_count};

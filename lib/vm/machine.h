@@ -2,6 +2,7 @@
 #ifndef PETRI_VM_MACHINE_H
 #define PETRI_VM_MACHINE_H
 
+#include "program/code.h"
 #include "vm/vm.h"
 
 // A user function as a value: its code with what it captured. Lives as long as the frame, or the program if it was made
@@ -16,9 +17,18 @@ typedef struct Closure {
     Value self; // the vector of this one function
 } Closure;
 
-// The running function: its slots and itself (NULL in the main program and in modules).
+// A loop that is being run.
+typedef struct Loop {
+    Value source;
+    uint32_t at;
+    Vector result;
+} Loop;
+
+// The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program
+// and in modules).
 typedef struct Frame {
     Value *slots;
+    Loop *loops;
     Closure *closure;
 } Frame;
 
@@ -27,13 +37,33 @@ struct ImportLink {
     const Source *source;
 };
 
-Value vm_eval(Vm *vm, Frame *frame, const Expr *expr);
-Value vm_call_expr(Vm *vm, Frame *frame, const Expr *expr);
-Value vm_make_closure(Vm *vm, Frame *frame, const Expr *expr);
-void vm_import(Vm *vm, Frame *frame, const Expr *expr);
+// A frame for a code; its slots are not cleared.
+Frame vm_frame(Vm *vm, const Code *code, Closure *closure);
+Value vm_eval(Vm *vm, Frame *frame, const Code *code);
+// The call that `expr` is, of the callee with the values of its arguments.
+Value vm_call(Vm *vm, const Expr *expr, Value callee, const Value *values);
+Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults);
+void vm_import(Vm *vm, Frame *frame, const Expr *expr, Value file);
 
-// Stores a value in `count` slots from `slot` on, unpacking it if there are several (L8.3).
-void vm_bind(Vm *vm, Frame *frame, uint32_t slot, uint32_t count, Value value);
+// make.c: the instructions that make or look up something. `slots` are the registers, `list` the numbers of operands.
+Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+Value vm_append(Vm *vm, const Expr *expr, Value parent, Value children);
+Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Expr *at);
+Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+Value vm_range(Vm *vm, const Expr *at, Value start, Value stop, Value step);
+Value vm_index(Vm *vm, Value vector, Value index);
+Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop);
+
+// Makes room for the look-ups of a program and goes to before the first of each.
+void vm_memo_begin(Vm *vm, uint32_t count);
+void vm_memo_free(Vm *vm);
+
+// One number, as most values are.
+static inline bool is_number(const Value *v) {
+    return v->len == 1 && v->kind == VALUE_NUMBERS;
+}
+
 // Reports a run-time fault at an expression: of each kind (`format`, a literal) the first at that place in the frame.
 // The text is made up only then: a recursion that runs into its limit does so a million times.
 void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) __attribute__((format(printf, 4, 5)));
@@ -41,9 +71,25 @@ void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...)
 void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text);
 // vector_finish, with a report if the vector was too long.
 Value vm_finish(Vm *vm, const Expr *at, Vector *vector);
-// Counts one call or loop round; false once the frame's work is used up (reported once).
-bool vm_work(Vm *vm, const Expr *at);
 // Is there enough of the C stack left for one more call?
 bool vm_stack_left(const Vm *vm);
+
+// What vm_work does every now and then: looks whether the work is used up, which is reported once, or the host has
+// asked for an end.
+bool vm_work_goes_on(Vm *vm, const Expr *at);
+// Counts one call or loop round; false once the frame is to be given up.
+static inline bool vm_work(Vm *vm, const Expr *at) {
+    return ++vm->work <= vm->work_pause || vm_work_goes_on(vm, at);
+}
+
+// May a built-in be called now? Counts the call. What it complains of will belong to `at`. Ahead, no debug line is
+// written and no file is read.
+static inline bool vm_may_call(Vm *vm, const Builtin *builtin, const Expr *at) {
+    vm->met_dynamic |= !builtin->pure;
+    if (vm->is_static && vm->met_dynamic)
+        return false;
+    vm->calling = at;
+    return vm_work(vm, at);
+}
 
 #endif

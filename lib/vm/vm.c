@@ -29,11 +29,22 @@ void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t sta
 
 void vm_free(Vm *vm) {
     arena_free(&vm->slots);
+    vm_memo_free(vm);
 }
 
-static Frame new_frame(Vm *vm, uint32_t size) {
-    Frame frame = {arena_alloc_array(&vm->slots, size, sizeof(Value)), NULL};
-    for (uint32_t i = 0; i < size; i++)
+Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
+    size_t constants = code->constant_count, registers = code->register_count;
+    Value *memory = arena_alloc(&vm->slots, (constants + registers) * sizeof *memory + code->loop_count * sizeof(Loop));
+    for (size_t i = 0; i < constants; i++)
+        memory[i] = code->constants[i];
+    Value *slots = memory + constants;
+    return (Frame){slots, (Loop *)(void *)(slots + registers), closure};
+}
+
+// A frame whose names all have a value.
+static Frame new_frame(Vm *vm, const Code *code) {
+    Frame frame = vm_frame(vm, code, NULL);
+    for (uint32_t i = 0; i < code->slot_count; i++)
         frame.slots[i] = VALUE_NULL;
     return frame;
 }
@@ -46,6 +57,7 @@ static void begin(Vm *vm, const char *stack_base) {
     vm->run += 2;
     vm->depth = 0;
     vm->work = 0;
+    vm->work_pause = 0;
     vm->stopped = false;
     vm->imports = NULL;
     if (vm->reported_count > 0)
@@ -58,10 +70,11 @@ Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports)
     ImportLink self = {NULL, program->source};
     vm->imports = &self;
     vm->builtins.directory = program->source->directory;
-    Frame frame = new_frame(vm, program->frame_size);
+    vm_memo_begin(vm, program->place_count);
+    Frame frame = new_frame(vm, program->code);
     for (uint32_t i = 0; i < program->param_count; i++)
         frame.slots[i] = given[i];
-    Value result = vm_eval(vm, &frame, program->body);
+    Value result = vm_eval(vm, &frame, program->code);
     for (uint32_t i = 0; exports && i < program->export_count; i++)
         exports[i] = frame.slots[program->exports[i].slot];
     vm->imports = NULL;
@@ -73,8 +86,10 @@ bool vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size, 
     begin(vm, __builtin_frame_address(0));
     vm->met_dynamic = false;
     vm->builtins.directory = expr->source->directory;
-    Frame frame = new_frame(vm, frame_size);
-    *value = vm_eval(vm, &frame, expr);
+    LowerOptions options = {.arena = &vm->slots, .values = arena};
+    const Code *code = program_lower(&options, expr, frame_size);
+    Frame frame = new_frame(vm, code);
+    *value = vm_eval(vm, &frame, code);
     if (!vm->met_dynamic && !vm->stopped && vm->reported_count == 0)
         return true;
     *value = VALUE_NULL;
@@ -97,8 +112,8 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Expr *
     vm->imports = &link;
     vm->state = NULL;
     vm->builtins.directory = module->source->directory;
-    Frame inner = new_frame(vm, module->frame_size);
-    vm_eval(vm, &inner, module->body);
+    Frame inner = new_frame(vm, module->code);
+    vm_eval(vm, &inner, module->code);
     vm->imports = link.outer;
     vm->state = state;
     vm->builtins.directory = directory;
@@ -117,8 +132,7 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Expr *
     arena_rewind(&vm->slots, mark);
 }
 
-void vm_import(Vm *vm, Frame *frame, const Expr *expr) {
-    Value file = vm_eval(vm, frame, expr->children[0]);
+void vm_import(Vm *vm, Frame *frame, const Expr *expr, Value file) {
     for (uint32_t i = 0; i < expr->slot_count; i++)
         frame->slots[expr->slot + i] = VALUE_NULL;
     Str name = value_text(vm->arena, vm->symbols, file);

@@ -40,6 +40,15 @@ typedef struct Reported {
     uint64_t what;
 } Reported;
 
+// What a look-up in the state found when it was last made for the first, second, … time in a frame: most scripts look
+// up the same keys in the same order in every frame. Only a guess, which is checked.
+typedef struct Memo {
+    StateSlot *slots; // heap
+    uint32_t count;
+    uint32_t capacity;
+    uint32_t next;
+} Memo;
+
 typedef struct Vm {
     Arena *arena; // the frame's: results and temporaries
     Arena slots;  // frames of slots, a stack
@@ -52,7 +61,8 @@ typedef struct Vm {
     uint32_t depth;
     uint64_t work;
     uint64_t work_limit;
-    bool stopped;       // the work is used up, or the host has asked for an end
+    uint64_t work_pause;          // when to look next whether to go on
+    bool stopped;                 // the work is used up, or the host has asked for an end
     const atomic_bool *interrupt; // the host's wish for an end, looked at now and then; NULL: none
     uint64_t run;       // number of the evaluation, unique over a session's machines: closures may outlive a frame
     bool is_static;     // evaluating ahead: dynamic things have no value yet
@@ -62,6 +72,8 @@ typedef struct Vm {
     const ImportLink *imports;      // modules being evaluated, innermost first
     Reported reported[VM_REPORTED]; // hash set of the faults of this frame
     uint32_t reported_count;
+    Memo *memos; // of the main program's look-ups by number; heap
+    uint32_t memo_count;
 } Vm;
 
 // Prepares a machine; `stack_bytes` is what it may use of the caller's stack. Free with vm_free.

@@ -1,146 +1,243 @@
-// bench.c: the speed of lib/physics on the workloads of the specification, against the limit of this processor.
-//
-//   bench_physics [--csv] [--quick] [--cpu=scalar|avx2|avx512] [--neighbours=auto|never|always] [--threads=N]
-//                 [--only=NAME]
-//
-// All ratios come from one run. The hash at the end of a row stands for the bits of all positions: it must not depend
-// on anything but the workload.
+// bench.c: how fast petri is: whole scripts through petri.h, beside our limit kernels, LAMMPS and another build.
+// README.md tells what is measured and how; `bench --help` lists the options.
 #include "base/cpu.h"
-#include "limit.h"
-#include "workloads.h"
+#include "machine.h"
+#include "measure.h"
+#include "peers.h"
+#include "report.h"
+#include "table.h"
+#include "worker.h"
 
+#include <errno.h>
+#include <math.h>
+#include <stdbool.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
+#include <unistd.h>
 
-typedef struct Case {
-    WorkloadKind kind;
-    uint32_t n;
-    int side; // of the square of discs that the limit is measured with; 0: the limit is that of pairs, or none
-} Case;
+static const char usage[] =
+    "usage: bench [options]\n"
+    "  --quick            small sizes and few rounds: 20 seconds\n"
+    "  --only NAME        only workloads whose name begins with these words, such as dish or dish 200\n"
+    "  --threads N        compare one thread with N (as many as processors, at most 2)\n"
+    "  --rounds N         rounds that the medians are taken over (7)\n"
+    "  --peers            run LAMMPS beside petri\n"
+    "  --against BENCH    take turns with another build: the path of its bench executable\n"
+    "  --csv FILE         also write the table of workloads as CSV; the other tables go to "
+    "FILE-targets.csv and so on\n"
+    "  --markdown FILE    also write all tables as Markdown\n"
+    "  --tiny             only show that everything works; the figures mean nothing\n";
 
-static const Case cases[] = {
-    {DISH, 200, 0},      {DISH, 1000, 0},        {DISH, 4000, 0},     {BOX, 1000, 0},
-    {BOX, 4000, 0},      {GRAVITY, 1000, 0},     {GRAVITY, 4000, 0},  {DISCS, 10000, 100},
-    {DISCS, 99856, 316}, {DISCS, 1000000, 1000}, {SPHERES, 10648, 0},
-};
+typedef struct Bench {
+    Plan plan;
+    bool quick, peers, help;
+    const char *csv, *markdown;
+    char self[4096];
+    char machine[512];
+    char lammps[128];
+} Bench;
 
-typedef struct Settings {
-    bool csv, quick;
-    int threads; // 0: measure with 1 and with 2
-    const char *only;
-    PhysOptions options;
-} Settings;
-
-static double seconds(void) {
-    struct timespec t;
-    clock_gettime(CLOCK_MONOTONIC, &t);
-    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+// A number of at least 1, or 0.
+static int read_count(const char *text) {
+    char *end;
+    long n = strtol(text, &end, 10);
+    return *end == '\0' && n >= 1 && n <= 1024 ? (int)n : 0;
 }
 
-static int by_value(const void *a, const void *b) {
-    double x = *(const double *)a, y = *(const double *)b;
-    return (x > y) - (x < y);
-}
-
-// Median seconds of a frame of so many steps.
-static double measure(Workload *w, int steps, double budget) {
-    enum { MOST = 101 };
-    double taken[MOST], start = seconds();
-    int count = 0;
-    do {
-        double begin = seconds();
-        workload_frame(w, steps);
-        taken[count++] = seconds() - begin;
-    } while (count < MOST && (count < 5 || seconds() - start < budget));
-    qsort(taken, (size_t)count, sizeof *taken, by_value);
-    return taken[count / 2];
-}
-
-static uint64_t hash_of(const Workload *w) {
-    uint64_t hash = 14695981039346656037u;
-    for (uint32_t i = 0; i < w->n; i++) {
-        unsigned char bytes[sizeof w->bodies[i].position];
-        memcpy(bytes, w->bodies[i].position, sizeof bytes);
-        for (size_t k = 0; k < sizeof bytes; k++)
-            hash = (hash ^ bytes[k]) * 1099511628211u;
-    }
-    return hash;
-}
-
-static double limit_of(const Case *c) {
-    if (c->side)
-        return limit_discs(c->side);
-    return c->kind == DISH ? limit_pair(c->n, 2) : c->kind == GRAVITY ? limit_pair(c->n, 3) : 0;
-}
-
-static void run(const Case *c, const Settings *settings, int threads, double limit) {
-    PhysOptions options = settings->options;
-    options.threads = threads;
-    Workload w = workload_open(c->kind, c->n, &options);
-    double budget = settings->quick ? 0.1 : 0.5;
-    // Bits are compared after a fixed number of steps; the frames before also fill caches and lists.
-    int warm = c->n > 100000 ? 3 : 20;
-    for (int i = 0; i < warm; i++)
-        workload_frame(&w, 1);
-    uint64_t hash = hash_of(&w);
-    double one = measure(&w, 1, budget), ten = measure(&w, 10, budget) / 10;
-    workload_close(&w);
-    double pairs = 0.5 * c->n * (c->n - 1.0), pair = ten / pairs * 1e9, step = ten / c->n * 1e9;
-    double ratio = limit > 0 ? (c->side ? limit / step : limit / pair) : 0;
-    const char *format = settings->csv ? "%s,%u,%d,%.2f,%.2f,%.4f,%.2f,%.3f,%.3f,%016llx\n"
-                                       : "| %s | %u | %d | %.1f | %.1f | %.3f | %.1f | %.2f | %.2f | %016llx |\n";
-    printf(format, workload_name(c->kind), c->n, threads, one * 1e6, ten * 1e6, pair, step, limit, ratio,
-           (unsigned long long)hash);
-    fflush(stdout);
-}
-
-static bool read_option(const char *text, Settings *settings) {
-    static const char *const neighbours[] = {"auto", "never", "always"};
-    if (!strcmp(text, "--csv"))
-        return settings->csv = true;
-    if (!strcmp(text, "--quick"))
-        return settings->quick = true;
-    if (!strncmp(text, "--only=", 7)) {
-        settings->only = text + 7;
-        return true;
-    }
-    if (!strncmp(text, "--cpu=", 6))
-        return cpu_choose(text + 6, &settings->options.cpu);
-    if (!strncmp(text, "--threads=", 10))
-        return (settings->threads = atoi(text + 10)) > 0;
-    for (int i = 0; i < 3; i++)
-        if (!strncmp(text, "--neighbours=", 13) && !strcmp(text + 13, neighbours[i])) {
-            settings->options.neighbours = (PhysNeighbours)i;
+static bool read_flag(Bench *bench, const char *option) {
+    const struct {
+        const char *name;
+        bool *flag;
+    } flags[] = {
+        {"--quick", &bench->quick},
+        {"--peers", &bench->peers},
+        {"--tiny", &bench->plan.tiny},
+        {"--help", &bench->help},
+    };
+    for (size_t i = 0; i < sizeof flags / sizeof *flags; i++)
+        if (!strcmp(option, flags[i].name)) {
+            *flags[i].flag = true;
             return true;
         }
     return false;
 }
 
-int main(int argc, char **argv) {
-    Settings settings = {.options.cpu = cpu_detect()};
-    for (int i = 1; i < argc; i++)
-        if (!read_option(argv[i], &settings)) {
-            fprintf(stderr, "bench: unknown option %s\n", argv[i]);
-            return 2;
+static bool read_value(Bench *bench, const char *option, const char *value) {
+    const struct {
+        const char *name;
+        const char **text;
+    } texts[] = {
+        {"--only", &bench->plan.only},
+        {"--against", &bench->plan.other},
+        {"--csv", &bench->csv},
+        {"--markdown", &bench->markdown},
+    };
+    for (size_t i = 0; i < sizeof texts / sizeof *texts; i++)
+        if (!strcmp(option, texts[i].name)) {
+            *texts[i].text = value;
+            return true;
         }
-    if (settings.csv)
-        puts("workload,n,threads,us_frame,us_step_of_10,ns_pair,ns_particle_step,limit_ns,ratio,hash");
-    else
-        printf(
-            "%s, 1 and 2 threads of %d processors; medians; the limit is one core's\n\n"
-            "| workload | n | threads | us per frame of 1 step | us per step, frames of 10 | ns per pair "
-            "| ns per particle-step | limit, ns | limit / ours | bits |\n|---|---|---|---|---|---|---|---|---|---|\n",
-            cpu_name(settings.options.cpu), cpu_count());
-    for (size_t i = 0; i < sizeof cases / sizeof *cases; i++) {
-        const Case *c = &cases[i];
-        if (settings.only ? strcmp(settings.only, workload_name(c->kind)) != 0 : settings.quick && c->n > 20000)
+    if (!strcmp(option, "--threads"))
+        return (bench->plan.threads = read_count(value)) > 0;
+    if (!strcmp(option, "--rounds"))
+        return (bench->plan.rounds = read_count(value)) > 0 && bench->plan.rounds <= ROUNDS_MOST;
+    return false;
+}
+
+static bool read_options(Bench *bench, int argc, char **argv) {
+    for (int i = 1; i < argc; i++) {
+        if (read_flag(bench, argv[i]))
             continue;
-        double limit = limit_of(c);
-        int first = settings.threads ? settings.threads : 1, last = settings.threads ? settings.threads : 2;
-        for (int threads = first; threads <= last; threads++)
-            run(c, &settings, threads, limit);
+        if (i + 1 >= argc || !read_value(bench, argv[i], argv[i + 1])) {
+            fprintf(stderr, "bench: cannot make sense of '%s'\n%s", argv[i], usage);
+            return false;
+        }
+        i++;
     }
+    return true;
+}
+
+static void fill_plan(Bench *bench) {
+    Plan *plan = &bench->plan;
+    if (plan->threads == 0)
+        plan->threads = cpu_count() < 2 ? 1 : 2;
+    if (plan->rounds == 0)
+        plan->rounds = plan->tiny ? 1 : bench->quick ? 3 : 7;
+    plan->budget = plan->tiny ? 0.001 : bench->quick ? 0.04 : 0.2;
+    plan->warm_steps = plan->tiny ? 2 : bench->quick ? 40 : 100;
+    plan->starts = plan->tiny ? 1 : bench->quick ? 2 : 3;
+    plan->largest = bench->quick ? 20000 : UINT32_MAX;
+    plan->limits = true;
+}
+
+// The path of this executable, which is started again for the workers.
+static bool find_self(Bench *bench) {
+    ssize_t length = readlink("/proc/self/exe", bench->self, sizeof bench->self - 1);
+    if (length < 0)
+        return false;
+    bench->self[length] = '\0';
+    bench->plan.self = bench->self;
+    return true;
+}
+
+static Results measure_all(const Bench *bench) {
+    const Plan *plan = &bench->plan;
+    Results results = {.figures = calloc(case_count, sizeof *results.figures), .ratios = {{NAN, NAN}, {NAN, NAN}}};
+    if (!results.figures) {
+        fputs("bench: no memory\n", stderr);
+        exit(1);
+    }
+    for (size_t i = 0; i < case_count; i++)
+        if (measure_wanted(plan, &cases[i])) {
+            fprintf(stderr, "bench: %s\n", cases[i].name);
+            results.figures[i] = measure_case(plan, &cases[i]);
+        }
+    for (int k = 0; k < 2 && !plan->tiny && !plan->only; k++)
+        results.kernels[k] = measure_kernel(plan, 2 + k);
+    return results;
+}
+
+static FILE *open_file(const char *name) {
+    FILE *file = fopen(name, "w");
+    if (!file) {
+        fprintf(stderr, "bench: cannot write %s: %s\n", name, strerror(errno));
+        exit(1);
+    }
+    return file;
+}
+
+static void close_file(FILE *file, const char *name) {
+    bool failed = ferror(file) != 0;
+    if (fclose(file) != 0 || failed) {
+        fprintf(stderr, "bench: cannot write %s\n", name);
+        exit(1);
+    }
+}
+
+typedef struct NamedTable {
+    const char *name;
+    Table table;
+} NamedTable;
+
+// FILE for the first table, FILE-NAME.csv for the others, where FILE is without its ending.
+static void write_csv(const char *csv, const NamedTable *tables, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        char name[4200];
+        size_t stem = strlen(csv);
+        if (stem > 4 && !strcmp(csv + stem - 4, ".csv"))
+            stem -= 4;
+        if (i == 0)
+            snprintf(name, sizeof name, "%s", csv);
+        else
+            snprintf(name, sizeof name, "%.*s-%s.csv", (int)stem, csv, tables[i].name);
+        FILE *file = open_file(name);
+        table_write_csv(&tables[i].table, file);
+        close_file(file, name);
+    }
+}
+
+static const char notes[] =
+    "Medians of rounds, in turns, on one thread unless it says threads. The reference implementation's figures, and "
+    "the\n"
+    "published ones of LAMMPS on 2 ranks, are from shared/bench/README.md, measured on a like machine (Zen 4, 3.7 "
+    "GHz,\n"
+    "2 processors); all others are from this run. tests/bench/README.md tells what each column means.\n";
+
+static void write_markdown(const Bench *bench, const NamedTable *tables, size_t count) {
+    FILE *file = open_file(bench->markdown);
+    fprintf(file, "# petri's speed\n\n%s%s%s.\n\n%s", bench->machine, bench->lammps[0] ? "; LAMMPS " : "",
+            bench->lammps, notes);
+    for (size_t i = 0; i < count; i++)
+        table_write_markdown(&tables[i].table, file);
+    close_file(file, bench->markdown);
+}
+
+static void run(const Bench *bench) {
+    enum { TABLES_MOST = 4 };
+    NamedTable tables[TABLES_MOST];
+    size_t count = 0;
+    Table peers = {0};
+    Results results = measure_all(bench);
+    if (bench->peers)
+        peers = peers_measure(&bench->plan, BENCH_SOURCE "/peers", &results.ratios);
+    tables[count++] = (NamedTable){"workloads", report_workloads(&results)};
+    if (bench->plan.other)
+        tables[count++] = (NamedTable){"builds", report_builds(&results)};
+    if (bench->peers)
+        tables[count++] = (NamedTable){"peers", peers};
+    tables[count++] = (NamedTable){"targets", report_targets(&results, bench->plan.only == NULL)};
+
+    printf("%s%s%s\n\n%s", bench->machine, bench->lammps[0] ? "; LAMMPS " : "", bench->lammps, notes);
+    for (size_t i = 0; i < count; i++)
+        table_write_text(&tables[i].table, stdout);
+    if (bench->csv)
+        write_csv(bench->csv, tables, count);
+    if (bench->markdown)
+        write_markdown(bench, tables, count);
+    for (size_t i = 0; i < count; i++)
+        table_free(&tables[i].table);
+    free(results.figures);
+}
+
+int main(int argc, char **argv) {
+    if (argc > 1 && !strcmp(argv[1], "worker"))
+        return worker_main(argc - 2, argv + 2);
+    static Bench bench = {.plan = {.scripts = BENCH_SOURCE "/workloads", .petri = BENCH_PETRI}};
+    if (!read_options(&bench, argc, argv))
+        return 2;
+    if (bench.help) {
+        fputs(usage, stdout);
+        return 0;
+    }
+    fill_plan(&bench);
+    if (!find_self(&bench)) {
+        perror("bench: cannot find itself");
+        return 1;
+    }
+    if (bench.peers && !peers_there(BENCH_SOURCE "/peers", bench.lammps, sizeof bench.lammps))
+        return 1;
+    machine_describe(bench.machine, sizeof bench.machine, bench.plan.threads);
+    run(&bench);
     return 0;
 }

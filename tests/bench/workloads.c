@@ -11,7 +11,8 @@
 #define DISC 10.0
 #define PITCH 0.966953 // discs of diameter 1 at area fraction 0.84
 
-static const char *const names[WORKLOAD_KINDS] = {"dish", "packed box", "gravity", "soft discs", "soft spheres"};
+static const char *const names[WORKLOAD_KINDS] = {"dish",       "packed box",   "gravity",
+                                                  "soft discs", "soft spheres", "charges"};
 
 const char *workload_name(WorkloadKind kind) {
     return names[kind];
@@ -84,7 +85,7 @@ Workload workload_open(WorkloadKind kind, uint32_t n, const PhysOptions *options
         exit(1);
     }
     phys_set_options(w.system, options);
-    if (kind == DISH)
+    if (kind == DISH || kind == CHARGES)
         start_dish(&w);
     else if (kind == BOX)
         start_box(&w);
@@ -159,6 +160,9 @@ static void describe(const Workload *w) {
         add_dish(w);
     } else if (w->kind == BOX) {
         add_box(w);
+    } else if (w->kind == CHARGES) {
+        PhysForce force = force_of(PHYS_ELECTROSTATIC, 150);
+        phys_add_force(w->system, 0, &force);
     } else if (w->kind == GRAVITY) {
         PhysForce force = force_of(PHYS_GRAVITY, 5000);
         phys_add_force(w->system, 0, &force);

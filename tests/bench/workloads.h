@@ -6,7 +6,7 @@
 
 #include <stdint.h>
 
-typedef enum WorkloadKind { DISH, BOX, GRAVITY, DISCS, SPHERES, WORKLOAD_KINDS } WorkloadKind;
+typedef enum WorkloadKind { DISH, BOX, GRAVITY, DISCS, SPHERES, CHARGES, WORKLOAD_KINDS } WorkloadKind;
 
 // What a particle starts from. Between frames the bench keeps position and velocity here, as the scene does.
 typedef struct Body {

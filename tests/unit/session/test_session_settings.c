@@ -159,8 +159,9 @@ static void test_hold(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings), PLAYER_TEST(test_definitions),
-        PLAYER_TEST(test_precedence),        PLAYER_TEST(test_engine_names),    PLAYER_TEST(test_options),
+        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings),
+        PLAYER_TEST(test_definitions),       PLAYER_TEST(test_precedence),
+        PLAYER_TEST(test_engine_names),      PLAYER_TEST(test_options),
         PLAYER_TEST(test_load_starts_again), PLAYER_TEST(test_hold),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

@@ -128,7 +128,8 @@ static void test_height_limit(void **state) {
     Vector vector = vector_new(arena);
     vector_add(&vector, value_node(arena, fresh(world, "p")));
     vector_add(&vector, value_number(1));
-    Value both = value_append(arena, vector_finish(&vector), value_node(arena, node), &too_high);
+    NodeList list = node_list(arena, value_node(arena, node));
+    Value both = value_append(arena, vector_finish(&vector), &list, &too_high);
     assert_true(too_high);
     assert_text("left as it was", show(world, both), "(!p);1");
     assert_int_equal(both.as.items[0].as.node->child_count, 0);
@@ -159,7 +160,8 @@ static void test_over_vectors(void **state) {
     v = value_add_tag(arena, v, name_of(world, "t"));
     bool too_high = false;
     v = value_set_attrs(arena, v, &(Attr){name_of(world, "x"), value_number(1)}, 1, &too_high);
-    v = value_append(arena, v, read_value(world, "!c"), &too_high);
+    NodeList c = node_list(arena, read_value(world, "!c"));
+    v = value_append(arena, v, &c, &too_high);
     assert_false(too_high);
     assert_text("the others stay", show(world, v), "(!a);3;(!b);'s'");
     assert_text("first", tree(world, v.as.items[0].as.node), "!a #t x=1\n    !c\n");
@@ -168,9 +170,41 @@ static void test_over_vectors(void **state) {
     for (size_t i = 0; i < COUNT_OF(others); i++) {
         Value w = read_value(world, others[i]);
         assert_text(others[i], show(world, value_add_tag(arena, w, name_of(world, "t"))), others[i]);
-        assert_text(others[i], show(world, value_append(arena, w, v, &too_high)), others[i]);
+        assert_text(others[i], show(world, value_append(arena, w, &c, &too_high)), others[i]);
     }
     assert_int_equal(value_add_tag(arena, value_stream(STREAM_BETA, 1), name_of(world, "t")).kind, VALUE_STREAM);
+}
+
+// What lives as long as the program keeps its address, and says so, for systems that need not read it twice.
+static void test_kept(void **state) {
+    World *world = *state;
+    Arena *arena = &world->arena;
+    Value children = read_value(world, "!b;7;!c");
+    Value attr = read_value(world, "!d");
+    value_keep(children);
+    const Node *b = children.as.items[0].as.node;
+    assert_true(b->kept && b->kept_children);
+    NodeList list = node_list(arena, children);
+    list.kept = true;
+    const Node *first = node_append_list(arena, fresh(world, "a"), &list);
+    const Node *second = node_append_list(arena, fresh(world, "a"), &list);
+    assert_ptr_equal(first->children, second->children);
+    assert_true(first->kept_children && !first->kept);
+    assert_int_equal(first->child_count, 2);
+    const Node *more = node_append_list(arena, first, &list);
+    assert_text("both lists", tree(world, more), "!a\n    !b\n    !c\n    !b\n    !c\n");
+    assert_false(more->kept_children);
+    assert_false(node_append(arena, fresh(world, "a"), children)->kept_children);
+    const Node *changed = with_attr(world, b, "x", "1");
+    assert_false(changed->kept);
+    assert_true(changed->kept_children);
+    assert_false(node_add_tag(arena, b, name_of(world, "t"))->kept);
+    assert_false(node_copy(arena, first)->kept_children);
+    // Keeping goes into attributes and children.
+    Value outer = value_node(arena, node_set_attrs(arena, more, &(Attr){name_of(world, "x"), attr}, 1));
+    value_keep(outer);
+    assert_true(outer.as.items[0].as.node->kept);
+    assert_true(attr.as.items[0].as.node->kept);
 }
 
 static void test_copy(void **state) {
@@ -189,15 +223,11 @@ static void test_copy(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        WORLD_TEST(test_fresh),
-        WORLD_TEST(test_attribute_order),
-        WORLD_TEST(test_tags),
-        WORLD_TEST(test_append),
-        WORLD_TEST(test_equality),
-        WORLD_TEST(test_height_limit),
-        WORLD_TEST(test_over_vectors),
-        WORLD_TEST(test_copy),
-        WORLD_TEST(test_attributes_count_as_height),
+        WORLD_TEST(test_fresh),        WORLD_TEST(test_attribute_order),
+        WORLD_TEST(test_tags),         WORLD_TEST(test_append),
+        WORLD_TEST(test_equality),     WORLD_TEST(test_height_limit),
+        WORLD_TEST(test_over_vectors), WORLD_TEST(test_kept),
+        WORLD_TEST(test_copy),         WORLD_TEST(test_attributes_count_as_height),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,81 @@
+// code.h: what the machine runs: expressions lowered to instructions over registers.
+//
+// Each function, the main program and each module is one Code. Its registers are the function's slots followed by
+// temporaries. An operand is the number of a register, or a negative one: the constants are put just before the first
+// register when the code is entered, so that both are read in the same way. Instructions that take several operands
+// find their numbers in a list. Every instruction knows the expression that it came from, for diagnostics and for what
+// does not fit into it.
+//
+//   !particle id=i position=2*i;0       mul      r3 = 2 r0
+//                                       compose  r3 = (r3, 0)
+//                                       node     r4 = particle (r0, r3)
+//
+// The order of evaluation is that of the expressions; nothing is moved or left out.
+#ifndef PETRI_PROGRAM_CODE_H
+#define PETRI_PROGRAM_CODE_H
+
+#include "builtin/builtin.h"
+#include "program/program.h"
+
+typedef enum Opcode {
+#define OPCODE(id, name, operands) OP_##id,
+#include "program/opcode_list.h"
+#undef OPCODE
+    OP_COUNT
+} Opcode;
+
+#define CODE_NO_OPERAND INT32_MAX
+
+// A node that is made at once: what is known of it beforehand.
+typedef struct NodeCode {
+    const Node *base;           // kind and tags
+    const Symbol *const *names; // of the attributes, each once
+    const Expr *decorate;       // what the attributes came from, or NULL
+    const NodeList *kept;       // constant children, or NULL
+} NodeCode;
+
+typedef struct Instr {
+    uint16_t op;
+    uint16_t loop;
+    int32_t d; // register written, or the first that is bound
+    union {
+        int32_t a;
+        uint32_t list; // position of the first operand in `operands`
+    };
+    int32_t b;
+    union {
+        int32_t c;
+        uint32_t count; // of the list, or of the registers bound
+    };
+    uint32_t target; // instruction to jump to; number of a capture or a place
+    const Expr *at;
+    union {
+        const NodeCode *node;
+        const Builtin *builtin;
+    } as;
+} Instr;
+
+struct Code {
+    const Instr *instrs;
+    uint32_t count;
+    uint32_t register_count;
+    uint32_t slot_count; // registers that names have; they start as null in the main program and in modules
+    uint32_t loop_count; // greatest number of loops within each other
+    const int32_t *operands;
+    const Value *constants; // the last one is operand -1
+    uint32_t constant_count;
+    const uint32_t *lines; // of each instruction the line of the source, from 1; NULL unless asked for
+};
+
+// How an expression is to be lowered.
+typedef struct LowerOptions {
+    Arena *arena;     // the code goes here
+    Arena *values;    // parts of values that the code makes, which may outlive it
+    uint32_t *places; // counts the look-ups of a program: raised by those in the expression; NULL: none is numbered
+    bool lines;       // note the lines of instructions
+} LowerOptions;
+
+// The code of an expression that is evaluated in a frame of `slot_count` slots.
+const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_t slot_count);
+
+#endif

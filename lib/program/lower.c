@@ -1,0 +1,428 @@
+// lower.c: expressions to instructions; see code.h.
+//
+// Temporaries are handed out like a stack above the slots, so an operand that waits is never overwritten: a slot is
+// read late only where its name is in sight for as long (an operand that is just a name). The register that a value is
+// wanted in may be a slot whose name is not yet in sight, and whose number inner names have used before; so it is
+// written last.
+#include "program/lower.h"
+
+#include "base/source.h"
+
+static void *grown(Lowering *lowering, void *items, uint32_t count, uint32_t *capacity, size_t size) {
+    if (count < *capacity)
+        return items;
+    uint32_t old = *capacity;
+    *capacity = old ? old * 2 : 8;
+    return arena_grow(lowering->options->arena, items, old * size, *capacity * size);
+}
+
+Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at) {
+    uint32_t capacity = lowering->instr_capacity;
+    lowering->instrs = grown(lowering, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
+    if (lowering->options->lines) {
+        uint32_t same = lowering->instr_capacity;
+        lowering->lines = grown(lowering, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
+        lowering->lines[lowering->instr_count] = at->source ? source_locate(at->source, at->span.start).line : 0;
+    }
+    lowering->instr_capacity = capacity;
+    Instr *instr = &lowering->instrs[lowering->instr_count++];
+    *instr = (Instr){.op = (uint16_t)op, .at = at};
+    return instr;
+}
+
+int32_t lower_temporary(Lowering *lowering) {
+    int32_t temporary = lowering->next_register++;
+    if (lowering->next_register > lowering->register_count)
+        lowering->register_count = lowering->next_register;
+    return temporary;
+}
+
+int32_t lower_constant(Lowering *lowering, Value value) {
+    lowering->constants =
+        grown(lowering, lowering->constants, lowering->constant_count, &lowering->constant_capacity, sizeof(Value));
+    lowering->constants[lowering->constant_count++] = value;
+    return -(int32_t)lowering->constant_count;
+}
+
+int32_t lower_operand(Lowering *lowering, const Expr *expr) {
+    if (expr->kind == EXPR_CONST)
+        return lower_constant(lowering, expr->as.value);
+    if (expr->kind == EXPR_SLOT)
+        return (int32_t)expr->slot;
+    int32_t temporary = lower_temporary(lowering);
+    lower_into(lowering, expr, temporary);
+    return temporary;
+}
+
+// Operands are put down when all of them are known, since those inside have lists of their own.
+uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
+    uint32_t start = lowering->operand_count;
+    for (uint32_t i = 0; i < count; i++) {
+        lowering->operands =
+            grown(lowering, lowering->operands, lowering->operand_count, &lowering->operand_capacity, sizeof(int32_t));
+        lowering->operands[lowering->operand_count++] = operands[i];
+    }
+    return start;
+}
+
+uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count) {
+    int32_t *operands = arena_alloc_array(lowering->options->arena, count, sizeof *operands);
+    for (uint32_t i = 0; i < count; i++)
+        operands[i] = lower_operand(lowering, exprs[i]);
+    return lower_list(lowering, operands, count);
+}
+
+// The end of a jump: the instruction that is emitted next.
+void lower_land(Lowering *lowering, uint32_t jump) {
+    lowering->instrs[jump].target = lowering->instr_count;
+}
+
+static uint32_t emit_jump(Lowering *lowering, Opcode op, int32_t a, const Expr *at) {
+    Instr *jump = lower_emit(lowering, op, at);
+    jump->a = a;
+    return lowering->instr_count - 1;
+}
+
+static void emit_move(Lowering *lowering, int32_t d, int32_t a, const Expr *at) {
+    if (d == a)
+        return;
+    Instr *move = lower_emit(lowering, OP_MOVE, at);
+    move->d = d;
+    move->a = a;
+}
+
+static void emit_unary(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
+    int32_t a = lower_operand(lowering, expr->children[0]);
+    Instr *instr = lower_emit(lowering, op, expr);
+    instr->d = d;
+    instr->a = a;
+}
+
+static void emit_binary(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
+    int32_t a = lower_operand(lowering, expr->children[0]);
+    int32_t b = lower_operand(lowering, expr->children[1]);
+    Instr *instr = lower_emit(lowering, op, expr);
+    instr->d = d;
+    instr->a = a;
+    instr->b = b;
+    instr->c = (int32_t)expr->slot;
+}
+
+static void emit_load(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
+    Instr *instr = lower_emit(lowering, op, expr);
+    instr->d = d;
+    instr->target = expr->slot;
+}
+
+// --- statements: what binds names and has no value
+
+static void bind(Lowering *lowering, const Expr *expr) {
+    const Expr *value = expr->children[0];
+    if (expr->slot_count == 1) {
+        lower_into(lowering, value, (int32_t)expr->slot);
+        return;
+    }
+    int32_t a = lower_operand(lowering, value);
+    Instr *unpack = lower_emit(lowering, OP_UNPACK, expr);
+    unpack->d = (int32_t)expr->slot;
+    unpack->count = expr->slot_count;
+    unpack->a = a;
+}
+
+static void import(Lowering *lowering, const Expr *expr) {
+    int32_t a = lower_operand(lowering, expr->children[0]);
+    Instr *instr = lower_emit(lowering, OP_IMPORT, expr);
+    instr->d = (int32_t)expr->slot;
+    instr->count = expr->slot_count;
+    instr->a = a;
+}
+
+void lower_statement(Lowering *lowering, const Expr *expr) {
+    int32_t mark = lowering->next_register;
+    if (expr->kind == EXPR_BIND)
+        bind(lowering, expr);
+    else if (expr->kind == EXPR_IMPORT)
+        import(lowering, expr);
+    else
+        for (uint32_t i = 0; i < expr->count; i++)
+            lower_statement(lowering, expr->children[i]);
+    lowering->next_register = mark;
+}
+
+// --- values
+
+static void compose(Lowering *lowering, const Expr *expr, int32_t d) {
+    if (expr->slot == 1 && !expr_only_binds(expr->children[expr->count - 1])) {
+        for (uint32_t i = 0; i + 1 < expr->count; i++)
+            lower_statement(lowering, expr->children[i]);
+        lower_into(lowering, expr->children[expr->count - 1], d);
+        return;
+    }
+    int32_t *parts = arena_alloc_array(lowering->options->arena, expr->slot, sizeof *parts);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < expr->count; i++)
+        if (expr_only_binds(expr->children[i]))
+            lower_statement(lowering, expr->children[i]);
+        else
+            parts[count++] = lower_operand(lowering, expr->children[i]);
+    if (count < 2) {
+        emit_move(lowering, d, count ? parts[0] : lower_constant(lowering, VALUE_NULL), expr);
+        return;
+    }
+    uint32_t list = lower_list(lowering, parts, count);
+    Instr *instr = lower_emit(lowering, OP_COMPOSE, expr);
+    instr->d = d;
+    instr->list = list;
+    instr->count = count;
+}
+
+// `or` and `and`: the left value stays unless the right one is wanted.
+static void short_circuit(Lowering *lowering, const Expr *expr, int32_t d) {
+    int32_t left = lower_operand(lowering, expr->children[0]);
+    int32_t result = lower_temporary(lowering);
+    emit_move(lowering, result, left, expr);
+    uint32_t jump = emit_jump(lowering, expr->kind == EXPR_OR ? OP_JUMP_TRUE : OP_JUMP_FALSE, result, expr);
+    lower_into(lowering, expr->children[1], result);
+    lower_land(lowering, jump);
+    emit_move(lowering, d, result, expr);
+}
+
+// A branch of an `if`: its value goes to a register or, in a loop's body, to the loop.
+static void branch(Lowering *lowering, const Expr *expr, const Target *target) {
+    int32_t mark = lowering->next_register;
+    if (target->to_loop)
+        lower_part(lowering, expr, target->loop);
+    else
+        lower_into(lowering, expr, target->d);
+    lowering->next_register = mark;
+}
+
+void lower_if(Lowering *lowering, const Expr *expr, const Target *target) {
+    uint32_t *ends = arena_alloc_array(lowering->options->arena, expr->count, sizeof *ends), end_count = 0, i = 0;
+    for (; i + 1 < expr->count; i += 2) {
+        int32_t mark = lowering->next_register;
+        int32_t test = lower_operand(lowering, expr->children[i]);
+        uint32_t past = emit_jump(lowering, OP_JUMP_FALSE, test, expr->children[i]);
+        lowering->next_register = mark;
+        branch(lowering, expr->children[i + 1], target);
+        ends[end_count++] = emit_jump(lowering, OP_JUMP, 0, expr);
+        lower_land(lowering, past);
+    }
+    if (i < expr->count)
+        branch(lowering, expr->children[i], target);
+    else if (target->to_loop)
+        lower_add_part(lowering, lower_constant(lowering, VALUE_NULL), target->loop, expr);
+    else
+        emit_move(lowering, target->d, lower_constant(lowering, VALUE_NULL), expr);
+    while (end_count > 0)
+        lower_land(lowering, ends[--end_count]);
+}
+
+static void closure(Lowering *lowering, const Expr *expr, int32_t d) {
+    const FunctionCode *code = expr->as.function;
+    int32_t *defaults = arena_alloc_array(lowering->options->arena, code->param_count, sizeof *defaults);
+    for (uint32_t i = 0; i < code->param_count; i++)
+        defaults[i] =
+            code->defaults[i] ? lower_operand(lowering, code->defaults[i]) : lower_constant(lowering, VALUE_NULL);
+    uint32_t list = lower_list(lowering, defaults, code->param_count);
+    Instr *instr = lower_emit(lowering, OP_CLOSURE, expr);
+    instr->d = d;
+    instr->list = list;
+    instr->count = code->param_count;
+}
+
+// A call with no more and no fewer arguments than a built-in takes needs no matching.
+static const Builtin *direct_builtin(const Expr *callee, const CallCode *code) {
+    if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1 ||
+        callee->as.value.as.items[0].type != ITEM_FUNCTION || code->named_count > 0)
+        return NULL;
+    const Builtin *builtin = callee->as.value.as.items[0].as.function->builtin;
+    bool fits =
+        builtin && code->arg_count >= builtin->fixed && (builtin->variadic || code->arg_count == builtin->fixed);
+    return fits ? builtin : NULL;
+}
+
+static void call(Lowering *lowering, const Expr *expr, int32_t d) {
+    const Builtin *builtin = direct_builtin(expr->children[0], expr->as.call);
+    int32_t callee = builtin ? 0 : lower_operand(lowering, expr->children[0]);
+    uint32_t list = lower_operands(lowering, expr->children + 1, expr->count - 1);
+    Instr *instr = lower_emit(lowering, builtin ? OP_BUILTIN : OP_CALL, expr);
+    instr->d = d;
+    instr->b = callee;
+    instr->list = list;
+    instr->count = expr->count - 1;
+    instr->as.builtin = builtin;
+}
+
+// A key that is composed on the spot is looked up by its parts.
+static void lookup(Lowering *lowering, const Expr *expr, int32_t d) {
+    const Expr *key = expr->children[0];
+    bool parts = key->kind == EXPR_COMPOSE && key->slot > 1;
+    for (uint32_t i = 0; parts && i < key->count; i++)
+        parts = !expr_only_binds(key->children[i]);
+    uint32_t count = parts ? key->count : 1;
+    uint32_t list = lower_operands(lowering, parts ? key->children : expr->children, count);
+    Instr *instr = lower_emit(lowering, OP_LOOKUP, expr);
+    instr->d = d;
+    instr->list = list;
+    instr->count = count;
+    instr->target = lowering->options->places ? (*lowering->options->places)++ : UINT32_MAX;
+}
+
+// `vector[start..stop]` takes elements without making the range.
+static void subscript(Lowering *lowering, const Expr *expr, int32_t d) {
+    const Expr *range = expr->children[1];
+    bool slice = range->kind == EXPR_RANGE && range->children[2]->kind == EXPR_CONST &&
+                 value_is_null(range->children[2]->as.value);
+    if (!slice) {
+        emit_binary(lowering, OP_INDEX, expr, d);
+        return;
+    }
+    int32_t a = lower_operand(lowering, expr->children[0]);
+    int32_t b = lower_operand(lowering, range->children[0]);
+    int32_t c = lower_operand(lowering, range->children[1]);
+    Instr *instr = lower_emit(lowering, OP_SLICE, expr);
+    instr->d = d;
+    instr->a = a;
+    instr->b = b;
+    instr->c = c;
+}
+
+static void range(Lowering *lowering, const Expr *expr, int32_t d) {
+    int32_t parts[3];
+    for (int i = 0; i < 3; i++)
+        parts[i] = lower_operand(lowering, expr->children[i]);
+    Instr *instr = lower_emit(lowering, OP_RANGE, expr);
+    instr->d = d;
+    instr->a = parts[0];
+    instr->b = parts[1];
+    instr->c = parts[2];
+}
+
+static Opcode binary_opcode(const Expr *expr) {
+    static const Opcode arith[] = {OP_ADD, OP_SUB, OP_MUL, OP_DIV, OP_FLOORDIV, OP_MOD, OP_POW};
+    switch (expr->kind) {
+    case EXPR_XOR:
+        return OP_XOR;
+    case EXPR_EQ:
+        return OP_EQ;
+    case EXPR_NE:
+        return OP_NE;
+    case EXPR_LT:
+        return OP_LT;
+    case EXPR_GT:
+        return OP_GT;
+    case EXPR_LE:
+        return OP_LE;
+    case EXPR_GE:
+        return OP_GE;
+    case EXPR_IN:
+        return OP_IN;
+    default:
+        return arith[expr->slot];
+    }
+}
+
+static void value(Lowering *lowering, const Expr *expr, int32_t d) {
+    switch (expr->kind) {
+    case EXPR_CONST:
+    case EXPR_SLOT:
+        emit_move(lowering, d, lower_operand(lowering, expr), expr);
+        return;
+    case EXPR_CAPTURE:
+        emit_load(lowering, OP_CAPTURE, expr, d);
+        return;
+    case EXPR_SELF:
+        emit_load(lowering, OP_SELF, expr, d);
+        return;
+    case EXPR_GLOBAL:
+        emit_load(lowering, OP_GLOBAL, expr, d);
+        return;
+    case EXPR_UNBOUND:
+        emit_load(lowering, OP_UNBOUND, expr, d);
+        return;
+    case EXPR_COMPOSE:
+        compose(lowering, expr, d);
+        return;
+    case EXPR_BIND:
+    case EXPR_LET:
+    case EXPR_IMPORT:
+        lower_statement(lowering, expr);
+        emit_move(lowering, d, lower_constant(lowering, VALUE_NULL), expr);
+        return;
+    case EXPR_FUNC:
+        closure(lowering, expr, d);
+        return;
+    case EXPR_FOR:
+        lower_for(lowering, expr, d);
+        return;
+    case EXPR_IF:
+        lower_if(lowering, expr, &(Target){.d = d});
+        return;
+    case EXPR_NODE:
+    case EXPR_APPEND:
+    case EXPR_DECORATE:
+        lower_node(lowering, expr, d);
+        return;
+    case EXPR_CALL:
+        call(lowering, expr, d);
+        return;
+    case EXPR_OR:
+    case EXPR_AND:
+        short_circuit(lowering, expr, d);
+        return;
+    case EXPR_NOT:
+        emit_unary(lowering, OP_NOT, expr, d);
+        return;
+    case EXPR_NEG:
+        emit_unary(lowering, OP_NEG, expr, d);
+        return;
+    case EXPR_POS:
+        emit_unary(lowering, OP_POS, expr, d);
+        return;
+    case EXPR_RANGE:
+        range(lowering, expr, d);
+        return;
+    case EXPR_INDEX:
+        subscript(lowering, expr, d);
+        return;
+    case EXPR_LOOKUP:
+        lookup(lowering, expr, d);
+        return;
+    default:
+        emit_binary(lowering, binary_opcode(expr), expr, d);
+    }
+}
+
+void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
+    int32_t mark = lowering->next_register;
+    value(lowering, expr, d);
+    lowering->next_register = mark;
+}
+
+// The constants in the order in which negative operands count them.
+static const Value *reversed(const Lowering *lowering) {
+    uint32_t count = lowering->constant_count;
+    Value *constants = arena_alloc_array(lowering->options->arena, count, sizeof *constants);
+    for (uint32_t i = 0; i < count; i++)
+        constants[count - 1 - i] = lowering->constants[i];
+    return constants;
+}
+
+const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_t slot_count) {
+    Lowering lowering = {
+        .options = options, .next_register = (int32_t)slot_count, .register_count = (int32_t)slot_count};
+    int32_t result = lower_operand(&lowering, expr);
+    lower_emit(&lowering, OP_RETURN, expr)->a = result;
+    Code *code = arena_alloc(options->arena, sizeof *code);
+    *code = (Code){.instrs = lowering.instrs,
+                   .count = lowering.instr_count,
+                   .register_count = (uint32_t)lowering.register_count,
+                   .slot_count = slot_count,
+                   .loop_count = lowering.loop_count,
+                   .operands = lowering.operands,
+                   .constants = reversed(&lowering),
+                   .constant_count = lowering.constant_count,
+                   .lines = lowering.lines};
+    return code;
+}

@@ -1,0 +1,56 @@
+// lower.h: what the files that lower expressions share: lower.c, and lower_node.c for loops and nodes.
+#ifndef PETRI_PROGRAM_LOWER_H
+#define PETRI_PROGRAM_LOWER_H
+
+#include "program/code.h"
+
+// The code under construction.
+typedef struct Lowering {
+    const LowerOptions *options;
+    Instr *instrs;
+    uint32_t *lines; // as many as instructions, if wanted
+    uint32_t instr_count;
+    uint32_t instr_capacity;
+    int32_t *operands;
+    uint32_t operand_count;
+    uint32_t operand_capacity;
+    Value *constants; // the first one is operand -1
+    uint32_t constant_count;
+    uint32_t constant_capacity;
+    int32_t next_register;
+    int32_t register_count;
+    uint32_t loop_depth;
+    uint32_t loop_count;
+} Lowering;
+
+// Where the value of an expression goes.
+typedef struct Target {
+    int32_t d;
+    bool to_loop; // instead: it is a part of the result of the loop
+    uint16_t loop;
+} Target;
+
+// A new instruction; the pointer is valid until the next.
+Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at);
+// A register of its own until next_register is set back.
+int32_t lower_temporary(Lowering *lowering);
+int32_t lower_constant(Lowering *lowering, Value value);
+// Emits what computes an expression and returns the operand that stands for its value.
+int32_t lower_operand(Lowering *lowering, const Expr *expr);
+uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count);
+uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count);
+void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
+// A binding, whose value is null.
+void lower_statement(Lowering *lowering, const Expr *expr);
+// Makes a jump lead to what comes next.
+void lower_land(Lowering *lowering, uint32_t jump);
+void lower_if(Lowering *lowering, const Expr *expr, const Target *target);
+
+void lower_for(Lowering *lowering, const Expr *expr, int32_t d);
+// The value of a loop's body, or of a part of it.
+void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop);
+void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
+// NODE, DECORATE and APPEND.
+void lower_node(Lowering *lowering, const Expr *expr, int32_t d);
+
+#endif

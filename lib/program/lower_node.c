@@ -1,0 +1,156 @@
+// lower_node.c: loops and nodes; see lower.h.
+#include "program/lower.h"
+
+// --- loops
+
+void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
+    Instr *instr = lower_emit(lowering, OP_ADD_PART, at);
+    instr->a = a;
+    instr->loop = loop;
+}
+
+static const Node *bare_node(const Expr *expr, Arena *arena);
+
+// Has an expression one element at the most, and is it no stream? Then a composition of such parts is not too long, and
+// its parts can be added to what is around it one by one.
+static bool is_small(const Expr *expr) {
+    switch (expr->kind) {
+    case EXPR_NODE:
+        return true;
+    case EXPR_CONST:
+        return expr->as.value.len <= 1 && expr->as.value.kind != VALUE_STREAM;
+    case EXPR_DECORATE:
+    case EXPR_APPEND:
+        return is_small(expr->children[0]);
+    case EXPR_IF:
+        for (uint32_t i = 0; i < expr->count; i++)
+            if ((i % 2 == 1 || i + 1 == expr->count) && !is_small(expr->children[i]))
+                return false;
+        return true;
+    default:
+        return false;
+    }
+}
+
+static bool has_small_parts(const Expr *expr) {
+    for (uint32_t i = 0; i < expr->count; i++)
+        if (!expr_only_binds(expr->children[i]) && !is_small(expr->children[i]))
+            return false;
+    return true;
+}
+
+void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop) {
+    int32_t mark = lowering->next_register;
+    bool single = expr->kind == EXPR_COMPOSE && expr->slot == 1;
+    if (expr->kind == EXPR_IF) {
+        lower_if(lowering, expr, &(Target){.to_loop = true, .loop = loop});
+    } else if (single || (expr->kind == EXPR_COMPOSE && expr->slot > 1 && has_small_parts(expr))) {
+        for (uint32_t i = 0; i < expr->count; i++)
+            if (expr_only_binds(expr->children[i]))
+                lower_statement(lowering, expr->children[i]);
+            else
+                lower_part(lowering, expr->children[i], loop);
+    } else {
+        lower_add_part(lowering, lower_operand(lowering, expr), loop, expr);
+    }
+    lowering->next_register = mark;
+}
+
+void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
+    int32_t source = lower_operand(lowering, expr->children[0]);
+    uint16_t loop = (uint16_t)lowering->loop_depth++; // expressions are not nested as deeply as that
+    if (lowering->loop_depth > lowering->loop_count)
+        lowering->loop_count = lowering->loop_depth;
+    Instr *begin = lower_emit(lowering, OP_FOR, expr);
+    begin->a = source;
+    begin->d = (int32_t)expr->slot;
+    begin->count = expr->slot_count;
+    begin->loop = loop;
+    uint32_t start = lowering->instr_count - 1;
+    lower_part(lowering, expr->children[1], loop);
+    Instr *next = lower_emit(lowering, OP_NEXT, expr);
+    next->d = (int32_t)expr->slot;
+    next->count = expr->slot_count;
+    next->loop = loop;
+    next->target = start + 1;
+    lower_land(lowering, start);
+    Instr *collect = lower_emit(lowering, OP_COLLECT, expr);
+    collect->d = d;
+    collect->loop = loop;
+    lowering->loop_depth--;
+}
+
+// --- nodes
+
+// The node that an expression is before anything has been added to it, or NULL if it is something else.
+static const Node *bare_node(const Expr *expr, Arena *arena) {
+    if (expr->kind == EXPR_NODE)
+        return node_new(arena, expr->as.name);
+    if (expr->kind != EXPR_CONST || expr->as.value.kind != VALUE_MIXED || expr->as.value.len != 1 ||
+        expr->as.value.as.items[0].type != ITEM_NODE)
+        return NULL;
+    const Node *node = expr->as.value.as.items[0].as.node;
+    return node->attr_count == 0 && node->child_count == 0 ? node : NULL;
+}
+
+static bool names_differ(const DecorateCode *code) {
+    for (uint32_t i = 0; i < code->attr_count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (code->names[i] == code->names[k])
+                return false;
+    return true;
+}
+
+enum { MOST_DISTINCT = 64 }; // attributes that are compared with each other
+
+// A node with attributes and children that can be made at once; false if it cannot.
+static bool whole_node(Lowering *lowering, const Expr *expr, int32_t d) {
+    Arena *values = lowering->options->values;
+    const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
+    const Expr *inner = append ? append->children[0] : expr;
+    const Expr *decorate = inner->kind == EXPR_DECORATE ? inner : NULL;
+    const Node *base = bare_node(decorate ? decorate->children[0] : inner, values);
+    const DecorateCode *code = decorate ? decorate->as.decorate : NULL;
+    if (!base || (code && (code->attr_count > MOST_DISTINCT || !names_differ(code))))
+        return false;
+    for (uint32_t i = 0; code && i < code->tag_count; i++)
+        base = node_add_tag(values, base, code->tags[i]);
+    NodeCode *node = arena_alloc(lowering->options->arena, sizeof *node);
+    *node = (NodeCode){.base = base,
+                       .names = code ? code->names : NULL,
+                       .decorate = decorate,
+                       .kept = append ? append->as.kept : NULL};
+    uint32_t count = code ? code->attr_count : 0;
+    uint32_t list = code ? lower_operands(lowering, decorate->children + 1, count) : 0;
+    int32_t children = CODE_NO_OPERAND;
+    if (append && !node->kept)
+        children = lower_operand(lowering, append->children[1]);
+    Instr *instr = lower_emit(lowering, OP_NODE, expr);
+    instr->d = d;
+    instr->list = list;
+    instr->count = count;
+    instr->b = children;
+    instr->as.node = node;
+    return true;
+}
+
+void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
+    if (whole_node(lowering, expr, d))
+        return;
+    int32_t subject = lower_operand(lowering, expr->children[0]);
+    if (expr->kind == EXPR_APPEND) {
+        int32_t children = expr->as.kept ? CODE_NO_OPERAND : lower_operand(lowering, expr->children[1]);
+        Instr *append = lower_emit(lowering, OP_APPEND, expr);
+        append->d = d;
+        append->a = subject;
+        append->b = children;
+        return;
+    }
+    uint32_t count = expr->as.decorate->attr_count;
+    uint32_t list = lower_operands(lowering, expr->children + 1, count);
+    Instr *decorate = lower_emit(lowering, OP_DECORATE, expr);
+    decorate->d = d;
+    decorate->b = subject;
+    decorate->list = list;
+    decorate->count = count;
+}

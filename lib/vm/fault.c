@@ -1,0 +1,62 @@
+// fault.c: what the machine reports; see machine.h.
+#include "vm/machine.h"
+
+#include <stdarg.h>
+
+static bool first_fault(Vm *vm, const Expr *at, uint64_t what) {
+    if (vm->reported_count >= VM_REPORTED / 2)
+        return false;
+    uint32_t i = (uint32_t)hash_mix((uint64_t)(uintptr_t)at ^ what << 1) % VM_REPORTED;
+    for (; vm->reported[i].at; i = (i + 1) % VM_REPORTED)
+        if (vm->reported[i].at == at && vm->reported[i].what == what)
+            return false;
+    vm->reported[i] = (Reported){at, what};
+    vm->reported_count++;
+    return true;
+}
+
+static void report(Vm *vm, const Expr *at, DiagLevel level, const char *code, Str text) {
+    Diag diag = {.level = level, .source = at->source, .span = at->span, .text = text, .code = code};
+    vm->host.report(vm->host.host, &diag);
+}
+
+void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text) {
+    if (first_fault(vm, at, hash_bytes(0, text.bytes, text.len)))
+        report(vm, at, DIAG_WARNING, code, text);
+}
+
+void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) {
+    if (!first_fault(vm, at, (uint64_t)(uintptr_t)format))
+        return;
+    va_list args;
+    va_start(args, format);
+    Text text = text_new(vm->arena);
+    text_add_va(&text, format, args);
+    va_end(args);
+    report(vm, at, DIAG_WARNING, code, text_str(&text));
+}
+
+bool vm_work_goes_on(Vm *vm, const Expr *at) {
+    enum { BETWEEN_LOOKS = 1024 };
+    if (vm->stopped)
+        return false;
+    vm->stopped = vm->interrupt && atomic_load_explicit(vm->interrupt, memory_order_relaxed);
+    if (!vm->stopped && vm->work <= vm->work_limit) {
+        uint64_t left = vm->work_limit - vm->work;
+        vm->work_pause = vm->work + (left < BETWEEN_LOOKS ? left : BETWEEN_LOOKS);
+        return true;
+    }
+    vm->work_pause = 0; // each further call comes here
+    if (vm->stopped)
+        return false;
+    vm->stopped = true;
+    report(vm, at, DIAG_ERROR, "work-limit",
+           STR("the frame makes more than 134217728 calls and loop rounds; it is given up"));
+    return false;
+}
+
+Value vm_finish(Vm *vm, const Expr *at, Vector *vector) {
+    if (vector->overflow)
+        vm_fault(vm, at, "too-long", "vector too long: the limit is 134217728 elements");
+    return vector_finish(vector);
+}

@@ -1,0 +1,259 @@
+// make.c: instructions that make vectors and nodes or look something up; see machine.h.
+#include "vm/machine.h"
+
+#include "value/seed.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+enum { FEW = 8 };
+
+static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
+    if (part->len == 1) {
+        numbers[at] = part->as.number;
+        return at + 1;
+    }
+    if (part->len)
+        memcpy(numbers + at, part->as.numbers, part->len * sizeof *numbers);
+    return at + part->len;
+}
+
+// Numbers are put together in one allocation; anything else goes through a builder.
+Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Expr *at) {
+    uint64_t len = 0;
+    bool numeric = true;
+    for (uint32_t i = 0; i < instr->count; i++) {
+        const Value *part = &slots[list[i]];
+        numeric = numeric && part->kind == VALUE_NUMBERS;
+        len += part->len;
+    }
+    if (numeric && len > 1 && len <= VALUE_MAX_LEN) {
+        double *numbers = arena_alloc(vm->arena, len * sizeof *numbers);
+        uint32_t filled = 0;
+        for (uint32_t i = 0; i < instr->count; i++)
+            filled = add_numbers(numbers, filled, &slots[list[i]]);
+        return (Value){.len = filled, .as.numbers = numbers};
+    }
+    Vector vector = vector_new(vm->arena);
+    for (uint32_t i = 0; i < instr->count; i++)
+        vector_add(&vector, slots[list[i]]);
+    return vm_finish(vm, at, &vector);
+}
+
+// --- nodes
+
+Value vm_append(Vm *vm, const Expr *expr, Value parent, Value children) {
+    NodeList list = expr->as.kept ? *expr->as.kept : node_list(vm->arena, children);
+    bool too_high = false;
+    Value result = value_append(vm->arena, parent, &list, &too_high);
+    if (too_high)
+        vm_fault(vm, expr, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
+    return result;
+}
+
+static void attributes_too_deep(Vm *vm, const Expr *at) {
+    vm_fault(vm, at, "too-deep", "nodes in attributes too deep: the limit is 12000 levels; not set");
+}
+
+Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+    const DecorateCode *decorate = instr->at->as.decorate;
+    Value subject = slots[instr->b];
+    Attr *attrs = arena_alloc_array(vm->arena, instr->count, sizeof *attrs);
+    for (uint32_t i = 0; i < instr->count; i++)
+        attrs[i] = (Attr){decorate->names[i], slots[list[i]]};
+    for (uint32_t i = 0; i < decorate->tag_count; i++)
+        subject = value_add_tag(vm->arena, subject, decorate->tags[i]);
+    bool too_high = false;
+    if (instr->count)
+        subject = value_set_attrs(vm->arena, subject, attrs, instr->count, &too_high);
+    if (too_high)
+        attributes_too_deep(vm, instr->at);
+    return subject;
+}
+
+// A node with the vector that holds it.
+typedef struct Made {
+    Node node;
+    Item item;
+} Made;
+
+// The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
+static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
+                           Attr *attrs) {
+    uint32_t count = 0, height = node->height;
+    for (uint32_t i = 0; i < instr->count; i++) {
+        const Value *value = &slots[list[i]];
+        if (value->len == 0)
+            continue;
+        if (value->kind == VALUE_MIXED && value_height(*value) >= height)
+            height = value_height(*value) + 1;
+        attrs[count++] = (Attr){instr->as.node->names[i], *value};
+    }
+    if (height > NODE_MAX_HEIGHT) {
+        attributes_too_deep(vm, instr->as.node->decorate);
+        return;
+    }
+    node->attrs = attrs;
+    node->attr_count = count;
+    node->height = (uint16_t)height;
+}
+
+static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList *list) {
+    if (list->height >= NODE_MAX_HEIGHT) {
+        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
+        return;
+    }
+    if (list->count == 0)
+        return;
+    node->children = list->nodes;
+    node->child_count = list->count;
+    node->kept_children = list->kept;
+    if (list->height >= node->height)
+        node->height = (uint16_t)(list->height + 1);
+}
+
+// Node, vector, attributes and list of children are one allocation.
+Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+    const NodeCode *plan = instr->as.node;
+    const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
+    uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
+    Made *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
+    Attr *attrs = (Attr *)(made + 1);
+    const Node **nodes = (const Node **)(attrs + instr->count);
+    made->node = *plan->base;
+    made->node.kept = made->node.kept_children = false;
+    made->item = (Item){ITEM_NODE, .as.node = &made->node};
+    if (instr->count)
+        set_attributes(vm, list, slots, instr, &made->node, attrs);
+    if (plan->kept) {
+        set_children(vm, instr, &made->node, plan->kept);
+    } else if (room) {
+        NodeList given = node_list_in(nodes, *children);
+        set_children(vm, instr, &made->node, &given);
+    }
+    return (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &made->item};
+}
+
+// --- elements
+
+static Value index_stream(Vm *vm, Value stream, Value index) {
+    if (!value_is_numeric(index))
+        return VALUE_NULL;
+    const double *at = value_numbers(&index);
+    if (index.len == 1)
+        return value_number(value_stream_item(stream, value_stream_position(at[0])));
+    double *items = arena_alloc_array(vm->arena, index.len, sizeof *items);
+    for (uint32_t i = 0; i < index.len; i++)
+        items[i] = value_stream_item(stream, value_stream_position(at[i]));
+    return value_numbers_view(items, index.len);
+}
+
+Value vm_index(Vm *vm, Value vector, Value index) {
+    return vector.kind == VALUE_STREAM ? index_stream(vm, vector, index) : value_index(vm->arena, vector, index);
+}
+
+Value vm_range(Vm *vm, const Expr *at, Value start, Value stop, Value step) {
+    bool too_long = false;
+    Value range = op_range(vm->arena, start, stop, step, &too_long);
+    if (too_long)
+        vm_fault(vm, at, "too-long", "range too long: the limit is 134217728 elements");
+    return range;
+}
+
+// Whole numbers within the vector need no range: its elements are copied.
+Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop) {
+    if (is_number(&stop) && (is_number(&start) || start.len == 0) && vector.kind == VALUE_NUMBERS) {
+        double from = start.len ? start.as.number : 0, to = stop.as.number;
+        if (from >= 0 && to <= vector.len && to - from >= 2 && (double)(uint32_t)from == from &&
+            (double)(uint32_t)to == to) {
+            uint32_t len = (uint32_t)to - (uint32_t)from;
+            double *numbers = arena_alloc(vm->arena, len * sizeof *numbers);
+            memcpy(numbers, vector.as.numbers + (uint32_t)from, len * sizeof *numbers);
+            return (Value){.len = len, .as.numbers = numbers};
+        }
+    }
+    return vm_index(vm, vector, vm_range(vm, at->children[1], start, stop, VALUE_NULL));
+}
+
+// --- the state
+
+void vm_memo_begin(Vm *vm, uint32_t count) {
+    if (count > vm->memo_count) {
+        Memo *memos = realloc(vm->memos, count * sizeof *memos);
+        if (memos) {
+            memset(memos + vm->memo_count, 0, (count - vm->memo_count) * sizeof *memos);
+            vm->memos = memos;
+            vm->memo_count = count;
+        }
+    }
+    for (uint32_t i = 0; i < vm->memo_count; i++)
+        vm->memos[i].next = 0;
+}
+
+void vm_memo_free(Vm *vm) {
+    for (uint32_t i = 0; i < vm->memo_count; i++)
+        free(vm->memos[i].slots);
+    free(vm->memos);
+    vm->memos = NULL;
+    vm->memo_count = 0;
+}
+
+// A place that is reached more often in a frame than this goes without after that.
+enum { MOST_REMEMBERED = 1 << 22 };
+
+// Where the guess for the next look-up of a place is kept, or NULL.
+static StateSlot *memo_next(Vm *vm, uint32_t place) {
+    if (place >= vm->memo_count)
+        return NULL;
+    Memo *memo = &vm->memos[place];
+    if (memo->next == memo->count) {
+        if (memo->count == memo->capacity) {
+            uint32_t capacity = memo->capacity ? memo->capacity * 2 : 4;
+            StateSlot *slots = capacity > MOST_REMEMBERED ? NULL : realloc(memo->slots, capacity * sizeof *slots);
+            if (!slots)
+                return NULL;
+            memo->slots = slots;
+            memo->capacity = capacity;
+        }
+        memo->slots[memo->count++] = STATE_NO_SLOT;
+    }
+    return &memo->slots[memo->next++];
+}
+
+// Same bits, so that the check is not looser than a look-up.
+static bool slot_has_key(const State *state, StateSlot slot, const double *numbers, uint32_t len) {
+    Value key = state_slot_key(state, slot);
+    if (key.len != len || key.kind != VALUE_NUMBERS)
+        return false;
+    return memcmp(value_numbers(&key), numbers, len * sizeof *numbers) == 0;
+}
+
+static Value get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
+    StateSlot *guess = memo_next(vm, place), slot = guess ? *guess : STATE_NO_SLOT;
+    if (slot == STATE_NO_SLOT || !slot_has_key(vm->state, slot, numbers, len)) {
+        slot = state_find(vm->state, value_numbers_view(numbers, len));
+        if (guess)
+            *guess = slot;
+    }
+    return slot == STATE_NO_SLOT ? VALUE_NULL : state_slot_get(vm->state, slot);
+}
+
+// Keys are a few numbers nearly always: they need not be made into a vector. The dictionary's value is copied into the
+// frame: systems may overwrite it in place after the evaluation.
+Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+    vm->met_dynamic = true;
+    double few[FEW];
+    uint32_t count = 0;
+    while (count < instr->count && count < FEW && is_number(&slots[list[count]])) {
+        few[count] = slots[list[count]].as.number;
+        count++;
+    }
+    if (count == instr->count && vm->state)
+        return value_copy(vm->arena, get(vm, instr->target, few, count));
+    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->at->children[0]);
+    if (!vm->state)
+        return VALUE_NULL;
+    if (key.kind == VALUE_NUMBERS && key.len > 0)
+        return value_copy(vm->arena, get(vm, instr->target, value_numbers(&key), key.len));
+    return value_copy(vm->arena, state_get(vm->state, key));
+}

@@ -1,0 +1,200 @@
+// measure.c: see measure.h.
+#include "measure.h"
+
+#include "limit.h"
+#include "worker.h"
+#include "workloads.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <stddef.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { VARIANTS = 3, STARTS_MOST = 8 };
+
+// Whole words: "soft discs 10000" is not "soft discs 1000000", but has the row of ten steps.
+static bool begins_with_words(const char *name, const char *words) {
+    size_t length = strlen(words);
+    return !strncmp(name, words, length) && (name[length] == '\0' || name[length] == ' ');
+}
+
+bool measure_wanted(const Plan *plan, const Case *c) {
+    if (plan->tiny)
+        return c->n <= 200 || !strcmp(c->name, "script 500");
+    return plan->only ? begins_with_words(c->name, plan->only) : c->n <= plan->largest;
+}
+
+static int by_value(const void *a, const void *b) {
+    double x = *(const double *)a, y = *(const double *)b;
+    return (x > y) - (x < y);
+}
+
+double measure_median(double *values, int count) {
+    if (count == 0)
+        return NAN;
+    qsort(values, (size_t)count, sizeof *values, by_value);
+    return 0.5 * (values[(count - 1) / 2] + values[count / 2]);
+}
+
+// The median over rounds of the member at this offset.
+static double median_of(const Sample *rounds, int count, size_t member) {
+    double values[ROUNDS_MOST];
+    for (int i = 0; i < count; i++)
+        memcpy(&values[i], (const char *)&rounds[i] + member, sizeof *values);
+    return measure_median(values, count);
+}
+
+static double least_frame(const Sample *rounds, int count) {
+    double least = INFINITY;
+    for (int i = 0; i < count; i++)
+        least = fmin(least, rounds[i].frame);
+    return least;
+}
+
+Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executable, int threads) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", plan->scripts, c->script);
+    Worker worker = worker_start(executable, path, threads, c->fps);
+    // The first frame makes no step. Very slow ones are not waited for.
+    double start = clock_now();
+    worker_run(&worker, 2, false);
+    for (int steps = c->steps; steps < plan->warm_steps && clock_now() - start < 15; steps += 5 * c->steps)
+        worker_run(&worker, 5, false);
+    return worker;
+}
+
+// Neighbour lists are rebuilt every 10 to 15 steps: a round must hold several rebuilds.
+int measure_round_frames(Worker *worker, const Case *c, double budget) {
+    int least = c->unit == PER_STEP ? (30 + c->steps - 1) / c->steps : 3, most = 2000;
+    double frame = worker_run(worker, 3, false).frame, frames = ceil(budget / frame);
+    return frames < least ? least : frames > most ? most : (int)frames;
+}
+
+static double time_start(const Plan *plan, const Case *c) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", plan->scripts, c->script);
+    double begin = clock_now();
+    pid_t process = fork();
+    if (process == 0) {
+        int nothing = open("/dev/null", O_RDWR);
+        dup2(nothing, STDIN_FILENO);
+        dup2(nothing, STDOUT_FILENO);
+        execl(plan->petri, plan->petri, "run", "--frames", "1", path, (char *)NULL);
+        _exit(127);
+    }
+    int status;
+    if (process < 0 || waitpid(process, &status, 0) != process || status != 0) {
+        fprintf(stderr, "bench: cannot run %s on %s\n", plan->petri, path);
+        exit(1);
+    }
+    return clock_now() - begin;
+}
+
+static double limit_once(const Case *c) {
+    switch (c->limit) {
+    case LIMIT_PAIRS_2D:
+        return limit_pair(c->n, 2);
+    case LIMIT_PAIRS_3D:
+        return limit_pair(c->n, 3);
+    case LIMIT_DISCS:
+        return limit_discs(c->side);
+    case LIMIT_NONE:
+        break;
+    }
+    return 0;
+}
+
+typedef struct Rounds {
+    Worker workers[VARIANTS];
+    bool present[VARIANTS]; // one thread, plan->threads, the other build
+    Sample samples[VARIANTS][ROUNDS_MOST];
+    double starts[ROUNDS_MOST * STARTS_MOST];
+    int start_count;
+    double limit;
+} Rounds;
+
+static void run_round(const Plan *plan, const Case *c, Rounds *r, int round, int frames) {
+    for (int turn = 0; turn < VARIANTS; turn++) {
+        int k = (turn + round) % VARIANTS;
+        if (r->present[k])
+            r->samples[k][round] = worker_run(&r->workers[k], frames, k == 0);
+    }
+    for (int i = 0; i < plan->starts && (i == 0 || c->n < 100000); i++)
+        r->starts[r->start_count++] = time_start(plan, c);
+    if (plan->limits && round < 2) {
+        double limit = limit_once(c);
+        r->limit = round == 0 ? limit : fmin(r->limit, limit);
+    }
+}
+
+static Figures figures_of(const Case *c, Rounds *r, int rounds) {
+    const Sample *one = r->samples[0];
+    Figures f = {.done = true, .physics_threads = NAN, .frame_threads = NAN, .other_physics = NAN, .other_frame = NAN};
+    f.evaluation = median_of(one, rounds, offsetof(Sample, evaluation));
+    f.physics = median_of(one, rounds, offsetof(Sample, physics));
+    f.frame = median_of(one, rounds, offsetof(Sample, frame));
+    f.output = median_of(one, rounds, offsetof(Sample, output));
+    f.allocations = median_of(one, rounds, offsetof(Sample, allocations));
+    f.steps = median_of(one, rounds, offsetof(Sample, steps));
+    f.least = least_frame(one, rounds);
+    f.load = one[0].load;
+    // Later rounds have written text.
+    f.peak = one[0].peak;
+    f.per_particle = (one[0].peak - one[0].base) / c->n;
+    if (r->present[1]) {
+        f.physics_threads = median_of(r->samples[1], rounds, offsetof(Sample, physics));
+        f.frame_threads = median_of(r->samples[1], rounds, offsetof(Sample, frame));
+    }
+    if (r->present[2]) {
+        f.other_physics = median_of(r->samples[2], rounds, offsetof(Sample, physics));
+        f.other_frame = median_of(r->samples[2], rounds, offsetof(Sample, frame));
+    }
+    f.start_median = measure_median(r->starts, r->start_count);
+    f.start_least = r->starts[0];
+    f.limit = r->limit > 0 ? r->limit : NAN;
+    return f;
+}
+
+Figures measure_case(const Plan *plan, const Case *c) {
+    Rounds r = {.present = {true, plan->threads > 1, plan->other != NULL}};
+    const char *executables[VARIANTS] = {plan->self, plan->self, plan->other};
+    int rounds = c->n > 200000 && plan->rounds > 3 ? 3 : plan->rounds;
+    for (int k = 0; k < VARIANTS; k++)
+        if (r.present[k])
+            r.workers[k] = measure_warm_worker(plan, c, executables[k], k == 0 ? 1 : plan->threads);
+    int frames = measure_round_frames(&r.workers[0], c, plan->budget);
+    for (int round = 0; round < rounds; round++)
+        run_round(plan, c, &r, round, frames);
+    for (int k = 0; k < VARIANTS; k++)
+        if (r.present[k])
+            worker_stop(&r.workers[k]);
+    return figures_of(c, &r, rounds);
+}
+
+// Both sides run on this thread only, so its own time tells the least disturbed figure.
+static double thread_seconds(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+KernelFigures measure_kernel(const Plan *plan, int dimensions) {
+    enum { N = 4000, STEPS = 5 };
+    PhysOptions options = {.threads = 1};
+    cpu_choose(getenv("PETRI_CPU"), &options.cpu);
+    Workload w = workload_open(dimensions == 2 ? CHARGES : GRAVITY, N, &options);
+    double best = INFINITY, limit = INFINITY;
+    workload_frame(&w, STEPS);
+    for (int round = 0; round < plan->rounds; round++) {
+        double begin = thread_seconds();
+        workload_frame(&w, STEPS);
+        best = fmin(best, thread_seconds() - begin);
+        limit = fmin(limit, limit_pair(N, dimensions));
+    }
+    workload_close(&w);
+    return (KernelFigures){.ours = best / STEPS / (0.5 * N * (N - 1.0)), .limit = limit * 1e-9};
+}

@@ -1,0 +1,150 @@
+// peers.c: see peers.h.
+#include "peers.h"
+
+#include "worker.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { STYLES = 2 };
+
+static const char *const styles[STYLES] = {"harmonic", "hooke"};
+
+// Million particle-steps per second on two ranks: shared/bench/README.md, section 2 (newer LAMMPS, another machine).
+static const struct {
+    const char *peer;
+    int side;
+    double rate[STYLES];
+} published[] = {
+    {"soft2d", 100, {42.3, 25.4}}, {"soft2d", 316, {33.3, 21.0}}, {"soft2d", 1000, {26.5, 15.9}},
+    {"soft3d", 22, {18.5, 13.4}},  {"soft3d", 46, {15.6, 8.65}},  {"soft3d", 100, {13.8, 7.66}},
+};
+
+// One run of LAMMPS.
+typedef struct PeerRun {
+    char style[16]; // the one used
+    double rate;    // particle-steps per second
+    double share;   // of a processor that each rank had, in percent
+} PeerRun;
+
+static FILE *open_command(const char *folder, const char *arguments) {
+    char command[4600];
+    snprintf(command, sizeof command, "'%s/lammps.sh' %s", folder, arguments);
+    FILE *pipe = popen(command, "r");
+    if (!pipe) {
+        fputs("bench: cannot run lammps.sh\n", stderr);
+        exit(1);
+    }
+    return pipe;
+}
+
+bool peers_there(const char *folder, char *version, size_t size) {
+    FILE *pipe = open_command(folder, "version");
+    bool found = fgets(version, (int)size, pipe) != NULL;
+    version[found ? strcspn(version, "\n") : 0] = '\0';
+    return pclose(pipe) == 0 && found;
+}
+
+static PeerRun run_peer(const char *folder, const Case *c, const char *style, const Plan *plan) {
+    char arguments[128];
+    int steps = plan->tiny ? 20 : c->peer_steps;
+    snprintf(arguments, sizeof arguments, "%d %d %d %s %d", strcmp(c->peer, "soft2d") ? 3 : 2, c->side, steps, style,
+             plan->threads);
+    PeerRun run = {0};
+    FILE *pipe = open_command(folder, arguments);
+    int found = fscanf(pipe, "%15s %lf %lf", run.style, &run.rate, &run.share);
+    if (pclose(pipe) != 0 || found != 3) {
+        fputs("bench: LAMMPS did not run; leave out --peers to measure petri alone\n", stderr);
+        exit(1);
+    }
+    return run;
+}
+
+// Runs that shared their processors with others count only if there are no clean ones.
+static double clean_median(const PeerRun *runs, int count, int *clean) {
+    double values[ROUNDS_MOST];
+    *clean = 0;
+    for (int i = 0; i < count; i++)
+        if (runs[i].share >= 97)
+            values[(*clean)++] = runs[i].rate;
+    for (int i = 0; i < count && *clean == 0; i++)
+        values[i] = runs[i].rate;
+    return measure_median(values, *clean ? *clean : count);
+}
+
+static const Column columns[] = {
+    {"workload", "workload", ""},
+    {"steps", "steps per", "frame"},
+    {"petri_million_per_s", "petri", "M/s"},
+    {"lammps_style", "LAMMPS", "style"},
+    {"lammps_million_per_s", "LAMMPS", "M/s"},
+    {"ratio", "petri /", "LAMMPS"},
+    {"clean_runs", "clean", "runs"},
+    {"published_million_per_s", "published", "M/s"},
+};
+
+static double published_rate(const Case *c, int style) {
+    for (size_t i = 0; i < sizeof published / sizeof *published; i++)
+        if (!strcmp(published[i].peer, c->peer) && published[i].side == c->side)
+            return published[i].rate[style];
+    return NAN;
+}
+
+static void keep_ratio(PeerRatios *ratios, const Case *c, int ten, double ratio) {
+    if (!strcmp(c->peer, "soft2d") && c->side == 316)
+        ratios->discs_1e5[ten] = ratio;
+    if (!strcmp(c->peer, "soft2d") && c->side == 1000)
+        ratios->discs_1e6[ten] = ratio;
+}
+
+// c[0] has frames of one step, c[1] of ten.
+static void measure_peer(const Plan *plan, const char *folder, const Case *c, Table *table, PeerRatios *ratios) {
+    Worker workers[2];
+    int frames[2];
+    double rate[2][ROUNDS_MOST], ours[2];
+    PeerRun runs[STYLES][ROUNDS_MOST];
+    int rounds = c->n > 200000 && plan->rounds > 3 ? 3 : plan->rounds < 5 ? plan->rounds : 5;
+    for (int k = 0; k < 2; k++) {
+        workers[k] = measure_warm_worker(plan, &c[k], plan->self, plan->threads);
+        frames[k] = measure_round_frames(&workers[k], &c[k], plan->budget);
+    }
+    for (int round = 0; round < rounds; round++)
+        for (int k = 0; k < 2; k++) {
+            Sample s = worker_run(&workers[k], frames[k], false);
+            rate[k][round] = c->n * s.steps / s.frame;
+            runs[k][round] = run_peer(folder, c, styles[k], plan);
+        }
+    for (int k = 0; k < 2; k++) {
+        worker_stop(&workers[k]);
+        ours[k] = measure_median(rate[k], rounds);
+    }
+    for (int style = 0; style < STYLES; style++)
+        for (int k = 0; k < 2; k++) {
+            int clean;
+            double theirs = clean_median(runs[style], rounds, &clean);
+            char clean_text[24];
+            snprintf(clean_text, sizeof clean_text, "%d of %d", clean, rounds);
+            Cell *row = table_row(table);
+            row[0] = cell_text(c->name);
+            row[1] = cell_number(c[k].steps);
+            row[2] = cell_number(ours[k] * 1e-6);
+            row[3] = cell_text(runs[style][0].style);
+            row[4] = cell_number(theirs * 1e-6);
+            row[5] = cell_number(ours[k] / theirs);
+            row[6] = cell_text(clean_text);
+            row[7] = cell_number(published_rate(c, style));
+            if (style == 0)
+                keep_ratio(ratios, c, k, ours[k] / theirs);
+        }
+}
+
+Table peers_measure(const Plan *plan, const char *folder, PeerRatios *ratios) {
+    Table table = table_new("Particle-steps per second beside LAMMPS", columns, sizeof columns / sizeof *columns);
+    for (size_t i = 0; i < case_count; i++)
+        if (cases[i].peer && cases[i].steps == 1 && measure_wanted(plan, &cases[i])) {
+            fprintf(stderr, "bench: %s beside LAMMPS\n", cases[i].name);
+            measure_peer(plan, folder, &cases[i], &table, ratios);
+        }
+    return table;
+}

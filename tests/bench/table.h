@@ -1,0 +1,41 @@
+// table.h: a table of figures, written as aligned text, Markdown or CSV.
+#ifndef TESTS_BENCH_TABLE_H
+#define TESTS_BENCH_TABLE_H
+
+#include <stddef.h>
+#include <stdio.h>
+
+typedef struct Column {
+    const char *name; // in CSV
+    const char *top;  // the two lines of its heading
+    const char *bottom;
+} Column;
+
+enum { TABLE_CELLS = 24, TABLE_TEXT = 64 };
+
+// A cell holds a text, or a number if the text is empty; NaN stands for a figure that there is not.
+typedef struct Cell {
+    char text[TABLE_TEXT]; // without commas and quotes
+    double number;
+} Cell;
+
+typedef struct Table {
+    const char *title;
+    const Column *columns;
+    size_t column_count; // at most TABLE_CELLS
+    Cell (*rows)[TABLE_CELLS];
+    size_t row_count;
+} Table;
+
+Table table_new(const char *title, const Column *columns, size_t column_count);
+void table_free(Table *table);
+// A new row, to be filled with the functions below; it moves when the next one is made.
+Cell *table_row(Table *table);
+Cell cell_number(double x);
+Cell cell_text(const char *text);
+
+void table_write_text(const Table *table, FILE *file);
+void table_write_markdown(const Table *table, FILE *file);
+void table_write_csv(const Table *table, FILE *file);
+
+#endif

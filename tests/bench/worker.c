@@ -1,0 +1,172 @@
+// worker.c: see worker.h.
+#include "worker.h"
+
+#include "allocations.h"
+#include "petri.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <time.h>
+#include <unistd.h>
+
+double clock_now(void) {
+    struct timespec t;
+    clock_gettime(CLOCK_MONOTONIC, &t);
+    return (double)t.tv_sec + (double)t.tv_nsec * 1e-9;
+}
+
+static void give_up(const char *what) {
+    fprintf(stderr, "bench: %s: %s\n", what, strerror(errno));
+    exit(1);
+}
+
+// ---- the worker's side
+
+static void show_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
+    (void)host;
+    fputs(diagnostic->rendered, stderr);
+}
+
+static bool take_text(void *host, const char *text, size_t length) {
+    (void)text;
+    *(uint64_t *)host += length;
+    return true;
+}
+
+// The kernel's figure `name` for this process, such as VmHWM, in bytes. Unlike getrusage's it does not begin with what
+// the parent had in use.
+static double memory_figure(const char *name) {
+    FILE *file = fopen("/proc/self/status", "r");
+    char line[256];
+    double bytes = 0;
+    size_t length = strlen(name);
+    while (file && fgets(line, sizeof line, file))
+        if (!strncmp(line, name, length) && line[length] == ':')
+            bytes = strtod(line + length + 1, NULL) * 1024;
+    if (file)
+        fclose(file);
+    return bytes;
+}
+
+static bool run_frames(PetriSession *session, int frames, Sample *sum) {
+    for (int i = 0; i < frames; i++) {
+        uint64_t before = allocations_so_far();
+        double begin = clock_now();
+        if (petri_step(session) != PETRI_OK) {
+            fputs("bench: the script reached a limit\n", stderr);
+            return false;
+        }
+        sum->frame += clock_now() - begin;
+        sum->allocations += (double)(allocations_so_far() - before);
+        PetriFrame frame = petri_frame(session);
+        sum->evaluation += frame.evaluation_seconds;
+        sum->physics += frame.physics_seconds;
+        sum->steps += (double)frame.physics_steps;
+    }
+    sum->frame /= frames;
+    sum->allocations /= frames;
+    sum->evaluation /= frames;
+    sum->physics /= frames;
+    sum->steps /= frames;
+    return true;
+}
+
+// Seconds of writing the state once, of several times if that is short.
+static double time_output(PetriSession *session) {
+    double begin = clock_now(), spent;
+    int times = 0;
+    uint64_t bytes = 0;
+    do {
+        petri_print(session, PETRI_PRINT_STATE, take_text, &bytes);
+        times++;
+    } while ((spent = clock_now() - begin) < 0.005);
+    return spent / times;
+}
+
+static int serve(PetriSession *session, double base, double load) {
+    int frames, with_output;
+    while (scanf("%d %d", &frames, &with_output) == 2) {
+        Sample s = {.base = base, .load = load};
+        if (!run_frames(session, frames, &s))
+            return 1;
+        s.peak = memory_figure("VmHWM");
+        if (with_output)
+            s.output = time_output(session);
+        printf("%.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g %.9g\n", s.frame, s.evaluation, s.physics, s.output, s.steps,
+               s.allocations, s.load, s.base, s.peak);
+        fflush(stdout);
+    }
+    return 0;
+}
+
+int worker_main(int argc, char **argv) {
+    if (argc != 3)
+        return 2;
+    PetriOptions options = petri_default_options();
+    options.threads = atoi(argv[1]);
+    options.fps = strtod(argv[2], NULL);
+    options.diagnostic = show_diagnostic;
+    double base = memory_figure("VmRSS");
+    PetriSession *session = petri_open(&options);
+    double begin = clock_now();
+    if (!session || petri_load(session, argv[0]) != PETRI_OK)
+        return 1;
+    int status = serve(session, base, clock_now() - begin);
+    petri_close(&session);
+    return status;
+}
+
+// ---- the other side
+
+// A pipe that a later worker does not inherit: each worker must see the end of its own input.
+static void open_pipe(int ends[2]) {
+    if (pipe(ends) || fcntl(ends[0], F_SETFD, FD_CLOEXEC) < 0 || fcntl(ends[1], F_SETFD, FD_CLOEXEC) < 0)
+        give_up("cannot talk to a worker");
+}
+
+Worker worker_start(const char *executable, const char *script, int threads, double fps) {
+    int down[2], up[2];
+    char number[2][32];
+    open_pipe(down);
+    open_pipe(up);
+    snprintf(number[0], sizeof number[0], "%d", threads);
+    snprintf(number[1], sizeof number[1], "%g", fps);
+    pid_t process = fork();
+    if (process < 0)
+        give_up("cannot start a worker");
+    if (process == 0) {
+        dup2(down[0], STDIN_FILENO);
+        dup2(up[1], STDOUT_FILENO);
+        execl(executable, executable, "worker", script, number[0], number[1], (char *)NULL);
+        fprintf(stderr, "bench: cannot start %s: %s\n", executable, strerror(errno));
+        _exit(127);
+    }
+    close(down[0]);
+    close(up[1]);
+    Worker worker = {.process = process, .to = fdopen(down[1], "w"), .from = fdopen(up[0], "r")};
+    if (!worker.to || !worker.from)
+        give_up("cannot talk to a worker");
+    return worker;
+}
+
+Sample worker_run(Worker *worker, int frames, bool with_output) {
+    Sample s;
+    fprintf(worker->to, "%d %d\n", frames, with_output);
+    fflush(worker->to);
+    if (fscanf(worker->from, "%lf %lf %lf %lf %lf %lf %lf %lf %lf", &s.frame, &s.evaluation, &s.physics, &s.output,
+               &s.steps, &s.allocations, &s.load, &s.base, &s.peak) != 9) {
+        fputs("bench: a worker ended before its time\n", stderr);
+        exit(1);
+    }
+    return s;
+}
+
+void worker_stop(Worker *worker) {
+    fclose(worker->to);
+    fclose(worker->from);
+    waitpid(worker->process, NULL, 0);
+}

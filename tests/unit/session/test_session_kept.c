@@ -1,0 +1,72 @@
+// test_session_kept.c: what does not change from frame to frame keeps its address, and only that says so.
+#include "player.h"
+
+#include "session/session.h"
+
+static const Node *top_node(const Player *player) {
+    Value tree = player->session->tree;
+    assert_true(tree.kind == VALUE_MIXED && tree.len == 1);
+    return tree.as.items[0].as.node;
+}
+
+// A node whose attributes change and whose children do not.
+static void test_static_children(void **state) {
+    Player *player = *state;
+    static const char *const scripts[] = {
+        "!physics state=:a time=frame\n    for i in ..3\n        !particle id=i position=i;2*i\n    !drag strength=1\n",
+        "let N=3\n!physics time=frame\n    for i in ..N\n        let r=i*2\n        !particle id=i radius=r\n    "
+        "!drag\n",
+        "!physics time=frame\n    !group\n        !particle id=1\n    !particle id=2\n    !drag\n    !random\n",
+        "func world(t)\n    !physics time=t\n        for i in ..4\n            !particle id=i\n\nworld(frame)\n",
+        "for i in ..1\n    !physics time=frame\n        for k in ..4\n            !particle id=k\n",
+        "if frame > -1\n    !physics time=frame\n        for k in ..4\n            !particle id=k\n",
+    };
+    for (size_t i = 0; i < COUNT_OF(scripts); i++) {
+        player_run(player, scripts[i], 1);
+        const Node *node = top_node(player);
+        const Node *const *children = node->children;
+        const Node *first = children[0];
+        uint32_t count = node->child_count;
+        assert_claim(scripts[i], node->kept_children && !node->kept && first->kept && count > 1);
+        for (int frame = 1; frame < 4; frame++) {
+            player_step(player, 1);
+            node = top_node(player);
+            assert_claim(scripts[i], node->children == children && node->child_count == count);
+            assert_claim(scripts[i], node->kept_children && node->children[0] == first);
+            assert_number("its attributes change", node->attrs[node->attr_count - 1].value.as.number, frame);
+        }
+    }
+}
+
+static void test_changing_children(void **state) {
+    Player *player = *state;
+    static const char script[] = "!physics time=frame\n    !group\n        !particle id=1\n    !particle id=frame\n";
+    player_run(player, script, 1);
+    const Node *group = top_node(player)->children[0];
+    assert_false(top_node(player)->kept_children);
+    assert_true(group->kept);
+    assert_false(top_node(player)->children[1]->kept);
+    player_step(player, 1);
+    assert_ptr_equal(top_node(player)->children[0], group);
+    assert_number("changed", top_node(player)->children[1]->attrs[0].value.as.number, 1);
+}
+
+// Another program may lie where this one did.
+static void test_generation(void **state) {
+    Player *player = *state;
+    uint64_t generation = player->session->generation;
+    player_run(player, "!a\n", 2);
+    uint64_t loaded = player->session->generation;
+    assert_true(loaded != generation);
+    player_run(player, "!a\n", 2);
+    assert_true(player->session->generation != loaded);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_static_children),
+        PLAYER_TEST(test_changing_children),
+        PLAYER_TEST(test_generation),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
