@@ -7,6 +7,7 @@
 #include "output.h"
 #include "petri.h"
 
+enum { ATTRIBUTE_COLUMN = 22 };
 enum { OPTION_COLUMN = 28, BUILTIN_COLUMN = 38 };
 
 static Output *new_output(void) {
@@ -35,8 +36,10 @@ int help_overview(void) {
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
         output_format(output, "  %-8s %s\n", COMMANDS[i]->name, COMMANDS[i]->summary);
     }
-    output_format(output, "\n'petri help COMMAND' tells more of a command, 'petri help builtins' lists the functions\n"
-                          "that scripts can call, 'petri --version' tells the version.\n");
+    output_format(output,
+                  "\n'petri help COMMAND' tells more of a command, 'petri help builtins' lists the functions\n"
+                  "that scripts can call, 'petri help nodes' the nodes that do something, 'petri --version' tells\n"
+                  "the version.\n");
     return end_output(output);
 }
 
@@ -79,6 +82,53 @@ static int help_builtins(void) {
     return end_output(output);
 }
 
+static void write_attributes(Output *output, size_t kind) {
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
+        char head[48];
+        snprintf(head, sizeof head, "      %s", attribute.name);
+        output_format(output, "%-*s  %s", ATTRIBUTE_COLUMN, head, attribute.type);
+        if (attribute.fallback[0] != '\0') {
+            output_format(output, " (%s)", attribute.fallback);
+        }
+        output_format(output, "%s%s\n", attribute.help[0] == '\0' ? "" : ": ", attribute.help);
+    }
+}
+
+// All kinds of nodes that do something, or those of one name.
+static int help_nodes(const char *name) {
+    Output *output = new_output();
+    if (output == NULL) {
+        return STATUS_FAILED;
+    }
+    PetriNodeKind kind;
+    const char *area = "";
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        if (name != NULL && strcmp(kind.name, name) != 0) {
+            continue;
+        }
+        if (strcmp(kind.area, area) != 0) {
+            output_format(output, "%s%s\n", area[0] == '\0' ? "" : "\n", kind.area);
+            area = kind.area;
+        }
+        output_format(output, "  !%s: %s\n", kind.name, kind.help);
+        write_attributes(output, i);
+    }
+    return end_output(output);
+}
+
+// Whether a topic is a kind of node, `!name` or `name`; *name is then without the mark.
+static bool is_node(const char *topic, const char **name) {
+    PetriNodeKind kind;
+    *name = topic[0] == '!' ? topic + 1 : topic;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        if (strcmp(kind.name, *name) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 static int print_version(void) {
     Output *output = new_output();
     if (output == NULL) {
@@ -91,6 +141,13 @@ static int print_version(void) {
 static int help_topic(const char *topic) {
     if (strcmp(topic, "builtins") == 0) {
         return help_builtins();
+    }
+    const char *node = NULL;
+    if (strcmp(topic, "nodes") == 0) {
+        return help_nodes(NULL);
+    }
+    if (command_find(topic) == NULL && is_node(topic, &node)) {
+        return help_nodes(node);
     }
     if (strcmp(topic, "version") == 0) {
         return print_version();
@@ -127,9 +184,11 @@ static const OptionSpec HELP_OPTIONS[] = {{0}};
 
 const Command HELP_COMMAND = {
     .name = "help",
-    .operands = "[COMMAND | builtins]",
+    .operands = "[COMMAND | builtins | nodes | !NODE]",
     .summary = "tell what the commands do, or list the built-in functions",
-    .details = "Tells what the commands do, what options one of them has, or what functions scripts can call.",
+    .details =
+        "Tells what the commands do, what options one of them has, what functions scripts can call, or what nodes\n"
+        "and attributes drive particles and draw.",
     .options = HELP_OPTIONS,
     .run = help_run,
 };

@@ -67,9 +67,9 @@ static pid_t start(Video *video, int input, double fps) {
     snprintf(size, sizeof size, "%dx%d", video->width, video->height);
     snprintf(rate, sizeof rate, "%.9g", fps);
     const char *words[MOST_WORDS] = {
-        "ffmpeg",   "-hide_banner",  "-nostdin",    "-loglevel", "error",      "-y",       "-f",       "rawvideo",
-        "-pix_fmt", pixel_format(),  "-video_size", size,        "-framerate", rate,       "-i",       "pipe:0",
-        "-an",      "-map_metadata", "-1",          "-fflags",   "+bitexact",  "-flags:v", "+bitexact"};
+        "ffmpeg",   "-hide_banner", "-nostdin",      "-loglevel",   "error",   "-xerror",    "-y",       "-f",
+        "rawvideo", "-pix_fmt",     pixel_format(),  "-video_size", size,      "-framerate", rate,       "-i",
+        "pipe:0",   "-an",          "-map_metadata", "-1",          "-fflags", "+bitexact",  "-flags:v", "+bitexact"};
     size_t count = 0;
     while (words[count] != NULL) {
         count++;

@@ -9,11 +9,11 @@ typedef struct Colour {
 } Colour;
 
 static const Colour GROUND = {0.06, 0.07, 0.09};
-static const double MARGIN = 0.04;      // of a panel, on each side
-static const double LEAST_RADIUS = 1.5; // pixels
-static const double YAW = 0.45;         // of the eye: radians to the right
-static const double PITCH = 0.35;       // and above
-static const double EYE = 4;            // its distance, in halves of the frame
+static const double MARGIN = 0.04;    // of a panel, on each side
+static const double LEAST_RADIUS = 2; // pixels
+static const double YAW = 0.45;       // of the eye: radians to the right
+static const double PITCH = 0.35;     // and above
+static const double EYE = 4;          // its distance, in halves of the frame
 
 // Where a system is drawn.
 typedef struct Panel {
@@ -72,10 +72,10 @@ static Colour in_mist(const Panel *panel, Colour colour, double depth) {
     return panel->system->dimensions < 3 ? colour : mix(colour, GROUND, fmin(fmax(0.3 + 0.3 * depth, 0), 0.8));
 }
 
-static void circle(cairo_t *cr, double x, double y, double radius) {
-    draw_tame(cr, &x, &y);
-    draw_ellipse_path(cr, x, y, radius, radius, 0, 1, false);
-    cairo_close_path(cr);
+static void circle(Canvas *canvas, double x, double y, double radius) {
+    draw_tame(canvas, &x, &y);
+    draw_ellipse_path(canvas, x, y, radius, radius, 0, 1, false);
+    cairo_close_path(canvas->cr);
 }
 
 // A ball: light from the upper left.
@@ -97,13 +97,13 @@ static void draw_body(const Panel *panel, const AutoBody *body, const Seen *seen
     Colour colour = in_mist(panel, shade_colour(panel->system, body->shade), seen->depth);
     if (body->anchor) {
         double line = 1.5 * panel->pixel;
-        circle(cr, seen->x, seen->y, fmax(shown - line / 2, 3 * panel->pixel));
+        circle(panel->canvas, seen->x, seen->y, fmax(shown - line / 2, 3 * panel->pixel));
         cairo_set_line_width(cr, line);
         set_colour(cr, colour, 1);
         cairo_stroke(cr);
         return;
     }
-    circle(cr, seen->x, seen->y, shown);
+    circle(panel->canvas, seen->x, seen->y, shown);
     if (panel->system->dimensions == 3 && shown > 2 * panel->pixel) {
         set_ball(cr, seen, shown, colour);
         cairo_fill(cr);
@@ -138,11 +138,11 @@ static void draw_bodies(const Panel *panel) {
         draw_body(panel, &system->bodies[places[i].body], &places[i].seen);
 }
 
-static void line(cairo_t *cr, double x1, double y1, double x2, double y2) {
-    draw_tame(cr, &x1, &y1);
-    draw_tame(cr, &x2, &y2);
-    cairo_move_to(cr, x1, y1);
-    cairo_line_to(cr, x2, y2);
+static void line(Canvas *canvas, double x1, double y1, double x2, double y2) {
+    draw_tame(canvas, &x1, &y1);
+    draw_tame(canvas, &x2, &y2);
+    cairo_move_to(canvas->cr, x1, y1);
+    cairo_line_to(canvas->cr, x2, y2);
 }
 
 static void draw_links(const Panel *panel) {
@@ -152,7 +152,7 @@ static void draw_links(const Panel *panel) {
     for (uint32_t i = 0; i < system->link_count; i++) {
         Seen from = see(panel, system->bodies[system->links[i].from].position);
         Seen to = see(panel, system->bodies[system->links[i].to].position);
-        line(cr, from.x, from.y, to.x, to.y);
+        line(panel->canvas, from.x, from.y, to.x, to.y);
         set_colour(cr, in_mist(panel, (Colour){0.6, 0.65, 0.7}, (from.depth + to.depth) / 2), 0.4);
         cairo_stroke(cr);
     }
@@ -216,7 +216,7 @@ static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
                 two[k] = foot[k] + a[k] * part - b[k] * frame->half;
             }
             Seen from = see(panel, one), to = see(panel, two);
-            line(cr, from.x, from.y, to.x, to.y);
+            line(panel->canvas, from.x, from.y, to.x, to.y);
         }
     set_colour(cr, WALL, 0.3);
     cairo_stroke(cr);
@@ -241,7 +241,7 @@ static void draw_panel(Panel *panel) {
     draw_barriers(panel);
     if (panel->system->dimensions == 1) { // the line that everything lies on
         double middle[3] = {panel->system->frame.middle[0], 0, 0};
-        line(cr, left, see(panel, middle).y, left + panel->width, see(panel, middle).y);
+        line(panel->canvas, left, see(panel, middle).y, left + panel->width, see(panel, middle).y);
         cairo_set_line_width(cr, panel->pixel);
         set_colour(cr, (Colour){0.5, 0.55, 0.6}, 0.5);
         cairo_stroke(cr);

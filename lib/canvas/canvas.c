@@ -91,10 +91,10 @@ static bool draw_picture(Canvas *canvas, double width, double height) {
     else
         draw_automatic(canvas, picture->automatic);
     cairo_status_t status = cairo_status(cr);
-    if (status != CAIRO_STATUS_SUCCESS)
+    if (status != CAIRO_STATUS_SUCCESS && !canvas->failed)
         draw_fault(canvas, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn: %s",
                    cairo_status_to_string(status));
-    return status == CAIRO_STATUS_SUCCESS;
+    return status == CAIRO_STATUS_SUCCESS && !canvas->failed;
 }
 
 static CanvasResult result_of(cairo_status_t status) {
@@ -112,9 +112,10 @@ static CanvasResult draw_on(CanvasPainter *painter, const CanvasPicture *picture
     if (result == CANVAS_DONE) {
         painter->arena.escape = faults->arena->escape = &escape;
         if (setjmp(escape) == 0) {
-            Canvas canvas = {.painter = painter, .picture = picture, .cr = cr, .faults = faults, .vector = vector};
-            draw_picture(&canvas, width, height);
-            result = result_of(cairo_status(cr));
+            Canvas canvas = {
+                .painter = painter, .picture = picture, .cr = cr, .faults = faults, .vector = vector, .rows = height};
+            if (!draw_picture(&canvas, width, height))
+                result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? CANVAS_MEMORY : CANVAS_FAILED;
         } else {
             result = CANVAS_MEMORY;
         }

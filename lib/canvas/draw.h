@@ -43,6 +43,10 @@ typedef struct Canvas {
     bool vector;         // the target is no array of pixels
     uint32_t layers;     // that are open
     double layer_pixels; // in them
+    double rows;         // of the target
+    double path_work;    // rows that the edges of the current path cross
+    double last_y;       // of its last point, on the target
+    bool failed;         // an error was reported
 } Canvas;
 
 // Reports what drawing has found, each text once.
@@ -64,8 +68,8 @@ double draw_scale_of(cairo_t *cr);
 
 // paths.c
 // Moves a point that is too far away for Cairo's coordinates to where it can be reckoned with.
-void draw_tame(cairo_t *cr, double *x, double *y);
-void draw_ellipse_path(cairo_t *cr, double x, double y, double rx, double ry, double start, double sweep, bool join);
+void draw_tame(Canvas *canvas, double *x, double *y);
+void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
 // Adds what a node stands for to the path. False if the node is none that adds to paths.
 bool draw_add_path(Canvas *canvas, const DrawNode *node);
 
@@ -94,8 +98,9 @@ void draw_automatic(Canvas *canvas, const AutoPicture *picture);
 // A path that is put aside while another is drawn.
 typedef struct KeptPath {
     cairo_path_t *path; // NULL: there was none
+    double work;
 } KeptPath;
-KeptPath draw_keep_path(cairo_t *cr);
-void draw_put_back_path(cairo_t *cr, KeptPath kept);
+KeptPath draw_keep_path(Canvas *canvas);
+void draw_put_back_path(Canvas *canvas, KeptPath kept);
 
 #endif

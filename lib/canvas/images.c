@@ -154,12 +154,12 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
                         const Look *look) {
     cairo_t *cr = canvas->cr;
     double width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
-    KeptPath kept = draw_keep_path(cr);
+    KeptPath kept = draw_keep_path(canvas);
     cairo_save(cr);
     if (box->cut) {
         double x1 = point[0], y1 = point[1], x2 = x1 + box->width, y2 = y1 + box->height;
-        draw_tame(cr, &x1, &y1);
-        draw_tame(cr, &x2, &y2);
+        draw_tame(canvas, &x1, &y1);
+        draw_tame(canvas, &x2, &y2);
         cairo_rectangle(cr, x1, y1, x2 - x1, y2 - y1);
         cairo_clip(cr);
     }
@@ -177,7 +177,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
         draw_paint(canvas, look->composite, 1);
     }
     cairo_restore(cr);
-    draw_put_back_path(cr, kept);
+    draw_put_back_path(canvas, kept);
 }
 
 void draw_image(Canvas *canvas, const DrawNode *node, const Look *look) {

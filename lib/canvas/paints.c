@@ -2,6 +2,7 @@
 #include "canvas/draw.h"
 
 #include <math.h>
+#include <string.h>
 
 cairo_operator_t draw_operator(int composite) {
     static const cairo_operator_t operators[] = {
@@ -57,9 +58,28 @@ static void set_paint(Canvas *canvas, const Look *look) {
     cairo_set_fill_rule(cr, look->fill_type == FILL_EVEN_ODD ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
 }
 
+// Filling takes a time that grows with the rows that the edges cross, and faster where they cross each other: a path of
+// a million points all over the picture would take hours.
+static const double SMOOTH_WORK = 1e6; // about a second
+static const double MOST_WORK = 1e7;   // some seconds without smooth edges
+
+// Whether the path can be drawn in reasonable time; if not, the picture fails.
+static bool is_drawable(Canvas *canvas) {
+    if (canvas->path_work > MOST_WORK && !canvas->failed) {
+        draw_fault(canvas, DIAG_ERROR, "path-limit",
+                   "a path is too complex to be drawn: it has too many points that are too far apart");
+        canvas->failed = true;
+    }
+    return !canvas->failed;
+}
+
 void draw_fill(Canvas *canvas, const Look *look) {
     cairo_t *cr = canvas->cr;
+    if (!is_drawable(canvas))
+        return;
     set_paint(canvas, look);
+    if (canvas->path_work > SMOOTH_WORK)
+        cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
     if (is_unbounded(look->composite)) {
         cairo_save(cr);
         cairo_clip_preserve(cr);
@@ -93,6 +113,59 @@ static void stroke_path(Canvas *canvas, const Look *look) {
     cairo_restore(cr);
 }
 
+// Strokes a long path in pieces, which is much faster than as a whole. Each piece begins with the end of the one
+// before, so that the corners between them are drawn.
+static void stroke_pieces(Canvas *canvas, const Look *look) {
+    enum { PIECE = 16 };
+    cairo_t *cr = canvas->cr;
+    cairo_path_t *path = cairo_copy_path_flat(cr);
+    double points[PIECE + 1][2], first[2] = {0, 0};
+    int count = 0;
+    for (int i = 0; i < path->num_data; i += path->data[i].header.length) {
+        const cairo_path_data_t *data = &path->data[i];
+        bool moves = data->header.type == CAIRO_PATH_MOVE_TO, closes = data->header.type == CAIRO_PATH_CLOSE_PATH;
+        bool last = i + data->header.length >= path->num_data;
+        double x = closes ? first[0] : data[1].point.x, y = closes ? first[1] : data[1].point.y;
+        if (!moves) {
+            points[count][0] = x;
+            points[count++][1] = y;
+        }
+        if (moves || count == PIECE + 1 || last) {
+            cairo_new_path(cr);
+            for (int k = 0; k < count; k++)
+                cairo_line_to(cr, points[k][0], points[k][1]);
+            stroke_path(canvas, look);
+            int kept = moves || count < 2 ? 0 : 2;
+            for (int k = 0; k < kept; k++)
+                memcpy(points[k], points[count - kept + k], sizeof points[k]);
+            count = kept;
+        }
+        if (moves) {
+            first[0] = points[0][0] = x;
+            first[1] = points[0][1] = y;
+            count = 1;
+        }
+    }
+    cairo_path_destroy(path);
+}
+
+// Pieces overlap: they are drawn into a mask, through which the colour is then painted once.
+static void stroke_long(Canvas *canvas, const Look *look) {
+    cairo_t *cr = canvas->cr;
+    KeptPath kept = draw_keep_path(canvas);
+    if (kept.path)
+        cairo_append_path(cr, kept.path);
+    cairo_push_group_with_content(cr, CAIRO_CONTENT_ALPHA);
+    cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
+    cairo_set_source_rgba(cr, 0, 0, 0, 1);
+    stroke_pieces(canvas, look);
+    cairo_pattern_t *mask = cairo_pop_group(cr);
+    set_paint(canvas, look);
+    cairo_mask(cr, mask);
+    cairo_pattern_destroy(mask);
+    draw_put_back_path(canvas, kept);
+}
+
 // A line cannot be clipped to, so it becomes a mask for what is made of all that is there.
 static void stroke_unbounded(Canvas *canvas, const Look *look) {
     cairo_t *cr = canvas->cr;
@@ -118,15 +191,21 @@ static void stroke_unbounded(Canvas *canvas, const Look *look) {
 }
 
 void draw_stroke(Canvas *canvas, const Look *look) {
+    if (!is_drawable(canvas))
+        return;
     set_paint(canvas, look);
     set_line(canvas, look);
-    if (is_unbounded(look->composite) && !canvas->vector)
+    if (canvas->path_work > SMOOTH_WORK && !canvas->vector)
+        stroke_long(canvas, look);
+    else if (is_unbounded(look->composite) && !canvas->vector)
         stroke_unbounded(canvas, look);
     else
         stroke_path(canvas, look);
 }
 
 void draw_clip(Canvas *canvas, const Look *look) {
+    if (!is_drawable(canvas))
+        return;
     cairo_set_antialias(canvas->cr, look->antialias ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
     cairo_set_fill_rule(canvas->cr,
                         look->fill_type == FILL_EVEN_ODD ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);

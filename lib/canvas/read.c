@@ -213,7 +213,7 @@ static const Row *find_row(const CanvasSchema *schema, DrawKind kind, const Symb
 // Adds the candidate that is nearest to a name, if any is near.
 static void add_nearest(Text *out, Str name, const char *const *candidates, int count, const char *mark) {
     const char *nearest = NULL;
-    int least = 4;
+    int least = 2 + (int)(name.len < 12 ? name.len : 12) / 4; // long names may be further off
     for (int i = 0; i < count; i++) {
         int distance = str_distance(name, str_from(candidates[i]));
         if (distance < least) {

@@ -132,13 +132,13 @@ static void draw_letters(Canvas *canvas, const DrawNode *node, const Look *look,
         add_letters(canvas, point);
         return;
     }
-    KeptPath kept = draw_keep_path(canvas->cr);
+    KeptPath kept = draw_keep_path(canvas);
     add_letters(canvas, point);
     if (fill)
         draw_fill(canvas, look);
     if (stroke)
         draw_stroke(canvas, look);
-    draw_put_back_path(canvas->cr, kept);
+    draw_put_back_path(canvas, kept);
 }
 
 void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
@@ -156,6 +156,6 @@ void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
     pango_cairo_update_layout(canvas->cr, layout);
     pango_layout_set_text(layout, text->as.text.bytes, (int)text->as.text.len);
     place(layout, draw_flag(node, NAME_CENTER, true), point);
-    draw_tame(canvas->cr, &point[0], &point[1]);
+    draw_tame(canvas, &point[0], &point[1]);
     draw_letters(canvas, node, look, point);
 }

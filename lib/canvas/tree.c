@@ -85,12 +85,12 @@ static void end_layer(Canvas *canvas, const Level *level) {
 static void enter_layer(Walk *walk, const DrawNode *node, const Look *look) {
     Canvas *canvas = walk->canvas;
     double size[2], origin[2];
-    KeptPath kept = draw_keep_path(canvas->cr);
+    KeptPath kept = draw_keep_path(canvas);
     if (draw_pair(node, NAME_SIZE, size)) {
         draw_pair(node, NAME_ORIGIN, origin);
         double x1 = origin[0], y1 = origin[1], x2 = x1 + size[0], y2 = y1 + size[1];
-        draw_tame(canvas->cr, &x1, &y1);
-        draw_tame(canvas->cr, &x2, &y2);
+        draw_tame(canvas, &x1, &y1);
+        draw_tame(canvas, &x2, &y2);
         cairo_rectangle(canvas->cr, x1, y1, x2 - x1, y2 - y1);
         cairo_clip(canvas->cr);
     }
@@ -112,7 +112,7 @@ static void enter(Walk *walk, const DrawNode *node, const Look *inherited) {
         draw_take_look(&look, node);
     if (node->kind == DRAW_PATH) {
         look.fill_type = draw_attr(node, NAME_FILL_TYPE) ? look.fill_type : FILL_WINDING;
-        KeptPath kept = draw_keep_path(cr);
+        KeptPath kept = draw_keep_path(walk->canvas);
         Level *level = push(walk, node, &look);
         level->kept = kept;
         level->keeps_path = true;
@@ -137,7 +137,7 @@ static void leave(Walk *walk) {
     if (level->node->kind != DRAW_PATH)
         cairo_restore(cr);
     if (level->keeps_path)
-        draw_put_back_path(cr, level->kept);
+        draw_put_back_path(walk->canvas, level->kept);
 }
 
 // A shape that is drawn at once leaves the current path alone.
@@ -149,13 +149,13 @@ static void draw_shape(Canvas *canvas, const DrawNode *node, const Look *inherit
     }
     Look look = *inherited;
     draw_take_look(&look, node);
-    KeptPath kept = draw_keep_path(canvas->cr);
+    KeptPath kept = draw_keep_path(canvas);
     draw_add_path(canvas, node);
     if (fill)
         draw_fill(canvas, &look);
     if (stroke)
         draw_stroke(canvas, &look);
-    draw_put_back_path(canvas->cr, kept);
+    draw_put_back_path(canvas, kept);
 }
 
 static void draw_leaf(Canvas *canvas, const DrawNode *node, const Look *inherited) {

@@ -54,7 +54,7 @@ static const struct {
     {"direction", "vector", "0"},
     {"flow", "vector", "0"},
     {"normal", "vector", "0"},
-    {"gravity", "vector", "0"},
+    {"gravity", "vector", "0;…;0;-1"},
     {"resolution", "number", "1/fps"},
     {"speed_of_light", "number", ""},
     {"max_distance", "number", ""},

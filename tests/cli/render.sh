@@ -1,0 +1,256 @@
+# render.sh: `petri render`: pictures, series, films, and what goes wrong. Part of run.sh.
+
+cat >disc.fl <<'END'
+!window size=40;30 title="disc"
+    !canvas
+        !ellipse point=5+frame;15 radius=4 fill=true color=1;0;0
+END
+
+petri render
+check "render without a script is a usage error" status_is 2
+petri render disc.fl
+check "render without an output is a usage error" status_is 2
+check "… which names the option" has err "option '--output' is missing"
+petri render disc.fl -o disc.txt
+check "a suffix that is no picture's is a usage error" status_is 2
+check "… which names those there are" has err ".png, .svg, .pdf, .mp4, .webm or .gif"
+for size in 0x10 10 -1x5 10x 1000000000x10; do
+    petri render disc.fl -o disc.png --size $size
+    check "--size $size is a usage error" status_is 2
+    check "… --size $size: told what is expected" has err "WIDTHxHEIGHT"
+done
+petri render disc.fl -o disc.png --scale 0
+check "--scale 0 is a usage error" status_is 2
+petri render disc.fl -o disc.mp4 --frame 3
+check "a film of one frame is a usage error" status_is 2
+petri render disc.fl -o absent/disc.png
+check "a folder that is not there is an error" status_is 1
+check "… known before anything is run" has err "cannot write 'absent/disc.png'"
+
+# can_draw: whether this build has Cairo.
+petri render disc.fl -o disc.png --frames 1
+if [ "$status" -ne 0 ]; then
+    check "a build that cannot draw says what it lacks" has err "libcairo2-dev"
+    check "… and writes nothing" [ ! -e disc.png ]
+else
+    # width FILE, height FILE: from the head of a PNG file.
+    width() { od -An -j16 -N4 -tu1 "$1" | awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 }'; }
+    height() { od -An -j20 -N4 -tu1 "$1" | awk '{ print $1 * 16777216 + $2 * 65536 + $3 * 256 + $4 }'; }
+    sized() { [ "$(width "$1")x$(height "$1")" = "$2" ]; }
+    nothing_beside() { [ -z "$(find . -name '*.tmp*')" ]; }
+
+    check "a picture has the size of the window" sized disc.png 40x30
+    check "… and render says nothing else" empty out
+    cp disc.png first.png
+    petri render disc.fl -o disc.png --frames 1
+    check "the same picture is the same file" cmp -s disc.png first.png
+    petri render disc.fl -o disc.png --frames 9 --frame 8 --size 80x60
+    check "--size sets the size" sized disc.png 80x60
+    petri render disc.fl -o scaled.png --frames 9 --scale 2
+    check "--scale enlarges" cmp -s disc.png scaled.png
+    petri render disc.fl -o disc%03d.png --frames 7 --every 3
+    check "a series has a picture for each K-th frame" [ "$(echo disc0*.png)" = "disc000.png disc003.png disc006.png" ]
+    check "… the first is the first frame" cmp -s disc000.png first.png
+    check "… and others differ" eval '! cmp -s disc003.png first.png'
+    petri render disc.fl -o disc.svg --frames 1
+    check "SVG is written" has disc.svg "<svg"
+    petri render disc.fl -o disc.pdf --frames 1
+    check "PDF is written" has disc.pdf "%PDF-"
+    cp disc.pdf first.pdf
+    petri render disc.fl -o disc.pdf --frames 1
+    check "the same PDF is the same file" cmp -s disc.pdf first.pdf
+    petri render disc.fl -o none.png --frames 0
+    check "no frame, no picture" status_is 1
+    petri render disc.fl -o none.png --frame 5 --runtime 0.01
+    check "a frame that is not reached is an error" status_is 1
+    check "… which names it" has err "not 5"
+
+    printf '!x\n' >nothing.fl
+    petri render nothing.fl -o none.png --frames 1
+    check "a script that draws nothing is an error" one_error
+    check "… without a file" [ ! -e none.png ]
+    printf '!window size=60;40\n    !canvas3d\n        !sphere\n!physics state=:w dimensions=3\n    !particle id=1\n' >solid.fl
+    petri render solid.fl -o solid.png --frames 2
+    check "a window that petri cannot draw shows the particles" status_is 0
+    check "… in its size" sized solid.png 60x40
+    check "… and what is left out is told once" count_is err "'!canvas3d' is not drawn" 1
+    printf '!physics state=:w dimensions=2\n    !particle id=1 radius=1\n' >bare.fl
+    petri render bare.fl -o bare.png --frames 2
+    check "physics alone has a picture too" sized bare.png 1080x1080
+    petri render disc.fl -o none.png --frames 1 --auto
+    check "--auto without physics is an error" one_error
+
+    # record
+    cat >record.fl <<'END'
+!window size=20;20
+    !canvas
+        !rect size=10 fill=true
+    !record filename=("frame";frame;".png") if frame%2 else null
+END
+    petri render record.fl -o last.png --frames 4
+    check "!record writes pictures of the frames that it is in" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
+    check "… as the output would be" cmp -s frame3.png last.png
+    petri run record.fl --frames 4
+    check "run leaves !record alone" status_is 0
+    printf '!window size=20;20\n    !canvas\n    !record filename="x.txt"\n' >record.fl
+    petri render record.fl -o last.png --frames 4
+    check "!record to another kind of file is an error" one_error
+
+    # bad sizes
+    for size in 0 -1 1e9 '0/0' '100;0' '1;2;3' ':big'; do
+        printf '!window size=%s\n    !canvas\n        !rect size=5 fill=true\n' "$size" >size.fl
+        rm -f size.png
+        petri render size.fl -o size.png --frames 3
+        check "a window of size=$size is an error" one_error
+        check "… size=$size: without a file" [ ! -e size.png ]
+    done
+    # what is not finite is told once and left out
+    cat >wrong.fl <<'END'
+let nan=0/0
+    big=1e308*10
+!window size=40;40
+    !canvas
+        !rect size=40 fill=true color=0;0;1
+        !group translate=nan;0
+            !rect size=40 fill=true
+        !ellipse point=big;0 radius=50 fill=true
+        !ellipse point=20 radius=nan fill=true
+        !line points=0;0;nan;5;70;70 stroke=true
+        !rect size=nan fill=true
+        !transform scale=0
+            !rect size=40 fill=true
+        !font size=nan
+        !text text="x" point=nan
+        !paint color=1;2 stroke_width=-1 stroke_join=:rond composite=:modulate colour=3
+        !elipse radius=5
+        !stop color=1
+        !image filename="absent.png"
+        !image filename="disc.fl"
+        !font family="No Such Font"
+            !text text="x" point=-50;-50
+END
+    petri render wrong.fl -o wrong.png --frames 5
+    check "wrong attributes are no reason to stop" status_is 0
+    for text in "!group: translate should be x;y, not nan;0" "!ellipse: point should be x;y, not inf;0" \
+        "!ellipse: radius should be" "!line: points should be" "!rect: size should be" "!font: size should be" \
+        "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
+        "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "composite=:modulate cannot be drawn" \
+        "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
+        "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': it is neither PNG nor JPEG" \
+        "there is no font 'No Such Font'"; do
+        check "told once: $text" count_is err "$text" 1
+    done
+    printf '!window size=40;40\n    !canvas\n        !rect size=40 fill=true color=0;0;1\n' >blue.fl
+    petri render blue.fl -o blue.png --frames 1
+    check "what is wrong is not drawn" cmp -s wrong.png blue.png
+    printf '!window size=40;40\n    !canvas\n        !rect size=1e300 point=-1e299 fill=true color=0;0;1\n        !line points=1e9;5;1e9;7 stroke=true stroke_width=1e6\n' >far.fl
+    petri render far.fl -o far.png --frames 1
+    check "what is far away is drawn as it should be" cmp -s far.png blue.png
+
+    # too much
+    printf '!window size=1000;1000\n    !canvas\n        !line points=1000*uniform(:p)[..2000000] stroke=true\n' >points.fl
+    rm -f points.png
+    petri render points.fl -o points.png --frames 1
+    check "a million points all over the picture are refused" one_error
+    check "… with a reason" has err "a path is too complex"
+    check "… without a file" [ ! -e points.png ]
+    printf '!window size=1000;1000\n    !canvas\n        !line points=(..2000000)/2000 stroke=true color=0;1;0\n' >points.fl
+    petri render points.fl -o points.png --frames 1
+    check "a million points on a line are drawn" status_is 0
+    nest='wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(x))))))))))'
+    cat >nest.fl <<END
+func wrap(x)
+    !group
+        !path
+            !ellipse point=20;20 radius=50
+            !clip
+        x
+func ten(x)
+    $nest
+func hundred(x)
+    $(echo "$nest" | sed 's/wrap/ten/g')
+func thousand(x)
+    $(echo "$nest" | sed 's/wrap/hundred/g')
+let x=(!rect size=40 fill=true color=0;0;1)
+!window size=40;40
+    !canvas
+        $(echo "$nest" | sed 's/wrap/thousand/g')
+END
+    petri render nest.fl -o nest.png --frames 1
+    check "10,000 clips in each other are drawn" status_is 0
+    check "… as if they were not there" cmp -s nest.png blue.png
+    sed 's/!group/!layer/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
+    petri render layers.fl -o layers.png --frames 1
+    check "of 10,000 layers the innermost are drawn without" count_is err "layers are too many" 1
+    check "… and nothing is lost" cmp -s layers.png blue.png
+
+    # films
+    if command -v ffmpeg >/dev/null; then
+        for suffix in mp4 webm gif; do
+            petri render disc.fl -o film.$suffix --frames 10
+            check "a film is written: $suffix" [ -s film.$suffix ]
+            frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 film.$suffix)
+            check "… with all frames: $suffix" [ "${frames%%,*}" = 10 ]
+        done
+        check "… and nothing beside them" nothing_beside
+        petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
+        check "a film may have an odd size" status_is 0
+
+        mkdir tools
+        # A stand-in that is killed half-way.
+        cat >tools/ffmpeg <<'END'
+#!/bin/sh
+for last; do :; done
+head -c 30000 >"$last"
+kill -9 $$
+END
+        chmod +x tools/ffmpeg
+        cp film.mp4 before.mp4
+        PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
+        check "ffmpeg that is killed half-way is an error" status_is 1
+        check "… told once" count_is err "ffmpeg was killed by signal 9" 1
+        check "… the old film is left alone" cmp -s film.mp4 before.mp4
+        check "… and no half of a new one" nothing_beside
+        printf '#!/bin/sh\nhead -c 9000 >/dev/null\nexit 0\n' >tools/ffmpeg
+        PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
+        check "ffmpeg that ends too early is an error" status_is 1
+        check "… told" has err "ffmpeg ended before its time"
+        printf '#!/bin/sh\necho one >&2\necho two >&2\nexit 3\n' >tools/ffmpeg
+        PATH=$PWD/tools:$PATH petri render disc.fl -o film.mp4 --frames 50
+        check "what ffmpeg says last is told" has err "ffmpeg failed with status 3: two"
+        rm -r tools
+        (
+            ulimit -f 16 # blocks of 512 bytes: as on a disk that is full
+            exec timeout 100 "$petri" render disc.fl -o film.mp4 --frames 600 --size 600x600 >out 2>err </dev/null
+        )
+        status=$?
+        check "a film that the disk cannot hold is an error" status_is 1
+        check "… told once" count_is err "'film.mp4' is not written" 1
+        check "… the old film is left alone" cmp -s film.mp4 before.mp4
+        check "… and no half of a new one" nothing_beside
+        printf '!window size=200;200\n    !canvas\n        !ellipse point=frame%%200 radius=9 fill=true\n' >long.fl
+        "$petri" render long.fl -o film.mp4 --frames 1000000 >out 2>err </dev/null &
+        sleep 1
+        kill -INT $!
+        wait $!
+        status=$?
+        check "Ctrl-C ends with the signal's status" status_is 130
+        check "… and says so" has err "stopped; 'film.mp4' is not written"
+        check "… the old film is left alone" cmp -s film.mp4 before.mp4
+        check "… and no half of a new one" nothing_beside
+        check "… no ffmpeg goes on" [ -z "$(pgrep -f 'film.mp4.*[.]tmp')" ]
+    fi
+    PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
+    status=$?
+    check "without ffmpeg a film is an error" status_is 1
+    check "… which says how to get it" has err "apt install ffmpeg"
+    (
+        ulimit -f 1
+        exec timeout 100 "$petri" render disc.fl -o disc.png --frames 1 --size 2000x2000 >out 2>err </dev/null
+    )
+    status=$?
+    check "a picture that the disk cannot hold is an error" status_is 1
+    check "… told once" count_is err "cannot write 'disc.png': File too large" 1
+    check "… the old picture is left alone" cmp -s disc.png scaled.png
+    check "… and no half of a new one" nothing_beside
+fi

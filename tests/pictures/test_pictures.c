@@ -1,0 +1,270 @@
+// test_pictures.c: draws each script of tests/pictures and compares it with the picture beside it.
+// usage: test_pictures FOLDER [--update | --write FOLDER]
+//
+// A script may say, in comments at its top, `-- tolerance N`: how far each colour of each pixel may be from the stored
+// one (of 255; 2 if not said, which is what rounding may differ between versions of Cairo; more where there is text,
+// since versions of FreeType and fonts differ) and `-- frames N`: how many frames are made (1 if not said).
+// --update stores what is drawn; --write stores it elsewhere.
+#include <cairo.h>
+#include <dirent.h>
+#include <stdbool.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "petri.h"
+
+enum { MOST_SCRIPTS = 200, MOST_SEEN = 4000, AUTO_SIZE = 160, USUAL_TOLERANCE = 2 };
+
+// Which attributes of which nodes occur: lines `kind attribute`.
+static char *seen[MOST_SEEN];
+static size_t seen_count;
+
+static void remember(const char *kind, size_t kind_length, const char *attribute, size_t length) {
+    char text[200];
+    snprintf(text, sizeof text, "%.*s %.*s", (int)kind_length, kind, (int)length, attribute);
+    for (size_t i = 0; i < seen_count; i++)
+        if (strcmp(seen[i], text) == 0)
+            return;
+    if (seen_count < MOST_SEEN)
+        seen[seen_count++] = strdup(text);
+}
+
+static bool was_seen(const char *kind, const char *attribute) {
+    char text[200];
+    snprintf(text, sizeof text, "%s %s", kind, attribute);
+    for (size_t i = 0; i < seen_count; i++)
+        if (strcmp(seen[i], text) == 0)
+            return true;
+    return false;
+}
+
+typedef struct Notes {
+    char *text;
+    size_t length;
+} Notes;
+
+static bool collect(void *host, const char *text, size_t length) {
+    Notes *notes = host;
+    notes->text = realloc(notes->text, notes->length + length + 1);
+    memcpy(notes->text + notes->length, text, length);
+    notes->length += length;
+    notes->text[notes->length] = 0;
+    return true;
+}
+
+// Reads `!kind … name=value …` lines of a printed tree. A value that looks like an attribute does no harm here.
+static void look_at_tree(PetriSession *session) {
+    Notes notes = {0};
+    petri_print(session, PETRI_PRINT_TREE, collect, &notes);
+    for (char *line = strtok(notes.text, "\n"); line; line = strtok(NULL, "\n")) {
+        const char *kind = line + strspn(line, " ");
+        if (*kind++ != '!')
+            continue;
+        size_t kind_length = strcspn(kind, " ");
+        remember(kind, kind_length, "", 0);
+        for (const char *at = kind + kind_length; *at; at += strcspn(at, " ")) {
+            at += strspn(at, " ");
+            size_t length = strcspn(at, "= ");
+            if (at[length] == '=')
+                remember(kind, kind_length, at, length);
+        }
+    }
+    free(notes.text);
+}
+
+static void tell(void *host, const PetriDiagnostic *diagnostic) {
+    printf("%s: %s", (const char *)host, diagnostic->rendered);
+}
+
+typedef struct Options {
+    int tolerance;
+    int frames;
+} Options;
+
+static Options read_options(const char *script) {
+    Options options = {USUAL_TOLERANCE, 1};
+    char line[400];
+    FILE *file = fopen(script, "r");
+    while (file && fgets(line, sizeof line, file) && strncmp(line, "--", 2) == 0) {
+        sscanf(line, "-- tolerance %d", &options.tolerance);
+        sscanf(line, "-- frames %d", &options.frames);
+    }
+    if (file)
+        fclose(file);
+    return options;
+}
+
+static PetriPicture *make_picture(PetriSession *session, const char *script, int frames) {
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    if (petri_load(session, script) != PETRI_OK)
+        return NULL;
+    for (int i = 0; i < frames; i++)
+        if (petri_step(session) != PETRI_OK)
+            return NULL;
+    look_at_tree(session);
+    if (strstr(script, "/automatic_"))
+        options.width = options.height = AUTO_SIZE;
+    petri_picture(session, &options, &picture);
+    return picture;
+}
+
+// Compares two files; the number of pixels that differ by more than is tolerated, or -1 if their sizes differ.
+static long compare(cairo_surface_t *stored, cairo_surface_t *drawn, int tolerance, int *worst) {
+    int width = cairo_image_surface_get_width(drawn), height = cairo_image_surface_get_height(drawn);
+    if (cairo_surface_status(stored) != CAIRO_STATUS_SUCCESS || cairo_surface_status(drawn) != CAIRO_STATUS_SUCCESS ||
+        cairo_image_surface_get_width(stored) != width || cairo_image_surface_get_height(stored) != height)
+        return -1;
+    const unsigned char *one = cairo_image_surface_get_data(stored), *two = cairo_image_surface_get_data(drawn);
+    int stride = cairo_image_surface_get_stride(stored);
+    // The fourth byte of a pixel means nothing if there is no transparency.
+    int channels = cairo_image_surface_get_format(stored) == CAIRO_FORMAT_RGB24 ? 3 : 4;
+    long count = 0;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            bool differs = false;
+            for (int k = 0; k < channels; k++) {
+                int difference = abs(one[y * stride + 4 * x + k] - two[y * stride + 4 * x + k]);
+                *worst = difference > *worst ? difference : *worst;
+                differs |= difference > tolerance;
+            }
+            count += differs;
+        }
+    return count;
+}
+
+// The pixels that are drawn for a window are those of the file; transparent ones lose some digits in files.
+static bool same_as_drawn(PetriPicture *picture, PetriPainter *painter, cairo_surface_t *saved) {
+    int width, height;
+    petri_picture_size(picture, &width, &height);
+    int stride = cairo_image_surface_get_stride(saved);
+    if (cairo_image_surface_get_format(saved) != CAIRO_FORMAT_RGB24)
+        return true;
+    unsigned char *pixels = malloc((size_t)stride * (size_t)height);
+    const unsigned char *wanted = cairo_image_surface_get_data(saved);
+    bool same =
+        petri_picture_draw(picture, painter, (uint32_t *)(void *)pixels, width, height, (size_t)stride) == PETRI_OK;
+    for (int y = 0; y < height && same; y++)
+        for (int x = 0; x < width && same; x++)
+            same = memcmp(pixels + y * stride + 4 * x, wanted + y * stride + 4 * x, 3) == 0;
+    free(pixels);
+    return same;
+}
+
+static bool check_picture(PetriPicture *picture, PetriPainter *painter, const char *name, const char *file,
+                          int tolerance) {
+    char beside[] = "/tmp/petri-picture-XXXXXX.png";
+    int worst = 0, handle = mkstemps(beside, 4);
+    bool saved = handle >= 0 && petri_picture_save(picture, painter, beside) == PETRI_OK;
+    cairo_surface_t *drawn = cairo_image_surface_create_from_png(beside);
+    cairo_surface_t *stored = cairo_image_surface_create_from_png(file);
+    long count = saved ? compare(stored, drawn, tolerance, &worst) : -1;
+    bool same = saved && same_as_drawn(picture, painter, drawn);
+    cairo_surface_destroy(drawn);
+    cairo_surface_destroy(stored);
+    if (handle >= 0) {
+        close(handle);
+        unlink(beside);
+    }
+    if (!saved)
+        printf("FAIL %s: it cannot be drawn\n", name);
+    else if (count < 0)
+        printf("FAIL %s: there is no stored picture of this size\n", name);
+    else if (count > 0)
+        printf("FAIL %s: %ld pixels differ by up to %d of 255, %d are tolerated\n", name, count, worst, tolerance);
+    else if (!same)
+        printf("FAIL %s: the pixels and the file differ\n", name);
+    return saved && count == 0 && same;
+}
+
+static bool run(const char *folder, const char *name, const char *write) {
+    char script[1000], file[1100];
+    snprintf(script, sizeof script, "%s/%s.fl", folder, name);
+    snprintf(file, sizeof file, "%s/%s.png", write ? write : folder, name);
+    PetriOptions options = petri_default_options();
+    options.diagnostic = tell;
+    options.host = (void *)(uintptr_t)name;
+    PetriSession *session = petri_open(&options);
+    PetriPainter *painter = petri_painter_open();
+    Options wanted = read_options(script);
+    PetriPicture *picture = make_picture(session, script, wanted.frames);
+    bool good = picture != NULL;
+    if (picture && write)
+        good = petri_picture_save(picture, painter, file) == PETRI_OK;
+    else if (picture)
+        good = check_picture(picture, painter, name, file, wanted.tolerance);
+    else
+        printf("FAIL %s: there is no picture\n", name);
+    if (picture)
+        petri_picture_tell(session, picture);
+    // Nothing here is wrong: each diagnostic is a failure.
+    good = good && petri_diagnostic_count(session, PETRI_ERROR) + petri_diagnostic_count(session, PETRI_WARNING) == 0;
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+    petri_close(&session);
+    return good;
+}
+
+// Each node and attribute that draws must be in some script.
+static int check_complete(void) {
+    // What does not draw is tested elsewhere: tests/cli (record), tests of the window (pointer, key).
+    static const char *const others[] = {"record", "pointer", "key"};
+    int missing = 0;
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        bool other = strcmp(kind.area, "canvas") != 0;
+        for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
+            other |= strcmp(kind.name, others[k]) == 0;
+        PetriNodeAttribute attribute;
+        for (size_t k = 0; !other && petri_node_attribute(i, k, &attribute); k++)
+            if (!was_seen(kind.name, attribute.name)) {
+                printf("FAIL: no script has !%s with %s\n", kind.name, attribute.name);
+                missing++;
+            }
+        if (!other && !was_seen(kind.name, "")) {
+            printf("FAIL: no script has !%s\n", kind.name);
+            missing++;
+        }
+    }
+    return missing;
+}
+
+static int compare_names(const void *a, const void *b) {
+    return strcmp(*(char *const *)a, *(char *const *)b);
+}
+
+static size_t list_scripts(const char *folder, char **names) {
+    DIR *directory = opendir(folder);
+    size_t count = 0;
+    for (struct dirent *entry; directory && (entry = readdir(directory)) && count < MOST_SCRIPTS;) {
+        size_t length = strlen(entry->d_name);
+        if (length > 3 && strcmp(entry->d_name + length - 3, ".fl") == 0 && strcmp(entry->d_name, "gallery.fl") != 0)
+            names[count++] = strndup(entry->d_name, length - 3);
+    }
+    if (directory)
+        closedir(directory);
+    qsort(names, count, sizeof *names, compare_names);
+    return count;
+}
+
+int main(int argc, char **argv) {
+    if (argc < 2)
+        return 2;
+    const char *write = argc > 3 && strcmp(argv[2], "--write") == 0    ? argv[3]
+                        : argc > 2 && strcmp(argv[2], "--update") == 0 ? argv[1]
+                                                                       : NULL;
+    char *names[MOST_SCRIPTS];
+    size_t count = list_scripts(argv[1], names);
+    int failed = 0;
+    for (size_t i = 0; i < count; i++) {
+        failed += !run(argv[1], names[i], write);
+        free(names[i]);
+    }
+    failed += check_complete();
+    for (size_t i = 0; i < seen_count; i++)
+        free(seen[i]);
+    printf("%zu pictures, %d failures\n", count, failed);
+    return failed > 0 || count == 0;
+}

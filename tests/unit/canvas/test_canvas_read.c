@@ -1,0 +1,140 @@
+// Reading nodes into a drawing: types, words, reports. What the nodes look like is tested by tests/pictures.
+#include "check.h"
+
+#include "canvas/read.h"
+
+typedef struct Fixture {
+    Arena arena;
+    SymbolTable symbols;
+    CanvasSchema schema;
+    char told[2000];
+} Fixture;
+
+static void note(void *host, DiagLevel level, const char *code, Str node, Str key, Str text) {
+    Fixture *f = host;
+    (void)level, (void)key;
+    size_t len = strlen(f->told);
+    snprintf(f->told + len, sizeof f->told - len, "%.*s %.*s [%s]\n", (int)node.len, node.bytes, (int)text.len,
+             text.bytes, code);
+}
+
+static void begin(Fixture *f) {
+    *f = (Fixture){0};
+    arena_init(&f->arena, "test", SIZE_MAX);
+    f->symbols = symbol_table_new(&f->arena);
+    canvas_schema_init(&f->schema, &f->symbols, (CanvasHost){f, note});
+}
+
+static void end(Fixture *f) {
+    symbol_table_free(&f->symbols);
+    arena_free(&f->arena);
+}
+
+static const Symbol *name(Fixture *f, const char *text) {
+    return symbol_intern(&f->symbols, str_from(text));
+}
+
+static Value numbers(Fixture *f, uint32_t count, const double *x) {
+    return value_numbers_view(arena_copy(&f->arena, x, count * sizeof *x), count);
+}
+#define NUMBERS(f, ...) numbers(f, sizeof((double[]){__VA_ARGS__}) / sizeof(double), (const double[]){__VA_ARGS__})
+
+// A canvas that holds one node with one attribute, read; NULL if the node was left out.
+static const DrawNode *read_one(Fixture *f, const char *kind, const char *attribute, Value v) {
+    const Node *inner =
+        node_set_attrs(&f->arena, node_new(&f->arena, name(f, kind)), &(Attr){name(f, attribute), v}, 1);
+    const Node *canvas = node_append(&f->arena, node_new(&f->arena, name(f, "canvas")), value_node(&f->arena, inner));
+    const Node *window = node_append(&f->arena, node_new(&f->arena, name(f, "window")), value_node(&f->arena, canvas));
+    f->told[0] = 0;
+    const DrawNode *read = canvas_read(&f->schema, &f->arena, window);
+    assert_int_equal(read->child_count, 1);
+    return read->children[0]->child_count ? read->children[0]->children[0] : NULL;
+}
+
+static void test_types(void **state) {
+    (void)state;
+    Fixture f;
+    begin(&f);
+    double pair[2];
+    const DrawNode *node = read_one(&f, "ellipse", "radius", value_number(3));
+    assert_true(draw_pair(node, NAME_RADIUS, pair) && pair[0] == 3 && pair[1] == 3);
+    node = read_one(&f, "paint", "color", NUMBERS(&f, 0.1, 0.2, 0.3));
+    assert_true(draw_attr(node, NAME_COLOR)->as.numbers[2] == 0.3 && draw_attr(node, NAME_COLOR)->as.numbers[3] == 1);
+    node = read_one(&f, "line", "points", NUMBERS(&f, 1, 2, 3, 4));
+    assert_int_equal(draw_attr(node, NAME_POINTS)->count, 4);
+    node = read_one(&f, "paint", "composite", value_number(symbol_number(STR("lighter"))));
+    assert_int_equal(draw_attr(node, NAME_COMPOSITE)->as.word, COMPOSITE_ADD);
+    node = read_one(&f, "paint", "stroke_cap", value_string(&f.arena, STR("square")));
+    assert_int_equal(draw_attr(node, NAME_STROKE_CAP)->as.word, CAP_SQUARE);
+    node = read_one(&f, "font", "weight", value_number(symbol_number(STR("bold"))));
+    assert_true(draw_number(node, NAME_WEIGHT, 0) == 700);
+    node = read_one(&f, "text", "text", NUMBERS(&f, 1, 2.5));
+    assert_string_equal(draw_attr(node, NAME_TEXT)->as.text.bytes, "12.5");
+    assert_string_equal(f.told, "");
+    end(&f);
+}
+
+static void test_reports(void **state) {
+    (void)state;
+    Fixture f;
+    begin(&f);
+    static const struct {
+        const char *kind, *attribute;
+        uint32_t count;
+        double x[4];
+        bool kept; // the node
+        const char *told;
+    } rows[] = {
+        {"rect", "size", 1, {-1}, false, "!rect size should be one number or two, 0 or more, not -1 [bad-attribute]\n"},
+        {"rect",
+         "size",
+         3,
+         {1, 2, 3},
+         false,
+         "!rect size should be one number or two, 0 or more, not 1;2;3 [bad-attribute]\n"},
+        {"paint",
+         "color",
+         2,
+         {1, 1},
+         true,
+         "!paint color should be grey, r;g;b or r;g;b;a, each from 0 to 1, not 1;1 [bad-attribute]\n"},
+        {"line", "points", 3, {1, 2, 3}, false, "!line points should be x;y;x;y…, not 1;2;3 [bad-attribute]\n"},
+        {"group", "rotate", 1, {INFINITY}, false, "!group rotate should be number, not inf [bad-attribute]\n"},
+        {"group",
+         "rotat",
+         1,
+         {1},
+         true,
+         "!group unknown attribute 'rotat', did you mean 'rotate'? [unknown-attribute]\n"},
+        {"group", "size", 1, {1}, true, "!group unknown attribute 'size' [unknown-attribute]\n"},
+        {"grup",
+         "rotate",
+         1,
+         {1},
+         false,
+         "!canvas '!grup' is not drawn; it is left out, did you mean '!group'? [unknown-node]\n"},
+        {"stop", "offset", 1, {1}, false, "!canvas '!stop' has no effect here; it is left out [misplaced-node]\n"},
+        {"canvas", "size", 1, {1}, false, "!canvas '!canvas' has no effect here; it is left out [misplaced-node]\n"},
+        {"font",
+         "weight",
+         1,
+         {5000},
+         true,
+         "!font weight should be 100 to 1000, or a word such as :bold, not 5000 [bad-attribute]\n"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        const DrawNode *node = read_one(&f, rows[i].kind, rows[i].attribute, numbers(&f, rows[i].count, rows[i].x));
+        assert_text(rows[i].told, f.told, rows[i].told);
+        assert_int_equal(node != NULL, rows[i].kept);
+        assert_true(!node || node->attr_count == 0);
+    }
+    end(&f);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_types),
+        cmocka_unit_test(test_reports),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

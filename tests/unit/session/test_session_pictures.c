@@ -1,0 +1,162 @@
+// petri_picture: copies of frames that are drawn later, what there is to draw, and the list of nodes.
+#include "player.h"
+
+static const char DISC[] = "!window size=8;4 title=\"disc \";frame\n"
+                           "    !canvas\n"
+                           "        !rect point=frame;0 size=1;4 fill=true color=1;0;0 antialias=false\n"
+                           "    !record filename=\"a.png\" if frame==1\n";
+
+static PetriPicture *take(Player *player, PetriPictureOptions options, PetriStatus wanted) {
+    PetriPicture *picture = NULL;
+    assert_int_equal(petri_picture(player->session, &options, &picture), wanted);
+    assert_true((picture != NULL) == (wanted == PETRI_OK));
+    return picture;
+}
+
+// The column of the only red pixel of the first row; -2 if this build cannot draw.
+static int red_column(PetriPicture *picture) {
+    uint32_t pixels[8 * 4];
+    PetriPainter *painter = petri_painter_open();
+    PetriStatus status = petri_picture_draw(picture, painter, pixels, 8, 4, 8 * sizeof *pixels);
+    petri_painter_close(&painter);
+    if (status == PETRI_MISSING)
+        return -2;
+    assert_int_equal(status, PETRI_OK);
+    int column = -1;
+    for (int x = 0; x < 8; x++) {
+        assert_true(pixels[x] == 0xff000000u || pixels[x] == 0xffff0000u);
+        if (pixels[x] == 0xffff0000u)
+            column = x;
+    }
+    return column;
+}
+
+static void test_independent(void **state) {
+    Player *player = *state;
+    int width, height;
+    player_run(player, DISC, 2);
+    PetriPicture *second = take(player, petri_default_picture_options(), PETRI_OK);
+    assert_true(petri_records(player->session));
+    player_step(player, 3);
+    PetriPicture *fifth = take(player, petri_default_picture_options(), PETRI_OK);
+    assert_false(petri_records(player->session));
+    assert_int_equal(petri_load_text(player->session, "t.fl", "!x", PETRI_Z), PETRI_OK);
+    petri_close(&player->session);
+    player_open(player);
+    assert_string_equal(petri_picture_title(second), "disc 1");
+    assert_int_equal(petri_picture_frame(fifth), 4);
+    assert_string_equal(petri_picture_record(second, 0), "a.png");
+    assert_null(petri_picture_record(second, 1));
+    assert_null(petri_picture_record(fifth, 0));
+    petri_picture_size(second, &width, &height);
+    assert_int_equal(width, 8);
+    assert_int_equal(height, 4);
+    if (red_column(second) != -2) {
+        assert_int_equal(red_column(fifth), 4);
+        assert_int_equal(red_column(second), 1);
+    }
+    petri_picture_free(&second);
+    petri_picture_free(&fifth);
+    petri_picture_free(&fifth);
+}
+
+static void check_size(Player *player, PetriPictureOptions options, int width, int height) {
+    int w, h;
+    PetriPicture *picture = take(player, options, PETRI_OK);
+    petri_picture_size(picture, &w, &h);
+    assert_int_equal(w, width);
+    assert_int_equal(h, height);
+    petri_picture_free(&picture);
+}
+
+static void test_sizes(void **state) {
+    Player *player = *state;
+    PetriPictureOptions options = petri_default_picture_options();
+    player_run(player, DISC, 1);
+    options.scale = 2.5;
+    check_size(player, options, 20, 10);
+    options.scale = 1e6;
+    take(player, options, PETRI_INVALID);
+    assert_text(
+        "scale", player_told(player),
+        "error a picture can have 1 to 16384 pixels in width and height, not 8000000 x 4000000 [cannot-draw]\n");
+    options = petri_default_picture_options();
+    options.width = 5;
+    options.height = 3;
+    check_size(player, options, 5, 3);
+    options.height = -1;
+    take(player, options, PETRI_INVALID);
+    player_run(player, "!window\n    !canvas\n", 1);
+    check_size(player, petri_default_picture_options(), 1920, 1080);
+    player_run(player, "!window\n    !canvas size=30;20\n", 1);
+    check_size(player, petri_default_picture_options(), 30, 20);
+}
+
+// Which of several things is drawn.
+static void test_choice(void **state) {
+    Player *player = *state;
+    PetriPictureOptions options = petri_default_picture_options();
+    take(player, options, PETRI_INVALID);
+    player_run(player, "!x\n", 1);
+    assert_false(petri_drawable(player->session));
+    take(player, options, PETRI_INVALID);
+    player_run(player, "!window size=3;3\n    !canvas3d\n!offscreen size=4;4\n    !canvas\n", 1);
+    assert_true(petri_drawable(player->session));
+    check_size(player, options, 4, 4);
+    options.window = 0;
+    check_size(player, options, 3, 3);
+    options.window = 2;
+    take(player, options, PETRI_INVALID);
+    options = petri_default_picture_options();
+    options.automatic = PETRI_AUTO_ALWAYS;
+    take(player, options, PETRI_INVALID);
+    player_run(player, "!physics state=:a dimensions=2\n    !particle id=1 position=0/0;0\n    !particle id=2\n", 1);
+    assert_true(petri_drawable(player->session));
+    check_size(player, petri_default_picture_options(), 1080, 1080);
+    options.automatic = PETRI_AUTO_NEVER;
+    take(player, options, PETRI_INVALID);
+}
+
+static void test_misuse(void **state) {
+    Player *player = *state;
+    uint32_t pixels[16];
+    player_run(player, DISC, 1);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPainter *painter = petri_painter_open();
+    assert_int_equal(petri_picture_draw(picture, painter, pixels, 0, 4, 64), PETRI_INVALID);
+    assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 4, 15), PETRI_INVALID);
+    assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 1, 12), PETRI_INVALID);
+    assert_int_equal(petri_picture_save(picture, painter, "x.jpg"), PETRI_INVALID);
+    petri_picture_tell(player->session, picture);
+    assert_text("suffix", player_told(player),
+                "error cannot write 'x.jpg': a picture's name ends in .png, .svg or .pdf [cannot-write]\n");
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
+static void test_nodes(void **state) {
+    (void)state;
+    PetriNodeKind kind;
+    PetriNodeAttribute attribute;
+    size_t kinds = 0, rects = 0, groups = 0;
+    for (; petri_node_kind(kinds, &kind); kinds++) {
+        assert_true(kind.name[0] && kind.help[0]);
+        groups += strcmp(kind.name, "group") == 0;
+        for (size_t i = 0; petri_node_attribute(kinds, i, &attribute); i++) {
+            assert_true(attribute.name[0] && attribute.type[0] && attribute.fallback && attribute.help);
+            rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
+        }
+    }
+    assert_int_equal(groups, 2); // of physics and of the canvas
+    assert_int_equal(rects, 1);
+    assert_false(petri_node_kind(kinds + 1000, &kind));
+    assert_false(petri_node_attribute(kinds, 0, &attribute));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes), PLAYER_TEST(test_choice),
+        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_nodes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
