@@ -33,6 +33,7 @@ typedef struct Command {
 
 extern const Command RUN_COMMAND;
 extern const Command RENDER_COMMAND;
+extern const Command REPL_COMMAND;
 extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;

@@ -10,8 +10,8 @@
 
 #include "cli.h"
 
-const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND, &RENDER_COMMAND, &TEST_COMMAND, &CHECK_COMMAND,
-                                   &HELP_COMMAND, NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,  &RENDER_COMMAND, &REPL_COMMAND,
+                                   &TEST_COMMAND, &CHECK_COMMAND, &HELP_COMMAND,   NULL};
 
 const Command *command_find(const char *name) {
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {

@@ -54,11 +54,11 @@ void repl_busy(Repl *repl) {
     working = repl->session;
 }
 
-bool repl_idle(void) {
-    PetriSession *session = working;
+bool repl_idle(Repl *repl) {
     working = NULL;
-    if (session != NULL) {
-        petri_interrupted(session); // what came too late must not stop the next thing
+    petri_interrupted(repl->session); // what came too late must not stop the next thing
+    if (interrupted && repl->terminal) {
+        output_write(&repl->output, "\n", 1); // after the ^C that the terminal shows
     }
     return interrupted != 0;
 }
@@ -122,7 +122,7 @@ static void take_language(Repl *repl, const char *text, size_t length) {
     PetriPrompted done;
     repl_busy(repl);
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
-    repl_idle();
+    repl_idle(repl);
     if (done.nodes > 0) {
         repl_say(repl, "in the scene from the next step on; .drop takes it out");
     }
@@ -203,7 +203,7 @@ static void converse(Repl *repl) {
         Bytes text = next;
         next = (Bytes){0};
         make_prompt(repl, prompt, sizeof prompt);
-        repl_notice(repl);
+        repl_notice(repl, false);
         status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
         if (status == LINE_READ && !is_blank(&text)) {
             status = handle(repl, reader, &text, &next);

@@ -11,7 +11,7 @@
 
 typedef struct Repl {
     PetriSession *session;
-    History history;
+    ReplHistory history;
     Output output;
     Watch *files;      // NULL: changes are not noticed
     char *script;      // NULL: none was named
@@ -27,7 +27,8 @@ typedef struct Repl {
     bool failed;     // the input at hand was in error
     bool any_failed; // some input was
     bool quit;
-    bool record_fps; // --fps was given: goldens must say so
+    bool rates_changed; // .tempo or .fps was used since the script was loaded
+    bool record_fps;    // --fps was given: goldens must say so
     double fps;
     char **definitions; // of -D and .set, as given
     size_t definition_count;
@@ -50,15 +51,15 @@ void repl_keep_definition(Repl *repl, const char *definition);
 
 // While `busy`, Ctrl-C interrupts the session. Tells whether it was typed since, when that ends.
 void repl_busy(Repl *repl);
-bool repl_idle(void);
-// Whether Ctrl-C was typed since the last repl_busy.
+bool repl_idle(Repl *repl);
+// Whether Ctrl-C was typed since the last repl_busy or prompt.
 bool repl_interrupted(void);
 
 // Loading (repl_script.c). True if the script is running now.
 bool repl_load(Repl *repl, const char *file);
 bool repl_reload(Repl *repl);
-// Looks whether files have changed and says so.
-void repl_notice(Repl *repl);
+// Looks whether files have changed and says so: true if it did. `at_prompt`: something stands in the line already.
+bool repl_notice(Repl *repl, bool at_prompt);
 // Reloads if files have changed: before a step. The old script stays where the new one is wrong.
 void repl_refresh(Repl *repl);
 void repl_watch_files(Repl *repl);
@@ -84,11 +85,12 @@ bool repl_walk(Repl *repl, const Walk *walk);
 void repl_show_frame(Repl *repl);
 bool repl_goto(Repl *repl, int64_t frame);
 
-// Shows (repl_show.c, repl_plot.c, repl_help.c, repl_record.c).
+// Shows (repl_show.c, repl_picture.c, repl_plot.c, repl_help.c, repl_record.c).
 bool repl_show_state(Repl *repl, const char *prefix);
 bool repl_show_tree(Repl *repl, const char *kind);
 bool repl_show_particles(Repl *repl, const char *system);
 bool repl_show_energy(Repl *repl, const char *rest);
+bool repl_show_picture(Repl *repl);
 bool repl_plot(Repl *repl, const char *rest);
 bool repl_time(Repl *repl, const char *rest);
 bool repl_help(Repl *repl, const char *topic);

@@ -15,6 +15,7 @@ REPL_ROW(energy,     ".energy",     "[SYSTEM]",      "print kinetic energy, mome
 REPL_ROW(watch,      ".watch",      "[EXPR]",        "print the expression after each step; alone, list what is watched")
 REPL_ROW(unwatch,    ".unwatch",    "[EXPR]",        "watch it no more; alone, nothing any more")
 REPL_ROW(plot,       ".plot",       "EXPR [N]",      "plot a number over the last N frames (60)")
+REPL_ROW(show,       ".show",       "",              "show the frame's picture in the terminal")
 REPL_ROW(set,        ".set",        "NAME=VALUE",    "define a name for the script, as -D does; it is compiled anew")
 REPL_ROW(tempo,      ".tempo",      "[T]",           "show or change the beats a minute")
 REPL_ROW(fps,        ".fps",        "[F]",           "show or change the frames a second")

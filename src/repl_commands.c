@@ -35,6 +35,8 @@ static bool run_until(Repl *repl, const char *rest) {
     if (good && expression[0] == '\0') {
         good = repl_fail(repl, ".until needs an expression");
     }
+    PetriResult result; // of the present frame: whether it is an expression at all
+    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
     good = good && repl_walk(repl, &(Walk){.count = limit, .until = expression});
     free(expression);
     return good;
@@ -121,6 +123,11 @@ static bool run_plot(Repl *repl, const char *rest) {
     return repl_plot(repl, rest);
 }
 
+static bool run_show(Repl *repl, const char *rest) {
+    (void)rest;
+    return repl_show_picture(repl);
+}
+
 static bool run_set(Repl *repl, const char *rest) {
     PetriSetup *before = petri_setup(repl->session);
     if (before == NULL) {
@@ -154,6 +161,7 @@ static bool run_tempo(Repl *repl, const char *rest) {
     if (rest[0] != '\0' && !(read_rate(repl, rest, &tempo) && petri_set_tempo(repl->session, tempo) == PETRI_OK)) {
         return false;
     }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
     show_number(repl, "tempo", petri_frame(repl->session).tempo);
     return true;
 }
@@ -163,6 +171,7 @@ static bool run_fps(Repl *repl, const char *rest) {
     if (rest[0] != '\0' && !(read_rate(repl, rest, &fps) && petri_set_fps(repl->session, fps) == PETRI_OK)) {
         return false;
     }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
     show_number(repl, "fps", petri_frame(repl->session).fps);
     return true;
 }

@@ -5,7 +5,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void drop_keyframe(History *history, size_t at) {
+static void drop_keyframe(ReplHistory *history, size_t at) {
     history->bytes -= petri_snapshot_bytes(history->keyframes[at].snapshot);
     petri_snapshot_free(history->keyframes[at].snapshot);
     history->keyframe_count--;
@@ -13,33 +13,33 @@ static void drop_keyframe(History *history, size_t at) {
             (history->keyframe_count - at) * sizeof *history->keyframes);
 }
 
-static void drop_all(History *history) {
+static void drop_all(ReplHistory *history) {
     while (history->keyframe_count > 0) {
         drop_keyframe(history, history->keyframe_count - 1);
     }
     history->epoch_count = 0;
 }
 
-void history_free(History *history) {
+void history_free(ReplHistory *history) {
     drop_all(history);
     petri_snapshot_free(history->origin);
     free(history->epochs);
-    *history = (History){0};
+    *history = (ReplHistory){0};
 }
 
 // A keyframe with which its epoch begins: without it frames would be lost.
-static bool is_pinned(const History *history, size_t at) {
+static bool is_pinned(const ReplHistory *history, size_t at) {
     return at == 0 || history->keyframes[at - 1].epoch != history->keyframes[at].epoch;
 }
 
 // How little is lost with a keyframe: the frames between its neighbours for each frame that they lie back.
-static double cost_of(const History *history, size_t at) {
+static double cost_of(const ReplHistory *history, size_t at) {
     const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_EVERY);
 }
 
 // The timeline begins later.
-static void drop_oldest(History *history) {
+static void drop_oldest(ReplHistory *history) {
     drop_keyframe(history, 0);
     while (history->epoch_count > 1 && history->epochs[0].number != history->keyframes[0].epoch) {
         history->epoch_count--;
@@ -49,7 +49,7 @@ static void drop_oldest(History *history) {
     history->why = "what was before it was dropped to save memory";
 }
 
-static void drop_one(History *history) {
+static void drop_one(ReplHistory *history) {
     size_t best = 0;
     for (size_t i = 1; i + 1 < history->keyframe_count; i++) {
         if (!is_pinned(history, i) && (best == 0 || cost_of(history, i) < cost_of(history, best))) {
@@ -63,7 +63,7 @@ static void drop_one(History *history) {
     }
 }
 
-static bool add_keyframe(History *history, PetriSession *session) {
+static bool add_keyframe(ReplHistory *history, PetriSession *session) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     if (snapshot == NULL) {
         return false;
@@ -78,14 +78,14 @@ static bool add_keyframe(History *history, PetriSession *session) {
 }
 
 // From the present frame on, the present setup counts.
-static bool begin_epoch(History *history, PetriSession *session) {
+static bool begin_epoch(ReplHistory *history, PetriSession *session) {
     history->epochs = memory_resized(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
     history->epochs[history->epoch_count++] =
         (Epoch){++history->last_epoch, petri_frame(session).number, petri_setup_number(session)};
     return add_keyframe(history, session);
 }
 
-bool history_start(History *history, PetriSession *session, const char *why) {
+bool history_start(ReplHistory *history, PetriSession *session, const char *why) {
     drop_all(history);
     petri_snapshot_free(history->origin);
     history->origin = petri_snapshot(session);
@@ -95,7 +95,7 @@ bool history_start(History *history, PetriSession *session, const char *why) {
 }
 
 // The epoch in which a frame beyond the first was made.
-static const Epoch *epoch_of(const History *history, int64_t frame) {
+static const Epoch *epoch_of(const ReplHistory *history, int64_t frame) {
     size_t at = history->epoch_count - 1;
     while (at > 0 && history->epochs[at].start >= frame) {
         at--;
@@ -104,7 +104,7 @@ static const Epoch *epoch_of(const History *history, int64_t frame) {
 }
 
 // Forgets what was after a frame.
-static void cut(History *history, int64_t frame) {
+static void cut(ReplHistory *history, int64_t frame) {
     while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].frame > frame) {
         drop_keyframe(history, history->keyframe_count - 1);
     }
@@ -117,7 +117,7 @@ static void cut(History *history, int64_t frame) {
     history->last = frame;
 }
 
-static bool prepare(History *history, PetriSession *session, int64_t frame) {
+static bool prepare(ReplHistory *history, PetriSession *session, int64_t frame) {
     if (epoch_of(history, frame + 1)->setup == petri_setup_number(session)) {
         return true;
     }
@@ -130,7 +130,7 @@ static bool prepare(History *history, PetriSession *session, int64_t frame) {
     return begin_epoch(history, session);
 }
 
-PetriStatus history_step(History *history, PetriSession *session) {
+PetriStatus history_step(ReplHistory *history, PetriSession *session) {
     int64_t before = petri_frame(session).number;
     if (!prepare(history, session, before)) {
         return PETRI_MEMORY;
@@ -157,7 +157,7 @@ PetriStatus history_step(History *history, PetriSession *session) {
 }
 
 // The last keyframe from which a frame beyond the first can be made, or NULL.
-static const Keyframe *keyframe_before(const History *history, int64_t frame) {
+static const Keyframe *keyframe_before(const ReplHistory *history, int64_t frame) {
     uint32_t epoch = epoch_of(history, frame)->number;
     for (size_t i = history->keyframe_count; i > 0; i--) {
         const Keyframe *keyframe = &history->keyframes[i - 1];
@@ -181,7 +181,7 @@ static PetriStatus replay(PetriSession *session, const Keyframe *from, uint64_t 
     return status;
 }
 
-static PetriStatus go_back(History *history, PetriSession *session, int64_t frame, Bytes *why) {
+static PetriStatus go_back(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
     if (frame == history->first) {
         return petri_rewind(session, history->keyframes[0].snapshot);
     }
@@ -194,7 +194,7 @@ static PetriStatus go_back(History *history, PetriSession *session, int64_t fram
     return replay(session, from, epoch_of(history, frame)->setup, frame);
 }
 
-PetriStatus history_goto(History *history, PetriSession *session, int64_t frame, Bytes *why) {
+PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
     PetriSetup *setup = petri_setup(session);
     if (setup == NULL) {
         return PETRI_MEMORY;
@@ -212,7 +212,7 @@ PetriStatus history_goto(History *history, PetriSession *session, int64_t frame,
     return status;
 }
 
-PetriStatus history_reset(History *history, PetriSession *session) {
+PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
     PetriSetup *setup = petri_setup(session);
     PetriStatus status = setup == NULL ? PETRI_MEMORY : petri_rewind(session, history->origin);
     if (setup != NULL) {

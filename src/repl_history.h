@@ -31,7 +31,7 @@ typedef struct Epoch {
     uint64_t setup;
 } Epoch;
 
-typedef struct History {
+typedef struct ReplHistory {
     Keyframe keyframes[HISTORY_MOST + 1];
     size_t keyframe_count;
     Epoch *epochs;
@@ -42,17 +42,17 @@ typedef struct History {
     int64_t last;
     PetriSnapshot *origin; // where `.reset` goes
     const char *why;       // why the timeline begins where it does, or NULL if nothing was before it
-} History;
+} ReplHistory;
 
 // The timeline begins with the present frame; `why` (a literal) says what became of the one before.
-bool history_start(History *history, PetriSession *session, const char *why);
-void history_free(History *history);
+bool history_start(ReplHistory *history, PetriSession *session, const char *why);
+void history_free(ReplHistory *history);
 // petri_step, with the history kept.
-PetriStatus history_step(History *history, PetriSession *session);
+PetriStatus history_step(ReplHistory *history, PetriSession *session);
 // Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
 // again. PETRI_INTERRUPTED in some frame on the way. The setup stays.
-PetriStatus history_goto(History *history, PetriSession *session, int64_t frame, Bytes *why);
+PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why);
 // Goes to where the timeline began, even if that was dropped since. The setup stays.
-PetriStatus history_reset(History *history, PetriSession *session);
+PetriStatus history_reset(ReplHistory *history, PetriSession *session);
 
 #endif

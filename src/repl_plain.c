@@ -8,22 +8,23 @@
 
 enum { BLOCK = 1 << 16, MOST_ECHOED = 4000 };
 
-// Waits until there is something to read, and notices changed files meanwhile. False after Ctrl-C.
-bool plain_wait(Repl *repl) {
+PlainWait plain_wait(Repl *repl) {
     for (;;) {
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {-1, POLLIN, 0}};
         files[1].fd = repl->files == NULL ? -1 : watch_descriptor(repl->files);
         int ready = poll(files, 2, repl->files != NULL && files[1].fd < 0 ? 200 : -1);
         if (ready < 0 && errno == EINTR) {
             if (repl_interrupted()) {
-                return false;
+                return WAIT_INTERRUPTED;
             }
             continue;
         }
         if (files[0].revents != 0 || ready < 0) {
-            return true;
+            return WAIT_INPUT;
         }
-        repl_notice(repl);
+        if (repl_notice(repl, true)) {
+            return WAIT_NOTICED;
+        }
     }
 }
 
@@ -66,9 +67,14 @@ LineStatus plain_read(PlainReader *reader, Repl *repl, const char *prompt, Bytes
             return LINE_END;
         }
         output_flush(&repl->output);
-        if (!plain_wait(repl)) {
+        PlainWait wait = plain_wait(repl);
+        if (wait == WAIT_INTERRUPTED) {
             output_write(&repl->output, "\n", 1);
             return LINE_INTERRUPTED;
+        }
+        if (wait == WAIT_NOTICED) {
+            output_format(&repl->output, "%s", prompt);
+            continue;
         }
         if (reader->at > 0) {
             memmove(reader->text.data, reader->text.data + reader->at, reader->text.length - reader->at);

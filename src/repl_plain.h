@@ -11,8 +11,13 @@ typedef struct PlainReader {
     bool ended;
 } PlainReader;
 
-// Waits until there is input, and notices changed files meanwhile. False after Ctrl-C.
-bool plain_wait(Repl *repl);
+typedef enum PlainWait {
+    WAIT_INPUT,       // there is something to read
+    WAIT_NOTICED,     // changed files were told of: the prompt must be written again
+    WAIT_INTERRUPTED, // Ctrl-C
+} PlainWait;
+
+PlainWait plain_wait(Repl *repl);
 // As line_read.
 LineStatus plain_read(PlainReader *reader, Repl *repl, const char *prompt, Bytes *line);
 

@@ -85,16 +85,21 @@ static void write_canvas(Output *output, const Canvas *canvas, const Range *rang
     int rows = canvas->braille ? canvas->rows / 4 : canvas->rows;
     int columns = canvas->braille ? canvas->columns / 2 : canvas->columns;
     for (int row = 0; row < rows; row++) {
+        const unsigned char *dots = canvas->dots + row * canvas->columns;
+        int last = columns; // blanks at the end say nothing
+        while (!canvas->braille && last > 0 && !dots[last - 1]) {
+            last--;
+        }
         char label[32] = "";
         if (row == 0 || row == rows - 1) {
             snprintf(label, sizeof label, "%.6g", row == 0 ? range->most : range->least);
         }
         output_format(output, "%12s %s", label, canvas->braille ? "\u2502" : "|");
-        for (int column = 0; column < columns; column++) {
+        for (int column = 0; column < last; column++) {
             if (canvas->braille) {
                 write_braille(output, canvas, row, column);
             } else {
-                output_write(output, canvas->dots[row * canvas->columns + column] ? "*" : " ", 1);
+                output_write(output, dots[column] ? "*" : " ", 1);
             }
         }
         output_write(output, "\n", 1);
@@ -147,7 +152,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     double *values = memory_zeroed((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
     PetriStatus status = gather(repl, expression, first, now - first + 1, values, &why);
-    bool stopped = repl_idle();
+    bool stopped = repl_idle(repl);
     if (status == PETRI_OK) {
         plot(repl, values, first, now - first + 1);
     } else {
@@ -167,6 +172,8 @@ bool repl_plot(Repl *repl, const char *rest) {
     if (good && count > MOST_FRAMES) {
         good = repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
     }
+    PetriResult result; // of the present frame: whether it is an expression at all
+    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
     good = good && plot_frames(repl, expression, count);
     free(expression);
     return good;
@@ -196,7 +203,7 @@ static bool time_expression(Repl *repl, const char *expression) {
         best = status == PETRI_OK ? fmin(best, result.seconds) : best;
         count++;
     }
-    repl_idle();
+    repl_idle(repl);
     if (repl_status(repl, status)) {
         say_seconds(repl, best, ", the best of several evaluations");
     }

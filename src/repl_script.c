@@ -38,6 +38,7 @@ static bool loaded(Repl *repl, PetriStatus status) {
 
 bool repl_load(Repl *repl, const char *file) {
     PetriStatus status = petri_load(repl->session, file);
+    repl->rates_changed = repl->rates_changed && status != PETRI_OK;
     if (status == PETRI_OK && file != repl->script) {
         free(repl->script);
         repl->script = memory_copied(file, strlen(file));
@@ -64,7 +65,7 @@ bool repl_reload(Repl *repl) {
 }
 
 void repl_refresh(Repl *repl) {
-    repl_notice(repl);
+    repl_notice(repl, false);
     if (repl->changed) {
         repl->changed = false;
         if (!repl_reload(repl)) {
@@ -73,17 +74,25 @@ void repl_refresh(Repl *repl) {
     }
 }
 
-void repl_notice(Repl *repl) {
+bool repl_notice(Repl *repl, bool at_prompt) {
     if (repl->files == NULL || !watch_changed(repl->files)) {
-        return;
+        return false;
     }
     Bytes now = {0}, what = {0};
-    if (repl->script != NULL && bytes_read_file(&now, repl->script)) {
-        diff_describe(&repl->script_text, &now, &what);
-        repl_say(repl, "%s was changed%s%s; it is loaded anew before the next step", repl->script,
-                 what.length == 0 ? "" : ": ", what.length == 0 ? "" : what.data);
+    bool changed = repl->script != NULL && bytes_read_file(&now, repl->script);
+    if (changed) {
         repl->changed = true;
+        diff_describe(&repl->script_text, &now, &what);
+        if (at_prompt) {
+            output_write(&repl->output, "\n", 1);
+        }
+        // If nothing is different here, it is a file that the script includes or imports.
+        repl_say(repl, "%s%s was changed%s%s; it is loaded anew before the next step",
+                 what.length == 0 ? "what goes into " : "", repl->script, what.length == 0 ? "" : ": ",
+                 what.length == 0 ? "" : what.data);
+        output_flush(&repl->output);
     }
     bytes_free(&now);
     bytes_free(&what);
+    return changed;
 }

@@ -45,7 +45,7 @@ static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
     filter->depth = SIZE_MAX;
     repl_busy(repl);
     petri_print(repl->session, section, filter_lines, filter);
-    repl_idle();
+    repl_idle(repl);
     bytes_free(&filter->line);
     return filter->found;
 }
@@ -96,7 +96,7 @@ bool repl_show_tree(Repl *repl, const char *kind) {
     kind += kind[0] == '!';
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
-    repl_idle();
+    repl_idle(repl);
     if (!repl_status(repl, status)) {
         return false;
     }

@@ -66,7 +66,7 @@ static Outcome one_step(Repl *repl, const Walk *walk) {
 }
 
 static void conclude(Repl *repl, const Walk *walk, int64_t made, Outcome outcome) {
-    if (repl_idle()) {
+    if (repl_interrupted()) {
         repl_fail(repl, "interrupted after %" PRId64 " frame%s", made, made == 1 ? "" : "s");
     } else if (outcome == GOING && walk->until != NULL) {
         repl_fail(repl, "not true within %" PRId64 " frame%s (--limit)", made, made == 1 ? "" : "s");
@@ -96,6 +96,7 @@ bool repl_walk(Repl *repl, const Walk *walk) {
         progress_update(&progress, made);
     }
     progress_erase(&progress);
+    repl_idle(repl);
     if (!shown) {
         show_step(repl, &progress, true);
     }
@@ -110,7 +111,7 @@ bool repl_goto(Repl *repl, int64_t frame) {
     repl->failed = false;
     repl_busy(repl);
     PetriStatus status = history_goto(&repl->history, repl->session, frame, &why);
-    bool stopped = repl_idle();
+    bool stopped = repl_idle(repl);
     if (stopped) {
         repl_fail(repl, "interrupted");
     } else if (status == PETRI_INVALID) {

@@ -25,11 +25,18 @@ void table_add(Table *table, const char *cell) {
 
 void table_write(const Table *table, Output *output) {
     const char *cell = table->cells.data;
+    size_t due = 0; // blanks before the next cell that holds something
     for (size_t i = 0; i < table->count; i++, cell += strlen(cell) + 1) {
         size_t column = i % table->columns;
-        bool last = column + 1 == table->columns;
-        output_format(output, "%s%*s%s", cell, last ? 0 : (int)(table->width[column] - width_of(cell) + 2), "",
-                      last ? "\n" : "");
+        if (cell[0] != '\0') {
+            output_format(output, "%*s%s", (int)due, "", cell);
+            due = 0;
+        }
+        due += table->width[column] - width_of(cell) + 2;
+        if (column + 1 == table->columns) {
+            output_write(output, "\n", 1);
+            due = 0;
+        }
     }
 }
 

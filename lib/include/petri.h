@@ -159,7 +159,7 @@ typedef struct PetriSetup PetriSetup;
 // The present one, or NULL if memory is used up. Free with petri_setup_free, which takes NULL, too.
 PetriSetup *petri_setup(PetriSession *session);
 void petri_setup_free(PetriSetup *setup);
-// Goes back to a setup of this session; state and frame stay.
+// Goes back to a setup of this session; state, frame, time and beat stay.
 void petri_setup_use(PetriSession *session, PetriSetup *setup);
 // A number that is another whenever the setup is; modules that changed on disk count as well.
 uint64_t petri_setup_number(const PetriSession *session);

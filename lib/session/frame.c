@@ -89,19 +89,6 @@ static void rebase_clock(PetriSession *session) {
         session->base = (ClockBase){true, frame->number, frame->time, frame->beat};
 }
 
-void session_keep_clock(PetriSession *session) {
-    const ClockBase *base = &session->base;
-    const PetriFrame *frame = &session->frame;
-    if (frame->number < 0 || session->options.realtime)
-        return;
-    double time = base->time + (double)(frame->number - base->frame) / frame->fps;
-    double beat = base->beat + (time - base->time) / (60 / frame->tempo);
-    if (time == frame->time && beat == frame->beat)
-        return;
-    rebase_clock(session);
-    session_change_setup(session, true);
-}
-
 static void set_fps(PetriSession *session, double fps) {
     rebase_clock(session);
     if (session->start != 0) // of real time: such that the present frame was due when it was
@@ -114,15 +101,22 @@ static void set_tempo(PetriSession *session, double tempo) {
     session->frame.tempo = tempo;
 }
 
+void session_set_rates(PetriSession *session, const ClockRates *rates) {
+    if (rates->fps != session->frame.fps)
+        set_fps(session, rates->fps);
+    if (rates->tempo != session->frame.tempo)
+        set_tempo(session, rates->tempo);
+    session->quantum = rates->quantum;
+}
+
 void session_take_rates(PetriSession *session, const Program *program) {
-    ClockRates before = session->said, *said = &session->said;
-    *said = rates_of(session, program);
-    if (said->fps != before.fps)
-        set_fps(session, said->fps);
-    if (said->tempo != before.tempo)
-        set_tempo(session, said->tempo);
-    if (said->quantum != before.quantum)
-        session->quantum = said->quantum;
+    ClockRates before = session->said, rates = {session->frame.fps, session->frame.tempo, session->quantum};
+    const ClockRates *said = &session->said;
+    session->said = rates_of(session, program);
+    rates.fps = said->fps != before.fps ? said->fps : rates.fps;
+    rates.tempo = said->tempo != before.tempo ? said->tempo : rates.tempo;
+    rates.quantum = said->quantum != before.quantum ? said->quantum : rates.quantum;
+    session_set_rates(session, &rates);
 }
 
 static bool is_rate(double x) {
@@ -362,7 +356,7 @@ static PetriStatus make_frame(PetriSession *session) {
         return PETRI_MEMORY;
     if (!session->options.interruptible || !petri_interrupted(session))
         return PETRI_OK;
-    return snapshot_put(session, &session->undo) ? PETRI_INTERRUPTED : PETRI_MEMORY;
+    return session_put_back(session, &session->undo) ? PETRI_INTERRUPTED : PETRI_MEMORY;
 }
 
 PetriStatus petri_step(PetriSession *session) {
@@ -370,7 +364,7 @@ PetriStatus petri_step(PetriSession *session) {
         return PETRI_INVALID;
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
-    if (session->options.interruptible && !snapshot_take(session, &session->undo))
+    if (session->options.interruptible && !session_take(session, &session->undo))
         return PETRI_MEMORY;
     PetriFrame frame = session->frame;
     double delta = session->delta, start = session->start, performance = session->performance;

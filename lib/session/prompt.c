@@ -80,7 +80,7 @@ static void add_names(PetriSession *session, const Program *program) {
             return;
 }
 
-void prompt_collect_names(PetriSession *session) {
+void session_collect_names(PetriSession *session) {
     session->name_count = 0;
     if (session->program)
         add_names(session, session->program->program);
@@ -93,10 +93,10 @@ static void compile(PetriSession *session, Job *job) {
 }
 
 // A statement that does not fit in memory any more is dropped.
-void prompt_compile_all(PetriSession *session) {
+void session_compile_prompts(PetriSession *session) {
     uint32_t count = session->prompt_count, kept = 0;
     session->prompt_count = 0;
-    prompt_collect_names(session);
+    session_collect_names(session);
     session_set_globals(session, &session->static_vm);
     for (uint32_t i = 0; i < count; i++) {
         Prompt prompt = session->prompts[i];
@@ -112,7 +112,7 @@ void prompt_compile_all(PetriSession *session) {
     session->prompt_count = kept;
 }
 
-void prompt_free_all(PetriSession *session) {
+void session_free_prompts(PetriSession *session) {
     for (uint32_t i = 0; i < session->prompt_count; i++)
         unit_free(session->prompts[i].unit);
     free(session->prompts);
@@ -428,7 +428,7 @@ uint32_t petri_drop(PetriSession *session, bool bindings) {
     if (kept == count)
         return 0;
     session_change_setup(session, false);
-    prompt_compile_all(session);
+    session_compile_prompts(session);
     return count - kept;
 }
 
@@ -439,7 +439,7 @@ const char *petri_kept(PetriSession *session, size_t number) {
     const Prompt *prompt = &session->prompts[number];
     Str text = prompt->unit->source->text;
     Span span = prompt->ast->span;
-    return str_to_c(&session->text_arena, (Str){text.bytes + span.start, span.end - span.start});
+    return str_to_c(&session->text_arena, str_trim((Str){text.bytes + span.start, span.end - span.start}));
 }
 
 const char *petri_name(PetriSession *session, size_t number) {

@@ -102,7 +102,7 @@ void petri_close(PetriSession **handle) {
     *handle = NULL;
     if (!session)
         return;
-    prompt_free_all(session);
+    session_free_prompts(session);
     petri_setup_free(session->setup);
     free(session->undo.bytes);
     free(session->names);
@@ -290,7 +290,7 @@ static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
     else
         session_take_rates(session, unit->program);
     session_change_setup(session, false);
-    prompt_compile_all(session);
+    session_compile_prompts(session);
 }
 
 static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadPurpose purpose) {

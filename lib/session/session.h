@@ -64,13 +64,13 @@ struct PetriSetup {
     uint32_t define_count;
     ClockRates said;
     ClockRates rates;
-    ClockBase base;
     double resolution;
 };
 
 struct PetriSnapshot {
     PetriSetup *setup; // a reference
     PetriFrame frame;
+    ClockBase base;
     double delta;
     unsigned char *bytes; // state and systems (snapshot.c)
     size_t size;
@@ -175,8 +175,8 @@ void session_set_globals(const PetriSession *session, Vm *vm);
 void session_resume(PetriSession *session, int64_t frame);
 // Takes tempo, quantum and fps from the pragmas, where they differ from those of the script before.
 void session_take_rates(PetriSession *session, const Program *program);
-// After a setup from another frame was taken over: time and beat must not jump.
-void session_keep_clock(PetriSession *session);
+// Changes the rates from the present frame on.
+void session_set_rates(PetriSession *session, const ClockRates *rates);
 // Drops what was computed in the last frame: tree, log, values of names.
 void session_clear_frame(PetriSession *session);
 // Evaluates script and prompt statements; false if that was given up. Within escapes.
@@ -187,14 +187,14 @@ void session_change_setup(PetriSession *session, bool frame_stays);
 PetriSetup *session_setup(PetriSession *session);
 
 // Copies state and systems into a snapshot's memory, which is used again; false if memory is used up.
-bool snapshot_take(PetriSession *session, PetriSnapshot *snapshot);
+bool session_take(PetriSession *session, PetriSnapshot *snapshot);
 // … and back; false, with nothing changed, if memory is used up.
-bool snapshot_put(PetriSession *session, const PetriSnapshot *snapshot);
+bool session_put_back(PetriSession *session, const PetriSnapshot *snapshot);
 
 // Compiles all prompt statements anew, with the names of the present script.
-void prompt_compile_all(PetriSession *session);
+void session_compile_prompts(PetriSession *session);
 // Makes the names of what has been evaluated and is in sight: the script's and those of the statements.
-void prompt_collect_names(PetriSession *session);
-void prompt_free_all(PetriSession *session);
+void session_collect_names(PetriSession *session);
+void session_free_prompts(PetriSession *session);
 
 #endif

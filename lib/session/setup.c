@@ -49,7 +49,6 @@ PetriSetup *session_setup(PetriSession *session) {
                           .define_count = session->define_count,
                           .said = session->said,
                           .rates = {session->frame.fps, session->frame.tempo, session->quantum},
-                          .base = session->base,
                           .resolution = session->resolution};
     if (setup->program)
         setup->program->references++;
@@ -88,15 +87,11 @@ void petri_setup_use(PetriSession *session, PetriSetup *setup) {
     session->defines = setup->defines;
     session->define_count = setup->define_count;
     session->said = setup->said;
-    session->frame.fps = setup->rates.fps;
-    session->frame.tempo = setup->rates.tempo;
-    session->quantum = setup->rates.quantum;
-    session->base = setup->base;
+    session_set_rates(session, &setup->rates);
     session->resolution = setup->resolution;
-    prompt_collect_names(session);
+    session_collect_names(session);
     setup->references++;
     petri_setup_free(session->setup);
     session->setup = setup;
     session->setup_number = setup->number;
-    session_keep_clock(session);
 }

@@ -70,9 +70,10 @@ static void put_systems(Writer *writer, const Scene *scene) {
     }
 }
 
-bool snapshot_take(PetriSession *session, PetriSnapshot *snapshot) {
+bool session_take(PetriSession *session, PetriSnapshot *snapshot) {
     Writer writer = {snapshot, false};
     snapshot->frame = session->frame;
+    snapshot->base = session->base;
     snapshot->delta = session->delta;
     snapshot->size = 0;
     uint32_t count = state_slot_count(session->state);
@@ -157,7 +158,7 @@ static bool take_systems(SnapshotReader *reader, PetriSession *session) {
     return done;
 }
 
-bool snapshot_put(PetriSession *session, const PetriSnapshot *snapshot) {
+bool session_put_back(PetriSession *session, const PetriSnapshot *snapshot) {
     Arena arena;
     arena_init(&arena, "snapshot", SIZE_MAX);
     SnapshotReader reader = {snapshot->bytes, &arena};
@@ -169,6 +170,7 @@ bool snapshot_put(PetriSession *session, const PetriSnapshot *snapshot) {
         session->state = state;
         done = take_systems(&reader, session);
         session->frame = snapshot->frame;
+        session->base = snapshot->base;
         session->delta = snapshot->delta;
     }
     arena_free(&arena);
@@ -178,7 +180,7 @@ bool snapshot_put(PetriSession *session, const PetriSnapshot *snapshot) {
 PetriSnapshot *petri_snapshot(PetriSession *session) {
     PetriSetup *setup = petri_setup(session);
     PetriSnapshot *snapshot = setup ? calloc(1, sizeof *snapshot) : NULL;
-    if (snapshot && snapshot_take(session, snapshot)) {
+    if (snapshot && session_take(session, snapshot)) {
         snapshot->setup = setup;
         unsigned char *exact = realloc(snapshot->bytes, snapshot->size); // many are kept
         snapshot->bytes = exact ? exact : snapshot->bytes;
@@ -202,7 +204,7 @@ size_t petri_snapshot_bytes(const PetriSnapshot *snapshot) {
 }
 
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot) {
-    if (!snapshot_put(session, snapshot))
+    if (!session_put_back(session, snapshot))
         return PETRI_MEMORY;
     petri_setup_use(session, snapshot->setup);
     return PETRI_OK;

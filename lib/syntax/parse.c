@@ -327,10 +327,11 @@ static bool takes_children(int kind) {
     return kind == NODE || kind == '@';
 }
 
-// An end of the text that more lines would move: an open string, or a backslash before the last line end.
-static bool is_cut_short(Str text, Span span) {
-    Str rest = {text.bytes + span.start, text.len - span.start};
-    return str_starts_with(rest, STR("'''")) || str_starts_with(rest, STR("\"\"\"")) || str_equal(rest, STR("\\\n"));
+// Is what no token starts with the third quote of a string that goes on? The first two were taken for an empty string.
+static bool opens_string(Str text, Span span) {
+    uint32_t start = span.start < 2 ? 0 : span.start - 2;
+    Str string = {text.bytes + start, text.len - start};
+    return str_starts_with(string, STR("'''")) || str_starts_with(string, STR("\"\"\""));
 }
 
 // What is needed after a line end that is the text's.
@@ -350,9 +351,9 @@ static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser)
         Token token = layout_next(layout);
         settle_kind(context, layout, parser, &token);
         if (token.kind == GR_UNDEF || token.error)
-            return !token.error && is_cut_short(text, token.span) ? PARSE_PART : PARSE_WHOLE;
+            return !token.error && opens_string(text, token.span) ? PARSE_PART : PARSE_WHOLE;
         if (token.kind == END)
-            return layout->paren_count > 0 ? PARSE_PART : PARSE_WHOLE;
+            return layout->paren_count > 0 || str_ends_with(text, STR("\\\n")) ? PARSE_PART : PARSE_WHOLE;
         if (begins && token.kind != NEWLINE)
             first = token.kind;
         begins = token.kind == NEWLINE && layout->level_count == 1;

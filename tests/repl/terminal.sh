@@ -1,0 +1,173 @@
+#!/bin/sh
+# terminal.sh PETRI: `petri repl` on a real terminal, which tmux gives: completion, Ctrl-C, history, lines that belong
+# together, a script that is changed meanwhile. Exit status 77 (skipped) where there is no tmux.
+set -u
+here=$(cd "$(dirname "$0")" && pwd)
+petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+if ! command -v tmux >/dev/null 2>&1; then
+    echo "skipped: there is no tmux (Debian package tmux)"
+    exit 77
+fi
+work=$(mktemp -d) || exit 1
+servers=0
+server=petri-repl-$$-0
+trap 't kill-server; rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cp -R "$here"/*.fl "$here"/lib "$work"
+cd "$work" || exit 1
+XDG_STATE_HOME=$work/state
+export XDG_STATE_HOME
+unset NO_COLOR TMUX
+passed=0
+failed=0
+
+t() { tmux -L "$server" -f /dev/null "$@" 2>/dev/null; }
+screen() { t capture-pane -p; }
+
+# start OPTIONS...: a fresh terminal with petri in it, which tells its exit status when it is done.
+start() {
+    t kill-server
+    servers=$((servers + 1)) # a new one: the old one may take its time to go
+    server=petri-repl-$$-$servers
+    t new-session -d -x 120 -y 50 "LC_ALL=${locale:-C.UTF-8} '$petri' repl $* 2>&1; echo left with \$?; exec sleep 1000"
+    expect "the prompt comes ($*)" '> *$'
+}
+
+type_keys() { t send-keys "$@"; }
+
+# expect NAME PATTERN: the screen must come to hold a line like this.
+expect() {
+    tries=0
+    until screen | grep -q -e "$2"; do
+        tries=$((tries + 1))
+        if [ $tries -ge 150 ]; then
+            failed=$((failed + 1))
+            echo "FAIL $1: no line like '$2' in"
+            screen | sed -e 's/^/  | /' -e '/^  | $/d'
+            return
+        fi
+        sleep 0.1
+    done
+    passed=$((passed + 1))
+    echo "ok $1"
+}
+
+# refuse NAME PATTERN: no line like this must be there.
+refuse() {
+    if screen | grep -q -e "$2"; then
+        failed=$((failed + 1))
+        echo "FAIL $1: a line like '$2'"
+    else
+        passed=$((passed + 1))
+        echo "ok $1"
+    fi
+}
+
+start --color never cells.fl
+if screen | grep -q 'built without libedit'; then
+    echo "skipped: completion and history, for this petri was built without libedit"
+    edits=no
+else
+    edits=yes
+fi
+
+if [ $edits = yes ]; then
+    type_keys '.ste' Tab ' 2' Enter
+    expect "a command is completed" '^petri> \.step 2$'
+    expect "and done" '^@1 time=0.01'
+    type_keys '.re' Tab
+    expect "what may follow is listed" '\.record .*\.reset .*\.restore'
+    type_keys C-u 'pola' Tab '(0)' Enter
+    expect "a built-in is completed" '^@1> polar(0)$'
+    expect "and called" '^1;0$'
+    type_keys 'COU' Tab '+1' Enter
+    expect "a name of the script is completed" '^@1> COUNT+1$'
+    type_keys '!parti' Tab ' rad' Tab '1 cha' Tab
+    expect "a node and its attributes are completed" '^@1> !particle radius=1 charge=$'
+    type_keys C-u '$(:cells;1' '\;' Tab Enter
+    expect "a key of the state is completed" '^@1> \$(:cells;1;:velocity)$'
+    type_keys '.help !elec' Tab Enter
+    expect "a topic is completed" '^!electrostatic (physics)'
+    type_keys '.load bro' Tab Enter
+    expect "a file is completed" 'broken.fl:1:11: error: '
+fi
+
+type_keys '.run' Enter
+sleep 0.5
+type_keys C-c
+expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames'
+type_keys 'frame > 0' Enter
+expect "which goes on from there" '^1$'
+type_keys 'nonsense((' C-c
+type_keys '6*7' Enter
+expect "Ctrl-C at the prompt clears the line" '^42$'
+refuse "and does nothing with it" 'error: .*nonsense'
+type_keys 'func f(n)' Enter '    if n' Enter '        f(n-1)+f(n-1)' Enter '    else' Enter '        1' Enter Enter
+type_keys 'f(5)' Enter
+expect "lines that belong together" '^32$'
+type_keys 'f(40)' Enter
+sleep 0.5
+type_keys C-c
+expect "Ctrl-C stops an evaluation" '^petri: interrupted$'
+type_keys 'func g(x)' Enter '    x' C-c
+type_keys '7*11' Enter
+expect "Ctrl-C gives up lines begun" '^77$'
+type_keys 'let unusual=100+23' Enter
+type_keys 'unusual' Enter
+expect "a name is kept" '^123$'
+type_keys C-d
+expect "Ctrl-D leaves" '^left with 0$'
+
+if [ $edits = yes ]; then
+    start --color never cells.fl
+    type_keys Up Up Enter
+    expect "history is there in the next session" '^petri> let unusual=100+23$'
+    type_keys C-r 'sual=1' Enter
+    sleep 0.3
+    type_keys C-d
+    expect "and can be searched" '^left with 0$'
+    if [ "$(grep -c 'let unusual=100+23' "$XDG_STATE_HOME/petri/history")" -lt 3 ]; then
+        failed=$((failed + 1))
+        echo "FAIL searching in the history: $(cat "$XDG_STATE_HOME/petri/history")"
+    fi
+fi
+
+printf '!counter state=:n rate=60\n!shape size=1\n' >edited.fl
+start --color never edited.fl
+type_keys '.step 5' Enter
+expect "a script that will be edited" '^@4 '
+printf '!counter state=:n rate=60\nlet SIZE=2\n!shape size=SIZE\n' >edited.fl
+expect "the change is noticed" '^-- edited.fl was changed: 2 lines added, 1 removed (SIZE)'
+type_keys '.step' Enter
+expect "and the script loaded anew" '^-- edited.fl is loaded anew'
+type_keys '.tree shape' Enter
+expect "and counts" '^!shape size=2$'
+type_keys '$:n' Enter
+expect "while the state stays" '^5$'
+printf '!shape size=\n' >edited.fl
+expect "a mistake is noticed" '^-- edited.fl was changed: 1 line added, 3 removed'
+type_keys '.step 2' Enter
+expect "and told" 'edited.fl:1:13: error: '
+expect "the script as it was goes on" '^-- the script as it was goes on'
+type_keys '.tree shape' Enter '7777-1' Enter
+expect "the prompt comes back" '^7776$'
+if [ "$(screen | grep -c '^!shape size=2$')" -ne 2 ]; then
+    failed=$((failed + 1))
+    echo "FAIL the old script does not go on"
+    screen
+fi
+type_keys '.quit' Enter
+expect ".quit leaves" '^left with 0$'
+
+locale=C
+start --color always cells.fl
+type_keys '.step 9' Enter '.plot $:ticks' Enter
+expect "a plot in ASCII" '^ *1.33333 | *\*\*$'
+type_keys '.show' Enter '4444+1' Enter
+expect "a picture, or why not" '^4445$'
+if screen | LC_ALL=C grep -q '[^ -~]'; then
+    failed=$((failed + 1))
+    echo "FAIL there are other characters than ASCII where the locale has none"
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

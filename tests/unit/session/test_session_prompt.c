@@ -1,0 +1,205 @@
+// test_session_prompt.c: statements and expressions at a prompt, through petri.h.
+#include "player.h"
+
+static const char *const SCRIPT = "%pragma tempo 120\n"
+                                  "let COUNT=3\n"
+                                  "    twice=frame*2\n"
+                                  "func add(a, b=1)\n"
+                                  "    a+b\n"
+                                  "!counter state=:c\n"
+                                  "!shape n=COUNT\n";
+
+// What the prompt writes for a text.
+static const char *typed(Player *player, const char *text, PetriStatus wanted) {
+    PetriPrompted done;
+    player->shown.len = 0;
+    note(&player->shown, "", 0);
+    PetriStatus status = petri_prompt(player->session, text, PETRI_Z, note, &player->shown, &done);
+    if (status != wanted) {
+        print_error("%s: status %d\n%s", text, status, player_told(player));
+        fail();
+    }
+    return player->shown.text;
+}
+
+static void check_typed(Player *player, const ScriptRow *rows, size_t count) {
+    for (size_t i = 0; i < count; i++)
+        assert_text(rows[i].script, typed(player, rows[i].script, PETRI_OK), rows[i].wanted);
+}
+
+#define CHECK_TYPED(player, rows) check_typed(player, rows, sizeof rows / sizeof rows[0])
+
+static void test_values(void **state) {
+    Player *player = *state;
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    const ScriptRow before[] = {
+        {"1+2", "3\n"},     {"frame;time;beat", "0;0;0\n"}, {"COUNT;add(COUNT)", "3;4\n"},
+        {"null", "null\n"}, {"'a';:b", "'a';:b\n"},          {"$:c", "null\n"},
+        {"add", "(add)\n"}, {"2 if 1 else 3", "2\n"},        {"", ""},
+    };
+    CHECK_TYPED(player, before);
+    player_step(player, 3);
+    const ScriptRow after[] = {
+        {"frame;twice", "2;4\n"},
+        {"$:c", "0.03333333333333333\n"},
+        {"1\n2\n", "1\n2\n"},
+        {"debug(7)", "> 7\n7\n"},
+    };
+    CHECK_TYPED(player, after);
+    assert_string_equal(player_told(player), "");
+}
+
+static void test_kept(void **state) {
+    Player *player = *state;
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    const ScriptRow rows[] = {
+        {"let k=COUNT+frame", ""},
+        {"k", "3\n"},
+        {"let a;b=k;10", ""},
+        {"func f(x)\n    if x < 2\n        1\n    else\n        x*f(x-1)\n", ""},
+        {"f(5)+a+b", "133\n"},
+        {"!extra v=k\n    !inner\n", "!extra v=3\n    !inner\n"},
+        {"for i in ..2\n    !loop i=i\n", "!loop i=0\n!loop i=1\n"},
+    };
+    CHECK_TYPED(player, rows);
+    player_step(player, 5);
+    assert_string_equal(player_tree(player), "!counter state=:c\n!shape n=3\n!extra v=7\n    !inner\n"
+                                             "!loop i=0\n!loop i=1\n");
+    assert_string_equal(typed(player, "k;a;b", PETRI_OK), "7;7;10\n");
+    assert_string_equal(petri_kept(player->session, 0), "let k=COUNT+frame");
+    assert_int_equal(petri_drop(player->session, false), 2);
+    player_step(player, 1);
+    assert_string_equal(player_tree(player), "!counter state=:c\n!shape n=3\n");
+    assert_string_equal(typed(player, "k", PETRI_OK), "8\n");
+    assert_int_equal(petri_drop(player->session, true), 3);
+    assert_null(petri_kept(player->session, 0));
+    assert_string_equal(typed(player, "k", PETRI_OK), "null\n");
+    assert_non_null(strstr(player_told(player), "unbound name 'k'"));
+}
+
+// A system typed at the prompt simulates like one of the script.
+static void test_typed_physics(void **state) {
+    static const char *const system = "!physics state=:p dimensions=1 time=time\n"
+                                      "    !particle id=0 position=1 velocity=COUNT\n"
+                                      "    !constant force=2\n";
+    Player *player = *state;
+    char whole[1000];
+    snprintf(whole, sizeof whole, "%s%s", SCRIPT, system);
+    player_run(player, whole, 10);
+    char *wanted = strdup(player_state(player));
+    petri_clear(player->session);
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    typed(player, system, PETRI_OK);
+    player_step(player, 10);
+    assert_string_equal(player_state(player), wanted);
+    free(wanted);
+}
+
+static void test_faults(void **state) {
+    Player *player = *state;
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    static const char *const wrong[] = {"1+", "let x", "%pragma tempo 3\n", "!a x=", "'"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++) {
+        for (int twice = 0; twice < 2; twice++) { // what is typed again is told again
+            typed(player, wrong[i], PETRI_INVALID);
+            assert_non_null(strstr(player_told(player), "error prompt:1:"));
+            player_forget(player);
+        }
+    }
+    assert_null(petri_kept(player->session, 0));
+    player_step(player, 2);
+    assert_string_equal(typed(player, "COUNT", PETRI_OK), "3\n");
+}
+
+static void test_input(void **state) {
+    Player *player = *state;
+    static const struct {
+        const char *text;
+        PetriInput wanted;
+    } rows[] = {
+        {"1+2\n", PETRI_INPUT_WHOLE},
+        {"let x=1\n", PETRI_INPUT_WHOLE},
+        {"x where y=2\n", PETRI_INPUT_WHOLE},
+        {"!a\n", PETRI_INPUT_OPEN},
+        {"!a x=1\n    !b\n", PETRI_INPUT_OPEN},
+        {"@f x=1\n", PETRI_INPUT_OPEN},
+        {"for i in ..3\n", PETRI_INPUT_BLOCK},
+        {"if x\n", PETRI_INPUT_BLOCK},
+        {"if x\n    1\nelse\n", PETRI_INPUT_BLOCK},
+        {"func f(x)\n", PETRI_INPUT_BLOCK},
+        {"func f(x)\n    x\n", PETRI_INPUT_OPEN},
+        {"let x=\n", PETRI_INPUT_BLOCK},
+        {"(1;\n", PETRI_INPUT_PART},
+        {"f(1, (2\n;3)\n", PETRI_INPUT_PART},
+        {"f(1, (2\n;3))\n", PETRI_INPUT_WHOLE},
+        {"'''abc\n", PETRI_INPUT_PART},
+        {"'''abc\ndef'''\n", PETRI_INPUT_WHOLE},
+        {"1 + \\\n", PETRI_INPUT_PART},
+        {"1 + \\\n2\n", PETRI_INPUT_WHOLE},
+        {"1+\n", PETRI_INPUT_WHOLE},   // wrong, whatever follows
+        {")(\n", PETRI_INPUT_WHOLE},   //
+        {"'abc\n", PETRI_INPUT_WHOLE}, //
+        {"\xff\n", PETRI_INPUT_WHOLE}, //
+        {"\n", PETRI_INPUT_WHOLE},
+        {"-- a remark\n", PETRI_INPUT_WHOLE},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++)
+        if (petri_input(player->session, rows[i].text, PETRI_Z) != rows[i].wanted) {
+            print_error("%s", rows[i].text);
+            assert_int_equal(petri_input(player->session, rows[i].text, PETRI_Z), rows[i].wanted);
+        }
+    assert_string_equal(player_told(player), "");
+}
+
+static void test_evaluate(void **state) {
+    Player *player = *state;
+    PetriResult result;
+    player_run(player, SCRIPT, 2);
+    player->shown.len = 0;
+    assert_int_equal(petri_evaluate(player->session, "COUNT*2", PETRI_Z, &result, note, &player->shown), PETRI_OK);
+    assert_string_equal(player->shown.text, "6");
+    assert_true(result.is_true && result.length == 1 && result.number == 6 && result.seconds >= 0);
+    assert_int_equal(petri_evaluate(player->session, "null", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_true(!result.is_true && result.length == 0 && result.number != result.number);
+    assert_int_equal(petri_evaluate(player->session, "1;0", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_true(result.is_true && result.length == 2 && result.number != result.number);
+    static const char *const wrong[] = {"let x=1", "1\n2", "", "1+", "%pragma tempo 1\n"};
+    for (size_t i = 0; i < sizeof wrong / sizeof wrong[0]; i++)
+        assert_int_equal(petri_evaluate(player->session, wrong[i], PETRI_Z, &result, NULL, NULL), PETRI_INVALID);
+    // Nothing of it is kept, whatever the number of evaluations.
+    for (int i = 0; i < 3000; i++)
+        assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_Z, &result, NULL, NULL), PETRI_OK);
+    assert_null(petri_kept(player->session, 0));
+}
+
+static void test_names(void **state) {
+    Player *player = *state;
+    bool found[3] = {false};
+    static const char *const wanted[] = {"COUNT", "DEFINED", "beat"};
+    assert_int_equal(petri_define(player->session, "DEFINED=1"), PETRI_OK);
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    const char *name;
+    for (size_t i = 0; (name = petri_name(player->session, i)) != NULL; i++)
+        for (int k = 0; k < 3; k++)
+            found[k] |= strcmp(name, wanted[k]) == 0;
+    assert_true(found[0] && found[1] && found[2]);
+}
+
+// Without a script there is nothing to evaluate in.
+static void test_no_script(void **state) {
+    Player *player = *state;
+    typed(player, "1", PETRI_INVALID);
+    assert_int_equal(petri_preview(player->session), PETRI_INVALID);
+    assert_int_equal(petri_reload(player->session, NULL), PETRI_INVALID);
+    assert_null(petri_name(player->session, 1000));
+    assert_null(petri_source(player->session, 0));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_values), PLAYER_TEST(test_kept),      PLAYER_TEST(test_typed_physics),
+        PLAYER_TEST(test_faults), PLAYER_TEST(test_input),     PLAYER_TEST(test_evaluate),
+        PLAYER_TEST(test_names),  PLAYER_TEST(test_no_script),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,140 @@
+// test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
+#include "cli.h"
+#include "player.h"
+#include "repl_history.h"
+
+#include <stdarg.h>
+
+// What the command says is of no interest here.
+void message(const char *format, ...) {
+    (void)format;
+}
+
+static const char *const SCRIPT = "%pragma tempo 60\n"
+                                  "!physics state=:p dimensions=2 time=beat resolution=0.01\n"
+                                  "    for i in ..4\n"
+                                  "        !particle id=i position=10*uniform(:a)[i];10*uniform(:b)[i] radius=3\n"
+                                  "    !collision\n"
+                                  "    !random strength=10\n"
+                                  "    !drag strength=0.1\n";
+
+static uint64_t hash_of(Player *player) {
+    uint64_t hash = UINT64_C(14695981039346656037);
+    player->shown.len = 0;
+    assert_int_equal(petri_print(player->session, PETRI_PRINT_STATE, note, &player->shown), PETRI_OK);
+    for (const char *c = player->shown.text; *c; c++)
+        hash = (hash ^ (unsigned char)*c) * UINT64_C(1099511628211);
+    return hash;
+}
+
+enum { FRAMES = 20000 };
+
+static ReplHistory history;
+static uint64_t hashes[FRAMES];
+
+static void step(Player *player, int frames) {
+    for (int i = 0; i < frames; i++) {
+        assert_int_equal(history_step(&history, player->session), PETRI_OK);
+        hashes[petri_frame(player->session).number] = hash_of(player);
+    }
+}
+
+static void go(Player *player, int64_t frame) {
+    Bytes why = {0};
+    PetriStatus status = history_goto(&history, player->session, frame, &why);
+    if (status != PETRI_OK)
+        print_error("%lld: %s\n", (long long)frame, why.data ? why.data : "");
+    assert_int_equal(status, PETRI_OK);
+    assert_int_equal(petri_frame(player->session).number, frame);
+    if (frame >= 0)
+        assert_true(hash_of(player) == hashes[frame]);
+    bytes_free(&why);
+}
+
+static void begin(Player *player) {
+    PetriOptions options = player_options(player);
+    options.interruptible = true;
+    player_reopen(player, &options);
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    assert_true(history_start(&history, player->session, NULL));
+}
+
+static void test_any_frame(void **state) {
+    Player *player = *state;
+    uint64_t random = 1;
+    begin(player);
+    step(player, FRAMES);
+    assert_true(history.keyframe_count <= HISTORY_MOST);
+    assert_true(history.bytes <= HISTORY_BYTES);
+    for (int i = 0; i < 40; i++) {
+        random = random * UINT64_C(6364136223846793005) + 1;
+        go(player, (int64_t)((random >> 33) % FRAMES));
+    }
+    go(player, -1);
+    go(player, 0);
+    go(player, FRAMES - 1);
+    // The way back is short for what was just now, and never long.
+    for (size_t i = 1; i < history.keyframe_count; i++) {
+        int64_t gap = history.keyframes[i].frame - history.keyframes[i - 1].frame;
+        int64_t age = history.last - history.keyframes[i - 1].frame;
+        assert_true(gap <= HISTORY_EVERY || gap < age / 16 + 2 * HISTORY_EVERY);
+    }
+    history_free(&history);
+}
+
+// What is changed counts from there on; frames before it are made again as they were.
+static void test_changes(void **state) {
+    Player *player = *state;
+    PetriPrompted done;
+    begin(player);
+    step(player, 50);
+    assert_int_equal(petri_prompt(player->session, "!counter state=:typed", PETRI_Z, NULL, NULL, &done), PETRI_OK);
+    step(player, 50);
+    assert_int_equal(petri_set_tempo(player->session, 90), PETRI_OK);
+    step(player, 50);
+    assert_int_equal(history.epoch_count, 3);
+    static const int64_t way[] = {20, 149, 49, 50, 99, 100, 3, 120, 60, 149};
+    for (size_t i = 0; i < sizeof way / sizeof way[0]; i++)
+        go(player, way[i]);
+    // Another future begins where one steps on under other settings.
+    go(player, 30);
+    assert_float_equal(petri_frame(player->session).tempo, 90, 0);
+    step(player, 40);
+    assert_int_equal(history.last, 70);
+    assert_int_equal(history.epoch_count, 2);
+    static const int64_t again[] = {29, 30, 31, 70, 10, 45, 70};
+    for (size_t i = 0; i < sizeof again / sizeof again[0]; i++)
+        go(player, again[i]);
+    // Under the same settings it is the same future.
+    go(player, 50);
+    step(player, 5);
+    assert_int_equal(history.last, 70);
+    go(player, 70);
+    history_free(&history);
+}
+
+static void test_refused(void **state) {
+    Player *player = *state;
+    Bytes why = {0};
+    begin(player);
+    step(player, 30);
+    assert_true(history_start(&history, player->session, "for a reason"));
+    step(player, 30);
+    assert_int_equal(history_goto(&history, player->session, 12, &why), PETRI_INVALID);
+    assert_non_null(strstr(why.data, "begins with frame 29: for a reason"));
+    assert_int_equal(petri_frame(player->session).number, 59);
+    go(player, 30);
+    assert_int_equal(history_reset(&history, player->session), PETRI_OK);
+    assert_int_equal(petri_frame(player->session).number, 29);
+    bytes_free(&why);
+    history_free(&history);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_any_frame),
+        PLAYER_TEST(test_changes),
+        PLAYER_TEST(test_refused),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
