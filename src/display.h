@@ -7,7 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
-#include "overlay.h"
+#include "overlay_text.h"
 
 typedef struct Display Display;
 

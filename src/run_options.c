@@ -240,6 +240,7 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
     case OPT_NEIGHBOURS:
         return args_choice(args, (const char *const[]){"auto", "never", "always", NULL}, &options->neighbours);
     case OPT_COLOR:
+        options->monochrome = strcmp(args->value, "never") == 0;
         return args_colour(args, &options->colour);
     case OPT_DUMP:
         return read_dump(args, &options->dump);
@@ -325,6 +326,7 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
         .scale = 1,
         .verbosity = LOG_NORMAL,
         .colour = colour_by_default(),
+        .monochrome = getenv("NO_COLOR") != NULL && getenv("NO_COLOR")[0] != '\0',
         .simplify = true,
         .dump = -1,
     };

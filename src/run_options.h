@@ -35,7 +35,8 @@ typedef struct RunOptions {
     int width;              // of pictures; 0: what the script says
     int height;
     double scale;
-    bool terminal; // view: in the terminal
+    bool terminal;   // view: in the terminal
+    bool monochrome; // … without colours
 } RunOptions;
 
 enum { RUN_OPTIONS_OK = -1 };

@@ -83,8 +83,7 @@ TerminalPicture *terminal_picture_new(int fd, bool colour) {
     way->colours = colours_of(way->terminal, colour);
     way->pixels = pixels_of(way->terminal, colour);
     way->symbols = chafa_symbol_map_new();
-    chafa_symbol_map_add_by_tags(way->symbols, locale_is_utf8() ? CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_BLOCK |
-                                                                      CHAFA_SYMBOL_TAG_BORDER
+    chafa_symbol_map_add_by_tags(way->symbols, locale_is_utf8() ? CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_BLOCK
                                                                 : CHAFA_SYMBOL_TAG_SPACE | CHAFA_SYMBOL_TAG_ASCII);
     return way;
 }
@@ -102,14 +101,15 @@ bool terminal_picture_is_graphics(const TerminalPicture *way) {
     return way->pixels != CHAFA_PIXEL_MODE_SYMBOLS;
 }
 
-static void cell_size(const TerminalPicture *way, int *width, int *height) {
+// The size of a cell in pixels, which need not be whole: terminals have margins.
+static void cell_size(const TerminalPicture *way, double *width, double *height) {
     struct winsize size;
     *width = CELL_WIDTH;
     *height = CELL_HEIGHT;
-    if (ioctl(way->fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0 &&
-        size.ws_xpixel / size.ws_col > 1 && size.ws_ypixel / size.ws_row > 1) {
-        *width = size.ws_xpixel / size.ws_col;
-        *height = size.ws_ypixel / size.ws_row;
+    if (ioctl(way->fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0 && size.ws_xpixel > size.ws_col &&
+        size.ws_ypixel > size.ws_row) {
+        *width = (double)size.ws_xpixel / size.ws_col;
+        *height = (double)size.ws_ypixel / size.ws_row;
     }
 }
 
@@ -118,24 +118,24 @@ static int within(double x, int most) {
 }
 
 TerminalCells terminal_picture_fit(const TerminalPicture *way, int columns, int rows, int width, int height) {
-    int cell_width, cell_height;
+    double cell_width, cell_height;
     cell_size(way, &cell_width, &cell_height);
     double across = (double)columns * cell_width / width, down = (double)rows * cell_height / height;
     double scale = across < down ? across : down;
     TerminalCells cells = {.columns = within(width * scale / cell_width + 0.5, columns),
                            .rows = within(height * scale / cell_height + 0.5, rows)};
     bool graphics = terminal_picture_is_graphics(way);
-    cells.width = cells.columns * (graphics ? cell_width : CELL_WIDTH);
-    cells.height = cells.rows * (graphics ? cell_height : CELL_HEIGHT);
+    cells.width = cells.columns * (graphics ? (int)cell_width : CELL_WIDTH);
+    cells.height = cells.rows * (graphics ? (int)cell_height : CELL_HEIGHT);
     return cells;
 }
 
 static ChafaCanvas *new_canvas(const TerminalPicture *way, const TerminalCells *cells) {
-    int cell_width, cell_height;
+    double cell_width, cell_height;
     cell_size(way, &cell_width, &cell_height);
     ChafaCanvasConfig *config = chafa_canvas_config_new();
     chafa_canvas_config_set_geometry(config, cells->columns, cells->rows);
-    chafa_canvas_config_set_cell_geometry(config, cell_width, cell_height);
+    chafa_canvas_config_set_cell_geometry(config, (int)cell_width, (int)cell_height);
     chafa_canvas_config_set_canvas_mode(config, way->colours);
     chafa_canvas_config_set_pixel_mode(config, way->pixels);
     chafa_canvas_config_set_symbol_map(config, way->symbols);

@@ -38,6 +38,7 @@ struct Display {
     int top;
     Overlay shown;
     char title[200];
+    bool colour;
     bool clear; // everything has to be drawn anew
 };
 
@@ -154,6 +155,8 @@ static Display *terminal_open(const char *title, int width, int height, bool col
     }
     Display *display = memory_zeroed(sizeof *display);
     display->way = terminal_picture_new(STDOUT_FILENO, colour);
+    display->colour = colour;
+    display->clear = true;
     if (display->way == NULL) {
         message("out of memory");
         terminal_close(display);
@@ -223,43 +226,28 @@ static void terminal_size(Display *display, int width, int height, int *drawn_wi
     *drawn_height = cells.height;
 }
 
-// As much of a line as fits into so many columns, each character counted as one.
-static size_t line_bytes(const char *line, int columns) {
-    size_t length = 0;
-    for (int count = 0; line[length] != '\0' && line[length] != '\n'; length++) {
-        count += ((unsigned char)line[length] & 0xC0) != 0x80;
-        if (count > columns) {
-            break;
-        }
-    }
-    return length;
-}
-
-// Writes the lines of a text from a row on, each over the whole width; returns the row after them.
-static int add_lines(Bytes *out, const char *text, int row, const Display *display, const char *look) {
+// Writes the lines of a text from a row on, each over the whole width.
+static void add_lines(Bytes *out, const char *text, int row, const Display *display, const char *look) {
     for (const char *line = text; line != NULL && *text != '\0' && row < display->rows; row++) {
-        bytes_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)line_bytes(line, display->columns - 2),
-                     line);
+        bytes_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
         line = strchr(line, '\n');
         line += line != NULL;
     }
-    return row;
-}
-
-static int lines_of(const char *text) {
-    int lines = *text != '\0';
-    for (; *text != '\0'; text++) {
-        lines += *text == '\n';
-    }
-    return lines;
 }
 
 // What is wrong at the top, the rest at the bottom.
 static void add_overlay(Bytes *out, const Display *display, const Overlay *overlay) {
-    int row = display->rows - lines_of(overlay->status) - lines_of(overlay->notice);
-    add_lines(out, overlay->trouble, 0, display, "\033[97;41m");
-    row = add_lines(out, overlay->notice, row < 0 ? 0 : row, display, "\033[30;46m");
-    add_lines(out, overlay->status, row, display, "\033[97;100m");
+    static const char reverse[] = "\033[7m";
+    char text[sizeof *overlay];
+    int columns = display->columns - 2, row = display->rows;
+    overlay_fit(text, sizeof text, overlay->trouble, columns);
+    add_lines(out, text, 0, display, display->colour ? "\033[38;5;224;48;5;52m" : reverse);
+    overlay_fit(text, sizeof text, overlay->status, columns);
+    row -= overlay_lines(text);
+    add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;253;48;5;234m" : reverse);
+    overlay_fit(text, sizeof text, overlay->notice, columns);
+    row -= overlay_lines(text);
+    add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;153;48;5;234m" : reverse);
 }
 
 static void add_picture(Bytes *out, const Display *display, const char *text, size_t length) {
@@ -274,8 +262,8 @@ static void add_picture(Bytes *out, const Display *display, const char *text, si
 }
 
 static bool same_lines(const Overlay *a, const Overlay *b) {
-    return lines_of(a->trouble) == lines_of(b->trouble) && lines_of(a->notice) == lines_of(b->notice) &&
-           lines_of(a->status) == lines_of(b->status);
+    return overlay_lines(a->trouble) == overlay_lines(b->trouble) &&
+           overlay_lines(a->notice) == overlay_lines(b->notice) && overlay_lines(a->status) == overlay_lines(b->status);
 }
 
 static bool terminal_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
@@ -290,7 +278,7 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     Bytes out = {0};
     bytes_format(&out, "%s", BEGIN);
     if (display->clear || !same_lines(overlay, &display->shown)) {
-        bytes_format(&out, "\033[0m\033[2J");
+        bytes_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
     }
     if (terminal_picture_is_graphics(display->way)) {
         bytes_format(&out, "%s", TAKE_AWAY);

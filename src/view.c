@@ -93,8 +93,8 @@ static void update_status(View *view) {
         PetriFrame frame = petri_frame(view->world.session);
         double seconds = frame.beat * 60 / frame.tempo;
         snprintf(text, sizeof text,
-                 "%5.1f fps   frame %-7" PRId64 " %3d:%05.2f   beat %.2f\n"
-                 "script %.2f ms   physics %.2f ms, %" PRIu64 " steps\n"
+                 "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"
+                 "script %.2f ms  physics %.2f ms  steps %" PRIu64 "\n"
                  "space pause  . step  r reset  f full screen\n"
                  "s screenshot  h this  q quit",
                  view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
@@ -220,12 +220,10 @@ static void take_screenshot(View *view) {
 }
 
 static void reset(View *view) {
-    if (world_reset(&view->world)) {
-        report_pointer(view, &view->pointer);
-        view->step_once = true; // so that the first frame is seen even while paused
-        notice(view, "reset");
-    }
+    world_reset(&view->world);
+    view->step_once = true; // so that the first frame is seen even while paused
     update_trouble(view);
+    notice(view, "reset");
 }
 
 static void obey(View *view, const char *key) {
@@ -388,11 +386,11 @@ static bool open_display(View *view) {
     }
     view->kind = window ? window_display() : terminal_display();
     view->world.mute = !window && isatty(STDERR_FILENO);
-    view->display = view->kind->open(view->title, view->width, view->height, options->colour);
+    view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
     if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
         view->world.mute = isatty(STDERR_FILENO);
-        view->display = view->kind->open(view->title, view->width, view->height, options->colour);
+        view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
     }
     return view->display != NULL;
 }

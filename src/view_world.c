@@ -35,6 +35,13 @@ static void forget_trouble(World *world) {
     bytes_free(&world->trouble);
 }
 
+static void cut_trouble(World *world, size_t length) {
+    if (world->trouble.length > length) {
+        world->trouble.length = length;
+        world->trouble.data[length] = '\0';
+    }
+}
+
 const char *world_trouble(const World *world) {
     return world->trouble.length > 0 ? world->trouble.data : "";
 }
@@ -47,8 +54,14 @@ static void head_trouble(World *world, const char *line) {
     world->trouble = whole;
 }
 
-static bool watch_script(World *world) {
-    return watch_file(world->watch, world->options.script);
+// The script, and what it includes and imports as far as that is known.
+static bool watch_sources(World *world) {
+    bool watched = watch_file(world->watch, world->options.script);
+    const char *source;
+    for (size_t i = 0; watched && (source = petri_source(world->session, i)) != NULL; i++) {
+        watched = watch_file(world->watch, source);
+    }
+    return watched;
 }
 
 static int load_first(World *world) {
@@ -77,7 +90,7 @@ int world_open(World *world, const Host *host) {
     }
     world->watch = watch_new();
     world->painter = petri_painter_open();
-    if (world->watch == NULL || world->painter == NULL || !watch_script(world)) {
+    if (world->watch == NULL || world->painter == NULL || !watch_sources(world)) {
         message("out of memory");
         return STATUS_FAILED;
     }
@@ -119,7 +132,7 @@ static void take_picture(World *world) {
 }
 
 bool world_step(World *world) {
-    bool fresh = world->trouble.length == 0;
+    size_t before = world->trouble.length;
     PetriStatus status = petri_step(world->session);
     PetriFrame frame = petri_frame(world->session);
     if (status != PETRI_OK) {
@@ -134,10 +147,9 @@ bool world_step(World *world) {
         return false;
     }
     world->frames++;
+    watch_sources(world); // modules are imported by frames
     take_picture(world);
-    if (fresh) { // faults of a frame that went on are told on standard error, as in a run
-        forget_trouble(world);
-    }
+    cut_trouble(world, before); // faults of a frame that went on are told on standard error, as in a run
     if (world->options.verbosity >= LOG_DEBUG) {
         char line[200];
         snprintf(line, sizeof line, "petri: frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps\n",
@@ -152,30 +164,24 @@ bool world_reload(World *world) {
         return false;
     }
     forget_trouble(world);
-    if (petri_load(world->session, world->options.script) == PETRI_OK) {
-        world->halted = false;
+    if (petri_reload(world->session, world->options.script) == PETRI_OK) {
+        world->halted = world->broken = false;
+        watch_sources(world);
         forget_trouble(world); // of a load that went well, errors are only warnings to the eye
     } else {
+        world->broken = true;
         head_trouble(world, "The script was changed but cannot be loaded. The last good version is running.");
     }
     petri_hold(world->session);
     return true;
 }
 
-bool world_reset(World *world) {
-    PetriSession *fresh = NULL;
-    forget_trouble(world);
-    if (run_options_open(&world->options, world->host, on_diagnostic, world, &fresh) != RUN_OPTIONS_OK ||
-        petri_load(fresh, world->options.script) != PETRI_OK) {
-        petri_close(&fresh);
-        head_trouble(world, "The script cannot be loaded, so it cannot be reset.");
-        return false;
-    }
-    petri_close(&world->session);
-    world->session = fresh;
+void world_reset(World *world) {
+    petri_clear(world->session);
     world->halted = false;
-    forget_trouble(world);
-    return true;
+    if (!world->broken) {
+        forget_trouble(world);
+    }
 }
 
 // The script's name without folders and suffix.

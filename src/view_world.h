@@ -19,6 +19,7 @@ typedef struct World {
     Watch *watch;
     int64_t frames; // made since the view was opened
     bool halted;    // a frame could not be made; the next load or reset goes on
+    bool broken;    // the script on disk cannot be loaded; an earlier version is running
     bool failed;    // something could not be read, written or recorded
     bool state_lost;
     // Messages
@@ -36,8 +37,8 @@ bool world_step(World *world);
 // If files of the script have changed: loads it, keeping state and clock. True if there was an attempt; then
 // world->trouble tells whether it went well.
 bool world_reload(World *world);
-// Starts anew: without state, before frame 0. False if the script could not be loaded; then all is as it was.
-bool world_reset(World *world);
+// The last good program starts anew: without state, before frame 0.
+void world_reset(World *world);
 // What is wrong, "" if nothing is. Valid until the next call.
 const char *world_trouble(const World *world);
 // Writes the last frame's picture to a PNG file that did not exist, named after script and frame, in this folder. False

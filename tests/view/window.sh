@@ -1,0 +1,336 @@
+#!/bin/sh
+# window.sh: `petri view` in a window: what is seen, keys, the pointer, reloading, closing.
+# usage: tests/view/window.sh PATH-OF-PETRI sdl|none [PATH-OF-close_window]
+# shellcheck source=tests/view/support.sh
+. "$(dirname "$0")/support.sh"
+
+[ "${2:-sdl}" = sdl ] || skip "petri was built without SDL (Debian: libsdl2-dev)"
+closer=${3:-}
+[ -n "$closer" ] || skip "no Xlib to close windows with (Debian: libx11-dev)"
+case $closer in
+/*) ;;
+*) closer=$PWD/$closer ;;
+esac
+needs Xvfb xvfb
+needs xdotool xdotool
+needs import imagemagick
+needs compare imagemagick
+needs xprop x11-utils
+
+work=$(mktemp -d) || exit 1
+server=
+viewer=
+manager=
+clean_up() {
+    [ -z "$viewer" ] || kill "$viewer" 2>/dev/null
+    [ -z "$manager" ] || kill "$manager" 2>/dev/null
+    [ -z "$server" ] || kill "$server" 2>/dev/null
+    rm -rf "$work"
+}
+trap clean_up EXIT
+trap 'exit 130' INT TERM
+cd "$work" || exit 1
+unset WAYLAND_DISPLAY
+SDL_VIDEODRIVER=x11
+SDL_RENDER_DRIVER=software
+export SDL_VIDEODRIVER SDL_RENDER_DRIVER
+
+Xvfb -displayfd 3 -screen 0 1000x700x24 -nolisten tcp -noreset >server.log 2>&1 3>number &
+server=$!
+has_number() { [ -s number ]; }
+soon has_number || skip "Xvfb does not start: $(cat server.log)"
+DISPLAY=:$(cat number)
+export DISPLAY
+
+tell_more() {
+    sed 's/^/  stderr: /' err | head -n 20
+    [ -z "${KEEP:-}" ] || cp -r "$work" "$KEEP"
+}
+
+# view NAME [options] SCRIPT: starts a view, and waits until its window, called NAME, is there: $window.
+find_window() {
+    window=$(xdotool search --name "^$title\$" 2>/dev/null | tail -n 1)
+    [ -n "$window" ]
+}
+view() {
+    title=$1
+    shift
+    "$petri" view "$@" >out 2>err </dev/null &
+    viewer=$!
+    if ! soon find_window; then
+        check "a window called $title comes" false
+        finish
+        exit 1
+    fi
+    xdotool windowfocus "$window" 2>/dev/null
+    # Away from the picture, so that no test depends on where the pointer was.
+    xdotool mousemove 999 699
+}
+# ended STATUS: the view ends by itself, with this status.
+gone() { ! kill -0 "$viewer" 2>/dev/null; }
+ended() {
+    soon gone || return 1
+    wait "$viewer"
+    status=$?
+    viewer=
+    [ "$status" -eq "$1" ] || { echo "  status $status" && false; }
+}
+# The window has the keyboard by then; what is typed before would be lost.
+focused() { [ "$(xdotool getwindowfocus 2>/dev/null)" = "$window" ] || { xdotool windowfocus "$window" 2>/dev/null && false; }; }
+press() {
+    soon focused
+    xdotool key "$@"
+}
+
+look() { import -silent -window "$window" seen.png 2>/dev/null; }
+# shows FILE: the window shows that picture, to the last bit.
+same_pixels() { look && [ "$(compare -metric AE seen.png "$1" null: 2>&1)" = 0 ]; }
+shows() { soon same_pixels "$1"; }
+# point X Y COLOUR: a pixel of the window, as RRGGBB.
+colour_is() { look && [ "$(convert seen.png -alpha off -depth 8 -crop "1x1+$1+$2" rgb:- | od -An -tx1 | tr -d ' \n')" = "$3" ]; }
+point() { soon colour_is "$@"; }
+# dark X Y: part of a panel of text: neither what is below nor light.
+is_dark() {
+    look && set -- $(convert seen.png -alpha off -depth 8 -crop "1x1+$1+$2" rgb:- | od -An -tu1) &&
+        [ "$1" -gt 0 ] && [ "$1" -lt 90 ] && [ "$2" -lt 90 ] && [ "$3" -lt 90 ]
+}
+dark() { soon is_dark "$@"; }
+size_is() { xdotool getwindowgeometry --shell "$window" | grep -Eq "^WIDTH=$1\$" && xdotool getwindowgeometry --shell "$window" | grep -Eq "^HEIGHT=$2\$"; }
+render() { "$petri" render "$@" >/dev/null 2>&1; }
+# pictures COUNT: so many screenshots are there.
+count_is() { [ "$(find . -maxdepth 1 -name "$1" | wc -l)" -eq "$2" ]; }
+# shot: presses s and waits for the file: $shot.
+shot() {
+    before=$(find . -maxdepth 1 -name '*-[0-9]*.png' | wc -l)
+    press s
+    soon count_is '*-[0-9]*.png' $((before + 1)) || return 1
+    shot=$(find . -maxdepth 1 -name '*-[0-9]*.png' -newer mark | head -n 1)
+    soon has err "saved ${shot#./}" || return 1
+    sleep 0.02
+    touch mark
+}
+
+cat >still.fl <<'END'
+!window size=320;240 title='still'
+    !canvas
+        !rect size=320;240 color=0.2;0.4;0.6 fill=true
+        !ellipse point=100;120 radius=60 color=1;0.5;0 fill=true
+        !line points=200;40;300;200 color=0;1;0 stroke_width=5 stroke=true
+        !text text='petri' point=240;180
+END
+render still.fl --frames 1 -o still.png
+
+# What the script draws, in its size, under its title.
+view still still.fl
+check "it has the script's size" size_is 320 240
+check "it shows what petri render draws" shows still.png
+press q
+check "q closes it" ended 0
+check "nothing is said" [ ! -s err ]
+check "nothing is printed" [ ! -s out ]
+
+# Those that end by themselves.
+short() { timeout 60 "$petri" view "$@" >out 2>err </dev/null; }
+check "--frames ends it" short still.fl --frames 20
+check "--runtime ends it" short still.fl --runtime 1
+check "--lockstep runs as well" short still.fl --lockstep --frames 20 --verbose
+check "--verbose sums up" has err "20 frames"
+view still still.fl
+press Escape
+check "Escape closes it" ended 0
+view still still.fl
+"$closer" "$window"
+check "closing the window ends it" ended 0
+view still still.fl
+kill -TERM "$viewer"
+check "SIGTERM ends it" ended 143
+
+# Another size of the window: the picture is drawn anew, as large as it goes, in the middle.
+render still.fl --frames 1 --scale 2 -o large.png
+view still still.fl
+xdotool windowsize "$window" 640 480
+check "it is drawn in the window's size" shows large.png
+xdotool windowsize "$window" 640 600
+check "bars are black" point 5 5 000000
+check "the picture is in the middle" point 5 70 336699
+press q
+ended 0
+
+# Keys, by pictures that tell their frame.
+cat >count.fl <<'END'
+let n=frame+1
+!window size=256;64 title='count'
+    !canvas
+        !rect size=256;64 color=0 fill=true
+        for i in ..16
+            if n//2**i%2
+                !rect point=16*i;0 size=16;64 color=1 fill=true
+END
+touch mark
+view count count.fl
+press space
+check "space pauses and s saves" shot
+first=$shot
+check "it stays at one frame" shot
+check "which has one picture" cmp -s "$first" "$shot"
+number=$(echo "${first#./count-}" | sed 's/^0*//; s/\.png$//')
+render count.fl --frame "${number:-0}" -o wanted.png
+check "the picture is that frame's" cmp -s "$first" wanted.png
+press period
+render count.fl --frame $((number + 1)) -o wanted.png
+check ". makes a step" soon exists wanted.png
+shot
+check "and one only" cmp -s "$shot" wanted.png
+check "which the file's name tells" [ "$shot" = "$(printf './count-%05d.png' $((number + 1)))" ]
+press r
+render count.fl --frame 0 -o wanted.png
+sleep 0.2
+shot
+check "r starts anew" cmp -s "$shot" wanted.png
+xdotool windowsize "$window" 400 300
+check "the notice goes" point 395 295 000000
+press h
+check "h tells more" dark 30 285
+press h
+check "and less" point 30 285 000000
+press space
+sleep 0.3
+shot
+check "space goes on" [ "$shot" != ./count-00000.png ]
+check "nothing else was written" lacks err error
+press q
+check "q quits" ended 0
+
+# Full screen and back: that is for a window manager to do.
+if command -v openbox >/dev/null 2>&1; then
+    openbox >openbox.log 2>&1 &
+    manager=$!
+    has_manager() { xprop -root _NET_SUPPORTED 2>/dev/null | grep -q FULLSCREEN; }
+    soon has_manager
+    view still still.fl
+    press f
+    check "f fills the screen" soon size_is 1000 700
+    press f
+    check "f goes back" soon size_is 320 240
+    press q
+    ended 0
+    kill "$manager"
+    wait "$manager" 2>/dev/null
+    manager=
+else
+    echo "skipped: full screen, for there is no openbox"
+fi
+
+# The pointer and the keyboard reach the script; keys that it asks for are its own.
+cat >hands.fl <<'END'
+!window size=300;200 title='hands'
+    !pointer state=:mouse
+    !key name=:q state=:q
+    !canvas
+        !rect size=300;200 color=0 fill=true
+        if $(:q;:toggled)
+            !rect point=250;150 size=50;50 color=0;0;1 fill=true
+        if $:mouse
+            let colour=(1;0;0) if $(:mouse;:left) else (0;1;0)
+            !ellipse point=$:mouse*(300;200) radius=10 color=colour fill=true
+END
+view hands hands.fl --state hands.state
+check "outside there is no pointer" point 150 100 000000
+xdotool mousemove --window "$window" 150 100
+check "the pointer is where it is" point 150 100 00ff00
+xdotool mousedown 1
+check "a button is pressed" point 150 100 ff0000
+xdotool mouseup 1
+check "and let go" point 150 100 00ff00
+xdotool mousemove --window "$window" 75 50
+check "the pointer moves" point 75 50 00ff00
+press q
+check "a key reaches the script" point 275 175 0000ff
+xdotool windowsize "$window" 600 600
+xdotool mousemove --window "$window" 300 50
+check "beside the picture is outside" point 300 300 000000
+xdotool mousemove --window "$window" 450 200
+check "the pointer is scaled as the picture is" point 450 200 00ff00
+press ctrl+q
+check "Control and q quit" ended 0
+"$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
+check "the state has where the pointer was" has out '$:mouse = 0.75'
+
+# Saving the script: it is loaded anew, keeps state and clock; mistakes are shown, and the last good version goes on.
+cat >work.fl <<'END'
+!counter state=:c rate=0 initial=7
+!window size=500;300 title='work'
+    !canvas
+        !rect size=500;300 color=0.5;0;0 fill=true
+        !rect point=0;200 size=($:c)*10;100 color=1 fill=true
+END
+view work work.fl
+check "the first version" point 480 250 800000
+check "has its state" point 60 250 ffffff
+sed 's/0.5;0;0/0;0;0.5/; s/initial=7/initial=3/' work.fl >next.fl && mv next.fl work.fl
+check "a changed script is loaded" point 480 250 000080
+check "and keeps its state" point 60 250 ffffff
+echo '        !rect size=(' >>work.fl
+check "a mistake is told in the window" dark 400 18
+check "and on standard error" soon has err "work.fl:"
+check "the last good version is running" point 60 250 ffffff
+sed '$d; s/0;0;0.5/0;0.5;0/' work.fl >next.fl && cat next.fl >work.fl
+check "the mended script is loaded" point 480 250 008000
+check "the message goes" point 400 18 008000
+rm work.fl
+sleep 0.5
+check "a script that is gone goes on" point 60 250 ffffff
+press q
+check "all ends well" ended 0
+
+# A frame that cannot be made: told, and waited for what comes.
+cat >loop.fl <<'END'
+%pragma fps 30
+func f(n)
+    f(n+1)+1
+!window size=400;200 title='loop'
+    !canvas
+        !rect size=400;200 color=0;0.5;0 fill=true
+END
+sed 's/title=/width=f(0) title=/' loop.fl >never.fl
+view loop never.fl
+check "recursion without end is survived" point 390 190 008000
+press q
+check "and quits" ended 0
+
+# Recording, and closing the window in the middle of it: whole files only.
+cat >film.fl <<'END'
+!window size=400;400 title='film'
+    !record filename='film/'; frame; '.png'
+    !canvas
+        for i in ..200
+            !ellipse point=400*uniform(:x;frame)[i];400*uniform(:y;frame)[i] radius=9 color=hsv(i/200;1;1) fill=true
+END
+sed -i "s/'film\/'; frame; '.png'/concat('film\/';frame;'.png')/" film.fl
+mkdir film
+view film film.fl
+soon exists film/3.png
+"$closer" "$window"
+check "closing while recording is fine" ended 0
+check "all files are whole" sh -c 'for file in film/*; do convert "$file" null: || exit 1; done'
+check "and nothing else is left" sh -c 'test "$(find film -type f ! -name "*.png" | wc -l)" -eq 0'
+render film.fl --frame 2 -o wanted.png
+check "they are what petri render draws" cmp -s film/2.png wanted.png
+
+# What cannot be.
+"$petri" view nothing.fl >out 2>err </dev/null
+check "a missing script fails" [ $? -eq 1 ]
+check "with a message" has err "nothing.fl"
+"$petri" view still.fl more.fl >out 2>err </dev/null
+check "two scripts are one too many" [ $? -eq 2 ]
+(
+    unset DISPLAY SDL_VIDEODRIVER
+    "$petri" view still.fl >out 2>err </dev/null
+)
+check "no display and no terminal fails" [ $? -eq 1 ]
+check "with a message" has err "no display"
+DISPLAY=:9999 "$petri" view still.fl >out 2>err </dev/null
+check "a display that does not answer fails" [ $? -eq 1 ]
+check "with a message" has err "cannot open a window"
+
+finish
