@@ -1,5 +1,6 @@
 // run.c: `petri run`: runs frames without drawing them and prints what was asked for.
 #include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <unistd.h>
 

@@ -247,8 +247,10 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
                         .from_state = iteration > 0,
                         .run = settings->run,
                         .iteration = iteration};
+    uint64_t reports = scene->reports;
     if (!physics_reuse(&tree))
         describe(&tree);
+    bool faultless = scene->reports == reports; // what is wrong with a tree is said in each frame
     uint64_t steps = 0;
     if (settings->time > last) {
         clock = simulate(&tree, reader, settings, last, clock, &steps);
@@ -256,6 +258,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
         phys_rest(tree.engine);
         physics_store(&tree, false);
     }
+    system->described &= faultless;
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     return steps;

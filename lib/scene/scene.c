@@ -6,11 +6,18 @@
 #include <stdlib.h>
 #include <string.h>
 
+static void report(void *host, DiagLevel level, const char *code, Str node, Str key, Str text) {
+    Scene *scene = host;
+    scene->reports++;
+    scene->host.report(scene->host.host, level, code, node, key, text);
+}
+
 Scene *scene_new(SymbolTable *symbols, SceneHost host) {
     Scene *scene = calloc(1, sizeof *scene);
     if (!scene)
         return NULL;
-    schema_init(&scene->schema, symbols, host);
+    scene->host = host;
+    schema_init(&scene->schema, symbols, (SceneHost){scene, report});
     if (!input_init(&scene->input, symbols)) {
         scene_free(scene);
         return NULL;

@@ -66,6 +66,8 @@ struct PhysicsSystem {
 };
 
 struct Scene {
+    SceneHost host;
+    uint64_t reports; // given so far
     Schema schema;
     Input input;
     PhysicsSystem *systems;
