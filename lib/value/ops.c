@@ -2,6 +2,7 @@
 #include "value/ops.h"
 
 #include <math.h>
+#include <stdbool.h>
 
 double op_number(ArithOp op, double x, double y) {
     switch (op) {
@@ -23,6 +24,36 @@ double op_number(ArithOp op, double x, double y) {
     return NAN;
 }
 
+// result = x op y for a vector and a number, a number and a vector, or two vectors of one length.
+#define EACH_ELEMENT(operator)                                                                                         \
+    if (y_len == 1)                                                                                                    \
+        for (uint32_t i = 0; i < len; i++)                                                                             \
+            result[i] = x[i] operator y[0];                                                                            \
+    else if (x_len == 1)                                                                                               \
+        for (uint32_t i = 0; i < len; i++)                                                                             \
+            result[i] = x[0] operator y[i];                                                                            \
+    else                                                                                                               \
+        for (uint32_t i = 0; i < len; i++)                                                                             \
+            result[i] = x[i] operator y[i];                                                                            \
+    return true;
+
+// The simple operations in loops that the compiler turns into vector instructions; false if the operation is another.
+static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, const double *restrict y, uint32_t y_len,
+                         double *restrict result, uint32_t len) {
+    switch (op) {
+    case ARITH_ADD:
+        EACH_ELEMENT(+)
+    case ARITH_SUB:
+        EACH_ELEMENT(-)
+    case ARITH_MUL:
+        EACH_ELEMENT(*)
+    case ARITH_DIV:
+        EACH_ELEMENT(/)
+    default:
+        return false;
+    }
+}
+
 Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
     if (!value_is_numeric(a) || !value_is_numeric(b))
         return VALUE_NULL;
@@ -33,6 +64,8 @@ Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
         return value_number(square ? x[0] * x[0] : op_number(op, x[0], y[0]));
     uint32_t len = a.len > b.len ? a.len : b.len;
     double *result = arena_alloc_array(arena, len, sizeof *result);
+    if ((a.len == 1 || b.len == 1 || a.len == b.len) && simple_arith(op, x, a.len, y, b.len, result, len))
+        return value_numbers_view(result, len);
     for (uint32_t i = 0, j = 0, k = 0; i < len; i++) {
         result[i] = square ? x[j] * x[j] : op_number(op, x[j], y[k]);
         j = j + 1 == a.len ? 0 : j + 1;
