@@ -111,11 +111,16 @@ static void choose_cells(const Survey *survey, double width, Grid *grid) {
         span[k] = high - low;
         product *= fmax(span[k] / width, 1);
     }
-    if (product > most)
+    // Where the particles are astronomically far apart, each axis gets its share of the cells.
+    bool vast = !(product <= 1e100);
+    double share = floor(pow(most, 1.0 / (double)grid->dimensions));
+    if (product > most && !vast)
         width *= pow(product / most, 1.0 / (double)grid->dimensions);
     product = 1;
     for (size_t k = 0; k < grid->dimensions; k++) {
         double cells = floor(span[k] / width);
+        if (vast && cells > share)
+            cells = share;
         cells = cells >= 1 && cells <= most / product ? cells : 1; // also where the span is not finite
         product *= cells;
         grid->cells[k] = (uint32_t)cells;
