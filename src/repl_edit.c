@@ -61,7 +61,7 @@ static int read_character(EditLine *line, wchar_t *character) {
     }
 }
 
-static unsigned char complete(EditLine *line, int character) {
+static unsigned char complete(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = NULL;
     el_get(line, EL_CLIENTDATA, &editor);
@@ -114,7 +114,8 @@ Editor *editor_new(Repl *repl) {
     el_set(editor->line, EL_PROMPT_ESC, prompt_of, '\1');
     el_set(editor->line, EL_EDITOR, "emacs");
     el_set(editor->line, EL_HIST, history, editor->history);
-    el_set(editor->line, EL_ADDFN, "petri-complete", "complete the word", complete);
+    // libedit copies narrow names and never frees the copies.
+    el_wset(editor->line, EL_ADDFN, L"petri-complete", L"complete the word", complete);
     el_set(editor->line, EL_BIND, "^I", "petri-complete", NULL);
     el_set(editor->line, EL_BIND, "^R", "em-inc-search-prev", NULL);
     el_set(editor->line, EL_BIND, "^W", "ed-delete-prev-word", NULL);

@@ -37,10 +37,11 @@ void repl_show_frame(Repl *repl) {
     bytes_free(&text);
 }
 
-// Writes a frame if it has something to say or is the last.
-static void show_step(Repl *repl, Progress *progress, bool last) {
+// Writes a frame if it has something to say or is the last; whether it did.
+static bool show_step(Repl *repl, Progress *progress, bool last) {
     Bytes text = {0};
-    if (describe(repl, &text) || last) {
+    bool shown = describe(repl, &text) || last;
+    if (shown) {
         progress_erase(progress);
         output_write(&repl->output, text.data, text.length);
         if (repl->terminal) {
@@ -48,6 +49,7 @@ static void show_step(Repl *repl, Progress *progress, bool last) {
         }
     }
     bytes_free(&text);
+    return shown;
 }
 
 typedef enum Outcome { GOING, REACHED, GIVEN_UP } Outcome;
@@ -91,8 +93,7 @@ bool repl_walk(Repl *repl, const Walk *walk) {
             break;
         }
         made++;
-        shown = made == walk->count || outcome != GOING;
-        show_step(repl, &progress, shown);
+        shown = show_step(repl, &progress, made == walk->count || outcome != GOING);
         progress_update(&progress, made);
     }
     progress_erase(&progress);
