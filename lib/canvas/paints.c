@@ -94,6 +94,7 @@ static void set_line(Canvas *canvas, const Look *look) {
     static const cairo_line_join_t joins[] = {CAIRO_LINE_JOIN_MITER, CAIRO_LINE_JOIN_ROUND, CAIRO_LINE_JOIN_BEVEL};
     static const cairo_line_cap_t caps[] = {CAIRO_LINE_CAP_BUTT, CAIRO_LINE_CAP_ROUND, CAIRO_LINE_CAP_SQUARE};
     cairo_set_line_join(canvas->cr, joins[look->join]);
+    cairo_set_miter_limit(canvas->cr, 4); // as Flitter's canvas has it
     cairo_set_line_cap(canvas->cr, caps[look->cap]);
 }
 

@@ -41,8 +41,8 @@ static void test_independent(void **state) {
     PetriPicture *fifth = take(player, petri_default_picture_options(), PETRI_OK);
     assert_false(petri_records(player->session));
     assert_int_equal(petri_load_text(player->session, "t.fl", "!x", PETRI_Z), PETRI_OK);
-    petri_close(&player->session);
-    player_open(player);
+    PetriOptions options = player_options(player);
+    player_reopen(player, &options); // closes the first session
     assert_string_equal(petri_picture_title(second), "disc 1");
     assert_int_equal(petri_picture_frame(fifth), 4);
     assert_string_equal(petri_picture_record(second, 0), "a.png");
