@@ -1,6 +1,7 @@
 #!/bin/sh
 # terminal.sh PETRI: `petri repl` on a real terminal, which tmux gives: completion, Ctrl-C, history, lines that belong
 # together, a script that is changed meanwhile. Exit status 77 (skipped) where there is no tmux.
+# shellcheck disable=SC2016 # dollars are for the prompt
 set -u
 here=$(cd "$(dirname "$0")" && pwd)
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
@@ -40,7 +41,7 @@ expect() {
     tries=0
     until screen | grep -q -e "$2"; do
         tries=$((tries + 1))
-        if [ $tries -ge 150 ]; then
+        if [ $tries -ge 300 ]; then
             failed=$((failed + 1))
             echo "FAIL $1: no line like '$2' in"
             screen | sed -e 's/^/  | /' -e '/^  | $/d'
@@ -93,7 +94,7 @@ if [ $edits = yes ]; then
 fi
 
 type_keys '.run' Enter
-sleep 0.5
+expect "frames are made" "^> 'four'"
 type_keys C-c
 expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames'
 type_keys 'frame > 0' Enter
@@ -106,7 +107,8 @@ type_keys 'func f(n)' Enter '    if n' Enter '        f(n-1)+f(n-1)' Enter '    
 type_keys 'f(5)' Enter
 expect "lines that belong together" '^32$'
 type_keys 'f(40)' Enter
-sleep 0.5
+expect "an endless evaluation" '> f(40)$'
+sleep 1
 type_keys C-c
 expect "Ctrl-C stops an evaluation" '^petri: interrupted$'
 type_keys 'func g(x)' Enter '    x' C-c
@@ -122,8 +124,11 @@ if [ $edits = yes ]; then
     start --color never cells.fl
     type_keys Up Up Enter
     expect "history is there in the next session" '^petri> let unusual=100+23$'
-    type_keys C-r 'sual=1' Enter
-    sleep 0.3
+    type_keys C-r 'sual=1'
+    expect "what is searched" 'unusual=100+23'
+    type_keys Enter
+    type_keys '55*2' Enter
+    expect "the line that was found is taken" '^110$'
     type_keys C-d
     expect "and can be searched" '^left with 0$'
     if [ "$(grep -c 'let unusual=100+23' "$XDG_STATE_HOME/petri/history")" -lt 3 ]; then

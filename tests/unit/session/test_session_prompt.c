@@ -34,8 +34,8 @@ static void test_values(void **state) {
     assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
     const ScriptRow before[] = {
         {"1+2", "3\n"},     {"frame;time;beat", "0;0;0\n"}, {"COUNT;add(COUNT)", "3;4\n"},
-        {"null", "null\n"}, {"'a';:b", "'a';:b\n"},          {"$:c", "null\n"},
-        {"add", "(add)\n"}, {"2 if 1 else 3", "2\n"},        {"", ""},
+        {"null", "null\n"}, {"'a';:b", "'a';:b\n"},         {"$:c", "null\n"},
+        {"add", "(add)\n"}, {"2 if 1 else 3", "2\n"},       {"", ""},
     };
     CHECK_TYPED(player, before);
     player_step(player, 3);
