@@ -6,6 +6,7 @@
 #ifndef PETRI_CANVAS_AUTOMATIC_H
 #define PETRI_CANVAS_AUTOMATIC_H
 
+#include "base/arena.h"
 #include "base/str.h"
 
 typedef struct AutoBody {
@@ -49,7 +50,7 @@ typedef struct AutoPicture {
     uint32_t count;
 } AutoPicture;
 
-// Chooses what is shown of a system, given what was shown of it before.
-void auto_frame(AutoFrame *frame, const AutoSystem *system);
+// Chooses what is shown of a system, given what was shown of it before. The arena is for temporaries.
+void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system);
 
 #endif

@@ -56,17 +56,18 @@ static double round_up(double x) {
     return pow(10, step / 10);
 }
 
-void auto_frame(AutoFrame *frame, const AutoSystem *system) {
+void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system) {
     double median[3], half = 0, off = 0;
-    double *numbers = system->body_count ? malloc(system->body_count * sizeof *numbers) : NULL;
-    if (!numbers) {
+    if (system->body_count == 0) {
         if (frame->half == 0)
             *frame = (AutoFrame){.half = 1};
         return;
     }
+    ArenaMark mark = arena_mark(arena);
+    double *numbers = arena_alloc_array(arena, system->body_count, sizeof *numbers);
     find_median(system, median, numbers);
     Bounds bounds = find_bounds(system, median, reach_of_most(system, median, numbers));
-    free(numbers);
+    arena_rewind(arena, mark);
     int axes = system->dimensions == 3 ? 3 : 2;
     for (int k = 0; k < axes; k++) {
         half = fmax(half, (bounds.high[k] - bounds.low[k]) / 2);

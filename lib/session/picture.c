@@ -140,7 +140,7 @@ static void copy_system(PetriSession *session, Arena *arena, const SceneView *vi
                            .dimensions = view->dimensions > 3 ? 3 : view->dimensions};
     copy_bodies(arena, view, system, numbers);
     copy_forces(arena, view, system, numbers);
-    auto_frame(frame, system);
+    auto_frame(arena, frame, system);
     system->frame = *frame;
     if (!system->charged)
         shade_by_speed(view, system, numbers);
