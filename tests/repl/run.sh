@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh PETRI [--update] [NAME...]: replays the sessions beside it and compares what is said with what is recorded.
+# run.sh PETRI [--update] [FILE...]: replays the sessions beside it and compares what is said with what is recorded.
 #
 # NAME.session is a transcript. Its first line holds the options, `# repl [VARIABLE=VALUE...] [options] [SCRIPT]`; lines
 # that begin with a prompt (`petri> `, `@12> `, `... `) hold what is typed, all others what petri answers; the last line
