@@ -28,6 +28,7 @@ typedef struct Command {
     const char *summary;  // one line, for the list of commands
     const char *details;  // a few sentences, for the command's own help
     const OptionSpec *options;
+    bool live;                                           // follows the wall clock and goes on until it is stopped
     int (*run)(const Host *host, int argc, char **argv); // without the command's name; returns the exit status
 } Command;
 
@@ -47,6 +48,7 @@ const Command *command_find(const char *name);
 // Prints a command's own help on standard output; returns the exit status.
 int help_for(const Command *command);
 int help_overview(void);
+int help_version(void);
 
 // Writes `petri: text` and a newline to standard error.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);

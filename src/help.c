@@ -129,7 +129,7 @@ static bool is_node(const char *topic, const char **name) {
     return false;
 }
 
-static int print_version(void) {
+int help_version(void) {
     Output *output = new_output();
     if (output == NULL) {
         return STATUS_FAILED;
@@ -150,7 +150,7 @@ static int help_topic(const char *topic) {
         return help_nodes(node);
     }
     if (strcmp(topic, "version") == 0) {
-        return print_version();
+        return help_version();
     }
     const Command *command = command_find(topic);
     if (command != NULL) {

@@ -9,9 +9,14 @@
 #include <unistd.h>
 
 #include "cli.h"
+#include "pass_on.h"
 
+#ifdef PETRI_PICTURES
 const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,  &RENDER_COMMAND, &REPL_COMMAND,
                                    &TEST_COMMAND, &CHECK_COMMAND, &HELP_COMMAND,   NULL};
+#else // those that never draw
+const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, NULL};
+#endif
 
 const Command *command_find(const char *name) {
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
@@ -49,11 +54,14 @@ static int dispatch(const Host *host, int argc, char **argv) {
         return STATUS_USAGE;
     }
     const char *first = argv[1];
+    if (pass_on_wanted(first)) {
+        return pass_on(argv);
+    }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         return help_overview();
     }
     if (strcmp(first, "--version") == 0) {
-        return HELP_COMMAND.run(host, 1, (char *[]){"version"});
+        return help_version();
     }
     const Command *command = command_find(first);
     if (command != NULL) {
@@ -62,7 +70,7 @@ static int dispatch(const Host *host, int argc, char **argv) {
     if (first[0] == '-' || looks_like_file(first)) {
         return RUN_COMMAND.run(host, argc - 1, argv + 1);
     }
-    return unknown_command(first);
+    return pass_on_all() ? pass_on(argv) : unknown_command(first);
 }
 
 // Were a standard descriptor closed, the next file to be opened would take its place and get our output.

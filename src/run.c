@@ -83,9 +83,7 @@ static void report_pictures(const Run *run) {
     if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session)) {
         return;
     }
-    if (command_find("view") != NULL) {
-        message("to see it: petri view %s", options->script);
-    }
+    message("to see it: petri view %s", options->script);
     message("to keep a picture of it: petri render %s -o OUT.png (or OUT.mp4)", options->script);
 }
 

@@ -320,7 +320,7 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
         .frames = -1,
         .run_time = NAN,
         .fps = 60,
-        .realtime = command == &VIEW_COMMAND,
+        .realtime = command->live,
         .every = 1,
         .frame = -1,
         .scale = 1,
@@ -339,7 +339,7 @@ int run_options_read(RunOptions *options, const Command *command, int argc, char
     Args args = args_start(command, argc, argv);
     int status = read_all(options, &args);
     if (options->frames < 0) {
-        options->frames = isnan(options->run_time) && command != &VIEW_COMMAND ? DEFAULT_FRAMES : INT64_MAX;
+        options->frames = isnan(options->run_time) && !command->live ? DEFAULT_FRAMES : INT64_MAX;
     }
     return status;
 }

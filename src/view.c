@@ -449,6 +449,7 @@ static int view_run(const Host *host, int argc, char **argv) {
 
 const Command VIEW_COMMAND = {
     .name = "view",
+    .live = true,
     .operands = "SCRIPT.fl",
     .summary = "show a script's picture as it runs, in a window or in the terminal",
     .details =

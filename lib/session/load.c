@@ -15,7 +15,6 @@ static Unit *unit_new(PetriSession *session) {
     if (!unit)
         return NULL;
     unit->references = 1;
-    session->generation++;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
     unit->arena.escape = session->frame_arena.escape;
     return unit;
@@ -206,6 +205,11 @@ static Unit *cached_module(PetriSession *session, Str path, Str version) {
     return NULL;
 }
 
+Unit *session_put(PetriSession *session, Unit *unit) {
+    session->generation++;
+    return unit;
+}
+
 const Program *session_module(void *host, Str path, Str *why) {
     PetriSession *session = host;
     const char *file = str_to_c(&session->frame_arena, path);
@@ -216,7 +220,7 @@ const Program *session_module(void *host, Str path, Str *why) {
     }
     Unit *unit = cached_module(session, file_canonical(&session->frame_arena, file), version);
     if (!unit)
-        unit = unit_load_file(session, file, true);
+        unit = session_put(session, unit_load_file(session, file, true));
     if (!unit) {
         *why = STR("out of memory");
         return NULL;

@@ -1,30 +1,10 @@
-// picture.c: pictures of the last frame, as petri.h shows them.
-#include "session/session.h"
-
-#include "base/file.h"
-#include "canvas/canvas.h"
+// picture.c: what the last frame shows, copied so that it can be drawn later and elsewhere (painter.c).
+#include "session/picture.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum { DEFAULT_WIDTH = 1920, DEFAULT_HEIGHT = 1080, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
-
-struct PetriPicture {
-    Arena arena; // all that follows
-    CanvasPicture picture;
-    AutoPicture automatic;
-    int width; // in pixels
-    int height;
-    int64_t frame;
-    const char *title;
-    const char **records;
-    uint32_t record_count;
-    DiagSink faults; // found since, by whoever draws
-};
-
-struct PetriPainter {
-    CanvasPainter *painter;
-};
 
 PetriPictureOptions petri_default_picture_options(void) {
     return (PetriPictureOptions){.scale = 1, .window = -1};
@@ -205,10 +185,6 @@ static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *
     return true;
 }
 
-static bool is_good_size(double width, double height) {
-    return width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS;
-}
-
 static void report_size(Request *request, double width, double height) {
     request->problem = str_to_c(&request->session->scene_arena,
                                 str_format(&request->session->scene_arena,
@@ -220,7 +196,7 @@ static bool choose_pixels(Request *request) {
     PetriPicture *picture = request->picture;
     const PetriPictureOptions *options = request->options;
     double width = options->width, height = options->height;
-    if (!is_good_size(picture->picture.width, picture->picture.height)) {
+    if (!picture_is_good_size(picture->picture.width, picture->picture.height)) {
         report_size(request, picture->picture.width, picture->picture.height);
         return false;
     }
@@ -228,7 +204,7 @@ static bool choose_pixels(Request *request) {
         width = floor(picture->picture.width * options->scale + 0.5);
         height = floor(picture->picture.height * options->scale + 0.5);
     }
-    if (!is_good_size(width, height)) {
+    if (!picture_is_good_size(width, height)) {
         report_size(request, width, height);
         return false;
     }
@@ -348,85 +324,6 @@ int64_t petri_picture_frame(const PetriPicture *picture) {
 
 const char *petri_picture_record(const PetriPicture *picture, size_t index) {
     return index < picture->record_count ? picture->records[index] : NULL;
-}
-
-PetriPainter *petri_painter_open(void) {
-    PetriPainter *painter = calloc(1, sizeof *painter);
-    if (painter)
-        painter->painter = canvas_painter_new();
-    if (painter && !painter->painter)
-        petri_painter_close(&painter);
-    return painter;
-}
-
-void petri_painter_close(PetriPainter **handle) {
-    PetriPainter *painter = *handle;
-    *handle = NULL;
-    if (painter)
-        canvas_painter_free(painter->painter);
-    free(painter);
-}
-
-static PetriStatus status_of(CanvasResult result) {
-    static const PetriStatus statuses[] = {[CANVAS_DONE] = PETRI_OK,
-                                           [CANVAS_FAILED] = PETRI_INVALID,
-                                           [CANVAS_MISSING] = PETRI_MISSING,
-                                           [CANVAS_MEMORY] = PETRI_MEMORY};
-    return statuses[result];
-}
-
-PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
-                               size_t stride) {
-    if (!is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
-        return PETRI_INVALID;
-    return status_of(canvas_draw(painter->painter, &picture->picture, pixels, width, height, stride, &picture->faults));
-}
-
-static bool find_format(const char *file, CanvasFormat *format) {
-    static const char *const suffixes[CANVAS_FORMAT_COUNT] = {
-        [CANVAS_PNG] = ".png", [CANVAS_SVG] = ".svg", [CANVAS_PDF] = ".pdf"};
-    for (int i = 0; i < CANVAS_FORMAT_COUNT; i++)
-        if (str_ends_with(str_from(file), str_from(suffixes[i]))) {
-            *format = (CanvasFormat)i;
-            return true;
-        }
-    return false;
-}
-
-bool petri_picture_format(const char *file) {
-    CanvasFormat format;
-    return find_format(file, &format);
-}
-
-static void report_file(PetriPicture *picture, const char *file, const char *problem) {
-    Str text = str_format(&picture->arena, "cannot write '%s': %s", file, problem);
-    diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
-}
-
-PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
-    CanvasFormat format = CANVAS_PNG;
-    if (!find_format(file, &format)) {
-        report_file(picture, file, "a picture's name ends in .png, .svg or .pdf");
-        return PETRI_INVALID;
-    }
-    Arena arena; // the file's bytes, apart from the picture's data and its faults
-    jmp_buf escape;
-    PetriStatus status = PETRI_MEMORY;
-    arena_init(&arena, "file", SIZE_MAX);
-    arena.escape = &escape;
-    if (setjmp(escape) == 0) {
-        Str bytes;
-        const char *problem;
-        CanvasResult result = canvas_encode(painter->painter, &picture->picture, format, picture->width,
-                                            picture->height, &arena, &bytes, &picture->faults);
-        status = status_of(result);
-        if (result == CANVAS_DONE && !file_replace(&arena, file, bytes, &problem)) {
-            report_file(picture, file, problem);
-            status = PETRI_INVALID;
-        }
-    }
-    arena_free(&arena);
-    return status;
 }
 
 void petri_picture_tell(PetriSession *session, PetriPicture *picture) {

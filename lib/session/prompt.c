@@ -280,7 +280,7 @@ static bool keep(PetriSession *session, const Job *job, bool adds) {
     if (!prompts)
         return false;
     session->prompts = prompts;
-    prompts[session->prompt_count++] = (Prompt){job->unit, job->ast, job->program, adds};
+    prompts[session->prompt_count++] = (Prompt){session_put(session, job->unit), job->ast, job->program, adds};
     job->unit->references++;
     add_names(session, job->program);
     session_change_setup(session, true);

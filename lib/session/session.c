@@ -288,7 +288,7 @@ typedef enum LoadPurpose { LOAD_TO_CHECK, LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpo
 static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
     session_clear_frame(session); // its tree may lie in the old unit
     unit_free(session->program);
-    session->program = unit;
+    session->program = session_put(session, unit);
     if (purpose == LOAD_AFRESH)
         session_start(session, unit->program);
     else

@@ -99,7 +99,7 @@ struct PetriSession {
     uint64_t setup_number; // of the present setup
     uint64_t last_number;  // given so far
     Unit *modules;         // list
-    uint64_t generation;   // counts the units made: what lies in a new one may lie where a dropped one did
+    uint64_t generation;   // counts the units that frames came to depend on (session_put)
     Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
     Unit *loading;         // whose compiler calls back
     bool lint;             // petri_check is at work
@@ -160,6 +160,8 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module);
 Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version);
 // Gives a reference back; NULL is fine.
 void unit_free(Unit *unit);
+// To be told of each unit that frames come to depend on: what lies in it may lie where that of a freed one did.
+Unit *session_put(PetriSession *session, Unit *unit);
 // A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
 // Compiles a tree of the unit as a program with the given parameters.

@@ -83,7 +83,7 @@ void petri_setup_use(PetriSession *session, PetriSetup *setup) {
     if (setup->program)
         setup->program->references++;
     unit_free(session->program);
-    session->program = setup->program;
+    session->program = session_put(session, setup->program);
     session->defines = setup->defines;
     session->define_count = setup->define_count;
     session->said = setup->said;

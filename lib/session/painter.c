@@ -1,0 +1,89 @@
+// painter.c: pictures into pixels and files.
+#include "session/picture.h"
+
+#include "base/file.h"
+
+#include <stdlib.h>
+
+struct PetriPainter {
+    CanvasPainter *painter;
+};
+
+PetriPainter *petri_painter_open(void) {
+    PetriPainter *painter = calloc(1, sizeof *painter);
+    if (painter)
+        painter->painter = canvas_painter_new();
+    if (painter && !painter->painter)
+        petri_painter_close(&painter);
+    return painter;
+}
+
+void petri_painter_close(PetriPainter **handle) {
+    PetriPainter *painter = *handle;
+    *handle = NULL;
+    if (painter)
+        canvas_painter_free(painter->painter);
+    free(painter);
+}
+
+static PetriStatus status_of(CanvasResult result) {
+    static const PetriStatus statuses[] = {[CANVAS_DONE] = PETRI_OK,
+                                           [CANVAS_FAILED] = PETRI_INVALID,
+                                           [CANVAS_MISSING] = PETRI_MISSING,
+                                           [CANVAS_MEMORY] = PETRI_MEMORY};
+    return statuses[result];
+}
+
+PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
+                               size_t stride) {
+    if (!picture_is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
+        return PETRI_INVALID;
+    return status_of(canvas_draw(painter->painter, &picture->picture, pixels, width, height, stride, &picture->faults));
+}
+
+static bool find_format(const char *file, CanvasFormat *format) {
+    static const char *const suffixes[CANVAS_FORMAT_COUNT] = {
+        [CANVAS_PNG] = ".png", [CANVAS_SVG] = ".svg", [CANVAS_PDF] = ".pdf"};
+    for (int i = 0; i < CANVAS_FORMAT_COUNT; i++)
+        if (str_ends_with(str_from(file), str_from(suffixes[i]))) {
+            *format = (CanvasFormat)i;
+            return true;
+        }
+    return false;
+}
+
+bool petri_picture_format(const char *file) {
+    CanvasFormat format;
+    return find_format(file, &format);
+}
+
+static void report_file(PetriPicture *picture, const char *file, const char *problem) {
+    Str text = str_format(&picture->arena, "cannot write '%s': %s", file, problem);
+    diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
+}
+
+PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
+    CanvasFormat format = CANVAS_PNG;
+    if (!find_format(file, &format)) {
+        report_file(picture, file, "a picture's name ends in .png, .svg or .pdf");
+        return PETRI_INVALID;
+    }
+    Arena arena; // the file's bytes, apart from the picture's data and its faults
+    jmp_buf escape;
+    PetriStatus status = PETRI_MEMORY;
+    arena_init(&arena, "file", SIZE_MAX);
+    arena.escape = &escape;
+    if (setjmp(escape) == 0) {
+        Str bytes;
+        const char *problem;
+        CanvasResult result = canvas_encode(painter->painter, &picture->picture, format, picture->width,
+                                            picture->height, &arena, &bytes, &picture->faults);
+        status = status_of(result);
+        if (result == CANVAS_DONE && !file_replace(&arena, file, bytes, &problem)) {
+            report_file(picture, file, problem);
+            status = PETRI_INVALID;
+        }
+    }
+    arena_free(&arena);
+    return status;
+}

@@ -1,0 +1,14 @@
+// pass_on.h: starting the other program, petri-pictures, for what this one cannot do.
+#ifndef PETRI_SRC_PASS_ON_H
+#define PETRI_SRC_PASS_ON_H
+
+#include <stdbool.h>
+
+// Is this a first word that only petri-pictures understands? Never so in petri-pictures itself.
+bool pass_on_wanted(const char *first);
+// Whether whatever this program does not understand goes there, too.
+bool pass_on_all(void);
+// Becomes petri-pictures with the same arguments. Returns only if that fails: the status to exit with, after a message.
+int pass_on(char **argv);
+
+#endif
