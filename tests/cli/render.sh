@@ -97,6 +97,10 @@ END
     petri render record.fl -o last.png --frames 4
     check "!record writes pictures of the frames that it is in" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
     check "… as the output would be" cmp -s frame3.png last.png
+    printf '!window size=300;300\n    !canvas\n        !ellipse point=10+frame;50 radius=40 fill=true\n    !record filename="same.png"\n' >record.fl
+    petri render record.fl -o last.png --frames 60
+    check "!record may write the same file in each frame" status_is 0
+    check "… in their order: the last stays" cmp -s same.png last.png
     petri run record.fl --frames 4
     check "run leaves !record alone" status_is 0
     printf '!window size=20;20\n    !canvas\n    !record filename="x.txt"\n' >record.fl
@@ -164,6 +168,9 @@ END
     printf '!window size=1000;1000\n    !canvas\n        !line points=(..2000000)/2000 stroke=true color=0;1;0\n' >points.fl
     petri render points.fl -o points.png --frames 1
     check "a million points on a line are drawn" status_is 0
+    printf '!window size=1000;1000\n    !canvas\n        for i in ..12000\n            !text text="." point=500;(i%%2)*990\n        !rect size=40\n        !fill\n' >texts.fl
+    petri render texts.fl -o texts.png --frames 1
+    check "thousands of texts are no part of the path around them" status_is 0
     nest='wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(x))))))))))'
     cat >nest.fl <<END
 func wrap(x)
