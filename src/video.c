@@ -78,7 +78,9 @@ static pid_t start(Video *video, int input, double fps) {
     for (size_t i = 0; format[i] != NULL; i++) {
         words[count++] = format[i];
     }
-    words[count] = video->beside;
+    Bytes output = {0}; // a name with a colon would be taken for a protocol
+    bytes_format(&output, "file:%s", video->beside);
+    words[count] = output.data;
 
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -98,6 +100,7 @@ static pid_t start(Video *video, int input, double fps) {
     int error = posix_spawnp(&pid, "ffmpeg", &files, &attributes, (char **)(void *)words, environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
+    bytes_free(&output);
     errno = error;
     return error == 0 ? pid : -1;
 }

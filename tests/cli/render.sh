@@ -209,13 +209,18 @@ END
         check "… and nothing beside them" nothing_beside
         petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
         check "a film may have an odd size" status_is 0
+        for name in file:film.mp4 at:12.gif; do
+            petri render disc.fl -o "$name" --frames 2
+            check "a colon in a film's name is part of it: $name" [ -s "$name" ]
+        done
+        check "… nothing else is written" nothing_beside
 
         mkdir tools
         # A stand-in that is killed half-way.
         cat >tools/ffmpeg <<'END'
 #!/bin/sh
 for last; do :; done
-head -c 30000 >"$last"
+head -c 30000 >"${last#file:}"
 kill -9 $$
 END
         chmod +x tools/ffmpeg
