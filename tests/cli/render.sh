@@ -115,6 +115,10 @@ END
         check "a window of size=$size is an error" one_error
         check "… size=$size: without a file" [ ! -e size.png ]
     done
+    head -c 700 "$here/../pictures/images/small.jpg" >half.jpg
+    printf '!window size=40;40\n    !canvas\n        !image filename="half.jpg" size=40\n' >half.fl
+    petri render half.fl -o half.png --frames 3
+    check "half a JPEG file is told once" count_is err "cannot read 'half.jpg': it is damaged" 1
     # what is not finite is told once and left out
     cat >wrong.fl <<'END'
 let nan=0/0
