@@ -54,11 +54,15 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
     if (painting->pixels == NULL) {
         int width = 0, height = 0;
         petri_picture_size(picture, &width, &height);
+        painting->pixels = calloc((size_t)width * (size_t)height, sizeof(uint32_t));
+        if (painting->pixels == NULL) {
+            set_trouble(painting, "out of memory");
+            return false;
+        }
         if (!video_open(video, painting->film, width, height, painting->fps)) {
             set_trouble(painting, video->trouble);
             return false;
         }
-        painting->pixels = memory_zeroed((size_t)width * (size_t)height * sizeof(uint32_t));
     }
     PetriStatus status = petri_picture_draw(picture, painter, painting->pixels, video->width, video->height,
                                             (size_t)video->width * sizeof(uint32_t));

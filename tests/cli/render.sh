@@ -219,6 +219,19 @@ END
         done
         check "… nothing else is written" nothing_beside
 
+        # render_small ARGUMENT...: with less memory than a frame of 16000x16000 takes, in kilobytes.
+        render_small() (
+            ulimit -v 900000
+            exec timeout 100 "$petri" render disc.fl "$@" >out 2>err </dev/null
+        )
+        if render_small -o small.mp4 --frames 2; then # not with a sanitizer
+            render_small -o large.mp4 --frames 2 --size 16000x16000
+            status=$?
+            check "a frame that memory cannot hold is an error" status_is 1
+            check "… told" has err "out of memory"
+            check "… without a film or half of one" [ "$(echo large.mp4*)" = "large.mp4*" ]
+        fi
+
         mkdir tools
         # A stand-in that is killed half-way.
         cat >tools/ffmpeg <<'END'
