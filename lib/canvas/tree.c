@@ -91,6 +91,7 @@ static void end_layer(Canvas *canvas, const Level *level) {
 static void enter_layer(Walk *walk, const DrawNode *node, const Look *look, KeptPath kept) {
     Canvas *canvas = walk->canvas;
     double size[2], origin[2];
+    draw_set_edges(canvas, look);
     if (draw_pair(node, NAME_SIZE, size)) {
         draw_pair(node, NAME_ORIGIN, origin);
         double x1 = origin[0], y1 = origin[1], x2 = x1 + size[0], y2 = y1 + size[1];
