@@ -218,6 +218,12 @@ END
             check "a colon in a film's name is part of it: $name" [ -s "$name" ]
         done
         check "… nothing else is written" nothing_beside
+        mkdir films
+        : >films/last.mp4
+        ln -s films/last.mp4 link.mp4
+        petri render disc.fl -o link.mp4 --frames 2
+        check "a film's name may be a symbolic link, which stays" [ -L link.mp4 ]
+        check "… to what is written" [ -s films/last.mp4 ]
 
         # render_small ARGUMENT...: with less memory than a frame of 16000x16000 takes, in kilobytes.
         render_small() (
