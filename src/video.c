@@ -142,7 +142,8 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
         target = memory_copied(file, strlen(file));
     }
     bytes_format(&beside, "%s.%ld.tmp", target, (long)getpid());
-    *video = (Video){.file = file, .target = target, .beside = beside.data, .width = width, .height = height, .frames = -1};
+    *video =
+        (Video){.file = file, .target = target, .beside = beside.data, .width = width, .height = height, .frames = -1};
     video->errors = unnamed_file();
     if (video->errors < 0 || pipe(ends) != 0) {
         set_trouble(video, "cannot start ffmpeg: %s", strerror(errno));
