@@ -19,7 +19,6 @@ struct Editor {
     Repl *repl;
     EditLine *line;
     History *history;
-    Bytes typed; // in this session
     char prompt[64];
 };
 
@@ -128,14 +127,12 @@ void editor_free(Editor *editor) {
     if (editor == NULL) {
         return;
     }
-    saved_add(&editor->typed);
     if (editor->history != NULL) {
         history_end(editor->history);
     }
     if (editor->line != NULL) {
         el_end(editor->line);
     }
-    bytes_free(&editor->typed);
     free(editor);
 }
 
@@ -146,8 +143,11 @@ static void remember(Editor *editor, const Bytes *line) {
         return;
     }
     history(editor->history, &event, H_ENTER, line->data);
-    bytes_add(&editor->typed, line->data, line->length);
-    bytes_add(&editor->typed, "\n", 1);
+    Bytes whole = {0};
+    bytes_add(&whole, line->data, line->length);
+    bytes_add(&whole, "\n", 1);
+    saved_add(&whole); // at once: a terminal that is closed ends petri without a word
+    bytes_free(&whole);
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, Bytes *line) {

@@ -117,6 +117,10 @@ expect "Ctrl-C gives up lines begun" '^77$'
 type_keys 'let unusual=100+23' Enter
 type_keys 'unusual' Enter
 expect "a name is kept" '^123$'
+if [ $edits = yes ] && ! grep -q '^unusual$' "$XDG_STATE_HOME/petri/history"; then
+    failed=$((failed + 1))
+    echo "FAIL lines are in the history at once, for a terminal may be closed"
+fi
 type_keys C-d
 expect "Ctrl-D leaves" '^left with 0$'
 
