@@ -141,6 +141,17 @@ if [ $edits = yes ]; then
     fi
 fi
 
+start --color never cells.fl
+type_keys '1+'
+expect "a line begun" '^petri> 1+$'
+shell=$(t display-message -p '#{pane_pid}')
+kill -TERM "$(cut -d ' ' -f 1 "/proc/$shell/task/$shell/children")"
+expect "a signal ends petri" 'left with 143$'
+if ! stty -a <"$(t display-message -p '#{pane_tty}')" | grep -q '[^-]icanon'; then
+    failed=$((failed + 1))
+    echo "FAIL the terminal is as it was when a signal has ended petri"
+fi
+
 printf '!counter state=:n rate=60\n!shape size=1\n' >edited.fl
 start --color never edited.fl
 type_keys '.step 5' Enter
