@@ -101,6 +101,11 @@ static bool run_watch(Repl *repl, const char *rest) {
     }
     output_format(&repl->output, "%s = %s\n", rest, value.data);
     bytes_free(&value);
+    for (size_t i = 0; i < repl->watched_count; i++) {
+        if (strcmp(rest, repl->watched[i]) == 0) {
+            return true; // once is enough
+        }
+    }
     repl->watched = memory_resized(repl->watched, (repl->watched_count + 1) * sizeof *repl->watched);
     repl->watched[repl->watched_count++] = memory_copied(rest, strlen(rest));
     return true;
@@ -128,6 +133,25 @@ static bool run_show(Repl *repl, const char *rest) {
     return repl_show_picture(repl);
 }
 
+// Is a text, a name or NAME=VALUE, of the name that another one begins with?
+static bool is_name(const char *text, const char *name, size_t length) {
+    return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
+}
+
+// Does something else than a definition give the name its value? What the script and the prompt bind, and the names of
+// the engine, come before it.
+static bool is_bound(const Repl *repl, const char *definition) {
+    size_t length = strcspn(definition, "="), seen = 0, defined = 0;
+    const char *name;
+    for (size_t i = 0; (name = petri_name(repl->session, i)) != NULL; i++) {
+        seen += is_name(name, definition, length);
+    }
+    for (size_t i = 0; i < repl->definition_count; i++) {
+        defined += is_name(repl->definitions[i], definition, length);
+    }
+    return seen > defined;
+}
+
 static bool run_set(Repl *repl, const char *rest) {
     PetriSetup *before = petri_setup(repl->session);
     if (before == NULL) {
@@ -143,6 +167,10 @@ static bool run_set(Repl *repl, const char *rest) {
     petri_setup_free(before);
     if (good) {
         repl_keep_definition(repl, rest);
+    }
+    if (good && is_bound(repl, rest)) {
+        repl_say(repl, "%.*s keeps the value that the script, the prompt or petri itself gives it",
+                 (int)strcspn(rest, "="), rest);
     }
     return good;
 }

@@ -5,9 +5,11 @@
 
 #include <errno.h>
 #include <histedit.h>
+#include <signal.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <termios.h>
 #include <unistd.h>
 #include <wchar.h>
 
@@ -19,9 +21,28 @@ struct Editor {
     Repl *repl;
     EditLine *line;
     History *history;
-    Bytes typed; // in this session
     char prompt[64];
 };
+
+// The terminal as it was: a signal handler can reach nothing but globals.
+static struct termios settings;
+
+// While a line is edited the terminal does not echo: it must not stay like that when a signal ends petri.
+static void on_end(int signal_number) {
+    tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+    raise(signal_number); // now without a handler
+}
+
+static void catch_ends(void) {
+    static const int numbers[] = {SIGTERM, SIGHUP};
+    struct sigaction action = {.sa_handler = on_end, .sa_flags = (int)SA_RESETHAND}, before;
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && tcgetattr(STDIN_FILENO, &settings) == 0; i++) {
+        if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // as with nohup
+            sigaction(numbers[i], &action, NULL);
+        }
+    }
+}
 
 static const char *prompt_of(EditLine *line) {
     Editor *editor = NULL;
@@ -98,6 +119,7 @@ Editor *editor_new(Repl *repl) {
     if (terminal == NULL || strcmp(terminal, "dumb") == 0) {
         return NULL;
     }
+    catch_ends(); // before libedit changes the terminal
     Editor *editor = memory_zeroed(sizeof *editor);
     HistEvent event;
     editor->repl = repl;
@@ -128,14 +150,12 @@ void editor_free(Editor *editor) {
     if (editor == NULL) {
         return;
     }
-    saved_add(&editor->typed);
     if (editor->history != NULL) {
         history_end(editor->history);
     }
     if (editor->line != NULL) {
         el_end(editor->line);
     }
-    bytes_free(&editor->typed);
     free(editor);
 }
 
@@ -146,8 +166,11 @@ static void remember(Editor *editor, const Bytes *line) {
         return;
     }
     history(editor->history, &event, H_ENTER, line->data);
-    bytes_add(&editor->typed, line->data, line->length);
-    bytes_add(&editor->typed, "\n", 1);
+    Bytes whole = {0};
+    bytes_add(&whole, line->data, line->length);
+    bytes_add(&whole, "\n", 1);
+    saved_add(&whole); // at once: a terminal that is closed ends petri without a word
+    bytes_free(&whole);
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, Bytes *line) {

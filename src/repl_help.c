@@ -54,7 +54,8 @@ static void list_nodes(Repl *repl) {
 static bool tell_command(Repl *repl, const char *name) {
     for (const ReplCommand *command = REPL_COMMANDS; command->name != NULL; command++) {
         if (strcmp(command->name + (name[0] != '.'), name) == 0) {
-            output_format(&repl->output, "%s %s\n    %s\n", command->name, command->operands, command->help);
+            output_format(&repl->output, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
+                          command->operands, command->help);
             return true;
         }
     }

@@ -50,9 +50,10 @@ static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
     return filter->found;
 }
 
-// `$:cells = …` and `$(:cells;0) = …` are both under `:cells`, and under `$:cells` and `(:cells)` as well.
+// `$:cells = …` and `$(:cells;0) = …` are both under `:cells`, and under `$:cells`, `(:cells)` and `cells` as well.
 static void take_entry(Filter *filter, const char *line, size_t length) {
     const char *key = line + 1 + (line[1] == '(');
+    key += key[0] == ':' && filter->wanted[0] != ':';
     size_t wanted = strlen(filter->wanted), rest = length - (size_t)(key - line);
     bool under = wanted == 0 || (rest > wanted && memcmp(key, filter->wanted, wanted) == 0 &&
                                  (key[wanted] == ';' || key[wanted] == ')' || key[wanted] == ' '));
@@ -155,11 +156,24 @@ static double speed_of(const PetriParticle *particle, uint32_t dimensions) {
     return sqrt(sum);
 }
 
+static uint32_t count_anchors(const Repl *repl, size_t number) {
+    PetriParticle particle;
+    uint32_t anchors = 0;
+    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
+        anchors += particle.anchor;
+    }
+    return anchors;
+}
+
 static void show_particles(Repl *repl, size_t number, const PetriSystem *system) {
     Table table = table_new(5);
     PetriParticle particle;
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s\n", system->name, system->particle_count,
-                  system->particle_count == 1 ? "" : "s");
+    uint32_t anchors = count_anchors(repl, number), moving = system->particle_count - anchors;
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
+    if (anchors > 0) {
+        output_format(&repl->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
+    }
+    output_write(&repl->output, "\n", 1);
     const char *const heads[] = {"id", "position", "velocity", "speed", "force"};
     for (size_t i = 0; i < 5; i++) {
         table_add(&table, heads[i]);

@@ -36,11 +36,12 @@ typedef struct Schema {
 } Schema;
 
 void schema_init(Schema *schema, SymbolTable *symbols, SceneHost host);
-// For help: names, types and defaults as words. False beyond the last attribute.
+// For help: names, types, defaults and meanings as words. False beyond the last attribute.
 typedef struct SchemaHelp {
     const char *name;
     const char *type;
     const char *fallback;
+    const char *help;
 } SchemaHelp;
 const char *schema_kind_name(SceneKind kind);
 const char *schema_kind_help(SceneKind kind);

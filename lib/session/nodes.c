@@ -24,7 +24,7 @@ bool petri_node_attribute(size_t kind, size_t number, PetriNodeAttribute *out) {
         SchemaHelp row;
         if (!schema_attribute_help((SceneKind)kind, number, &row))
             return false;
-        *out = (PetriNodeAttribute){row.name, row.type, row.fallback, ""};
+        *out = (PetriNodeAttribute){row.name, row.type, row.fallback, row.help};
         return true;
     }
     if (!canvas_help_attribute(kind - physics, number, &help))

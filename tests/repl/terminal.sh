@@ -117,6 +117,10 @@ expect "Ctrl-C gives up lines begun" '^77$'
 type_keys 'let unusual=100+23' Enter
 type_keys 'unusual' Enter
 expect "a name is kept" '^123$'
+if [ $edits = yes ] && ! grep -q '^unusual$' "$XDG_STATE_HOME/petri/history"; then
+    failed=$((failed + 1))
+    echo "FAIL lines are in the history at once, for a terminal may be closed"
+fi
 type_keys C-d
 expect "Ctrl-D leaves" '^left with 0$'
 
@@ -135,6 +139,17 @@ if [ $edits = yes ]; then
         failed=$((failed + 1))
         echo "FAIL searching in the history: $(cat "$XDG_STATE_HOME/petri/history")"
     fi
+fi
+
+start --color never cells.fl
+type_keys '1+'
+expect "a line begun" '^petri> 1+$'
+shell=$(t display-message -p '#{pane_pid}')
+kill -TERM "$(cut -d ' ' -f 1 "/proc/$shell/task/$shell/children")"
+expect "a signal ends petri" 'left with 143$'
+if ! stty -a <"$(t display-message -p '#{pane_tty}')" | grep -q '[^-]icanon'; then
+    failed=$((failed + 1))
+    echo "FAIL the terminal is as it was when a signal has ended petri"
 fi
 
 printf '!counter state=:n rate=60\n!shape size=1\n' >edited.fl
