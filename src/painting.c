@@ -27,6 +27,7 @@ struct Painting {
     Job *waiting; // oldest first
     Job **last;
     int waiting_count;
+    Job *running[MOST_WORKERS]; // in any order; NULL: none
     Job *done;
     bool ending; // no more will be added
     bool failed;
@@ -53,11 +54,15 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
     if (painting->pixels == NULL) {
         int width = 0, height = 0;
         petri_picture_size(picture, &width, &height);
+        painting->pixels = calloc((size_t)width * (size_t)height, sizeof(uint32_t));
+        if (painting->pixels == NULL) {
+            set_trouble(painting, "out of memory");
+            return false;
+        }
         if (!video_open(video, painting->film, width, height, painting->fps)) {
             set_trouble(painting, video->trouble);
             return false;
         }
-        painting->pixels = memory_zeroed((size_t)width * (size_t)height * sizeof(uint32_t));
     }
     PetriStatus status = petri_picture_draw(picture, painter, painting->pixels, video->width, video->height,
                                             (size_t)video->width * sizeof(uint32_t));
@@ -94,9 +99,53 @@ static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
     return good;
 }
 
+// The files that a job writes, by number; NULL beyond the last.
+static const char *written_file(const Job *job, size_t index) {
+    if (job->file != NULL && index == 0) {
+        return job->file;
+    }
+    return petri_picture_record(job->picture, job->file != NULL ? index - 1 : index);
+}
+
+static const char *last_part(const char *file) {
+    const char *slash = strrchr(file, '/');
+    return slash == NULL ? file : slash + 1;
+}
+
+// Whether two jobs may write the same file. Paths may differ and lead to the same: names count.
+static bool share_file(const Job *a, const Job *b) {
+    const char *one, *two;
+    for (size_t i = 0; (one = written_file(a, i)) != NULL; i++) {
+        for (size_t k = 0; (two = written_file(b, k)) != NULL; k++) {
+            if (strcmp(last_part(one), last_part(two)) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static Job **find_running(Painting *painting, const Job *job) {
+    int i = 0;
+    while (painting->running[i] != job) {
+        i++;
+    }
+    return &painting->running[i];
+}
+
+// Frames that write the same file do so one after the other, so that the last one's picture stays.
+static bool may_run(const Painting *painting, const Job *job) {
+    for (int i = 0; i < MOST_WORKERS; i++) {
+        if (painting->running[i] != NULL && share_file(painting->running[i], job)) {
+            return false;
+        }
+    }
+    return true;
+}
+
 // The next job, or NULL if there will be none.
 static Job *take_job(Painting *painting) {
-    while (painting->waiting == NULL && !painting->ending) {
+    while (painting->waiting != NULL ? !may_run(painting, painting->waiting) : !painting->ending) {
         pthread_cond_wait(&painting->changed, &painting->lock);
     }
     Job *job = painting->waiting;
@@ -106,6 +155,7 @@ static Job *take_job(Painting *painting) {
         if (painting->waiting == NULL) {
             painting->last = &painting->waiting;
         }
+        *find_running(painting, NULL) = job; // no more run than there are threads
         pthread_cond_broadcast(&painting->changed);
     }
     return job;
@@ -127,8 +177,10 @@ static void *work(void *context) {
         pthread_mutex_lock(&painting->lock);
         painting->seconds += seconds;
         painting->failed = painting->failed || !good;
+        *find_running(painting, job) = NULL;
         job->next = painting->done;
         painting->done = job;
+        pthread_cond_broadcast(&painting->changed);
     }
     pthread_mutex_unlock(&painting->lock);
     petri_painter_close(&painter);

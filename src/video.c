@@ -78,7 +78,9 @@ static pid_t start(Video *video, int input, double fps) {
     for (size_t i = 0; format[i] != NULL; i++) {
         words[count++] = format[i];
     }
-    words[count] = video->beside;
+    Bytes output = {0}; // a name with a colon would be taken for a protocol
+    bytes_format(&output, "file:%s", video->beside);
+    words[count] = output.data;
 
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -98,6 +100,7 @@ static pid_t start(Video *video, int input, double fps) {
     int error = posix_spawnp(&pid, "ffmpeg", &files, &attributes, (char **)(void *)words, environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
+    bytes_free(&output);
     errno = error;
     return error == 0 ? pid : -1;
 }
@@ -126,15 +129,21 @@ static void forget(Video *video) {
         close(video->errors);
     }
     free(video->beside);
-    video->beside = NULL;
+    free(video->target);
+    video->beside = video->target = NULL;
     video->frames = video->errors = -1;
 }
 
 bool video_open(Video *video, const char *file, int width, int height, double fps) {
     Bytes beside = {0};
     int ends[2] = {-1, -1};
-    bytes_format(&beside, "%s.%ld.tmp", file, (long)getpid());
-    *video = (Video){.file = file, .beside = beside.data, .width = width, .height = height, .frames = -1};
+    char *target = realpath(file, NULL); // a symbolic link stays one
+    if (target == NULL) {
+        target = memory_copied(file, strlen(file));
+    }
+    bytes_format(&beside, "%s.%ld.tmp", target, (long)getpid());
+    *video =
+        (Video){.file = file, .target = target, .beside = beside.data, .width = width, .height = height, .frames = -1};
     video->errors = unnamed_file();
     if (video->errors < 0 || pipe(ends) != 0) {
         set_trouble(video, "cannot start ffmpeg: %s", strerror(errno));
@@ -229,7 +238,7 @@ bool video_close(Video *video) {
     if (video->beside == NULL || !finish(video)) {
         return false;
     }
-    bool done = rename(video->beside, video->file) == 0;
+    bool done = rename(video->beside, video->target) == 0;
     if (!done) {
         set_trouble(video, "cannot write '%s': %s", video->file, strerror(errno));
         unlink(video->beside);

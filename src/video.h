@@ -11,7 +11,8 @@
 
 typedef struct Video {
     const char *file;
-    char *beside; // NULL: not open
+    char *target; // the file without symbolic links; owned
+    char *beside; // the film while it grows; owned; NULL: not open
     int width;
     int height;
     pid_t pid;

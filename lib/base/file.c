@@ -114,13 +114,16 @@ bool file_replace(Arena *arena, const char *path, Str bytes, const char **proble
     if (stat(target, &info) == 0)
         (void)!fchmod(file, info.st_mode & 07777);
     bool written = write_all(file, bytes) && fsync(file) == 0;
-    int error = errno;
-    written = close(file) == 0 && written;
+    int error = errno; // of what failed first
+    if (close(file) != 0 && written) {
+        written = false;
+        error = errno;
+    }
     if (written && rename(beside, target) == 0) {
         sync_directory(arena, target);
         return true;
     }
-    *problem = strerror(error ? error : errno);
+    *problem = strerror(written ? errno : error);
     unlink(beside);
     return false;
 }

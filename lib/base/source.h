@@ -21,6 +21,12 @@ typedef struct Span {
     uint32_t end;
 } Span;
 
+// Where something in a script came from.
+typedef struct Origin {
+    const Source *source;
+    Span span;
+} Origin;
+
 typedef struct SourcePlace {
     uint32_t line;   // from 1
     uint32_t column; // in characters, from 1

@@ -139,7 +139,7 @@ ATTR(ARC, SWEEP, NUMBER, "1", "turns; end goes before it")
 NODE(RECT, "rect", DRAWING, SOURCE, "a rectangle")
 ATTR(RECT, POINT, POINT, "0;0", "top left corner")
 ATTR(RECT, SIZE, SIZE, "", "")
-ATTR(RECT, RADIUS, SIZE, "0", "of its corners")
+ATTR(RECT, RADIUS, SIZE, "0", "of its corners, shrunk to what fits")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
 

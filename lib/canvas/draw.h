@@ -75,6 +75,8 @@ bool draw_add_path(Canvas *canvas, const DrawNode *node);
 
 // paints.c
 cairo_operator_t draw_operator(int composite);
+// How the edges of what is filled or clipped are; Cairo keeps what was set last, for whatever it was.
+void draw_set_edges(Canvas *canvas, const Look *look);
 void draw_fill(Canvas *canvas, const Look *look);   // the path is kept
 void draw_stroke(Canvas *canvas, const Look *look); // the path is kept
 void draw_clip(Canvas *canvas, const Look *look);   // the path is kept

@@ -156,6 +156,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
     double width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
     KeptPath kept = draw_keep_path(canvas);
     cairo_save(cr);
+    draw_set_edges(canvas, look);
     if (box->cut) {
         double x1 = point[0], y1 = point[1], x2 = x1 + box->width, y2 = y1 + box->height;
         draw_tame(canvas, &x1, &y1);

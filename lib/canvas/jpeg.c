@@ -5,6 +5,7 @@
 
 #include <jpeglib.h>
 
+#include <jerror.h>
 #include <setjmp.h>
 #include <stdlib.h>
 
@@ -17,6 +18,12 @@ typedef struct Trouble {
 
 static _Noreturn void give_up(j_common_ptr info) {
     longjmp(((Trouble *)(void *)info->err)->escape, 1);
+}
+
+// Half a file is no picture; other oddities do no harm.
+static void on_warning(j_common_ptr info, int level) {
+    if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF)
+        give_up(info);
 }
 
 static void be_quiet(j_common_ptr info) {
@@ -44,6 +51,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
     *problem = "it is damaged, or of a kind that is not read";
     jpeg.err = jpeg_std_error(&trouble.manager);
     trouble.manager.error_exit = give_up;
+    trouble.manager.emit_message = on_warning;
     trouble.manager.output_message = be_quiet;
     jpeg_create_decompress(&jpeg);
     if (setjmp(trouble.escape) == 0) {

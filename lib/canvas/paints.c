@@ -47,6 +47,12 @@ static void set_gradient(Canvas *canvas, const DrawNode *gradient) {
     cairo_pattern_destroy(pattern);
 }
 
+void draw_set_edges(Canvas *canvas, const Look *look) {
+    cairo_set_antialias(canvas->cr, look->antialias ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+    cairo_set_fill_rule(canvas->cr,
+                        look->fill_type == FILL_EVEN_ODD ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
+}
+
 static void set_paint(Canvas *canvas, const Look *look) {
     cairo_t *cr = canvas->cr;
     if (look->source)
@@ -54,8 +60,7 @@ static void set_paint(Canvas *canvas, const Look *look) {
     else
         cairo_set_source_rgba(cr, look->color[0], look->color[1], look->color[2], look->color[3]);
     cairo_set_operator(cr, draw_operator(look->composite));
-    cairo_set_antialias(cr, look->antialias ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
-    cairo_set_fill_rule(cr, look->fill_type == FILL_EVEN_ODD ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
+    draw_set_edges(canvas, look);
 }
 
 // Filling takes a time that grows with the rows that the edges cross, and faster where they cross each other: a path of
@@ -207,9 +212,7 @@ void draw_stroke(Canvas *canvas, const Look *look) {
 void draw_clip(Canvas *canvas, const Look *look) {
     if (!is_drawable(canvas))
         return;
-    cairo_set_antialias(canvas->cr, look->antialias ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
-    cairo_set_fill_rule(canvas->cr,
-                        look->fill_type == FILL_EVEN_ODD ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
+    draw_set_edges(canvas, look);
     cairo_clip_preserve(canvas->cr);
 }
 

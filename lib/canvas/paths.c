@@ -109,7 +109,9 @@ static void add_rect(Canvas *canvas, const DrawNode *node) {
         return;
     draw_pair(node, NAME_RADIUS, r);
     double left = p[0], top = p[1], right = p[0] + size[0], bottom = p[1] + size[1];
-    double rx = fmin(r[0], size[0] / 2), ry = fmin(r[1], size[1] / 2);
+    // Radii that do not fit shrink together: a large one makes half circles at the shorter sides.
+    double part = fmin(1, fmin(size[0] / (2 * r[0]), size[1] / (2 * r[1])));
+    double rx = r[0] * part, ry = r[1] * part;
     if (rx > 0 && ry > 0) {
         draw_ellipse_path(canvas, right - rx, top + ry, rx, ry, 0.75, 0.25, false);
         draw_ellipse_path(canvas, right - rx, bottom - ry, rx, ry, 0, 0.25, true);

@@ -96,7 +96,7 @@ typedef struct Reader {
 static void report(const Reader *reader, const char *code, Str key, Str text) {
     Str kind = reader->node->kind->name;
     Str node = str_format(reader->arena, "!%.*s", (int)kind.len, kind.bytes);
-    reader->schema->host.report(reader->schema->host.host, DIAG_WARNING, code, node, key, text);
+    reader->schema->host.report(reader->schema->host.host, DIAG_WARNING, code, reader->node->origin, node, key, text);
 }
 
 // "attribute should be …, not …".

@@ -10,7 +10,7 @@ typedef struct CanvasHost {
     void *host;
     // What is wrong with which node; `key` tells apart what may be wrong with one kind of node, while the text may go
     // on to tell what was found and change from frame to frame.
-    void (*report)(void *host, DiagLevel level, const char *code, Str node, Str key, Str text);
+    void (*report)(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text);
 } CanvasHost;
 
 // The words that attributes take, one entry each.

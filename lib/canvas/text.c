@@ -122,7 +122,9 @@ static void place(PangoLayout *layout, bool center, double point[2]) {
 }
 
 static void add_letters(Canvas *canvas, const double point[2]) {
-    cairo_move_to(canvas->cr, point[0], point[1]);
+    double x = point[0], y = point[1];
+    draw_tame(canvas, &x, &y);
+    cairo_move_to(canvas->cr, x, y);
     pango_cairo_layout_path(canvas->cr, canvas->painter->layout);
 }
 
@@ -156,6 +158,5 @@ void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
     pango_cairo_update_layout(canvas->cr, layout);
     pango_layout_set_text(layout, text->as.text.bytes, (int)text->as.text.len);
     place(layout, draw_flag(node, NAME_CENTER, true), point);
-    draw_tame(canvas, &point[0], &point[1]);
     draw_letters(canvas, node, look, point);
 }

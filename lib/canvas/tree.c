@@ -55,6 +55,12 @@ static Level *push(Walk *walk, const DrawNode *node, const Look *look) {
     return level;
 }
 
+// When the level ends, the path is what it was before.
+static void keep(Level *level, KeptPath kept) {
+    level->kept = kept;
+    level->keeps_path = true;
+}
+
 // Begins a layer; false, after a report, if there are too many. They take memory.
 static bool begin_layer(Canvas *canvas, Level *level) {
     double x1, y1, x2, y2;
@@ -82,10 +88,10 @@ static void end_layer(Canvas *canvas, const Level *level) {
     canvas->layer_pixels -= level->pixels;
 }
 
-static void enter_layer(Walk *walk, const DrawNode *node, const Look *look) {
+static void enter_layer(Walk *walk, const DrawNode *node, const Look *look, KeptPath kept) {
     Canvas *canvas = walk->canvas;
     double size[2], origin[2];
-    KeptPath kept = draw_keep_path(canvas);
+    draw_set_edges(canvas, look);
     if (draw_pair(node, NAME_SIZE, size)) {
         draw_pair(node, NAME_ORIGIN, origin);
         double x1 = origin[0], y1 = origin[1], x2 = x1 + size[0], y2 = y1 + size[1];
@@ -95,8 +101,7 @@ static void enter_layer(Walk *walk, const DrawNode *node, const Look *look) {
         cairo_clip(canvas->cr);
     }
     Level *level = push(walk, node, look);
-    level->kept = kept;
-    level->keeps_path = true;
+    keep(level, kept);
     level->composite = look->composite;
     if (begin_layer(canvas, level))
         level->look.composite = COMPOSITE_OVER;
@@ -113,18 +118,20 @@ static void enter(Walk *walk, const DrawNode *node, const Look *inherited) {
     if (node->kind == DRAW_PATH) {
         look.fill_type = draw_attr(node, NAME_FILL_TYPE) ? look.fill_type : FILL_WINDING;
         KeptPath kept = draw_keep_path(walk->canvas);
-        Level *level = push(walk, node, &look);
-        level->kept = kept;
-        level->keeps_path = true;
+        keep(push(walk, node, &look), kept);
         return;
     }
+    bool layer = node->kind == DRAW_LAYER;
+    KeptPath kept = layer ? draw_keep_path(walk->canvas) : (KeptPath){NULL, 0}; // in the transform that it returns to
     cairo_save(cr);
     if (!draw_transform(cr, node)) {
         cairo_restore(cr);
+        if (layer)
+            draw_put_back_path(walk->canvas, kept);
         return;
     }
-    if (node->kind == DRAW_LAYER)
-        enter_layer(walk, node, &look);
+    if (layer)
+        enter_layer(walk, node, &look, kept);
     else
         push(walk, node, &look);
 }

@@ -52,6 +52,8 @@ typedef struct ParticleRecord {
     double charge;
     uint32_t group;
     bool anchor;
+    bool fresh_position; // see PhysParticle
+    bool fresh_velocity;
 } ParticleRecord;
 
 typedef struct ForceRecord {
@@ -95,6 +97,7 @@ struct PhysSystem {
     bool forces_arranged;
     bool radii_raised; // radius powers are those of the columns' radii and of the forces
     bool lost;         // `unfinished` has a mark
+    bool fresh;        // some particle's position or velocity is
     PhysOptions options;
     PhysThreads *threads; // those of the options, or its own; NULL: none
     bool owns_threads;

@@ -98,16 +98,16 @@ typedef struct Storing {
     bool lost[PHYS_MOST_SHARES]; // something was not finite
 } Storing;
 
-// A vector that is finite and differs from what it was replaces that in the row, else the row's replaces it. False if
-// it was not finite.
-static inline bool settle(double *column, size_t stride, double *row, size_t n) {
+// A vector that is finite, and differs from what it was unless that was fresh, replaces that in the row, else the row's
+// replaces it. False if it was not finite.
+static inline bool settle(double *column, size_t stride, double *row, size_t n, bool fresh) {
     bool finite = true, equal = true;
     for (size_t k = 0; k < n; k++) {
         double x = column[k * stride];
         finite &= x - x == 0;
         equal &= x == row[k];
     }
-    if (finite && !equal)
+    if (finite && (fresh || !equal))
         for (size_t k = 0; k < n; k++)
             row[k] = column[k * stride];
     else
@@ -122,8 +122,13 @@ static inline void settle_range(Storing *storing, size_t n, size_t i, size_t end
     size_t stride = columns->stride;
     for (; i < end; i++) {
         double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
-        bool position = settle(columns->position + i, stride, row, n);
-        bool velocity = settle(columns->velocity + i, stride, row + n, n);
+        ParticleRecord *record = system->fresh ? (ParticleRecord *)system->particles.bytes + system->order[i] : NULL;
+        bool position = settle(columns->position + i, stride, row, n, record && record->fresh_position);
+        bool velocity = settle(columns->velocity + i, stride, row + n, n, record && record->fresh_velocity);
+        if (record) {
+            record->fresh_position &= !position;
+            record->fresh_velocity &= !velocity;
+        }
         if (position && velocity)
             continue;
         ((uint8_t *)system->unfinished.bytes)[system->order[i]] =
@@ -183,4 +188,5 @@ void phys_store(PhysSystem *system, bool settle_them) {
     phys_parallel(system, shares_for(system), store_share, &storing);
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
         system->lost |= storing.lost[w];
+    system->fresh &= !settle_them || system->lost;
 }

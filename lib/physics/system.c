@@ -86,7 +86,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->group_count = 0;
     system->particle_count = 0;
     system->force_count = 0;
-    system->eased = system->pushed = false;
+    system->eased = system->pushed = system->fresh = false;
     system->stepped = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
@@ -147,7 +147,10 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
         .charge = particle->charge,
         .group = group,
         .anchor = particle->anchor,
+        .fresh_position = particle->fresh_position,
+        .fresh_velocity = particle->fresh_velocity,
     };
+    system->fresh |= particle->fresh_position || particle->fresh_velocity;
     double *row = phys_row(system, handle);
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
@@ -186,10 +189,15 @@ void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParti
     record->radius = numbers->radius;
     record->mass = numbers->mass;
     record->charge = numbers->charge;
-    if (!keep.position)
+    if (!keep.position) {
         copy_vector(row, numbers->position, n);
-    if (!keep.velocity)
+        record->fresh_position = numbers->fresh_position;
+    }
+    if (!keep.velocity) {
         copy_vector(row + n, record->anchor ? NULL : numbers->velocity, n);
+        record->fresh_velocity = numbers->fresh_velocity;
+    }
+    system->fresh |= record->fresh_position || record->fresh_velocity;
     keep_thrust(system, particle, record->anchor ? NULL : numbers->force, record->anchor ? 0 : numbers->ease);
     update_columns(system, particle, record, row);
 }

@@ -29,6 +29,8 @@ typedef struct PhysParticle {
     double mass;         // >= 0; 0 is never accelerated
     double charge;
     bool anchor;
+    bool fresh_position; // not what a frame before left: PhysTime.settle takes any finite result for it, equal or not
+    bool fresh_velocity;
 } PhysParticle;
 
 typedef enum PhysForceKind {
@@ -136,8 +138,8 @@ typedef struct PhysTime {
     double performance;           // engine performance, decides about the one extra step in real time
     double speed_of_light;        // <= 0: no limit
     const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
-    bool settle; // a position or velocity that is not finite afterwards, or equal to what it was, stays what it
-                 // was before the frame: to the last bit, and for the frames to come
+    bool settle; // a position or velocity that is not finite afterwards, or equal to what it was (unless that was
+                 // fresh), stays what it was before the frame: to the last bit, and for the frames to come
 } PhysTime;
 
 typedef enum PhysStatus {

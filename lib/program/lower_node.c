@@ -84,8 +84,12 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
 
 // The node that an expression is before anything has been added to it, or NULL if it is something else.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
-    if (expr->kind == EXPR_NODE)
-        return node_new(arena, expr->as.name);
+    if (expr->kind == EXPR_NODE) {
+        Origin origin = {expr->source, expr->span};
+        Node *node = node_new(arena, expr->as.name);
+        node->origin = arena_copy(arena, &origin, sizeof origin);
+        return node;
+    }
     if (expr->kind != EXPR_CONST || expr->as.value.kind != VALUE_MIXED || expr->as.value.len != 1 ||
         expr->as.value.as.items[0].type != ITEM_NODE)
         return NULL;

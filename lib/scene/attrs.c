@@ -53,7 +53,8 @@ void reader_report(const Reader *reader, const char *code, const char *key, Str 
         text_add_c(&out, " state=");
         format_value(&out, schema->symbols, state);
     }
-    schema->host.report(schema->host.host, DIAG_WARNING, code, text_str(&out), str_from(key), text);
+    schema->host.report(schema->host.host, DIAG_WARNING, code, reader->node->origin, text_str(&out), str_from(key),
+                        text);
 }
 
 static bool has_attr(const Schema *schema, SceneKind kind, const Symbol *name) {

@@ -56,6 +56,14 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     return system;
 }
 
+// What was absent from the last frame has no last tree; its keys stay.
+static void note_absence(const Scene *scene, PhysicsSystem *system, State *state) {
+    if (system->seen + 1 == scene->frame_number)
+        return;
+    physics_store_settle(system, state);
+    system->slot_count = 0;
+}
+
 // The record of the system with this prefix, made if it is new; NULL if memory is used up.
 static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *frame) {
     StateSlot start = state_slot(frame->state, prefix);
@@ -65,10 +73,7 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     PhysicsSystem *system = known_system(scene, start, &occurrence);
     if (!system)
         return new_system(scene, start, occurrence, frame);
-    if (system->seen + 1 != scene->frame_number) { // it was absent: its keys stay, and it has no last tree
-        physics_store_settle(system, frame->state);
-        system->slot_count = 0;
-    }
+    note_absence(scene, system, frame->state);
     return system;
 }
 
@@ -269,8 +274,10 @@ static void keep_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
     PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence);
-    if (system)
-        system->seen = scene->frame_number;
+    if (!system)
+        return;
+    note_absence(scene, system, frame->state);
+    system->seen = scene->frame_number;
 }
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {

@@ -86,11 +86,12 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
     return false;
 }
 
-// The state's vector, if the run goes on and it has one of n numbers; else the attribute's. One number is copied to
-// *single.
-static PhysVector stored_or(const PhysicsTree *tree, StateSlot slot, PhysVector given, double *single) {
+// The state's vector, if the run goes on and it has one of n numbers; else the attribute's, which is fresh. One number
+// is copied to *single.
+static PhysVector stored_or(const PhysicsTree *tree, StateSlot slot, PhysVector given, double *single, bool *fresh) {
     Value stored = tree->from_state ? state_slot_get(tree->frame->state, slot) : VALUE_NULL;
-    if (stored.kind != VALUE_NUMBERS || stored.len != tree->dimensions)
+    *fresh = stored.kind != VALUE_NUMBERS || stored.len != tree->dimensions;
+    if (*fresh)
         return given;
     *single = stored.as.number;
     return stored.len == 1 ? single : stored.as.numbers;
@@ -105,8 +106,8 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
         return;
     if (!anchor) {
         const StateSlot *slots = tree->system->slots + 2 * (size_t)(tree->body_count - 1);
-        numbers.position = stored_or(tree, slots[0], numbers.position, &position);
-        numbers.velocity = stored_or(tree, slots[1], numbers.velocity, &velocity);
+        numbers.position = stored_or(tree, slots[0], numbers.position, &position, &numbers.fresh_position);
+        numbers.velocity = stored_or(tree, slots[1], numbers.velocity, &velocity, &numbers.fresh_velocity);
     }
     phys_add_particle(tree->engine, group, &numbers);
 }

@@ -67,6 +67,7 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
         const StateSlot *slots = system->slots + 2 * (size_t)body;
         keep.position = state_slot_get(tree->frame->state, slots[0]).len > 0;
         keep.velocity = state_slot_get(tree->frame->state, slots[1]).len > 0;
+        numbers.fresh_position = numbers.fresh_velocity = true; // if they are not kept
     }
     phys_update_particle(tree->engine, body, &numbers, keep);
     if (body < system->node_count)

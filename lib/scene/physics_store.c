@@ -65,13 +65,15 @@ static void copy_body(const PhysicsTree *tree, uint32_t body) {
             state_slot_set(tree->frame->state, slots[i], value_numbers_view(numbers[i], n));
 }
 
-// An anchor is where its attribute says, while the state keeps what equals that: copies, for they are few.
-static void copy_anchors(const PhysicsTree *tree) {
+// An anchor is where its attribute says, while the state keeps what equals that: copies, for they are few. Where it was
+// a particle in the last frame the entry may still show that, whether it is stored anew or not.
+static void copy_anchors(const PhysicsTree *tree, bool store) {
     PhysicsSystem *system = tree->system;
     for (uint32_t i = 0; i < system->anchor_count; i++) {
         const StateSlot *slots = system->slots + 2 * (size_t)system->anchors[i];
         settle_slots(NULL, system, tree->frame->state, slots, 2);
-        copy_body(tree, system->anchors[i]);
+        if (store)
+            copy_body(tree, system->anchors[i]);
     }
 }
 
@@ -147,8 +149,7 @@ void physics_store(PhysicsTree *tree, bool simulated) {
     if (!shown && simulated) {
         copy_bodies(tree);
     } else {
-        if (anchors)
-            copy_anchors(tree);
+        copy_anchors(tree, anchors);
         if (shown && (anew || (simulated && (system->absent || tree->dimensions == 1))))
             show_bodies(tree, simulated);
     }

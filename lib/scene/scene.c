@@ -6,10 +6,10 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void report(void *host, DiagLevel level, const char *code, Str node, Str key, Str text) {
+static void report(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text) {
     Scene *scene = host;
     scene->reports++;
-    scene->host.report(scene->host.host, level, code, node, key, text);
+    scene->host.report(scene->host.host, level, code, origin, node, key, text);
 }
 
 Scene *scene_new(SymbolTable *symbols, SceneHost host) {

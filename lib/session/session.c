@@ -22,11 +22,16 @@ PetriOptions petri_default_options(void) {
 
 static void tell_once(PetriSession *session, const Diag *diag, Str key);
 
-static void tell_scene(void *host, DiagLevel level, const char *code, Str node, Str key, Str text) {
+static void tell_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
+                       Str text) {
     PetriSession *session = host;
     Arena *arena = &session->scene_arena;
     Str whole = str_format(arena, "%.*s: %.*s", (int)node.len, node.bytes, (int)text.len, text.bytes);
     Diag diag = {.level = level, .text = whole, .code = code};
+    if (origin) {
+        diag.source = origin->source;
+        diag.span = origin->span;
+    }
     diag_report(&session->errors, &diag);
     tell_once(session, &diag,
               str_format(arena, "%s %.*s %.*s", code, (int)node.len, node.bytes, (int)key.len, key.bytes));

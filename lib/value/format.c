@@ -4,6 +4,8 @@
 #include "base/number.h"
 #include "base/unicode.h"
 
+#include <math.h>
+
 static void add_escape(Text *out, uint32_t c) {
     switch (c) {
     case '\n':
@@ -165,8 +167,10 @@ static int key_item_compare(const SymbolTable *symbols, Item a, Item b) {
         return class_a < class_b ? -1 : 1;
     if (class_a == 0)
         return str_compare(symbol_of_number(symbols, a.as.number)->name, symbol_of_number(symbols, b.as.number)->name);
+    if (class_a == 1 && a.as.number == b.as.number) // 0 and -0 are two keys: -0 comes first
+        return !signbit(a.as.number) - !signbit(b.as.number);
     if (class_a == 1)
-        return (a.as.number > b.as.number) - (a.as.number < b.as.number);
+        return a.as.number > b.as.number ? 1 : -1;
     return str_compare(a.as.string->text, b.as.string->text);
 }
 

@@ -4,6 +4,7 @@
 #ifndef PETRI_VALUE_NODE_H
 #define PETRI_VALUE_NODE_H
 
+#include "base/source.h"
 #include "value/value.h"
 
 #include <stdbool.h>
@@ -18,6 +19,7 @@ struct Node {
     const Symbol *const *tags; // ascending by bytes
     const Attr *attrs;         // in the order in which they were first set
     const Node *const *children;
+    const Origin *origin; // lives as long as the program that made the node; NULL: unknown
     uint32_t tag_count;
     uint32_t attr_count;
     uint32_t child_count;
@@ -29,7 +31,7 @@ struct Node {
     bool kept_children;
 };
 
-_Static_assert(sizeof(Node) == 48, "scripts make thousands of nodes a frame");
+_Static_assert(sizeof(Node) == 56, "scripts make thousands of nodes a frame");
 
 enum { NODE_MAX_HEIGHT = 12000 }; // deeper trees are refused, so that walking one never exhausts the stack
 

@@ -119,6 +119,9 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
     vm->met_dynamic = true;
     if (!vm->is_static)
         vm_import(vm, frame, instr->at, file);
+    else // the rest is evaluated all the same
+        for (uint32_t i = 0; i < instr->at->slot_count; i++)
+            frame->slots[instr->at->slot + i] = VALUE_NULL;
 }
 
 #define A slots[instr->a]

@@ -97,6 +97,10 @@ END
     petri render record.fl -o last.png --frames 4
     check "!record writes pictures of the frames that it is in" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
     check "… as the output would be" cmp -s frame3.png last.png
+    printf '!window size=300;300\n    !canvas\n        !ellipse point=10+frame;50 radius=40 fill=true\n    !record filename="same.png"\n' >record.fl
+    petri render record.fl -o last.png --frames 60
+    check "!record may write the same file in each frame" status_is 0
+    check "… in their order: the last stays" cmp -s same.png last.png
     petri run record.fl --frames 4
     check "run leaves !record alone" status_is 0
     printf '!window size=20;20\n    !canvas\n    !record filename="x.txt"\n' >record.fl
@@ -111,6 +115,10 @@ END
         check "a window of size=$size is an error" one_error
         check "… size=$size: without a file" [ ! -e size.png ]
     done
+    head -c 700 "$here/../pictures/images/small.jpg" >half.jpg
+    printf '!window size=40;40\n    !canvas\n        !image filename="half.jpg" size=40\n' >half.fl
+    petri render half.fl -o half.png --frames 3
+    check "half a JPEG file is told once" count_is err "cannot read 'half.jpg': it is damaged" 1
     # what is not finite is told once and left out
     cat >wrong.fl <<'END'
 let nan=0/0
@@ -164,6 +172,9 @@ END
     printf '!window size=1000;1000\n    !canvas\n        !line points=(..2000000)/2000 stroke=true color=0;1;0\n' >points.fl
     petri render points.fl -o points.png --frames 1
     check "a million points on a line are drawn" status_is 0
+    printf '!window size=1000;1000\n    !canvas\n        for i in ..12000\n            !text text="." point=500;(i%%2)*990\n        !rect size=40\n        !fill\n' >texts.fl
+    petri render texts.fl -o texts.png --frames 1
+    check "thousands of texts are no part of the path around them" status_is 0
     nest='wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(wrap(x))))))))))'
     cat >nest.fl <<END
 func wrap(x)
@@ -202,13 +213,37 @@ END
         check "… and nothing beside them" nothing_beside
         petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
         check "a film may have an odd size" status_is 0
+        for name in file:film.mp4 at:12.gif; do
+            petri render disc.fl -o "$name" --frames 2
+            check "a colon in a film's name is part of it: $name" [ -s "$name" ]
+        done
+        check "… nothing else is written" nothing_beside
+        mkdir films
+        : >films/last.mp4
+        ln -s films/last.mp4 link.mp4
+        petri render disc.fl -o link.mp4 --frames 2
+        check "a film's name may be a symbolic link, which stays" [ -L link.mp4 ]
+        check "… to what is written" [ -s films/last.mp4 ]
+
+        # render_small ARGUMENT...: with less memory than a frame of 16000x16000 takes, in kilobytes.
+        render_small() (
+            ulimit -v 900000
+            exec timeout 100 "$petri" render disc.fl "$@" >out 2>err </dev/null
+        )
+        if render_small -o small.mp4 --frames 2; then # not with a sanitizer
+            render_small -o large.mp4 --frames 2 --size 16000x16000
+            status=$?
+            check "a frame that memory cannot hold is an error" status_is 1
+            check "… told" has err "out of memory"
+            check "… without a film or half of one" [ "$(echo large.mp4*)" = "large.mp4*" ]
+        fi
 
         mkdir tools
         # A stand-in that is killed half-way.
         cat >tools/ffmpeg <<'END'
 #!/bin/sh
 for last; do :; done
-head -c 30000 >"$last"
+head -c 30000 >"${last#file:}"
 kill -9 $$
 END
         chmod +x tools/ffmpeg

@@ -34,7 +34,8 @@ soon shows 'ready:' || skip "no shell under tmux"
 
 # start [options] SCRIPT: a view in the terminal; `status N` is on the screen when it has ended.
 start() {
-    type_keys "clear; echo before; stty -a >stty.before; $petri view $* 2>err; echo status \$?; stty -a >stty.after" Enter
+    view="$petri view $* 2>err; code=\$?"
+    type_keys "clear; echo before; stty -a >stty.before; $view; stty -a >stty.after; echo status \$code" Enter
 }
 # ended STATUS: it has ended so, the screen is as it was, and so is the terminal.
 ended() {

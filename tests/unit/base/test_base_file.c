@@ -3,6 +3,8 @@
 
 #include "base/file.h"
 
+#include <errno.h>
+
 static Arena arena;
 static Folder folder;
 
@@ -79,6 +81,9 @@ static void test_replace(void **state) {
     assert_int_equal(files, 1); // nothing is left beside it
     assert_false(file_replace(&arena, folder_file(&folder, "no/such/folder"), STR("x"), &problem));
     assert_non_null(problem);
+    errno = EINVAL; // left from something else
+    assert_false(file_replace(&arena, folder.path, STR("x"), &problem));
+    assert_string_equal(problem, strerror(EISDIR));
 }
 
 static void test_canonical(void **state) {

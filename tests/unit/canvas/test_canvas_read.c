@@ -10,7 +10,8 @@ typedef struct Fixture {
     char told[2000];
 } Fixture;
 
-static void note(void *host, DiagLevel level, const char *code, Str node, Str key, Str text) {
+static void note(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text) {
+    (void)origin;
     Fixture *f = host;
     (void)level, (void)key;
     size_t len = strlen(f->told);

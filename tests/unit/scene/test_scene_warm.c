@@ -25,6 +25,7 @@ void *__wrap_realloc(void *bytes, size_t size) {
 }
 
 #define SYSTEM "!physics state=:s dimensions=2\n"
+#define LINE "!physics state=:s dimensions=1\n"
 #define FORCES "    !collision strength=9\n    !random strength=2\n    !drag strength=0.1\n"
 
 static void test_warm_frames(void **state) {
@@ -35,7 +36,7 @@ static void test_warm_frames(void **state) {
         SYSTEM "    !anchor id=:a position=frame;0\n    for i in ..300\n        !particle id=i position=i;i%7 "
                "radius=0.5+frame/1e3\n        !distance from=i to=:a max=9+frame\n" FORCES,
         SYSTEM "    for i in ..300\n        !particle id=(i+frame)%300 position=i;i%7 radius=0.5\n" FORCES,
-        "!physics state=:s dimensions=1\n    for i in ..300\n        !particle id=i position=i\n" FORCES,
+        LINE "    for i in ..300\n        !particle id=i position=i\n" FORCES,
     };
     Player *player = *state;
     for (size_t i = 0; i < COUNT_OF(worlds); i++) {

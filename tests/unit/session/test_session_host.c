@@ -245,6 +245,37 @@ static void test_rendered(void **state) {
     player_close(&player);
 }
 
+// What is said of a node tells where the node stands, whether it was made ahead, in a loop or by a function.
+static void remember(void *host, const PetriDiagnostic *diagnostic) {
+    snprintf(host, 100, "%s:%u:%u", diagnostic->file ? diagnostic->file : "", diagnostic->line, diagnostic->column);
+}
+
+static void test_places_of_nodes(void **state) {
+    (void)state;
+    static const struct {
+        const char *script, *wanted;
+    } rows[] = {
+        {"\n!physics state=:s dimensions=1\n    !particle id=1 radious=2\n", "t.fl:3:5"},
+        {"!physics state=:s dimensions=1\n    for i in ..3\n        !particle id=1 mess=frame\n", "t.fl:3:9"},
+        {"func cell(r)\n    !particle id=1 radious=r\n!physics state=:s dimensions=1\n    cell(frame)\n", "t.fl:2:5"},
+        {"!physics dimensions=1\n    !particle id=1\n", "t.fl:1:1"},
+        {"!physics state=:s dimensions=1\n    !particle id=1\n    !distance from=1 to=2\n", "t.fl:3:5"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        for (int simplify = 0; simplify <= 1; simplify++) {
+            char place[100] = "";
+            PetriOptions options = petri_default_options();
+            options.simplify = simplify;
+            options.diagnostic = remember;
+            options.host = place;
+            PetriSession *session = petri_open(&options);
+            assert_int_equal(petri_load_text(session, "t.fl", rows[i].script, PETRI_Z), PETRI_OK);
+            assert_int_equal(petri_step(session), PETRI_OK);
+            assert_text(rows[i].script, place, rows[i].wanted);
+            petri_close(&session);
+        }
+}
+
 static void test_helpers(void **state) {
     (void)state;
     PetriBuiltin builtin;
@@ -280,6 +311,7 @@ int main(void) {
         PLAYER_TEST(test_no_more_than_a_thousand),
         PLAYER_TEST(test_two_sessions),
         cmocka_unit_test(test_rendered),
+        cmocka_unit_test(test_places_of_nodes),
         cmocka_unit_test(test_helpers),
         PLAYER_TEST(test_print_after_load), // last: it used to read freed memory
     };

@@ -97,9 +97,9 @@ static void test_debug(void **state) {
 static void test_key_order(void **state) {
     World *world = *state;
     static const char *const ascending[] = {
-        "null",  ":B",     ":a",  ":a;:a", ":a;:clock", ":a;-1", ":a;0", ":a;0;:velocity", ":a;2", ":a;10",
-        ":a;''", ":a;'x'", ":b",  ":é",    "-inf",      "-1.5",  "0",    "0;:a",           "7",    "inf",
-        "''",    "'10'",   "'2'", "'a'",   "'a';1",     "'ab'",  "'é'",
+        "null",  ":B",    ":a",     ":a;:a", ":a;:clock", ":a;-1", ":a;-0", ":a;0",  ":a;0;:velocity", ":a;2",
+        ":a;10", ":a;''", ":a;'x'", ":b",    ":é",        "-inf",  "-1.5",  "-0",    "-0;1",           "0",
+        "0;:a",  "7",     "inf",    "''",    "'10'",      "'2'",   "'a'",   "'a';1", "'ab'",           "'é'",
     };
     for (size_t i = 0; i < COUNT_OF(ascending); i++)
         for (size_t k = 0; k < COUNT_OF(ascending); k++) {
