@@ -106,12 +106,26 @@ bool repl_walk(Repl *repl, const Walk *walk) {
     return !repl->failed;
 }
 
+// Within the timeline at one go, beyond it by steps that show how far it is.
+static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
+    int64_t last = repl->history.last, made = 0;
+    Progress progress;
+    PetriStatus status = history_goto(&repl->history, repl->session, frame < last ? frame : last, why);
+    progress_start(&progress, repl->terminal && progress_possible(), frame - last);
+    while (status == PETRI_OK && petri_frame(repl->session).number < frame) {
+        status = history_goto(&repl->history, repl->session, last + ++made, why);
+        progress_update(&progress, made);
+    }
+    progress_erase(&progress);
+    return status;
+}
+
 bool repl_goto(Repl *repl, int64_t frame) {
     Bytes why = {0};
     repl_refresh(repl);
     repl->failed = false;
     repl_busy(repl);
-    PetriStatus status = history_goto(&repl->history, repl->session, frame, &why);
+    PetriStatus status = go(repl, frame, &why);
     bool stopped = repl_idle(repl);
     if (stopped) {
         repl_fail(repl, "interrupted");

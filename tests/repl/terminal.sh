@@ -97,7 +97,11 @@ type_keys '.run' Enter
 expect "frames are made" "^> 'four'"
 type_keys C-c
 expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames'
-type_keys 'frame > 0' Enter
+type_keys C-l '.goto 100000000' Enter
+expect ".goto shows how far it is" '/[0-9]* frames, .* left'
+type_keys C-c
+expect "Ctrl-C stops .goto" '^petri: interrupted$'
+type_keys C-l 'frame > 0' Enter
 expect "which goes on from there" '^1$'
 type_keys 'nonsense((' C-c
 type_keys '6*7' Enter
