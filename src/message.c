@@ -1,8 +1,10 @@
 // message.c: messages of the command itself, and the search for what a mistyped word was meant to be.
+#include <errno.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "cli.h"
 
@@ -19,8 +21,15 @@ void message(const char *format, ...) {
         length = sizeof line - 2;
     }
     line[length] = '\n';
-    line[length + 1] = '\0';
-    fputs(line, stderr);
+    length++;
+    // Not by stdio, which drops what a signal interrupts: Ctrl-C comes just when there is something to say about it.
+    for (size_t done = 0; done < length;) {
+        ssize_t put = write(STDERR_FILENO, line + done, length - done);
+        if (put < 0 && errno != EINTR) {
+            break;
+        }
+        done += put < 0 ? 0 : (size_t)put;
+    }
 }
 
 enum { LONGEST_WORD = 32 };
