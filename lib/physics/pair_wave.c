@@ -68,5 +68,5 @@ void phys_pair_wave(const PhysSystem *system, const PairWave *pairs) {
     wave.block = wave.block < BLOCK_LEAST ? BLOCK_LEAST : wave.block;
     wave.rows = (rows + wave.block - 1) / wave.block;
     wave.columns = (columns + wave.block - 1) / wave.block;
-    phys_parallel(system, (int)least((size_t)system->options.threads, wave.rows), follow, &wave);
+    phys_parallel_in_order(system, (int)least((size_t)system->options.threads, wave.rows), follow, &wave);
 }

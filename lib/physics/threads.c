@@ -7,9 +7,12 @@
 #include <stdatomic.h>
 #include <stdlib.h>
 
-// What there is to claim, in one word: number of the job, its shares, and those claimed already.
-enum { CLAIMED_BITS = 8, SHARES_BITS = 8, JOB_SHIFT = CLAIMED_BITS + SHARES_BITS };
-_Static_assert(PHYS_MOST_SHARES < 1 << CLAIMED_BITS, "the number of claimed shares must fit");
+// What there is to claim, in one word: number of the job, whether it must be begun in order, its shares, and those
+// claimed already from its front and from its back. Every other thread takes from the back, so that a thread meets much
+// the same particles in each job and finds them in its cache.
+enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, SHARES_SHIFT = 2 * COUNT_BITS, ORDER_SHIFT = 3 * COUNT_BITS };
+enum { JOB_SHIFT = ORDER_SHIFT + 1 };
+_Static_assert(PHYS_MOST_SHARES < 1 << COUNT_BITS, "the number of claimed shares must fit");
 
 enum {
     PATIENCE = 4000, // looks for new work before a thread goes to sleep, and at others before it leaves the processor
@@ -17,6 +20,7 @@ enum {
 
 struct PhysThreads {
     int count; // that are running, without the caller
+    atomic_int serving;
     pthread_t threads[PHYS_MOST_THREADS];
     bool started;
     int wanted;
@@ -32,31 +36,34 @@ struct PhysThreads {
     pthread_cond_t wake;
 };
 
-static int claimed_of(uint64_t ticket) {
-    return (int)(ticket & ((1u << CLAIMED_BITS) - 1));
+static int count_at(uint64_t ticket, int shift) {
+    return (int)(ticket >> shift & ((1u << COUNT_BITS) - 1));
 }
 
-static int shares_of(uint64_t ticket) {
-    return (int)(ticket >> CLAIMED_BITS & ((1u << SHARES_BITS) - 1));
+static bool any_left(uint64_t ticket) {
+    return count_at(ticket, 0) + count_at(ticket, BACK_SHIFT) < count_at(ticket, SHARES_SHIFT);
 }
 
 // Claims a share; false if there is none. A claim keeps the job alive, so its fields may be read afterwards.
-static bool claim(PhysThreads *threads, int *share, int *shares) {
+static bool claim(PhysThreads *threads, bool from_back, int *share, int *shares) {
     uint64_t ticket = atomic_load_explicit(&threads->ticket, memory_order_acquire);
-    while (claimed_of(ticket) < shares_of(ticket))
-        if (atomic_compare_exchange_weak_explicit(&threads->ticket, &ticket, ticket + 1, memory_order_acq_rel,
+    while (any_left(ticket)) {
+        bool back = from_back && !(ticket >> ORDER_SHIFT & 1);
+        uint64_t next = ticket + (back ? UINT64_C(1) << BACK_SHIFT : 1);
+        if (atomic_compare_exchange_weak_explicit(&threads->ticket, &ticket, next, memory_order_acq_rel,
                                                   memory_order_acquire)) {
-            *share = claimed_of(ticket);
-            *shares = shares_of(ticket);
+            *shares = count_at(ticket, SHARES_SHIFT);
+            *share = back ? *shares - 1 - count_at(ticket, BACK_SHIFT) : count_at(ticket, 0);
             return true;
         }
+    }
     return false;
 }
 
-static bool work_some(PhysThreads *threads) {
+static bool work_some(PhysThreads *threads, bool from_back) {
     int share, shares;
     bool any = false;
-    while (claim(threads, &share, &shares)) {
+    while (claim(threads, from_back, &share, &shares)) {
         threads->work(threads->context, share, shares);
         atomic_fetch_add_explicit(&threads->done, 1, memory_order_release);
         any = true;
@@ -71,8 +78,7 @@ static inline void pause_a_little(void) {
 }
 
 static bool has_work(PhysThreads *threads) {
-    uint64_t ticket = atomic_load(&threads->ticket);
-    return claimed_of(ticket) < shares_of(ticket);
+    return any_left(atomic_load(&threads->ticket));
 }
 
 // False if the threads are to end.
@@ -89,9 +95,10 @@ static bool sleep_until_work(PhysThreads *threads) {
 
 static void *serve(void *argument) {
     PhysThreads *threads = argument;
+    bool from_back = atomic_fetch_add(&threads->serving, 1) % 2 == 0;
     for (;;) {
         for (int looks = 0; looks < PATIENCE; looks++) {
-            if (work_some(threads))
+            if (work_some(threads, from_back))
                 looks = 0;
             pause_a_little();
         }
@@ -134,12 +141,13 @@ void phys_threads_free(PhysThreads *threads) {
     free(threads);
 }
 
-static void publish(PhysThreads *threads, int shares, PhysWork *work, void *context) {
+static void publish(PhysThreads *threads, bool in_order, int shares, PhysWork *work, void *context) {
     threads->work = work;
     threads->context = context;
     atomic_store_explicit(&threads->done, 0, memory_order_relaxed);
     uint64_t job = (atomic_load(&threads->ticket) >> JOB_SHIFT) + 1;
-    atomic_store(&threads->ticket, job << JOB_SHIFT | (uint64_t)shares << CLAIMED_BITS);
+    atomic_store(&threads->ticket,
+                 job << JOB_SHIFT | (uint64_t)in_order << ORDER_SHIFT | (uint64_t)shares << SHARES_SHIFT);
     if (atomic_load(&threads->sleeping) == 0)
         return;
     pthread_mutex_lock(&threads->mutex);
@@ -147,7 +155,7 @@ static void publish(PhysThreads *threads, int shares, PhysWork *work, void *cont
     pthread_mutex_unlock(&threads->mutex);
 }
 
-void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context) {
+static void parallel(const PhysSystem *system, bool in_order, int shares, PhysWork *work, void *context) {
     PhysThreads *threads = system->threads;
     if (threads && shares > 1 && !threads->started)
         start(threads);
@@ -156,14 +164,22 @@ void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *c
             work(context, share, shares);
         return;
     }
-    publish(threads, shares, work, context);
-    work_some(threads);
+    publish(threads, in_order, shares, work, context);
+    work_some(threads, false);
     for (int looks = 0; atomic_load_explicit(&threads->done, memory_order_acquire) < shares; looks++) {
         if (looks < PATIENCE)
             pause_a_little();
         else
             sched_yield();
     }
+}
+
+void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context) {
+    parallel(system, false, shares, work, context);
+}
+
+void phys_parallel_in_order(const PhysSystem *system, int shares, PhysWork *work, void *context) {
+    parallel(system, true, shares, work, context);
 }
 
 int phys_shares(const PhysSystem *system, size_t count, size_t few) {

@@ -16,8 +16,10 @@ enum {
 
 typedef void PhysWork(void *context, int share, int shares);
 
-// Calls `work` for share 0 … shares - 1 on all threads of the system. Shares begin in ascending order.
+// Calls `work` for share 0 … shares - 1 on all threads of the system, in any order.
 void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context);
+// The same for shares that wait for those before them: they begin in ascending order.
+void phys_parallel_in_order(const PhysSystem *system, int shares, PhysWork *work, void *context);
 
 // Shares for `count` things of which one thread does `few` in the time in which another would get ready.
 int phys_shares(const PhysSystem *system, size_t count, size_t few);
