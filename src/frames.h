@@ -12,9 +12,10 @@ typedef struct Frames {
     RunOptions options;
     PetriSession *session;
     Progress progress;
-    int64_t done;    // frames that were made
-    double start;    // seconds of the monotonic clock
-    double saved;    // when the state was saved last
+    int64_t done;  // frames that were made
+    int64_t early; // … of these, those that do not count in --frames and --runtime, since nothing was to be seen yet
+    double start;  // seconds of the monotonic clock
+    double saved;  // when the state was saved last
     bool state_lost; // the state file could not be read or written
     bool shown_last; // the last diagnostic that was no note was shown
 } Frames;
