@@ -331,9 +331,14 @@ PetriStatus petri_load(PetriSession *session, const char *file) {
     return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_AFRESH);
 }
 
-PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
+static LoadRequest request_text(const char *name, const char *text, size_t length) {
     Str content = {text, length == PETRI_Z ? strlen(text) : length};
-    return load(session, &(LoadRequest){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
+    return (LoadRequest){.name = str_from(name), .path = str_from(name), .text = content};
+}
+
+PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    LoadRequest request = request_text(name, text, length);
+    return load(session, &request, LOAD_AFRESH);
 }
 
 PetriStatus petri_reload(PetriSession *session, const char *file) {
@@ -347,11 +352,20 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
     return load(session, &request, LOAD_TO_GO_ON);
 }
 
-PetriStatus petri_check(PetriSession *session, const char *file) {
+static PetriStatus check(PetriSession *session, const LoadRequest *request) {
     session->lint = true;
-    PetriStatus status = load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_CHECK);
+    PetriStatus status = load(session, request, LOAD_TO_CHECK);
     session->lint = false;
     return status;
+}
+
+PetriStatus petri_check(PetriSession *session, const char *file) {
+    return check(session, &(LoadRequest){.file = file, .name = str_from(file)});
+}
+
+PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    LoadRequest request = request_text(name, text, length);
+    return check(session, &request);
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {
