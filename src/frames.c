@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "script.h"
+
 enum { SECONDS_BETWEEN_SAVES = 5 };
 
 // A signal handler can reach nothing but a global.
@@ -60,7 +62,7 @@ void frames_close(Frames *frames) {
 }
 
 bool frames_load(Frames *frames) {
-    PetriStatus status = petri_load(frames->session, frames->options.script);
+    PetriStatus status = script_load(frames->session, frames->options.script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
     }

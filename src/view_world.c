@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "script.h"
+
 enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000 };
 
 static void log_text(World *world, const char *text) {
@@ -65,7 +67,7 @@ static bool watch_sources(World *world) {
 }
 
 static int load_first(World *world) {
-    PetriStatus status = petri_load(world->session, world->options.script);
+    PetriStatus status = script_load(world->session, world->options.script);
     if (status != PETRI_OK) {
         if (status == PETRI_MEMORY) {
             message("out of memory");
