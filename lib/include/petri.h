@@ -98,7 +98,9 @@ PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
 const char *petri_source(PetriSession *session, size_t number);
-// Parses and compiles a file for its diagnostics only.
+// Compiles a file and makes its first frame for the diagnostics only, with the names that are defined: what would be
+// told when it is loaded, run and drawn, and what is hardly meant. No system goes on, nothing is drawn or written, and
+// the loaded script runs on as if nothing had happened.
 PetriStatus petri_check(PetriSession *session, const char *file);
 
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.

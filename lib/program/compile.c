@@ -170,14 +170,16 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
     DecorateCode *code = arena_alloc(compiler->arena, sizeof *code);
     const Symbol **tags = arena_alloc_array(compiler->arena, ast->count, sizeof *tags);
     const Symbol **names = arena_alloc_array(compiler->arena, ast->count, sizeof *names);
+    Span *spans = arena_alloc_array(compiler->arena, ast->count, sizeof *spans);
     const Expr **children = arena_alloc_array(compiler->arena, ast->count, sizeof *children);
-    *code = (DecorateCode){.tags = tags, .names = names};
+    *code = (DecorateCode){.tags = tags, .names = names, .spans = spans};
     children[0] = compile_expr(compiler, ast->children[0]);
     for (uint32_t i = 1; i < ast->count; i++) {
         const Ast *decoration = ast->children[i];
         if (decoration->kind == AST_TAG) {
             tags[code->tag_count++] = decoration->name;
         } else {
+            spans[code->attr_count] = decoration->span;
             names[code->attr_count++] = decoration->name;
             children[code->attr_count] = compile_expr(compiler, decoration->children[0]);
         }
@@ -293,6 +295,7 @@ static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
     const Ast *names = ast->children[0];
     const Expr *file = compile_expr(compiler, ast->children[1]);
     note_import(compiler, file);
+    lint_import(compiler, ast, file);
     const Symbol **symbols = arena_alloc_array(compiler->arena, names->count, sizeof *symbols);
     for (uint32_t i = 0; i < names->count; i++)
         symbols[i] = names->children[i]->name;

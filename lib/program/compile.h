@@ -120,6 +120,7 @@ void lint_bind(Compiler *compiler, const Binding *binding);
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
 void lint_branches(Compiler *compiler, const Expr *expr);
+void lint_import(Compiler *compiler, const Ast *ast, const Expr *file);
 void lint_pragma(Compiler *compiler, const Ast *pragma);
 
 #endif

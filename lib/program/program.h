@@ -56,6 +56,7 @@ typedef struct DecorateCode {
     const Symbol *const *tags;
     uint32_t tag_count;
     const Symbol *const *names; // of the attributes
+    const Span *spans;          // … and where they stand
     uint32_t attr_count;
 } DecorateCode;
 
@@ -154,6 +155,7 @@ typedef struct CompileHost {
 typedef struct Define {
     const Symbol *name;
     Value value;
+    const char *text; // name=value, as it was given
 } Define;
 
 typedef struct CompileOptions {

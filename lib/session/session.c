@@ -34,8 +34,12 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
         diag.span = origin->span;
     }
     diag_report(&session->errors, &diag);
+    // A loop may make a thousand nodes at one place: that is one thing to say.
+    Str where = diag.source
+                    ? str_format(arena, "%.*s %u", (int)diag.source->path.len, diag.source->path.bytes, diag.span.start)
+                    : node;
     tell_once(session, &diag,
-              str_format(arena, "%s %.*s %.*s", code, (int)node.len, node.bytes, (int)key.len, key.bytes));
+              str_format(arena, "%s %.*s %.*s", code, (int)where.len, where.bytes, (int)key.len, key.bytes));
 }
 
 static void tell_machine(void *host, const Diag *diag) {
@@ -271,8 +275,10 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
     if (count)
         memcpy(defines, session->defines, count * sizeof *defines);
+    Str text = str_format(&session->arena, "%.*s=%.*s", (int)name.len, name.bytes, (int)value.len, value.bytes);
+    value = (Str){text.bytes + name.len + 1, value.len};
     defines[count] =
-        (Define){symbol_intern(&session->symbols, name), define_value(session, str_copy(&session->arena, value))};
+        (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
     session->defines = defines;
     session->define_count = count + 1;
     session_change_setup(session, true);
@@ -305,7 +311,7 @@ static void report_too_large(PetriSession *session) {
     session_tell_text(session, DIAG_ERROR, "memory-limit", STR("the script is too large: the limit is 4 GiB"));
 }
 
-typedef enum LoadPurpose { LOAD_TO_CHECK, LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
+typedef enum LoadPurpose { LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
 
 // Puts a unit in the place of the loaded script.
 static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
@@ -318,6 +324,7 @@ static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
         session_take_rates(session, unit->program);
     session_change_setup(session, false);
     session_compile_prompts(session);
+    session->unseen = true;
 }
 
 static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadPurpose purpose) {
@@ -340,7 +347,7 @@ static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadP
                                      request->name.bytes, (int)unit->why.len, unit->why.bytes));
     if (!unit->program)
         status = PETRI_INVALID;
-    if (status == PETRI_OK && purpose != LOAD_TO_CHECK)
+    if (status == PETRI_OK)
         adopt(session, unit, session->program ? purpose : LOAD_AFRESH);
     else
         unit_free(unit);
@@ -373,13 +380,6 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
     if (!file)
         return load_again(session);
     return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
-}
-
-PetriStatus petri_check(PetriSession *session, const char *file) {
-    session->lint = true;
-    PetriStatus status = load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_CHECK);
-    session->lint = false;
-    return status;
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {

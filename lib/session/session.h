@@ -114,6 +114,7 @@ struct PetriSession {
     Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
     Unit *loading;         // whose compiler calls back
     bool lint;             // petri_check is at work
+    bool unseen;           // no frame of the loaded script has been made
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
 
@@ -199,6 +200,8 @@ void session_set_rates(PetriSession *session, const ClockRates *rates);
 void session_clear_frame(PetriSession *session);
 // Evaluates script and prompt statements; false if that was given up. Within escapes.
 bool session_evaluate(PetriSession *session);
+// Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within escapes.
+void session_look_at_top(PetriSession *session);
 // Tells that the setup has changed; `frame_stays` says that what the last frame computed is still right.
 void session_change_setup(PetriSession *session, bool frame_stays);
 // The present setup, borrowed; NULL if memory is used up.
