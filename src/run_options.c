@@ -42,13 +42,14 @@ enum {
     OPT_SCALE,
     OPT_AUTO,
     OPT_TERMINAL,
+    OPT_PARAMETERS,
 };
 
 // Options that mean the same everywhere, by where help lists them.
 #define FRAME_RATE                                                                                                     \
     { "fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins" }
 #define WORLD_OPTIONS                                                                                                  \
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},                        \
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "set a parameter of the script; may be repeated"},                       \
         {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},              \
         {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},              \
         {"neighbours", 0, OPT_NEIGHBOURS, "WHEN",                                                                      \
@@ -78,6 +79,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     {"profile", 0, OPT_PROFILE, NULL, "close with the time that each line of the script took, the slowest first"},
     LOG_OPTIONS,
+    {"parameters", 0, OPT_PARAMETERS, NULL, "list what -D can set: name, default, range and comment; do not run it"},
     {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
     {0},
 };
@@ -288,6 +290,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_PROFILE:
         options->profile = true;
+        return true;
+    case OPT_PARAMETERS:
+        options->parameters = true;
         return true;
     case OPT_STATS:
         options->stats = true;

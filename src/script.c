@@ -19,6 +19,10 @@ bool script_is_stdin(const char *name) {
     return strcmp(name, "-") == 0;
 }
 
+const char *script_shown(const char *name) {
+    return script_is_stdin(name) ? SCRIPT_STDIN : name;
+}
+
 static bool read_stdin(Bytes *text) {
     char block[1 << 16];
     ssize_t got = 0;

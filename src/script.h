@@ -8,6 +8,8 @@
 #define SCRIPT_STDIN "<stdin>"
 
 bool script_is_stdin(const char *name);
+// The name, or SCRIPT_STDIN.
+const char *script_shown(const char *name);
 // petri_load and petri_check for what the name stands for. Where there is no such script, a message may tell which one
 // could be meant.
 PetriStatus script_load(PetriSession *session, const char *name);
