@@ -12,12 +12,13 @@ typedef struct Frames {
     RunOptions options;
     PetriSession *session;
     Progress progress;
-    int64_t done;  // frames that were made
-    int64_t early; // … of these, those that do not count in --frames and --runtime, since nothing was to be seen yet
-    double start;  // seconds of the monotonic clock
-    double saved;  // when the state was saved last
-    bool state_lost; // the state file could not be read or written
-    bool shown_last; // the last diagnostic that was no note was shown
+    int64_t done;          // frames that were made
+    int64_t early;         // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
+    double start;          // seconds of the monotonic clock
+    double saved;          // when the state was saved last
+    bool state_lost;       // the state file could not be read or written
+    bool shown_last;       // the last diagnostic that was no note was shown
+    bool wrong_definition; // the script cannot take a value of -D
 } Frames;
 
 // Reads the command line and opens a session. RUN_OPTIONS_OK, or the status to exit with. Frames must be zero at first,
