@@ -155,8 +155,6 @@ done
 start left.fl
 started
 type_keys C-c
-soon shows 'ready:' # the shell gives up the rest of its line
-type_keys 'echo status $?; stty -a >stty.after' Enter
 check "Ctrl-C ends it" ended 130
 start left.fl
 started
