@@ -395,9 +395,11 @@ static bool open_display(View *view) {
     return view->display != NULL;
 }
 
+// To a person who watches, as the other commands do; on the screen that is there again after the pictures.
 static void report_summary(const View *view) {
+    Verbosity verbosity = view->world.options.verbosity;
     double seconds = clock_seconds() - view->start;
-    if (view->world.options.verbosity >= LOG_VERBOSE) {
+    if (verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO))) {
         message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
     }

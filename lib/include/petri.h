@@ -51,8 +51,10 @@ typedef struct PetriDiagnostic {
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
 typedef struct PetriOptions {
-    double fps;      // target frame rate; a script's `%pragma fps` wins. Default 60
-    bool realtime;   // follow the wall clock: petri_step waits until the frame is due. Default false: lockstep
+    double fps; // target frame rate; a script's `%pragma fps` wins. Default 60
+    // Follow the wall clock: petri_step waits until the frame is due, and `time` is what has passed since frame 0.
+    // Default false: lockstep, where `time` is frame/fps.
+    bool realtime;
     double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
     bool simplify;   // evaluate static parts once, when loading; results never depend on it. Default true
     bool colour;     // colour `rendered` with ANSI escapes
@@ -110,7 +112,7 @@ void petri_hold(PetriSession *session);
 // The frame that petri_step made last.
 typedef struct PetriFrame {
     int64_t number; // -1 before the first
-    double time;
+    double time;    // 0 in frame 0; after petri_restore frame/fps, in real time as well
     double beat;
     double fps;
     double tempo;

@@ -40,13 +40,22 @@ typedef struct Prompt {
     bool adds; // its value is nodes for the tree
 } Prompt;
 
-// From where on the clock runs at its present rates.
+// From where on the clock runs at its present rates: zeros at first.
 typedef struct ClockBase {
-    bool set; // false: from frame 0 and, in real time, from `start`
     int64_t frame;
     double time;
     double beat;
 } ClockBase;
+
+// The clock of real time. What it counts is the script's `time`: 0 in frame 0, and the time that the host has held the
+// session does not count.
+typedef struct WallClock {
+    bool running;       // false: the next frame is the first, or the first after a restored state
+    double origin;      // what the machine's monotonic clock showed at time 0
+    double due;         // the time of the next frame
+    double performance; // the script's `performance`, which lockstep has as well
+    bool slow_frame;    // … and `slow_frame`
+} WallClock;
 
 typedef struct ClockRates {
     double fps;
@@ -124,11 +133,7 @@ struct PetriSession {
     PetriFrame frame;
     double quantum;
     double delta;
-    double start;       // of realtime: the session's time of frame 0
-    double due;         // of realtime: when the next frame is due
-    double held;        // of realtime: seconds by which the session's clock is behind the monotonic one
-    double performance; // of realtime
-    bool slow_frame;
+    WallClock wall;
     bool in_frame;
     double profiled_physics; // seconds, since the script was loaded
     uint64_t profiled_frames;
@@ -177,6 +182,8 @@ void session_start(PetriSession *session, const Program *program);
 void session_set_globals(const PetriSession *session, Vm *vm);
 // Goes to just after a frame.
 void session_resume(PetriSession *session, int64_t frame);
+// In real time, when the session has gone to another frame: time goes on from that frame's.
+void session_rewind_wall_clock(PetriSession *session);
 // Takes tempo, quantum and fps from the pragmas, where they differ from those of the script before.
 void session_take_rates(PetriSession *session, const Program *program);
 // Changes the rates from the present frame on.

@@ -144,6 +144,13 @@ start left.fl --frames 10
 check "--frames ends it" ended 0
 start left.fl --runtime 1 --lockstep
 check "--runtime ends it" ended 0
+type_keys "clear; echo before; $petri view left.fl --frames 12; echo status \$?" Enter
+check "on the screen that is there again one line sums up" soon shows 'petri: 12 frames in '
+check "the rest of it is as before" soon shows 'before'
+check "and it ended well" soon shows 'status 0'
+type_keys "clear; $petri view left.fl --frames 12 --quiet; echo status \$?" Enter
+check "not with --quiet" soon shows 'status 0'
+check "which says nothing" hides 'frames in'
 viewer() { pgrep -f "^$petri view left.fl" | head -n 1; }
 running() { [ -n "$(viewer)" ]; }
 for signal in TERM:143 HUP:129 INT:130 ABRT:134 SEGV:139 QUIT:131; do
