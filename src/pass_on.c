@@ -55,7 +55,11 @@ int pass_on(char **argv) {
         cause = cause == 0 || errno != ENOENT ? errno : cause;
     }
     *place = '\0';
-    message("cannot start petri-pictures, which draws and prompts: %s; it has to be in %s or in %s../libexec/",
-            strerror(cause), path[0] == '\0' ? "./" : path, path);
+    int folder = (int)(place - path), above = folder - 1;
+    while (above > 0 && path[above - 1] != '/') {
+        above--;
+    }
+    message("cannot start petri-pictures, which draws and prompts: %s; it belongs in %.*s or in %.*slibexec/",
+            strerror(cause), folder, path, above < 0 ? 0 : above, path);
     return STATUS_FAILED;
 }
