@@ -9,6 +9,7 @@
 
 #include "repl.h"
 #include "repl_words.h"
+#include "script.h"
 
 static bool run_step(Repl *repl, const char *rest) {
     int64_t count = 1;
@@ -157,6 +158,7 @@ static bool run_set(Repl *repl, const char *rest) {
     if (before == NULL) {
         return repl_status(repl, PETRI_MEMORY);
     }
+    uint64_t warnings = petri_diagnostic_count(repl->session, PETRI_WARNING);
     bool good = petri_define(repl->session, rest) == PETRI_OK ||
                 repl_fail(repl, ".set expects NAME=VALUE, such as .set COUNT=50");
     if (good && petri_reload(repl->session, NULL) != PETRI_OK) {
@@ -168,9 +170,8 @@ static bool run_set(Repl *repl, const char *rest) {
     if (good) {
         repl_keep_definition(repl, rest);
     }
-    if (good && is_bound(repl, rest)) {
-        repl_say(repl, "%.*s keeps the value that the script, the prompt or petri itself gives it",
-                 (int)strcspn(rest, "="), rest);
+    if (good && petri_diagnostic_count(repl->session, PETRI_WARNING) == warnings && is_bound(repl, rest)) {
+        repl_say(repl, "%.*s keeps the value that the script or the prompt gives it", (int)strcspn(rest, "="), rest);
     }
     return good;
 }
@@ -234,6 +235,9 @@ static bool run_drop(Repl *repl, const char *rest) {
 static bool run_load(Repl *repl, const char *rest) {
     if (rest[0] == '\0') {
         return repl_fail(repl, ".load needs a file");
+    }
+    if (script_is_stdin(rest)) {
+        return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
     }
     if (!repl_load(repl, rest)) {
         return false;

@@ -10,6 +10,7 @@
 #include "bytes.h"
 #include "pass_on.h"
 #include "progress.h"
+#include "script.h"
 
 static bool is_named(const char *word, const char *name) {
     size_t length = strlen(name);
@@ -37,7 +38,8 @@ bool show_wanted(const RunOptions *options, int argc, char **argv) {
             return false;
         }
     }
-    return options->show && at_terminal && (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
+    return options->show && at_terminal && !script_is_stdin(options->script) &&
+           (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
 }
 
 // What is wrong is told by the run, or the view, to come.

@@ -317,6 +317,9 @@ static void evaluate(PetriSession *session) {
 }
 
 static void update_systems(PetriSession *session) {
+    if (session->unseen)
+        session_look_at_top(session);
+    session->unseen = false;
     SceneFrame frame = {.state = session->state,
                         .arena = &session->scene_arena,
                         .time = session->frame.time,

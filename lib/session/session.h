@@ -98,8 +98,10 @@ struct PetriSession {
     NoiseCache *noise;
     const Define *defines; // replaced as a whole: setups share it
     uint32_t define_count;
-    Unit *program;   // the loaded script, or NULL
-    ClockRates said; // by its pragmas
+    uint32_t told_defines; // of these it was told what the script does with them
+    bool again;            // the same text is being compiled once more, for other definitions
+    Unit *program;         // the loaded script, or NULL
+    ClockRates said;       // by its pragmas
     ClockBase base;
     double resolution; // 0: as systems say
     Prompt *prompts;
@@ -112,6 +114,7 @@ struct PetriSession {
     Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
     Unit *loading;         // whose compiler calls back
     bool lint;             // petri_check is at work
+    bool unseen;           // no frame of the loaded script has been made
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
 
@@ -159,6 +162,11 @@ void session_tell_text(PetriSession *session, DiagLevel level, const char *code,
 // Hands over what a sink has collected.
 void session_tell_all(PetriSession *session, const DiagSink *sink);
 
+// Defines a name; the text is that of its value.
+PetriStatus session_define(PetriSession *session, Str name, Str value);
+// Tells of definitions that a script does not take; false if one cannot be, and the script must not run.
+bool session_check_definitions(PetriSession *session, Unit *unit);
+
 // Loads a unit: reads, parses and compiles. The unit is returned even if that failed (program is NULL).
 Unit *unit_load_file(PetriSession *session, const char *file, bool module);
 // `path` and `version` are those of the file that the text was read from; the name and nothing if there is none.
@@ -192,6 +200,8 @@ void session_set_rates(PetriSession *session, const ClockRates *rates);
 void session_clear_frame(PetriSession *session);
 // Evaluates script and prompt statements; false if that was given up. Within escapes.
 bool session_evaluate(PetriSession *session);
+// Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within escapes.
+void session_look_at_top(PetriSession *session);
 // Tells that the setup has changed; `frame_stays` says that what the last frame computed is still right.
 void session_change_setup(PetriSession *session, bool frame_stays);
 // The present setup, borrowed; NULL if memory is used up.
