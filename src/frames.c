@@ -7,6 +7,8 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "parameters.h"
+
 enum { SECONDS_BETWEEN_SAVES = 5 };
 
 // A signal handler can reach nothing but a global.
@@ -40,6 +42,7 @@ static bool wants_diagnostic(Frames *frames, PetriLevel level) {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Frames *frames = host;
+    frames->wrong_definition = frames->wrong_definition || is_wrong_definition(diagnostic);
     if (wants_diagnostic(frames, diagnostic->level)) {
         progress_erase(&frames->progress);
         fputs(diagnostic->rendered, stderr);

@@ -201,7 +201,7 @@ static int render_script(Render *render) {
     render->picture.scale = options->scale;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     if (!check_folder(options->output) || !frames_load(&render->frames)) {
-        return STATUS_FAILED;
+        return render->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
     return render_frames(render);
 }

@@ -114,6 +114,9 @@ bool repl_write(void *host, const char *text, size_t length) {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
+    if (diagnostic->code != NULL && strcmp(diagnostic->code, "unread-definition") == 0) {
+        return; // what is typed may read it
+    }
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }

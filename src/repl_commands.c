@@ -157,6 +157,7 @@ static bool run_set(Repl *repl, const char *rest) {
     if (before == NULL) {
         return repl_status(repl, PETRI_MEMORY);
     }
+    uint64_t warnings = petri_diagnostic_count(repl->session, PETRI_WARNING);
     bool good = petri_define(repl->session, rest) == PETRI_OK ||
                 repl_fail(repl, ".set expects NAME=VALUE, such as .set COUNT=50");
     if (good && petri_reload(repl->session, NULL) != PETRI_OK) {
@@ -168,9 +169,8 @@ static bool run_set(Repl *repl, const char *rest) {
     if (good) {
         repl_keep_definition(repl, rest);
     }
-    if (good && is_bound(repl, rest)) {
-        repl_say(repl, "%.*s keeps the value that the script, the prompt or petri itself gives it",
-                 (int)strcspn(rest, "="), rest);
+    if (good && petri_diagnostic_count(repl->session, PETRI_WARNING) == warnings && is_bound(repl, rest)) {
+        repl_say(repl, "%.*s keeps the value that the script or the prompt gives it", (int)strcspn(rest, "="), rest);
     }
     return good;
 }

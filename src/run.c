@@ -6,6 +6,7 @@
 
 #include "frames.h"
 #include "output.h"
+#include "parameters.h"
 #include "stats.h"
 #include "trajectory.h"
 
@@ -125,10 +126,21 @@ static int run_frames(Run *run) {
     return STATUS_DONE;
 }
 
+static int list_parameters(Run *run) {
+    if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options.verbosity > LOG_QUIET) {
+        message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
+                run->frames.options.script);
+    }
+    return STATUS_DONE;
+}
+
 static int run_session(Run *run) {
     const RunOptions *options = &run->frames.options;
     if (!frames_load(&run->frames)) {
-        return STATUS_FAILED;
+        return run->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
+    }
+    if (options->parameters) {
+        return list_parameters(run);
     }
     if (options->dump >= 0) {
         PetriStatus status = petri_dump(run->frames.session, (PetriDump)options->dump, output_write, &run->output);
@@ -163,7 +175,13 @@ const Command RUN_COMMAND = {
     .summary = "run a script's frames and print what they hold",
     .details =
         "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.",
+        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.\n"
+        "\n"
+        "A script has parameters where it says, at its top level, `let CELLS=CELLS or 200 -- 1..500 how many`:\n"
+        "'petri run --parameters SCRIPT.fl' lists them, '-D CELLS=50' sets one. The range is optional; a value "
+        "outside\n"
+        "is a warning, and so is a name that the script does not take. Numbers may have suffixes (1k, 20m), vectors\n"
+        "are 1;2;3, symbols :name; 0 is as good as none, for it is false. Modules see none of this.",
     .options = RUN_OPTION_SPECS,
     .run = run_run,
 };

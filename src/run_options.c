@@ -40,13 +40,14 @@ enum {
     OPT_SCALE,
     OPT_AUTO,
     OPT_TERMINAL,
+    OPT_PARAMETERS,
 };
 
 // Options that mean the same everywhere, by where help lists them.
 #define FRAME_RATE                                                                                                     \
     { "fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins" }
 #define WORLD_OPTIONS                                                                                                  \
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},                        \
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "set a parameter of the script; may be repeated"},                       \
         {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},              \
         {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},              \
         {"neighbours", 0, OPT_NEIGHBOURS, "WHEN",                                                                      \
@@ -67,7 +68,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
     FRAME_RATE,
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
-    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock; time counts from frame 0"},
     {"print", 0, OPT_PRINT, "LIST",
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
@@ -76,6 +77,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     {"profile", 0, OPT_PROFILE, NULL, "close with the time that each line of the script took, the slowest first"},
     LOG_OPTIONS,
+    {"parameters", 0, OPT_PARAMETERS, NULL, "list what -D can set: name, default, range and comment; do not run it"},
     {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
     {0},
 };
@@ -92,7 +94,7 @@ const OptionSpec RENDER_OPTION_SPECS[] = {
     {"auto", 0, OPT_AUTO, NULL, "draw the particles themselves, not the script's own canvas"},
     FRAME_RATE,
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible (the default)"},
-    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock; time counts from frame 0"},
     WORLD_OPTIONS,
     LOG_OPTIONS,
     {0},
@@ -105,7 +107,7 @@ const OptionSpec VIEW_OPTION_SPECS[] = {
     {"runtime", 0, OPT_RUNTIME, "T", "close after T seconds, or a time code (m:s, h:m:s)"},
     FRAME_RATE,
     {"lockstep", 0, OPT_LOCKSTEP, NULL, "time is frame/fps, as fast as possible"},
-    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock (the default)"},
+    {"realtime", 0, OPT_REALTIME, NULL, "follow the wall clock (the default); time counts from frame 0"},
     WORLD_OPTIONS,
     LOG_OPTIONS,
     {0},
@@ -272,6 +274,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_PROFILE:
         options->profile = true;
+        return true;
+    case OPT_PARAMETERS:
+        options->parameters = true;
         return true;
     case OPT_STATS:
         options->stats = true;

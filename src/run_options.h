@@ -27,6 +27,7 @@ typedef struct RunOptions {
     bool profile;
     const char *state_file; // NULL: the state is neither taken from a file nor kept in one
     int dump;               // PetriDump, or -1
+    bool parameters;        // they are listed, and nothing is run
     bool stats;
     const char *trajectory; // NULL: none is written
     bool automatic;         // the particles themselves are drawn

@@ -8,6 +8,8 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "parameters.h"
+
 enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000 };
 
 static void log_text(World *world, const char *text) {
@@ -20,6 +22,7 @@ static void log_text(World *world, const char *text) {
 
 static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     World *world = context;
+    world->wrong_definition = world->wrong_definition || is_wrong_definition(diagnostic);
     if (diagnostic->level != PETRI_NOTE) { // notes belong to the diagnostic before them
         world->shown = diagnostic->level == PETRI_ERROR || world->options.verbosity > LOG_QUIET;
     }
@@ -70,7 +73,7 @@ static int load_first(World *world) {
         if (status == PETRI_MEMORY) {
             message("out of memory");
         }
-        return STATUS_FAILED;
+        return world->wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
     if (world->options.state_file != NULL) {
         world->state_lost = petri_restore(world->session, world->options.state_file) != PETRI_OK;
