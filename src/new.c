@@ -6,11 +6,7 @@
 
 #include "args.h"
 #include "bytes.h"
-
-// samples/dish.fl, a string for each line.
-static const char *const dish[] = {
-#include "new_dish.inc"
-};
+#include "new_dish.h"
 
 static bool ends_in(const char *text, const char *end) {
     size_t length = strlen(text), count = strlen(end);
@@ -40,8 +36,8 @@ static int write_dish(const char *path) {
         return STATUS_FAILED;
     }
     Bytes text = {0};
-    for (size_t i = 0; i < sizeof dish / sizeof dish[0]; i++) {
-        bytes_add(&text, dish[i], strlen(dish[i]));
+    for (size_t i = 0; NEW_DISH[i] != NULL; i++) {
+        bytes_add(&text, NEW_DISH[i], strlen(NEW_DISH[i]));
     }
     bool written = write_all(fd, &text);
     int error = errno;
