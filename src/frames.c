@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include "parameters.h"
+#include "script.h"
 
 enum { SECONDS_BETWEEN_SAVES = 5 };
 
@@ -63,7 +64,7 @@ void frames_close(Frames *frames) {
 }
 
 bool frames_load(Frames *frames) {
-    PetriStatus status = petri_load(frames->session, frames->options.script);
+    PetriStatus status = script_load(frames->session, frames->options.script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
     }

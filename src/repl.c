@@ -16,6 +16,7 @@
 
 #include "args.h"
 #include "repl_line.h"
+#include "script.h"
 
 enum { OPT_DEFINE = 1, OPT_FPS, OPT_STATE, OPT_LIMIT, OPT_THREADS, OPT_NOSIMPLIFY, OPT_COLOR };
 enum { DEFAULT_LIMIT = 100000, MOST_THREADS = 1024 };
@@ -306,6 +307,12 @@ static bool set_script(const Args *args, Settings *settings) {
         message("one script at a time: '%s' and '%s' were given", settings->script, args->value);
         return false;
     }
+    if (args->value[0] == '\0' || script_is_stdin(args->value)) {
+        message(args->value[0] == '\0'
+                    ? "the name of the script is empty"
+                    : "the prompt reads what is typed from standard input: the script must be a file");
+        return false;
+    }
     settings->script = args->value;
     return true;
 }
@@ -361,7 +368,7 @@ static int read_and_run(Repl *repl, const Host *host, Args *args) {
     Settings settings = {.session = petri_default_options()};
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(&REPL_COMMAND);
+            return args_help(args);
         }
         if (id == ARG_WRONG || !apply(repl, &settings, args, id)) {
             return STATUS_USAGE;

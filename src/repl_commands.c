@@ -9,6 +9,7 @@
 
 #include "repl.h"
 #include "repl_words.h"
+#include "script.h"
 
 static bool run_step(Repl *repl, const char *rest) {
     int64_t count = 1;
@@ -201,6 +202,9 @@ static bool run_drop(Repl *repl, const char *rest) {
 static bool run_load(Repl *repl, const char *rest) {
     if (rest[0] == '\0') {
         return repl_fail(repl, ".load needs a file");
+    }
+    if (script_is_stdin(rest)) {
+        return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
     }
     if (!repl_load(repl, rest)) {
         return false;

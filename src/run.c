@@ -2,11 +2,14 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
+#include "bytes.h"
 #include "frames.h"
 #include "output.h"
 #include "parameters.h"
+#include "script.h"
 #include "stats.h"
 #include "trajectory.h"
 
@@ -36,11 +39,30 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
+static bool collect(void *bytes, const char *text, size_t length) {
+    bytes_add(bytes, text, length);
+    return true;
+}
+
+// Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
+static void print_if_any(Run *run, unsigned sections) {
+    Bytes text = {0};
+    petri_print(run->frames.session, sections, collect, &text);
+    const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
+    if (end + 1 < text.data + text.length) {
+        write_text(run, text.data, text.length);
+    }
+    bytes_free(&text);
+}
+
 // What is printed and recorded of a frame.
 static void output_frame(Run *run) {
     double start = clock_seconds();
-    if (run->frames.options.sections != 0) {
-        petri_print(run->frames.session, run->frames.options.sections, write_text, run);
+    unsigned sections = run->frames.options.sections;
+    if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0) {
+        print_if_any(run, sections);
+    } else if (sections != 0) {
+        petri_print(run->frames.session, sections, write_text, run);
     } else {
         petri_print_log(run->frames.session, write_text, run);
     }
@@ -81,7 +103,8 @@ static void report_profile(Run *run) {
 // What there is to see is told to a person who watches, and to nobody else.
 static void report_pictures(const Run *run) {
     const RunOptions *options = &run->frames.options;
-    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session)) {
+    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session) ||
+        script_is_stdin(options->script)) {
         return;
     }
     message("to see it: petri view %s", options->script);
@@ -129,7 +152,7 @@ static int run_frames(Run *run) {
 static int list_parameters(Run *run) {
     if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options.verbosity > LOG_QUIET) {
         message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
-                run->frames.options.script);
+                script_shown(run->frames.options.script));
     }
     return STATUS_DONE;
 }

@@ -8,6 +8,7 @@
 
 #include "args.h"
 #include "petri.h"
+#include "script.h"
 #include "trajectory.h"
 
 enum { DEFAULT_FRAMES = 600, MOST_THREADS = 1024 };
@@ -35,6 +36,7 @@ enum {
     OPT_STATS,
     OPT_TRAJECTORY,
     OPT_OUTPUT,
+    OPT_FORMAT,
     OPT_FRAME,
     OPT_SIZE,
     OPT_SCALE,
@@ -84,7 +86,8 @@ const OptionSpec RUN_OPTION_SPECS[] = {
 
 const OptionSpec RENDER_OPTION_SPECS[] = {
     {"output", 'o', OPT_OUTPUT, "FILE",
-     "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif"},
+     "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif; - for standard output"},
+    {"format", 0, OPT_FORMAT, "F", "what '-o -' writes: png (if not given), svg, pdf, mp4, webm or gif"},
     {"frame", 0, OPT_FRAME, "N", "draw frame N (0 is the first); the last one if not given"},
     {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
@@ -213,6 +216,16 @@ static bool read_script(const Args *args, RunOptions *options) {
         message("one script at a time: '%s' and '%s' were given", options->script, args->value);
         return false;
     }
+    if (args->value[0] == '\0') {
+        message("the name of the script is empty");
+        return false;
+    }
+    if (args->command->live && script_is_stdin(args->value)) {
+        message("'petri %s' follows its script's file as it is saved and cannot take it from standard input; "
+                "'petri render -' can",
+                args->command->name);
+        return false;
+    }
     options->script = args->value;
     return true;
 }
@@ -248,6 +261,9 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
         return read_dump(args, &options->dump);
     case OPT_OUTPUT:
         options->output = args->value;
+        return true;
+    case OPT_FORMAT:
+        options->format = args->value;
         return true;
     case OPT_FRAME:
         return args_integer(args, 0, INT64_MAX - 1, &options->frame);
@@ -307,7 +323,7 @@ static bool apply_flag(int id, RunOptions *options) {
 static int read_all(RunOptions *options, Args *args) {
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(args->command);
+            return args_help(args);
         }
         if (id == ARG_WRONG || (!apply_flag(id, options) && !apply_option(args, id, options))) {
             return STATUS_USAGE;

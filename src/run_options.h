@@ -32,6 +32,7 @@ typedef struct RunOptions {
     const char *trajectory; // NULL: none is written
     bool automatic;         // the particles themselves are drawn
     const char *output;     // render: what to write
+    const char *format;     // … to standard output; NULL: not given
     int64_t frame;          // render: the only one to draw, or -1
     int width;              // of pictures; 0: what the script says
     int height;

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "parameters.h"
+#include "script.h"
 
 enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000 };
 
@@ -68,7 +69,7 @@ static bool watch_sources(World *world) {
 }
 
 static int load_first(World *world) {
-    PetriStatus status = petri_load(world->session, world->options.script);
+    PetriStatus status = script_load(world->session, world->options.script);
     if (status != PETRI_OK) {
         if (status == PETRI_MEMORY) {
             message("out of memory");

@@ -89,7 +89,7 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 // Loads a script from a file; frames count from 0 again, the state dictionary is kept. `file` is also what messages
 // call it and what relative file names in it start from.
 PetriStatus petri_load(PetriSession *session, const char *file);
-// The same from text; `name` stands for the file.
+// The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
 // The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
 // whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
@@ -102,6 +102,8 @@ const char *petri_source(PetriSession *session, size_t number);
 // told when it is loaded, run and drawn, and what is hardly meant. No system goes on, nothing is drawn or written, and
 // the loaded script runs on as if nothing had happened.
 PetriStatus petri_check(PetriSession *session, const char *file);
+// The same for a text; `name` stands for the file.
+PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
 PetriStatus petri_step(PetriSession *session);
