@@ -1,7 +1,9 @@
 // lint.c: what `petri check` says beyond faults; see compile.h.
 #include "program/compile.h"
 
+#include "base/file.h"
 #include "builtin/builtin.h"
+#include "value/format.h"
 
 static bool wanted(const Compiler *compiler) {
     return compiler->options->lint;
@@ -42,12 +44,14 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
                             binding->name->name.bytes));
 }
 
+// In the words of the call itself (lib/builtin), so that it is told once if the first frame gets there.
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
     uint32_t count = code->arg_count + code->named_count;
-    if (count < builtin->required || (!builtin->variadic && count > builtin->fixed))
-        warn(compiler, ast->span, "wrong-arguments",
-             str_format(compiler->arena, "%u argument%s for %s(%s)", count, count == 1 ? "" : "s", builtin->name,
-                        builtin->parameters));
+    bool few = count < builtin->required;
+    if (few || (!builtin->variadic && count > builtin->fixed))
+        warn(compiler, ast->span, "bad-call",
+             str_format(compiler->arena, "%s: too %s arguments: %u given to %s(%s)", builtin->name,
+                        few ? "few" : "many", count, builtin->name, builtin->parameters));
 }
 
 static const Ast *find_param(const Ast *params, const Symbol *name) {
@@ -110,6 +114,18 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
                  STR("always true: what follows under else is never reached"));
             return;
         }
+}
+
+// The machine says the same when it gets there, which may be late.
+void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
+    if (!wanted(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
+        return;
+    Arena *arena = compiler->arena;
+    Str name = value_text(arena, compiler->symbols, file->as.value);
+    Str path = path_join(arena, compiler->source->directory, name), version;
+    if (name.len && !file_version(arena, str_to_c(arena, path), &version))
+        warn(compiler, ast->span, "cannot-import",
+             str_format(arena, "cannot import '%.*s': there is no such file", (int)path.len, path.bytes));
 }
 
 void lint_pragma(Compiler *compiler, const Ast *pragma) {

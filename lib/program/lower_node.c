@@ -85,7 +85,7 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
 // The node that an expression is before anything has been added to it, or NULL if it is something else.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
     if (expr->kind == EXPR_NODE) {
-        Origin origin = {expr->source, expr->span};
+        NodeOrigin origin = {.place = {expr->source, expr->span}};
         Node *node = node_new(arena, expr->as.name);
         node->origin = arena_copy(arena, &origin, sizeof origin);
         return node;
@@ -105,6 +105,21 @@ static bool names_differ(const DecorateCode *code) {
     return true;
 }
 
+// The node with the places of the attributes that are written with it, for messages.
+static const Node *with_places(Arena *arena, const Node *node, const Expr *decorate) {
+    const DecorateCode *code = decorate->as.decorate;
+    if (!node->origin || node->origin->place.source != decorate->source)
+        return node;
+    struct AttrOrigin *attrs = arena_alloc_array(arena, code->attr_count, sizeof *attrs);
+    for (uint32_t i = 0; i < code->attr_count; i++)
+        attrs[i] = (struct AttrOrigin){code->names[i], code->spans[i]};
+    NodeOrigin origin = {node->origin->place, attrs, code->attr_count};
+    Node *placed = arena_copy(arena, node, sizeof *node);
+    placed->kept = false;
+    placed->origin = arena_copy(arena, &origin, sizeof origin);
+    return placed;
+}
+
 enum { MOST_DISTINCT = 64 }; // attributes that are compared with each other
 
 // A node with attributes and children that can be made at once; false if it cannot.
@@ -117,6 +132,8 @@ static bool whole_node(Lowering *lowering, const Expr *expr, int32_t d) {
     const DecorateCode *code = decorate ? decorate->as.decorate : NULL;
     if (!base || (code && (code->attr_count > MOST_DISTINCT || !names_differ(code))))
         return false;
+    if (decorate)
+        base = with_places(values, base, decorate);
     for (uint32_t i = 0; code && i < code->tag_count; i++)
         base = node_add_tag(values, base, code->tags[i]);
     NodeCode *node = arena_alloc(lowering->options->arena, sizeof *node);

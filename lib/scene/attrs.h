@@ -59,6 +59,8 @@ typedef struct Reader {
 
 // Reports "!kind id=…: text", a warning, once for each code and key.
 void reader_report(const Reader *reader, const char *code, const char *key, Str text);
+// The same about one of its attributes, which is the key.
+void reader_report_attr(const Reader *reader, const char *code, const Symbol *attr, Str text);
 // Reports attributes that the node's kind does not have.
 void reader_check_names(const Reader *reader, SceneKind kind);
 

@@ -294,7 +294,7 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
         reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
         return 0;
     }
-    if (system->occurrence > 0)
+    if (system->occurrence == 1)
         reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
     return system->steps = update(scene, system, &reader, &settings, frame);

@@ -190,7 +190,8 @@ static bool read_distance(PhysicsTree *tree, const Reader *reader, PhysForce *fo
         text_add_format(&text, "%s=", first ? "to" : "from");
         format_value(&text, reader->schema->symbols, first ? to : from);
         text_add_c(&text, " names no particle; ignored");
-        reader_report(reader, "no-such-particle", str_to_c(reader->arena, text_str(&text)), text_str(&text));
+        reader_report_attr(reader, "no-such-particle",
+                           reader->schema->attrs[first ? ROW_DISTANCE_TO : ROW_DISTANCE_FROM], text_str(&text));
         return false;
     }
     *force = (PhysForce){.kind = PHYS_DISTANCE,
@@ -211,7 +212,8 @@ static const double *unit_normal(const Reader *reader) {
         sum += normal[k] * normal[k];
     double length = sqrt(sum);
     if (!(length > 0) || !isfinite(length)) {
-        reader_report(reader, "bad-normal", "", STR("normal is no direction; the barrier is ignored"));
+        reader_report_attr(reader, "bad-normal", reader->schema->attrs[ROW_BARRIER_NORMAL],
+                           STR("normal is no direction; the barrier is ignored"));
         return NULL;
     }
     double *unit = arena_alloc_array(reader->arena, reader->dimensions, sizeof *unit);

@@ -207,5 +207,6 @@ PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot) {
     if (!session_put_back(session, snapshot))
         return PETRI_MEMORY;
     petri_setup_use(session, snapshot->setup);
+    session_rewind_wall_clock(session);
     return PETRI_OK;
 }

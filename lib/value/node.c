@@ -138,6 +138,16 @@ void value_keep(Value v) {
             node_keep((Node *)v.as.items[i].as.node);
 }
 
+Origin node_place(const Node *node, const Symbol *attr) {
+    const NodeOrigin *origin = node->origin;
+    if (!origin)
+        return (Origin){0};
+    for (uint32_t i = 0; i < origin->attr_count; i++)
+        if (origin->attrs[i].name == attr)
+            return (Origin){origin->place.source, origin->attrs[i].span};
+    return origin->place;
+}
+
 Value node_get(const Node *node, const Symbol *name) {
     uint32_t at = attr_find(node->attrs, node->attr_count, name);
     return at < node->attr_count ? node->attrs[at].value : VALUE_NULL;

@@ -14,12 +14,22 @@ typedef struct Attr {
     Value value; // never null
 } Attr;
 
+// Where a node came from in a script.
+typedef struct NodeOrigin {
+    Origin place;
+    const struct AttrOrigin {
+        const Symbol *name;
+        Span span;
+    } *attrs; // those that were written with it, in the same text
+    uint32_t attr_count;
+} NodeOrigin;
+
 struct Node {
     const Symbol *kind;
     const Symbol *const *tags; // ascending by bytes
     const Attr *attrs;         // in the order in which they were first set
     const Node *const *children;
-    const Origin *origin; // lives as long as the program that made the node; NULL: unknown
+    const NodeOrigin *origin; // lives as long as the program that made the node; NULL: unknown
     uint32_t tag_count;
     uint32_t attr_count;
     uint32_t child_count;
@@ -64,6 +74,8 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 void value_keep(Value v);
 // The attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name);
+// Where the attribute of this name was written, or else the node; the source is NULL if that is unknown, too.
+Origin node_place(const Node *node, const Symbol *attr);
 // Structural equality (L7.5).
 bool node_equal(const Node *a, const Node *b);
 const Node *node_copy(Arena *arena, const Node *node);

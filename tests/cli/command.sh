@@ -106,6 +106,8 @@ check "--print takes several sections" out_is "@0 time=0 beat=0
 > 0"
 petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
 check "--realtime runs" lines_are out 2
+petri run --realtime --frames 1 --print tree -D x=1 count.fl
+check "… and its time, too, begins at 0" has out "@0 time=0 beat=0"
 petri run --threads 3 --neighbours always --nosimplify --lockstep --frames 1 -D x=1 count.fl
 check "--threads, --neighbours, --nosimplify and --lockstep are accepted" out_is "> 0"
 petri run --dump=ast plain.fl

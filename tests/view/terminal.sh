@@ -175,6 +175,15 @@ check "with the picture" soon filled 1 24 1 38
 type_keys q
 soon shows 'left.fl'
 
+# A display that is not there, as an old ssh session leaves it: the terminal it is, and soon.
+for place in DISPLAY=:9999 DISPLAY=localhost:99.0 WAYLAND_DISPLAY=wayland-none; do
+    type_keys "clear; env XDG_RUNTIME_DIR=. $place $petri view left.fl 2>err; echo status \$?" Enter
+    check "with $place it is the terminal" started
+    check "which shows the picture" soon filled 22 24 1 38
+    type_keys q
+    check "q quits" soon shows 'status 0'
+done
+
 # Without a terminal there is nothing to show on.
 "$petri" view --terminal left.fl >out 2>err </dev/null
 check "no terminal fails" [ $? -eq 1 ]
