@@ -39,6 +39,7 @@ extern const Command REPL_COMMAND;
 extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;
+extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 
 // The commands in the order of help, ended by NULL.
