@@ -139,8 +139,8 @@ static void follow_script(View *view) {
 }
 
 static void step(View *view) {
-    view->step_once = false;
     world_step(&view->world);
+    view->step_once = view->paused && view->world.early; // what is not seen is no step
     follow_script(view);
     update_trouble(view);
     if (view->paused) {
@@ -326,7 +326,7 @@ static void draw(View *view) {
         return;
     }
     PetriStatus status = PETRI_INVALID;
-    if (view->world.picture != NULL) {
+    if (view->world.picture != NULL && !view->world.unseen) {
         status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
                                     (size_t)width * sizeof *view->pixels);
         petri_picture_tell(view->world.session, view->world.picture);
