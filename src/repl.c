@@ -127,6 +127,11 @@ static void take_language(Repl *repl, const char *text, size_t length) {
     repl_busy(repl);
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
     repl_idle(repl);
+    if (done.hidden != NULL) {
+        char *name = memory_copied(done.hidden, strlen(done.hidden));
+        repl_tell_hidden(repl, name);
+        free(name);
+    }
     if (done.nodes > 0) {
         repl_say(repl, "in the scene from the next step on; .drop takes it out");
     }

@@ -38,7 +38,8 @@ static bool read_count(const char *text, int64_t *count) {
     return end != text && *end == '\0' && errno == 0 && !is_blank(text[0]) && text[0] != '+';
 }
 
-bool word_number(Repl *repl, const char *text, double *number) {
+// What the text stands for, which need not be finite. False after a message.
+static bool evaluate(Repl *repl, const char *text, double *number) {
     PetriResult result;
     if (petri_read_number(text, number) && isfinite(*number)) {
         return true;
@@ -50,7 +51,11 @@ bool word_number(Repl *repl, const char *text, double *number) {
         return false;
     }
     *number = result.number;
-    return isfinite(result.number) || repl_fail(repl, "'%.40s' is no number", text);
+    return true;
+}
+
+bool word_number(Repl *repl, const char *text, double *number) {
+    return evaluate(repl, text, number) && (isfinite(*number) || repl_fail(repl, "'%.40s' is no number", text));
 }
 
 bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count) {
@@ -59,10 +64,10 @@ bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count) {
     if (text[0] == '\0' || (read_count(text, count) && *count >= least)) {
         return true;
     }
-    if (!word_number(repl, text, &value)) {
+    if (!evaluate(repl, text, &value)) {
         return false;
     }
-    if (value != floor(value) || value < (double)least || value > most) {
+    if (!(value == floor(value) && value >= (double)least && value <= most)) {
         return repl_fail(repl, "'%.40s' is no whole number from %" PRId64, text, least);
     }
     *count = (int64_t)value;

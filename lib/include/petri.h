@@ -301,6 +301,11 @@ enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
 
 // Whether the last frame has anything to draw: a window with a canvas, or physics.
 bool petri_drawable(PetriSession *session);
+// Whether the picture of the last frame shows particles where they are. A system stores nothing in frame 0, and what it
+// stores is seen by the frame after; so a script that draws what its systems have stored finds nothing in frames 0 and
+// 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
+// a state that was restored, and in each frame from 2 on, whatever systems do then.
+bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
 // Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
 bool petri_records(const PetriSession *session);
 
@@ -395,6 +400,8 @@ typedef struct PetriPrompted {
     uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
     uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
                     // are added to those of the script; they are written, too, as they are now
+    const char *hidden; // a name bound that the script's top level binds, too: the script goes on with its own; or
+                        // NULL. Valid until the next call
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.

@@ -73,3 +73,18 @@ petri view --terminal cells.fl -D CELLS=12x
 check "view knows wrong definitions" status_is 2
 petri repl cells.fl -D 5=5
 check "repl knows wrong definitions" status_is 2
+
+# The tour's `console` blocks: what `$ petri …` writes, with the files that it names.
+# shellcheck disable=SC2016 # awk's dollars
+awk '/^```flitter .*\.fl$/ { file = $2; next }
+     /^```console$/ { console = 1; next }
+     /^```/ { file = ""; console = 0; next }
+     file != "" { print > file }
+     console && sub(/^\$ petri /, "") { ++count; print > ("tour" count ".words"); printf "" > ("tour" count ".wanted"); next }
+     console { print > ("tour" count ".wanted") }' "$here/../../grammar/README.md"
+for words in tour*.words; do
+    # shellcheck disable=SC2046 # the words are words
+    petri $(cat "$words")
+    check "the tour is right about petri $(cat "$words")" cmp -s out "${words%.words}.wanted"
+done
+check "the tour has such examples" test -s tour2.wanted
