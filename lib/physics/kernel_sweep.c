@@ -1,6 +1,5 @@
 // kernel_sweep.c: what happens to each particle alone, LANES particles at once: forces on single particles, barriers,
 // motion, bounces. With one lane it takes any number of dimensions.
-#include "base/random.h"
 #include "physics/kernels.h"
 #include "physics/single_formulas.h"
 

@@ -3,6 +3,8 @@
 #ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
 #define PETRI_PHYSICS_SINGLE_FORMULAS_H
 
+#include "base/random.h"
+#include "physics/kernels.h"
 #include "physics/power.h"
 #include "physics/sweep.h"
 
