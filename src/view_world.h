@@ -17,7 +17,9 @@ typedef struct World {
     PetriPainter *painter;
     PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
     Watch *watch;
-    int64_t frames; // made since the view was opened
+    int64_t frames; // made since the view was opened, without early ones
+    bool early;     // the last frame could not show particles where they are (petri_picture_ready)
+    bool unseen;    // `picture` is of an early frame: it tells its size and is not shown
     bool halted;    // a frame could not be made; the next load or reset goes on
     bool broken;    // the script on disk cannot be loaded; an earlier version is running
     bool failed;    // something could not be read, written or recorded

@@ -320,6 +320,34 @@ check "and nothing else is left" sh -c 'test "$(find film -type f ! -name "*.png
 render film.fl --frame 2 -o wanted.png
 check "they are what petri render draws" cmp -s film/2.png wanted.png
 
+# The frames in which particles cannot be seen yet are neither shown nor recorded, also after a reset, even while paused.
+cat >early.fl <<'END'
+%pragma fps 4
+!physics state=:w dimensions=2
+    !particle id=1 position=20;20 velocity=1;0
+!window size=300;200 title='early'
+    !canvas
+        !rect size=300;200 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
+    !record filename=concat('early/';frame;'.png')
+END
+mkdir early
+view early early.fl --frames 60
+check "a view begins with black" point 150 100 000000
+check "then the particles are seen" point 150 100 00ff00
+press space
+soon exists early/2.png
+rm -f early/*
+press r
+check "after a reset the first frame with particles is seen" soon exists early/2.png
+check "no other is recorded" [ ! -e early/0.png ]
+sleep 1
+check "while paused one step is shown" [ "$(echo early/*)" = early/2.png ]
+check "and that is what is seen" point 150 100 00ff00
+press q
+check "q quits" ended 0
+short early.fl --lockstep --frames 5 --verbose
+check "--frames counts what is seen" [ "$(echo early/*)" = "early/2.png early/3.png early/4.png early/5.png early/6.png" ]
+
 # What cannot be.
 "$petri" view nothing.fl >out 2>err </dev/null
 check "a missing script fails" [ $? -eq 1 ]
