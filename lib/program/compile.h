@@ -49,10 +49,11 @@ typedef struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
-    bool ahead;       // compiling a syntax tree once more, for its static value
-    uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
-    uint32_t places;  // look-ups so far
-    bool is_module;   // the file only binds names: they are for others, so none is unused
+    bool ahead;         // compiling a syntax tree once more, for its static value
+    uint32_t repeats;   // loop bodies and functions around this place: it may be evaluated several times in a frame
+    uint32_t places;    // look-ups so far
+    const Ast *subject; // to which attributes or children are being added
+    bool is_module;     // the file only binds names: they are for others, so none is unused
 } Compiler;
 
 typedef struct ScopeMark {
@@ -101,6 +102,8 @@ void lint_bind(Compiler *compiler, const Binding *binding);
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
 void lint_branches(Compiler *compiler, const Expr *expr);
+void lint_negation(Compiler *compiler, const Ast *ast);
+void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr);
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file);
 void lint_pragma(Compiler *compiler, const Ast *pragma);
 

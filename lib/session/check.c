@@ -82,7 +82,8 @@ PetriStatus petri_check(PetriSession *session, const char *file) {
     PetriSession *scratch = open_scratch(session);
     if (!scratch)
         return PETRI_MEMORY;
-    scratch->lint = true;
+    scratch->lint = scratch->canvas.lint = true;
+    scene_lint(scratch->scene);
     PetriStatus status = petri_load(scratch, file);
     scratch->lint = false; // modules, which the frame loads, are checked for themselves
     if (status == PETRI_OK)
