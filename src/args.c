@@ -10,6 +10,7 @@
 #include <unistd.h>
 
 #include "petri.h"
+#include "run_options.h"
 
 Args args_start(const Command *command, int argc, char **argv) {
     return (Args){.command = command, .argc = argc, .argv = argv};
@@ -24,6 +25,23 @@ static int wrong_line(const Args *args, const char *word, const char *nearest) {
     return ARG_WRONG;
 }
 
+// Another of the commands that run scripts, which has the option: what is asked of one is at times another's.
+static const char *find_elsewhere(const Args *args, const char *name) {
+    static const struct {
+        const char *command;
+        const OptionSpec *options;
+    } others[] = {{"run", RUN_OPTION_SPECS}, {"render", RENDER_OPTION_SPECS}, {"view", VIEW_OPTION_SPECS}};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
+        for (const OptionSpec *spec = others[i].options; spec->name != NULL; spec++) {
+            bool same = strcmp(name, spec->name) == 0 || (name[0] == spec->letter && name[1] == '\0');
+            if (same && others[i].options != args->command->options) {
+                return others[i].command;
+            }
+        }
+    }
+    return NULL;
+}
+
 static int unknown_option(const Args *args, const char *word, const char *name) {
     const char *nearest = NULL;
     size_t best = SIZE_MAX;
@@ -32,8 +50,16 @@ static int unknown_option(const Args *args, const char *word, const char *name) 
             nearest = spec->name;
         }
     }
-    if (is_nearer(name, "help", &best)) {
-        nearest = "help";
+    static const char *const everywhere[] = {"help", "version"};
+    for (size_t i = 0; i < sizeof everywhere / sizeof everywhere[0]; i++) {
+        nearest = is_nearer(name, everywhere[i], &best) ? everywhere[i] : nearest;
+    }
+    nearest = strcmp(name, "v") == 0 ? "version" : nearest;
+    const char *elsewhere = nearest == NULL || best > 1 ? find_elsewhere(args, name) : NULL;
+    if (elsewhere != NULL) {
+        message("'petri %s' has no option '%s', but 'petri %s' has; 'petri help %s' lists the options",
+                args->command->name, word, elsewhere, args->command->name);
+        return ARG_WRONG;
     }
     return wrong_line(args, word, nearest);
 }
@@ -57,7 +83,8 @@ static int long_option(Args *args, const char *word) {
     }
     memcpy(name, word + 2, length);
     name[length] = '\0';
-    if (strcmp(name, "help") == 0 && equals == NULL) {
+    args->version = strcmp(name, "version") == 0;
+    if ((strcmp(name, "help") == 0 || args->version) && equals == NULL) {
         return ARG_HELP;
     }
     const OptionSpec *spec = args->command->options;
@@ -84,7 +111,8 @@ static int long_option(Args *args, const char *word) {
 }
 
 static int short_option(Args *args, const char *word) {
-    if (word[1] == 'h' && word[2] == '\0') {
+    args->version = word[1] == 'V';
+    if ((word[1] == 'h' || args->version) && word[2] == '\0') {
         return ARG_HELP;
     }
     const OptionSpec *spec = args->command->options;
@@ -120,6 +148,10 @@ int args_next(Args *args) {
         return args_next(args);
     }
     return long_option(args, word);
+}
+
+int args_help(const Args *args) {
+    return args->version ? help_version() : help_for(args->command);
 }
 
 bool args_wrong_value(const Args *args, const char *expected) {

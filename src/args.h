@@ -17,6 +17,7 @@ typedef struct Args {
     char **argv;
     int next;
     bool operands_only;       // `--` was seen
+    bool version;             // --version asked for the help
     const OptionSpec *option; // the one that args_next returned
     const char *value;        // its value, or the operand
 } Args;
@@ -24,6 +25,8 @@ typedef struct Args {
 Args args_start(const Command *command, int argc, char **argv);
 // The id of the next option, or one of the constants above. After ARG_WRONG the message has been given.
 int args_next(Args *args);
+// After ARG_HELP: prints what was asked for, the command's help or the version. Returns the exit status.
+int args_help(const Args *args);
 
 // Read the value of the current option. False, after a message, if it is not of that kind.
 bool args_integer(const Args *args, int64_t least, int64_t most, int64_t *out);

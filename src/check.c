@@ -5,6 +5,7 @@
 
 #include "args.h"
 #include "petri.h"
+#include "script.h"
 #include "scripts.h"
 
 enum { OPT_DEFINE = 1, OPT_COLOR, OPT_QUIET, OPT_WERROR };
@@ -42,6 +43,10 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 static bool apply(Check *check, const Args *args, int id) {
     switch (id) {
     case ARG_OPERAND:
+        if (script_is_stdin(args->value)) {
+            scripts_add(&check->scripts, args->value);
+            return true;
+        }
         check->unreadable = !scripts_find(&check->scripts, args->value) || check->unreadable;
         return true;
     case OPT_DEFINE:
@@ -80,7 +85,7 @@ static int check_all(Check *check, const Host *host) {
     }
     size_t rejected = 0;
     for (size_t i = 0; i < check->scripts.count; i++) {
-        rejected += petri_check(session, check->scripts.items[i].path) == PETRI_OK ? 0 : 1;
+        rejected += script_check(session, check->scripts.items[i].path) == PETRI_OK ? 0 : 1;
     }
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
     uint64_t warnings = petri_diagnostic_count(session, PETRI_WARNING);
@@ -95,7 +100,7 @@ static int read_and_check(Check *check, const Host *host, Args *args) {
     bool has_path = false;
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(&CHECK_COMMAND);
+            return args_help(args);
         }
         if (id == ARG_WRONG || !apply(check, args, id)) {
             return STATUS_USAGE;

@@ -7,6 +7,9 @@
 #include <stdio.h>
 #include <unistd.h>
 
+#include "parameters.h"
+#include "script.h"
+
 enum { SECONDS_BETWEEN_SAVES = 5 };
 
 // A signal handler can reach nothing but a global.
@@ -40,6 +43,7 @@ static bool wants_diagnostic(Frames *frames, PetriLevel level) {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Frames *frames = host;
+    frames->wrong_definition = frames->wrong_definition || is_wrong_definition(diagnostic);
     if (wants_diagnostic(frames, diagnostic->level)) {
         progress_erase(&frames->progress);
         fputs(diagnostic->rendered, stderr);
@@ -60,7 +64,7 @@ void frames_close(Frames *frames) {
 }
 
 bool frames_load(Frames *frames) {
-    PetriStatus status = petri_load(frames->session, frames->options.script);
+    PetriStatus status = script_load(frames->session, frames->options.script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
     }

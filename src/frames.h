@@ -12,11 +12,12 @@ typedef struct Frames {
     RunOptions options;
     PetriSession *session;
     Progress progress;
-    int64_t done;    // frames that were made
-    double start;    // seconds of the monotonic clock
-    double saved;    // when the state was saved last
-    bool state_lost; // the state file could not be read or written
-    bool shown_last; // the last diagnostic that was no note was shown
+    int64_t done;          // frames that were made
+    double start;          // seconds of the monotonic clock
+    double saved;          // when the state was saved last
+    bool state_lost;       // the state file could not be read or written
+    bool shown_last;       // the last diagnostic that was no note was shown
+    bool wrong_definition; // the script cannot take a value of -D
 } Frames;
 
 // Reads the command line and opens a session. RUN_OPTIONS_OK, or the status to exit with. Frames must be zero at first,

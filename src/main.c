@@ -8,14 +8,15 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "bytes.h"
 #include "cli.h"
 #include "pass_on.h"
 
 #ifdef PETRI_PICTURES
-const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,  &RENDER_COMMAND, &REPL_COMMAND,
-                                   &TEST_COMMAND, &CHECK_COMMAND, &HELP_COMMAND,   NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
+                                   &CHECK_COMMAND, &NEW_COMMAND,  &HELP_COMMAND,   NULL};
 #else // those that never draw
-const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND, NULL};
 #endif
 
 const Command *command_find(const char *name) {
@@ -32,6 +33,14 @@ static bool looks_like_file(const char *word) {
     return strpbrk(word, "./") != NULL || access(word, F_OK) == 0;
 }
 
+static bool is_script_without_suffix(const char *word) {
+    Bytes path = {0};
+    bytes_format(&path, "%s.fl", word);
+    bool found = access(path.data, F_OK) == 0;
+    bytes_free(&path);
+    return found;
+}
+
 static int unknown_command(const char *word) {
     const char *nearest = NULL;
     size_t best = SIZE_MAX;
@@ -40,7 +49,11 @@ static int unknown_command(const char *word) {
             nearest = COMMANDS[i]->name;
         }
     }
-    if (nearest != NULL) {
+    if (word[0] == '\0') {
+        message("the name of the script is empty");
+    } else if (is_script_without_suffix(word)) {
+        message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
+    } else if (nearest != NULL) {
         message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest);
     } else {
         message("there is no command and no file '%s'; 'petri help' lists the commands", word);
@@ -60,7 +73,7 @@ static int dispatch(const Host *host, int argc, char **argv) {
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         return help_overview();
     }
-    if (strcmp(first, "--version") == 0) {
+    if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0) {
         return help_version();
     }
     const Command *command = command_find(first);
@@ -134,6 +147,7 @@ int main(int argc, char **argv) {
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
+               .host.called = argc > 0 ? argv[0] : "petri",
                .argc = argc,
                .argv = argv,
                .status = STATUS_FAILED};

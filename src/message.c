@@ -38,27 +38,29 @@ static size_t least(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-// Changes of one letter (insert, remove, replace) that turn one word into the other; SIZE_MAX for long words.
+// Changes of one letter (insert, remove, replace, swap with its neighbour) that turn one word into the other; SIZE_MAX
+// for long words.
 static size_t edit_distance(const char *a, const char *b) {
     size_t rows = strlen(a);
     size_t columns = strlen(b);
     if (rows > LONGEST_WORD || columns > LONGEST_WORD) {
         return SIZE_MAX;
     }
-    size_t line[LONGEST_WORD + 1];
+    size_t table[LONGEST_WORD + 1][LONGEST_WORD + 1];
     for (size_t j = 0; j <= columns; j++) {
-        line[j] = j;
+        table[0][j] = j;
     }
     for (size_t i = 1; i <= rows; i++) {
-        size_t diagonal = line[0];
-        line[0] = i;
+        table[i][0] = i;
         for (size_t j = 1; j <= columns; j++) {
-            size_t replaced = diagonal + (a[i - 1] == b[j - 1] ? 0 : 1);
-            diagonal = line[j];
-            line[j] = least(replaced, least(line[j], line[j - 1]) + 1);
+            size_t replaced = table[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1);
+            table[i][j] = least(replaced, least(table[i - 1][j], table[i][j - 1]) + 1);
+            if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) {
+                table[i][j] = least(table[i][j], table[i - 2][j - 2] + 1);
+            }
         }
     }
-    return line[columns];
+    return table[rows][columns];
 }
 
 bool is_nearer(const char *word, const char *candidate, size_t *best) {

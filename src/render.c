@@ -9,6 +9,7 @@
 #include "bytes.h"
 #include "frames.h"
 #include "painting.h"
+#include "piped.h"
 #include "video.h"
 
 typedef enum OutputKind { OUTPUT_PICTURE, OUTPUT_SERIES, OUTPUT_FILM } OutputKind;
@@ -19,7 +20,9 @@ typedef struct Render {
     PetriPictureOptions picture;
     Painting *painting;
     int64_t drawn;
-    bool failed; // nothing more is to be drawn
+    bool failed;       // nothing more is to be drawn
+    Piped piped;       // for standard output
+    const char *shown; // how messages call what is written
 } Render;
 
 // The place of the frame's number in the name of a series: `%d` or `%05d`, with its end in *end. NULL if there is none.
@@ -54,9 +57,20 @@ static bool read_output(Render *render) {
     RunOptions *options = &render->frames.options;
     const char *end = NULL;
     if (options->output == NULL) {
-        message("option '--output' is missing: petri render SCRIPT.fl -o OUT.png");
+        message("option '--output' is missing: petri render %s -o OUT.png", options->script);
         return false;
     }
+    if (options->format != NULL && !piped_wanted(options->output)) {
+        message("option '--format' is for '-o -'; what '%s' is, its ending tells", options->output);
+        return false;
+    }
+    if (piped_wanted(options->output)) {
+        if (!piped_check(options->format) || !piped_open(&render->piped, options->format)) {
+            return false;
+        }
+        options->output = render->piped.file;
+    }
+    render->shown = render->piped.file != NULL ? "-" : options->output;
     if (video_is_name(options->output)) {
         render->kind = OUTPUT_FILM;
     } else if (!petri_picture_format(options->output)) {
@@ -66,7 +80,7 @@ static bool read_output(Render *render) {
         render->kind = find_number(options->output, &end) != NULL ? OUTPUT_SERIES : OUTPUT_PICTURE;
     }
     if (options->frame >= 0 && render->kind == OUTPUT_FILM) {
-        message("option '--frame' is for pictures; '%s' is a film", options->output);
+        message("option '--frame' is for pictures; '%s' is a film", render->shown);
         return false;
     }
     if (options->frame >= 0) {
@@ -150,15 +164,14 @@ static int end_render(Render *render, bool going) {
         message("%s", trouble);
     }
     if (stopped != 0) {
-        message("stopped; '%s' is not %s", frames->options.output,
-                render->kind == OUTPUT_SERIES ? "complete" : "written");
+        message("stopped; '%s' is not %s", render->shown, render->kind == OUTPUT_SERIES ? "complete" : "written");
         return STATUS_SIGNAL + stopped;
     }
     if (!going || !good || frames->state_lost) {
         return STATUS_FAILED;
     }
     if (render->drawn == 0) {
-        message("no frame was drawn; '%s' is not written", frames->options.output);
+        message("no frame was drawn; '%s' is not written", render->shown);
         return STATUS_FAILED;
     }
     report_summary(render);
@@ -201,7 +214,7 @@ static int render_script(Render *render) {
     render->picture.scale = options->scale;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     if (!check_folder(options->output) || !frames_load(&render->frames)) {
-        return STATUS_FAILED;
+        return render->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
     return render_frames(render);
 }
@@ -212,6 +225,10 @@ static int render_run(const Host *host, int argc, char **argv) {
     if (status == RUN_OPTIONS_OK) {
         status = render_script(render);
     }
+    if (!piped_send(&render->piped)) {
+        status = STATUS_FAILED;
+    }
+    piped_close(&render->piped);
     frames_close(&render->frames);
     free(render);
     return status;
@@ -224,7 +241,9 @@ const Command RENDER_COMMAND = {
     .details =
         "Draws what a script's !window holds, or its particles if it does not draw itself. OUT's suffix tells what is\n"
         "written: a picture of the last frame, or of one that is chosen; a picture of each frame, if the name has a\n"
-        "place for its number (%05d); or a film, for which ffmpeg has to be installed.",
+        "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard "
+        "output\n"
+        "when all is drawn: petri render dish.fl -o - --format gif >dish.gif",
     .options = RENDER_OPTION_SPECS,
     .run = render_run,
 };

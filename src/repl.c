@@ -16,6 +16,7 @@
 
 #include "args.h"
 #include "repl_line.h"
+#include "script.h"
 
 enum { OPT_DEFINE = 1, OPT_FPS, OPT_STATE, OPT_LIMIT, OPT_THREADS, OPT_NOSIMPLIFY, OPT_COLOR };
 enum { DEFAULT_LIMIT = 100000, MOST_THREADS = 1024 };
@@ -114,6 +115,9 @@ bool repl_write(void *host, const char *text, size_t length) {
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Repl *repl = host;
+    if (diagnostic->code != NULL && strcmp(diagnostic->code, "unread-definition") == 0) {
+        return; // what is typed may read it
+    }
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }
@@ -123,6 +127,11 @@ static void take_language(Repl *repl, const char *text, size_t length) {
     repl_busy(repl);
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
     repl_idle(repl);
+    if (done.hidden != NULL) {
+        char *name = memory_copied(done.hidden, strlen(done.hidden));
+        repl_tell_hidden(repl, name);
+        free(name);
+    }
     if (done.nodes > 0) {
         repl_say(repl, "in the scene from the next step on; .drop takes it out");
     }
@@ -298,6 +307,12 @@ static bool set_script(const Args *args, Settings *settings) {
         message("one script at a time: '%s' and '%s' were given", settings->script, args->value);
         return false;
     }
+    if (args->value[0] == '\0' || script_is_stdin(args->value)) {
+        message(args->value[0] == '\0'
+                    ? "the name of the script is empty"
+                    : "the prompt reads what is typed from standard input: the script must be a file");
+        return false;
+    }
     settings->script = args->value;
     return true;
 }
@@ -353,7 +368,7 @@ static int read_and_run(Repl *repl, const Host *host, Args *args) {
     Settings settings = {.session = petri_default_options()};
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(&REPL_COMMAND);
+            return args_help(args);
         }
         if (id == ARG_WRONG || !apply(repl, &settings, args, id)) {
             return STATUS_USAGE;

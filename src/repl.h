@@ -74,6 +74,12 @@ typedef struct ReplCommand {
 extern const ReplCommand REPL_COMMANDS[]; // the last has no name
 void repl_command(Repl *repl, const char *line);
 
+// Parameters (repl_parameters.c).
+bool repl_set(Repl *repl, const char *rest);
+bool repl_show_parameters(Repl *repl);
+// Says that the script has a name of its own which was bound at the prompt just now.
+void repl_tell_hidden(Repl *repl, const char *name);
+
 // Steps (repl_step.c): frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
 typedef struct Walk {
     int64_t count;

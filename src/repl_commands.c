@@ -9,6 +9,7 @@
 
 #include "repl.h"
 #include "repl_words.h"
+#include "script.h"
 
 static bool run_step(Repl *repl, const char *rest) {
     int64_t count = 1;
@@ -133,46 +134,13 @@ static bool run_show(Repl *repl, const char *rest) {
     return repl_show_picture(repl);
 }
 
-// Is a text, a name or NAME=VALUE, of the name that another one begins with?
-static bool is_name(const char *text, const char *name, size_t length) {
-    return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
-}
-
-// Does something else than a definition give the name its value? What the script and the prompt bind, and the names of
-// the engine, come before it.
-static bool is_bound(const Repl *repl, const char *definition) {
-    size_t length = strcspn(definition, "="), seen = 0, defined = 0;
-    const char *name;
-    for (size_t i = 0; (name = petri_name(repl->session, i)) != NULL; i++) {
-        seen += is_name(name, definition, length);
-    }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        defined += is_name(repl->definitions[i], definition, length);
-    }
-    return seen > defined;
-}
-
 static bool run_set(Repl *repl, const char *rest) {
-    PetriSetup *before = petri_setup(repl->session);
-    if (before == NULL) {
-        return repl_status(repl, PETRI_MEMORY);
-    }
-    bool good = petri_define(repl->session, rest) == PETRI_OK ||
-                repl_fail(repl, ".set expects NAME=VALUE, such as .set COUNT=50");
-    if (good && petri_reload(repl->session, NULL) != PETRI_OK) {
-        petri_setup_use(repl->session, before);
-        good = false;
-        repl->failed = true;
-    }
-    petri_setup_free(before);
-    if (good) {
-        repl_keep_definition(repl, rest);
-    }
-    if (good && is_bound(repl, rest)) {
-        repl_say(repl, "%.*s keeps the value that the script, the prompt or petri itself gives it",
-                 (int)strcspn(rest, "="), rest);
-    }
-    return good;
+    return repl_set(repl, rest);
+}
+
+static bool run_parameters(Repl *repl, const char *rest) {
+    (void)rest;
+    return repl_show_parameters(repl);
 }
 
 static void show_number(Repl *repl, const char *name, double value) {
@@ -234,6 +202,9 @@ static bool run_drop(Repl *repl, const char *rest) {
 static bool run_load(Repl *repl, const char *rest) {
     if (rest[0] == '\0') {
         return repl_fail(repl, ".load needs a file");
+    }
+    if (script_is_stdin(rest)) {
+        return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
     }
     if (!repl_load(repl, rest)) {
         return false;

@@ -4,6 +4,7 @@
 
 #include "repl.h"
 #include "repl_diff.h"
+#include "script.h"
 
 void repl_watch_files(Repl *repl) {
     if (repl->files == NULL) {
@@ -37,7 +38,7 @@ static bool loaded(Repl *repl, PetriStatus status) {
 }
 
 bool repl_load(Repl *repl, const char *file) {
-    PetriStatus status = petri_load(repl->session, file);
+    PetriStatus status = script_load(repl->session, file);
     repl->rates_changed = repl->rates_changed && status != PETRI_OK;
     if (status == PETRI_OK && file != repl->script) {
         free(repl->script);

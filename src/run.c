@@ -2,14 +2,21 @@
 #include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
+#include "bytes.h"
 #include "frames.h"
+#include "hints.h"
 #include "output.h"
+#include "parameters.h"
+#include "script.h"
+#include "show.h"
 #include "stats.h"
 #include "trajectory.h"
 
 typedef struct Run {
+    const Host *host;
     Frames frames;
     bool to_terminal; // standard output is a terminal
     Stats stats;
@@ -35,11 +42,30 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
+static bool collect(void *bytes, const char *text, size_t length) {
+    bytes_add(bytes, text, length);
+    return true;
+}
+
+// Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
+static void print_if_any(Run *run, unsigned sections) {
+    Bytes text = {0};
+    petri_print(run->frames.session, sections, collect, &text);
+    const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
+    if (end + 1 < text.data + text.length) {
+        write_text(run, text.data, text.length);
+    }
+    bytes_free(&text);
+}
+
 // What is printed and recorded of a frame.
 static void output_frame(Run *run) {
     double start = clock_seconds();
-    if (run->frames.options.sections != 0) {
-        petri_print(run->frames.session, run->frames.options.sections, write_text, run);
+    unsigned sections = run->frames.options.sections;
+    if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0) {
+        print_if_any(run, sections);
+    } else if (sections != 0) {
+        petri_print(run->frames.session, sections, write_text, run);
     } else {
         petri_print_log(run->frames.session, write_text, run);
     }
@@ -80,11 +106,11 @@ static void report_profile(Run *run) {
 // What there is to see is told to a person who watches, and to nobody else.
 static void report_pictures(const Run *run) {
     const RunOptions *options = &run->frames.options;
-    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session)) {
+    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session) ||
+        script_is_stdin(options->script)) {
         return;
     }
-    message("to see it: petri view %s", options->script);
-    message("to keep a picture of it: petri render %s -o OUT.png (or OUT.mp4)", options->script);
+    hint_pictures(run->host, options->script);
 }
 
 static void report_summary(Run *run) {
@@ -125,10 +151,21 @@ static int run_frames(Run *run) {
     return STATUS_DONE;
 }
 
+static int list_parameters(Run *run) {
+    if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options.verbosity > LOG_QUIET) {
+        message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
+                script_shown(run->frames.options.script));
+    }
+    return STATUS_DONE;
+}
+
 static int run_session(Run *run) {
     const RunOptions *options = &run->frames.options;
     if (!frames_load(&run->frames)) {
-        return STATUS_FAILED;
+        return run->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
+    }
+    if (options->parameters) {
+        return list_parameters(run);
     }
     if (options->dump >= 0) {
         PetriStatus status = petri_dump(run->frames.session, (PetriDump)options->dump, output_write, &run->output);
@@ -148,7 +185,11 @@ static int run_run(const Host *host, int argc, char **argv) {
     }
     output_start(&run->output, STDOUT_FILENO);
     run->to_terminal = isatty(STDOUT_FILENO);
+    run->host = host;
     int status = frames_open(&run->frames, &RUN_COMMAND, host, argc, argv);
+    if (status == RUN_OPTIONS_OK && show_wanted(&run->frames.options, argc, argv)) {
+        show(&run->frames.options, host, argc, argv);
+    }
     if (status == RUN_OPTIONS_OK) {
         status = output_finish(&run->output, run_session(run));
     }
@@ -163,7 +204,13 @@ const Command RUN_COMMAND = {
     .summary = "run a script's frames and print what they hold",
     .details =
         "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.",
+        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.\n"
+        "\n"
+        "A script has parameters where it says, at its top level, `let CELLS=CELLS or 200 -- 1..500 how many`:\n"
+        "'petri run --parameters SCRIPT.fl' lists them, '-D CELLS=50' sets one. The range is optional; a value "
+        "outside\n"
+        "is a warning, and so is a name that the script does not take. Numbers may have suffixes (1k, 20m), vectors\n"
+        "are 1;2;3, symbols :name; 0 is as good as none, for it is false. Modules see none of this.",
     .options = RUN_OPTION_SPECS,
     .run = run_run,
 };

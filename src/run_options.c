@@ -8,6 +8,7 @@
 
 #include "args.h"
 #include "petri.h"
+#include "script.h"
 #include "trajectory.h"
 
 enum { DEFAULT_FRAMES = 600, MOST_THREADS = 1024 };
@@ -35,18 +36,21 @@ enum {
     OPT_STATS,
     OPT_TRAJECTORY,
     OPT_OUTPUT,
+    OPT_FORMAT,
     OPT_FRAME,
     OPT_SIZE,
     OPT_SCALE,
     OPT_AUTO,
     OPT_TERMINAL,
+    OPT_SHOW,
+    OPT_PARAMETERS,
 };
 
 // Options that mean the same everywhere, by where help lists them.
 #define FRAME_RATE                                                                                                     \
     { "fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins" }
 #define WORLD_OPTIONS                                                                                                  \
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},                        \
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "set a parameter of the script; may be repeated"},                       \
         {"state", 0, OPT_STATE, "FILE", "go on from the state in FILE, if it exists, and keep it there"},              \
         {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},              \
         {"neighbours", 0, OPT_NEIGHBOURS, "WHEN",                                                                      \
@@ -72,17 +76,20 @@ const OptionSpec RUN_OPTION_SPECS[] = {
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
     WORLD_OPTIONS,
+    {"show", 0, OPT_SHOW, NULL, "on a terminal, show its picture there, if it has one and no text is asked for"},
     {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     {"profile", 0, OPT_PROFILE, NULL, "close with the time that each line of the script took, the slowest first"},
     LOG_OPTIONS,
+    {"parameters", 0, OPT_PARAMETERS, NULL, "list what -D can set: name, default, range and comment; do not run it"},
     {"dump", 0, OPT_DUMP, "WHAT", "print the script's ast or code and do not run it"},
     {0},
 };
 
 const OptionSpec RENDER_OPTION_SPECS[] = {
     {"output", 'o', OPT_OUTPUT, "FILE",
-     "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif"},
+     "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif; - for standard output"},
+    {"format", 0, OPT_FORMAT, "F", "what '-o -' writes: png (if not given), svg, pdf, mp4, webm or gif"},
     {"frame", 0, OPT_FRAME, "N", "draw frame N (0 is the first); the last one if not given"},
     {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
@@ -211,6 +218,16 @@ static bool read_script(const Args *args, RunOptions *options) {
         message("one script at a time: '%s' and '%s' were given", options->script, args->value);
         return false;
     }
+    if (args->value[0] == '\0') {
+        message("the name of the script is empty");
+        return false;
+    }
+    if (args->command->live && script_is_stdin(args->value)) {
+        message("'petri %s' follows its script's file as it is saved and cannot take it from standard input; "
+                "'petri render -' can",
+                args->command->name);
+        return false;
+    }
     options->script = args->value;
     return true;
 }
@@ -247,6 +264,9 @@ static bool apply_option(const Args *args, int id, RunOptions *options) {
     case OPT_OUTPUT:
         options->output = args->value;
         return true;
+    case OPT_FORMAT:
+        options->format = args->value;
+        return true;
     case OPT_FRAME:
         return args_integer(args, 0, INT64_MAX - 1, &options->frame);
     case OPT_SIZE:
@@ -272,6 +292,12 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_PROFILE:
         options->profile = true;
+        return true;
+    case OPT_SHOW:
+        options->show = true;
+        return true;
+    case OPT_PARAMETERS:
+        options->parameters = true;
         return true;
     case OPT_STATS:
         options->stats = true;
@@ -302,7 +328,7 @@ static bool apply_flag(int id, RunOptions *options) {
 static int read_all(RunOptions *options, Args *args) {
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(args->command);
+            return args_help(args);
         }
         if (id == ARG_WRONG || (!apply_flag(id, options) && !apply_option(args, id, options))) {
             return STATUS_USAGE;

@@ -27,10 +27,13 @@ typedef struct RunOptions {
     bool profile;
     const char *state_file; // NULL: the state is neither taken from a file nor kept in one
     int dump;               // PetriDump, or -1
+    bool show;              // run: in the terminal, if somebody watches
+    bool parameters;        // they are listed, and nothing is run
     bool stats;
     const char *trajectory; // NULL: none is written
     bool automatic;         // the particles themselves are drawn
     const char *output;     // render: what to write
+    const char *format;     // … to standard output; NULL: not given
     int64_t frame;          // render: the only one to draw, or -1
     int width;              // of pictures; 0: what the script says
     int height;

@@ -9,6 +9,7 @@
 
 #include "bytes.h"
 #include "cli.h"
+#include "script.h"
 
 static void add(ScriptList *list, const char *path, size_t below) {
     if (list->count == list->capacity) {
@@ -24,6 +25,10 @@ static bool is_script_name(const char *name) {
 }
 
 static bool cannot_read(const char *path) {
+    if (path[0] == '\0') {
+        message("the name of a script is empty");
+        return false;
+    }
     message("cannot read %s: %s", path, strerror(errno));
     return false;
 }
@@ -66,10 +71,16 @@ static bool search_folder(ScriptList *list, const char *folder, size_t below) {
     return done;
 }
 
+void scripts_add(ScriptList *list, const char *path) {
+    add(list, path, 0);
+}
+
 bool scripts_find(ScriptList *list, const char *path) {
     struct stat about;
     if (stat(path, &about) != 0) {
-        return cannot_read(path);
+        cannot_read(path);
+        script_suggest(path);
+        return false;
     }
     size_t length = strlen(path);
     if (S_ISDIR(about.st_mode)) {

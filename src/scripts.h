@@ -19,6 +19,8 @@ typedef struct ScriptList {
 // Adds a file, or each file named *.fl in a folder and the folders in it. False, after a message, if something cannot
 // be read. Hidden files and folders are passed by.
 bool scripts_find(ScriptList *list, const char *path);
+// Adds a name that is taken as it is, such as `-`.
+void scripts_add(ScriptList *list, const char *path);
 // By path; what was named twice stays once.
 void scripts_sort(ScriptList *list);
 void scripts_free(ScriptList *list);

@@ -6,6 +6,7 @@
 
 #include <errno.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
@@ -44,6 +45,7 @@ struct Display {
 
 // Signal handlers, and exit, can reach nothing but globals. What has to be given back is here while it has to be.
 static struct {
+    pthread_t owner; // the thread that draws
     volatile sig_atomic_t entered;
     volatile sig_atomic_t resized;
     volatile sig_atomic_t suspended;
@@ -75,7 +77,13 @@ static void give_back(void) {
     }
 }
 
-static void on_crash(int number) {
+// A signal from outside may come to any thread, and the one that draws must not go on after the terminal is given back.
+static void on_crash(int number, siginfo_t *info, void *context) {
+    (void)context;
+    if ((info->si_code == SI_USER || number == SIGQUIT) && !pthread_equal(pthread_self(), terminal.owner)) {
+        pthread_kill(terminal.owner, number);
+        return;
+    }
     give_back();
     signal(number, SIG_DFL);
     raise(number);
@@ -97,10 +105,16 @@ static void on_signal(int number, void (*handler)(int)) {
     sigaction(number, &action, NULL);
 }
 
+static void catch_crash(int number) {
+    struct sigaction action = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
 static void catch_signals(void) {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
     for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
-        on_signal(crashes[i], on_crash);
+        catch_crash(crashes[i]);
     }
     on_signal(SIGWINCH, on_resize);
     on_signal(SIGTSTP, on_suspend);
@@ -164,6 +178,7 @@ static Display *terminal_open(const char *title, int width, int height, bool col
     }
     terminal.has_settings = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &terminal.settings) == 0;
     display->input.closed = !terminal.has_settings; // keys come from terminals only
+    terminal.owner = pthread_self();
     atexit(give_back);
     catch_signals();
     measure(display);

@@ -12,6 +12,7 @@
 #include "progress.h"
 #include "rejection.h"
 #include "report.h"
+#include "script.h"
 #include "scripts.h"
 
 enum { OPT_UPDATE = 1, OPT_FILTER, OPT_JUNIT, OPT_JOBS, OPT_THREADS, OPT_NEIGHBOURS, OPT_NOSIMPLIFY };
@@ -251,6 +252,10 @@ static int run_suite(Suite *suite) {
 static bool apply(Suite *suite, const Args *args, int id) {
     switch (id) {
     case ARG_OPERAND:
+        if (script_is_stdin(args->value)) {
+            message("standard input has no golden beside it: petri test takes files and folders");
+            return false;
+        }
         suite->unreadable = !scripts_find(&suite->scripts, args->value) || suite->unreadable;
         return true;
     case OPT_UPDATE:
@@ -282,7 +287,7 @@ static int read_and_run(Suite *suite, Args *args) {
     bool has_path = false;
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return help_for(&TEST_COMMAND);
+            return args_help(args);
         }
         if (id == ARG_WRONG || !apply(suite, args, id)) {
             return STATUS_USAGE;

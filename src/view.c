@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "display.h"
+#include "hints.h"
 #include "progress.h"
 #include "view_world.h"
 
@@ -35,6 +36,7 @@ static void catch_interrupts(void) {
 }
 
 typedef struct View {
+    const Host *host;
     World world;
     const DisplayKind *kind;
     Display *display;
@@ -403,6 +405,11 @@ static void report_summary(const View *view) {
         message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
     }
+    if (view->world.options.terminal && verbosity == LOG_VERBOSE) {
+        hint_pictures(view->host, view->world.options.script);
+    } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
+        message("it was shown in the terminal, for this petri was built without SDL; './dev build' has windows");
+    }
 }
 
 static int run_view(View *view) {
@@ -435,6 +442,7 @@ static int run_view(View *view) {
 
 static int view_run(const Host *host, int argc, char **argv) {
     View *view = memory_zeroed(sizeof *view);
+    view->host = host;
     int status = run_options_read(&view->world.options, &VIEW_COMMAND, argc, argv);
     if (status == RUN_OPTIONS_OK) {
         status = world_open(&view->world, host);

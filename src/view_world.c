@@ -8,6 +8,9 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "parameters.h"
+#include "script.h"
+
 enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000 };
 
 static void log_text(World *world, const char *text) {
@@ -20,6 +23,7 @@ static void log_text(World *world, const char *text) {
 
 static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     World *world = context;
+    world->wrong_definition = world->wrong_definition || is_wrong_definition(diagnostic);
     if (diagnostic->level != PETRI_NOTE) { // notes belong to the diagnostic before them
         world->shown = diagnostic->level == PETRI_ERROR || world->options.verbosity > LOG_QUIET;
     }
@@ -65,12 +69,12 @@ static bool watch_sources(World *world) {
 }
 
 static int load_first(World *world) {
-    PetriStatus status = petri_load(world->session, world->options.script);
+    PetriStatus status = script_load(world->session, world->options.script);
     if (status != PETRI_OK) {
         if (status == PETRI_MEMORY) {
             message("out of memory");
         }
-        return STATUS_FAILED;
+        return world->wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
     if (world->options.state_file != NULL) {
         world->state_lost = petri_restore(world->session, world->options.state_file) != PETRI_OK;

@@ -22,6 +22,7 @@ typedef struct World {
     bool broken;    // the script on disk cannot be loaded; an earlier version is running
     bool failed;    // something could not be read, written or recorded
     bool state_lost;
+    bool wrong_definition; // the script cannot take a value of -D
     // Messages
     bool mute;     // standard error belongs to the display: messages are kept in `log` until it is closed
     bool shown;    // the last diagnostic that was no note was shown

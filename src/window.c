@@ -2,21 +2,26 @@
 #include "display.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #include "cli.h"
 #include "keys.h"
 #include "overlay.h"
 #include "petri.h"
+#include "screen.h"
+
+// A way to the screen that the user has chosen, as SDL's users do; NULL: none.
+static const char *chosen_driver(void) {
+    const char *driver = getenv("SDL_VIDEODRIVER");
+    return driver != NULL && driver[0] != '\0' ? driver : NULL;
+}
 
 bool window_has_screen(void) {
-    static const char *const names[] = {"DISPLAY", "WAYLAND_DISPLAY", "SDL_VIDEODRIVER"};
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        const char *value = getenv(names[i]);
-        if (value != NULL && value[0] != '\0') {
-            return true;
-        }
+    bool named = chosen_driver() != NULL;
+    for (size_t i = 0; screen_kind(i) != NULL; i++) {
+        named = named || screen_name(screen_kind(i)) != NULL;
     }
-    return false;
+    return named;
 }
 
 #ifdef HAVE_SDL
@@ -75,6 +80,30 @@ static SDL_Renderer *new_renderer(SDL_Window *window) {
     return renderer != NULL ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
 }
 
+static bool start_on(const Screen *screen) {
+    if (!screen_answers(screen)) {
+        SDL_SetError("nothing answers at %s=%s", screen->variable, screen_name(screen));
+        return false;
+    }
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, screen->driver);
+    return SDL_Init(SDL_INIT_VIDEO) == 0;
+}
+
+// Only what the environment names: a window that SDL opens somewhere else is not where the user is.
+static bool start_video(void) {
+    const char *driver = chosen_driver();
+    bool started = false, tried = false;
+    SDL_SetError("no screen is named");
+    for (size_t i = 0; screen_kind(i) != NULL && !started; i++) {
+        const Screen *screen = screen_kind(i);
+        if (screen_name(screen) != NULL && (driver == NULL || strcmp(driver, screen->driver) == 0)) {
+            tried = true;
+            started = start_on(screen);
+        }
+    }
+    return started || (!tried && driver != NULL && SDL_Init(SDL_INIT_VIDEO) == 0);
+}
+
 static Display *window_open(const char *title, int width, int height, bool colour) {
     (void)colour;
     Display *display = calloc(1, sizeof *display);
@@ -85,7 +114,7 @@ static Display *window_open(const char *title, int width, int height, bool colou
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetMainReady();
-    if (SDL_Init(SDL_INIT_VIDEO) == 0) {
+    if (start_video()) {
         fit_screen(&width, &height);
         display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
                                            SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);

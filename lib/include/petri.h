@@ -82,16 +82,18 @@ PetriSession *petri_open(const PetriOptions *options);
 void petri_close(PetriSession **session);
 
 // Defines a name for the scripts loaded from now on (`-D`): "name=value", where value is `;`-separated numbers with
-// suffixes, time codes, `:symbols` or strings. PETRI_INVALID without a name or an equals sign.
+// suffixes, time codes, `:symbols` or strings. PETRI_INVALID without an equals sign, or if that which is before it is
+// no name. Loading a script tells of definitions that it does not take.
 PetriStatus petri_define(PetriSession *session, const char *definition);
 
 // Loads a script from a file; frames count from 0 again, the state dictionary is kept. `file` is also what messages
 // call it and what relative file names in it start from.
 PetriStatus petri_load(PetriSession *session, const char *file);
-// The same from text; `name` stands for the file.
+// The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
 // The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
-// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed.
+// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
+// told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
@@ -100,6 +102,8 @@ const char *petri_source(PetriSession *session, size_t number);
 // told when it is loaded, run and drawn, and what is hardly meant. No system goes on, nothing is drawn or written, and
 // the loaded script runs on as if nothing had happened.
 PetriStatus petri_check(PetriSession *session, const char *file);
+// The same for a text; `name` stands for the file.
+PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
 PetriStatus petri_step(PetriSession *session);
@@ -110,6 +114,34 @@ double petri_due(const PetriSession *session);
 // In real time: the time that has passed since the last frame does not count, so that the next one follows it as if
 // nothing had happened in between. For hosts that pause, or take long over something.
 void petri_hold(PetriSession *session);
+
+// A parameter of the loaded script: `let NAME=NAME or DEFAULT -- 1..500 what it is` at its top level, which takes the
+// value that a definition of NAME gives it, if that is true, else its default. A range at the start of the comment
+// (`1..500`, `0..1|0.05` with a step, `0..` with one end) is for people and hosts: what is outside is a warning.
+typedef struct PetriParameter {
+    const char *name;
+    const char *fallback;   // the default as the script has it
+    const char *value;      // the present value in printed form; `fallback` if only a frame can tell
+    const char *comment;    // behind it in its line, without the range; "" for none
+    double number;          // the present value; NaN unless it is known to be one number
+    double fallback_number; // the default; likewise
+    double least;           // the comment's range; infinite where it has no end
+    double most;
+    double step;      // 0: the comment has none
+    bool defined;     // a definition gives the present value
+    bool settable;    // false: of a module, which sees no definitions
+    const char *file; // where it stands
+    uint32_t line;    // from 1
+    uint32_t column;  // in characters, from 1
+} PetriParameter;
+// By number from 0, the script's own and those of what it includes first, then those of the modules that it imports at
+// its top level; false beyond the last. Texts are valid until the next call that may change or show anything.
+bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
+// Gives a parameter of the script another value, as petri_define reads it, or its default if `value` is NULL. The next
+// frame has it, while state, frame numbers, time and beat go on. PETRI_INVALID, and nothing is changed, if the script
+// has no such parameter, if the default is a number and the value is none, or if included files cannot be read any
+// more.
+PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
 
 // The frame that petri_step made last.
 typedef struct PetriFrame {
@@ -363,6 +395,8 @@ typedef struct PetriPrompted {
     uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
     uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
                     // are added to those of the script; they are written, too, as they are now
+    const char *hidden; // a name bound that the script's top level binds, too: the script goes on with its own; or
+                        // NULL. Valid until the next call
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.

@@ -129,8 +129,10 @@ static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
 
 static const Expr *compile_let(Compiler *compiler, const Ast *ast) {
     const Expr **binds = arena_alloc_array(compiler->arena, ast->count, sizeof *binds);
-    for (uint32_t i = 0; i < ast->count; i++)
+    for (uint32_t i = 0; i < ast->count; i++) {
+        compile_note_parameter(compiler, ast->children[i]);
         binds[i] = compile_binding(compiler, ast->children[i]);
+    }
     return ast->count == 1 ? binds[0] : compile_expr_new(compiler, EXPR_LET, ast, binds, ast->count);
 }
 
@@ -283,9 +285,19 @@ static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
     return bind;
 }
 
+static void note_import(Compiler *compiler, const Expr *file) {
+    if (compiler->depth != 1 || file->kind != EXPR_CONST)
+        return;
+    size_t size = compiler->import_count * sizeof(Str);
+    compiler->imports = arena_grow(compiler->arena, compiler->imports, size, size + sizeof(Str));
+    Str name = value_text(compiler->arena, compiler->symbols, file->as.value);
+    compiler->imports[compiler->import_count++] = path_join(compiler->arena, compiler->source->directory, name);
+}
+
 static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
     const Ast *names = ast->children[0];
     const Expr *file = compile_expr(compiler, ast->children[1]);
+    note_import(compiler, file);
     lint_import(compiler, ast, file);
     const Symbol **symbols = arena_alloc_array(compiler->arena, names->count, sizeof *symbols);
     for (uint32_t i = 0; i < names->count; i++)
@@ -320,7 +332,9 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     }
     const Source *outer = compiler->source;
     compiler->source = source;
+    compiler->depth--; // its statements stand in the place of the directive
     const Expr *expr = compile_suite(compiler, included);
+    compiler->depth++;
     compiler->source = outer;
     return expr;
 }
@@ -402,7 +416,10 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
 
 const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     uint32_t mark = compiler->function->next_slot;
-    return fold_expr(compiler, (Expr *)compile_kind(compiler, ast), mark);
+    compiler->depth++;
+    Expr *expr = (Expr *)compile_kind(compiler, ast);
+    compiler->depth--;
+    return fold_expr(compiler, expr, mark);
 }
 
 static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program) {
@@ -448,6 +465,9 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
                          .options = options,
                          .diags = diags,
                          .is_module = binds_only(ast)};
+    compiler.define_uses = arena_alloc_array(arena, options->define_count, sizeof *compiler.define_uses);
+    for (uint32_t i = 0; i < options->define_count; i++)
+        compiler.define_uses[i] = (DefineUse){0};
     FunctionScope function;
     compile_function_open(&compiler, &function, NULL);
     compiler.repeats = options->module; // a module may be imported at several places
@@ -465,6 +485,11 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
     program->frame_size = function.frame_size;
     program->code = compile_code(&compiler, program->body, program->frame_size);
     program->place_count = compiler.places;
+    program->parameters = compiler.parameters;
+    program->parameter_count = compiler.parameter_count;
+    program->define_uses = compiler.define_uses;
+    program->imports = compiler.imports;
+    program->import_count = compiler.import_count;
     return program;
 }
 

@@ -1,4 +1,4 @@
-// compile.h: what the compiler's two files share: expressions (compile.c) and names (scope.c).
+// compile.h: what the compiler's files share: expressions (compile.c), names (scope.c) and what else they know.
 #ifndef PETRI_PROGRAM_COMPILE_H
 #define PETRI_PROGRAM_COMPILE_H
 
@@ -49,11 +49,18 @@ typedef struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
-    bool ahead;         // compiling a syntax tree once more, for its static value
-    uint32_t repeats;   // loop bodies and functions around this place: it may be evaluated several times in a frame
-    uint32_t places;    // look-ups so far
+    bool ahead;       // compiling a syntax tree once more, for its static value
+    uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
+    uint32_t places;  // look-ups so far
+    bool is_module;   // the file only binds names: they are for others, so none is unused
+    uint32_t depth;   // expressions around this place; 1: a statement of the top level
+    DefineUse *define_uses;
+    Parameter *parameters;
+    uint32_t parameter_count;
+    uint32_t parameter_capacity;
+    Str *imports;
+    uint32_t import_count;
     const Ast *subject; // to which attributes or children are being added
-    bool is_module;     // the file only binds names: they are for others, so none is unused
 } Compiler;
 
 typedef struct ScopeMark {
@@ -87,6 +94,18 @@ void compile_function_open(Compiler *compiler, FunctionScope *function, const Sy
 void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code);
 // The resolved path of an %include; false (after a diagnostic, or silently for null) if there is none.
 bool compile_include_path(Compiler *compiler, const Ast *file, Str *path);
+
+// The value of a syntax tree as it stands here; false if it is not static.
+bool compile_static_value(Compiler *compiler, const Ast *ast, Value *value);
+// Whether nothing but -D can give a name of the top level a value here.
+bool compile_is_free(const Compiler *compiler, const Symbol *name);
+
+// Parameters (parameters.c). Notes a binding of a `let` that is one; to be called before its value is compiled.
+void compile_note_parameter(Compiler *compiler, const Ast *binding);
+// Whether a name is that on the right of a parameter's binding.
+bool compile_uses_parameter(const Compiler *compiler, const Ast *name);
+// Notes where a program binds a name that -D defines.
+void compile_note_define(Compiler *compiler, const Binding *binding);
 
 // The simplifier (fold.c). `mark` is the function's next slot before the expression was compiled: slots from there on
 // are its own. Returns the expression, or what is left of it after static parts have been evaluated.

@@ -1,4 +1,4 @@
-// habit_list.h: names of other languages that Flitter does not have, and what it has instead. See unbound names (scope.c).
+// habit_list.h: names of other languages that Flitter does not have, and what it has instead (scope.c).
 //
 // HABIT("name", "hint").
 // clang-format off

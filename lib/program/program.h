@@ -100,6 +100,29 @@ typedef struct Pragma {
     Span span;
 } Pragma;
 
+// A parameter: `let NAME=NAME or DEFAULT` at the top level of a file, where nothing but -D could give the name on the
+// right a value (parameters.c). What stands behind it in its line tells a person what it is for.
+typedef struct Parameter {
+    const Symbol *name;
+    const Source *source;
+    Span span;      // of the name
+    const Ast *use; // the name on the right: unbound, but meant so
+    Str fallback;   // text of the default
+    bool is_static; // the default is the same in every frame: `value`
+    Value value;
+    Str comment;  // without the range at its start
+    double least; // the comment's range, with its ends; infinite where it says nothing
+    double most;
+    double step; // 0: the comment has none
+} Parameter;
+
+// What a program does with a -D name.
+typedef struct DefineUse {
+    bool read;
+    Origin bound; // where the program first binds the name itself; no source: nowhere
+    bool by_let;  // … with a `let` at its top level
+} DefineUse;
+
 typedef struct Program {
     const Source *source;
     const Expr *body;
@@ -111,6 +134,11 @@ typedef struct Program {
     uint32_t export_count;
     const Pragma *pragmas;
     uint32_t pragma_count;
+    const Parameter *parameters; // in order
+    uint32_t parameter_count;
+    const DefineUse *define_uses; // of CompileOptions.defines, one by one
+    const Str *imports;           // paths of the modules that it imports at its top level, as far as they are constant
+    uint32_t import_count;
 } Program;
 
 // What compiling may ask of the host.
@@ -149,7 +177,11 @@ const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source 
 // The export of this name that counts, or NULL.
 const Export *program_find_export(const Program *program, const Symbol *name);
 
+// The parameter of this name, or NULL.
+const Parameter *program_find_parameter(const Program *program, const Symbol *name);
+
 const char *engine_name_text(EngineName name);
+bool engine_name_exists(Str name);
 
 // The program as indented text, for --dump=code.
 void program_print(Text *out, const SymbolTable *symbols, const Program *program);

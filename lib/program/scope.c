@@ -21,6 +21,7 @@ static Binding *bind(Compiler *compiler, BindingKind kind, const Symbol *name, S
         (Binding){.outer = function->scope, .name = name, .slot = function->next_slot++, .span = span, .kind = kind};
     function->scope = binding;
     lint_bind(compiler, binding);
+    compile_note_define(compiler, binding);
     if (function->next_slot > function->frame_size)
         function->frame_size = function->next_slot;
     return binding;
@@ -154,6 +155,19 @@ const char *engine_name_text(EngineName name) {
     return engine_names[name].name;
 }
 
+bool engine_name_exists(Str name) {
+    for (uint32_t i = 0; i < ENGINE_NAME_COUNT; i++)
+        if (str_equal(name, str_from(engine_names[i].name)))
+            return true;
+    return false;
+}
+
+bool compile_is_free(const Compiler *compiler, const Symbol *name) {
+    Value value;
+    return !compile_find_binding(compiler, name) && !builtin_find(name->name) &&
+           !builtin_constant(name->name, &value) && (compiler->options->module || !engine_name_exists(name->name));
+}
+
 // Engine names, then -D names, then built-ins (L8.1); NULL if none has it.
 static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
@@ -166,8 +180,10 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
             return expr;
         }
     for (uint32_t i = options->module ? 0 : options->define_count; i > 0; i--)
-        if (options->defines[i - 1].name == ast->name)
+        if (options->defines[i - 1].name == ast->name) {
+            compiler->define_uses[i - 1].read = true;
             return constant(compiler, ast, options->defines[i - 1].value);
+        }
     Value value;
     if (builtin_constant(name, &value))
         return constant(compiler, ast, value);
@@ -245,6 +261,8 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
 
 static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
+    if (compile_uses_parameter(compiler, ast))
+        return constant(compiler, ast, VALUE_NULL);
     if (compiler->options->module) {
         Expr *expr = compile_expr_new(compiler, EXPR_UNBOUND, ast, NULL, 0);
         expr->as.name = ast->name;
@@ -302,10 +320,15 @@ static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *
     return compile_unpack(compiler, value, binding->element, binding->element_count);
 }
 
-bool compile_include_path(Compiler *compiler, const Ast *file, Str *path) {
+bool compile_static_value(Compiler *compiler, const Ast *ast, Value *value) {
     bool dynamic = false;
-    Value value = evaluate_static(compiler, compiler->function, compiler->function->scope, file, &dynamic);
-    if (dynamic) {
+    *value = evaluate_static(compiler, compiler->function, compiler->function->scope, ast, &dynamic);
+    return !dynamic;
+}
+
+bool compile_include_path(Compiler *compiler, const Ast *file, Str *path) {
+    Value value;
+    if (!compile_static_value(compiler, file, &value)) {
         compile_report(compiler, file->span, DIAG_WARNING, "cannot-include",
                        STR("the file of an %include must be known when the program is loaded"), (Str){0});
         return false;

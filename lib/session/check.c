@@ -78,13 +78,14 @@ static PetriSession *open_scratch(PetriSession *session) {
     return scratch;
 }
 
-PetriStatus petri_check(PetriSession *session, const char *file) {
+// A file, or a text of this name.
+static PetriStatus check(PetriSession *session, const char *file, const char *text, size_t length) {
     PetriSession *scratch = open_scratch(session);
     if (!scratch)
         return PETRI_MEMORY;
     scratch->lint = scratch->canvas.lint = true;
     scene_lint(scratch->scene);
-    PetriStatus status = petri_load(scratch, file);
+    PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
     scratch->lint = false; // modules, which the frame loads, are checked for themselves
     if (status == PETRI_OK)
         status = petri_step(scratch);
@@ -92,4 +93,12 @@ PetriStatus petri_check(PetriSession *session, const char *file) {
         look_at_windows(scratch);
     petri_close(&scratch);
     return status;
+}
+
+PetriStatus petri_check(PetriSession *session, const char *file) {
+    return check(session, file, NULL, 0);
+}
+
+PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    return check(session, name, text, length);
 }

@@ -150,6 +150,8 @@ static void load_text(PetriSession *session, Unit *unit, Str name, Str text, boo
         unit->program = unit_compile(session, unit, unit->ast, module, 0);
     else
         unit->why = STR("it does not parse");
+    if (unit->program && !module && !session_check_definitions(session, unit))
+        unit->program = NULL;
 }
 
 Unit *unit_parse(PetriSession *session, Str name, Str text) {

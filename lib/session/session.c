@@ -1,6 +1,7 @@
 // session.c: opening, loading, diagnostics; see petri.h.
 #include "session/session.h"
 
+#include "base/unicode.h"
 #include "syntax/literal.h"
 
 #include <math.h>
@@ -248,17 +249,34 @@ static Value define_value(PetriSession *session, Str text) {
     }
 }
 
+// Is a text a name of the language (L2.4)?
+static bool is_name(Str text) {
+    while (text.len > 1 && text.bytes[text.len - 1] == '\'')
+        text.len--;
+    for (size_t at = 0, next = 0; at < text.len; at = next) {
+        int32_t c = utf8_next(text, &next);
+        if (c < 0 || !(at == 0 ? unicode_starts_name((uint32_t)c) : unicode_continues_name((uint32_t)c)))
+            return false;
+    }
+    return text.len > 0;
+}
+
 PetriStatus petri_define(PetriSession *session, const char *definition) {
     const char *equals = strchr(definition, '=');
-    if (!equals || equals == definition || utf8_find_error(str_from(definition)) != strlen(definition))
+    if (!equals)
+        return PETRI_INVALID;
+    return session_define(session, (Str){definition, (size_t)(equals - definition)}, str_from(equals + 1));
+}
+
+PetriStatus session_define(PetriSession *session, Str name, Str value) {
+    if (!is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
     uint32_t count = session->define_count;
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
     if (count)
         memcpy(defines, session->defines, count * sizeof *defines);
-    Str name = {definition, (size_t)(equals - definition)};
-    Str text = str_copy(&session->arena, str_from(definition)),
-        value = {text.bytes + name.len + 1, text.len - name.len - 1};
+    Str text = str_format(&session->arena, "%.*s=%.*s", (int)name.len, name.bytes, (int)value.len, value.bytes);
+    value = (Str){text.bytes + name.len + 1, value.len};
     defines[count] =
         (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
     session->defines = defines;
@@ -312,8 +330,10 @@ static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
 static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadPurpose purpose) {
     Unit *unit = NULL;
     PetriStatus status = PETRI_OK;
-    session->told_count = 0; // each thing once per load
-    index_clear(&session->told_index);
+    if (!session->again) { // each thing once per load
+        session->told_count = 0;
+        index_clear(&session->told_index);
+    }
     session->fresh = NULL;
     if (!load_guarded(session, request, &unit) || !unit) {
         unit_free(session->fresh);
@@ -343,15 +363,23 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
     return load(session, &(LoadRequest){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
 }
 
-PetriStatus petri_reload(PetriSession *session, const char *file) {
-    if (file)
-        return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
+// The text is the same, so what was told of it stays told.
+static PetriStatus load_again(PetriSession *session) {
     if (!session->program)
         return PETRI_INVALID;
     const Unit *unit = session->program;
     LoadRequest request = {
         .name = unit->source->name, .text = unit->source->text, .path = unit->path, .version = unit->version};
-    return load(session, &request, LOAD_TO_GO_ON);
+    session->again = true;
+    PetriStatus status = load(session, &request, LOAD_TO_GO_ON);
+    session->again = false;
+    return status;
+}
+
+PetriStatus petri_reload(PetriSession *session, const char *file) {
+    if (!file)
+        return load_again(session);
+    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {

@@ -98,8 +98,10 @@ struct PetriSession {
     NoiseCache *noise;
     const Define *defines; // replaced as a whole: setups share it
     uint32_t define_count;
-    Unit *program;   // the loaded script, or NULL
-    ClockRates said; // by its pragmas
+    uint32_t told_defines; // of these it was told what the script does with them
+    bool again;            // the same text is being compiled once more, for other definitions
+    Unit *program;         // the loaded script, or NULL
+    ClockRates said;       // by its pragmas
     ClockBase base;
     double resolution; // 0: as systems say
     Prompt *prompts;
@@ -159,6 +161,11 @@ void session_tell(PetriSession *session, const Diag *diag);
 void session_tell_text(PetriSession *session, DiagLevel level, const char *code, Str text);
 // Hands over what a sink has collected.
 void session_tell_all(PetriSession *session, const DiagSink *sink);
+
+// Defines a name; the text is that of its value.
+PetriStatus session_define(PetriSession *session, Str name, Str value);
+// Tells of definitions that a script does not take; false if one cannot be, and the script must not run.
+bool session_check_definitions(PetriSession *session, Unit *unit);
 
 // Loads a unit: reads, parses and compiles. The unit is returned even if that failed (program is NULL).
 Unit *unit_load_file(PetriSession *session, const char *file, bool module);

@@ -85,7 +85,7 @@ void petri_setup_use(PetriSession *session, PetriSetup *setup) {
     unit_free(session->program);
     session->program = session_put(session, setup->program);
     session->defines = setup->defines;
-    session->define_count = setup->define_count;
+    session->define_count = session->told_defines = setup->define_count;
     session->said = setup->said;
     session_set_rates(session, &setup->rates);
     session->resolution = setup->resolution;

@@ -2,6 +2,7 @@
 #include "syntax/parse.h"
 
 #include "parser.h"
+#include "syntax/foreign.h"
 #include "syntax/habits.h"
 #include "syntax/layout.h"
 #include "syntax/literal.h"
@@ -143,7 +144,7 @@ static void report_character(ParseContext *context, Span span) {
     else if (c == '\\')
         report(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
     else if (c == 0xfeff)
-        report(context, span, "syntax", STR("byte-order mark: save the file as UTF-8 without one"), (Str){0});
+        report(context, span, "syntax", STR("a byte-order mark (U+FEFF) can only begin a file"), (Str){0});
     else if (c < 0x20 || c == 0x7f)
         report(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
                STR("is this a text file?"));
@@ -302,14 +303,20 @@ static int skip_line(Layout *layout) {
 }
 
 static bool check_text(ParseContext *context) {
-    Str text = context->source->text;
-    size_t bad = utf8_find_error(text);
-    if (bad < text.len) {
+    const Source *source = context->source;
+    const char *encoding = foreign_encoding(source);
+    size_t bad = utf8_find_error(source->text);
+    if (encoding) {
+        context->failed = true;
+        Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", (int)source->name.len,
+                              source->name.bytes, encoding);
+        diag_report(context->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "encoding"});
+    } else if (bad < source->text.len) {
         report(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
-               STR("is this a text file?"));
-        return false;
+               str_format(context->arena, "the byte 0x%02X cannot stand here: save the file as UTF-8",
+                          (unsigned char)source->text.bytes[bad]));
     }
-    return true;
+    return !context->failed;
 }
 
 static void parse_text(ParseContext *context, Layout *layout) {
@@ -395,5 +402,7 @@ const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *sourc
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
     if (check_text(&context))
         parse_text(&context, arena_alloc(arena, sizeof(Layout)));
+    if (context.failed && !foreign_encoding(source))
+        foreign_sum_up(source, diags);
     return context.failed ? NULL : context.program;
 }

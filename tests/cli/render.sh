@@ -11,7 +11,7 @@ check "help nodes lists what drives particles" has out "  !particle: "
 check "… and what draws" has out "  !ellipse: "
 petri help '!stroke'
 check "help on a node lists its attributes" has out "stroke_cap"
-check "… and no other node" [ "$(grep -c '^  !' out)" -eq 1 ]
+check "… and no other node" [ "$(grep -c '^!' out)" -eq 1 ]
 
 petri render
 check "render without a script is a usage error" status_is 2

@@ -4,36 +4,12 @@
 # usage: tests/view/terminal.sh PATH-OF-PETRI chafa|none
 # shellcheck source=tests/view/support.sh
 . "$(dirname "$0")/support.sh"
-
-[ "${2:-chafa}" = chafa ] || skip "petri was built without libchafa (Debian: libchafa-dev)"
-needs tmux tmux
-
-work=$(mktemp -d) || exit 1
-socket=petri-view-$$
-mux() { tmux -L "$socket" -f /dev/null "$@"; }
-trap 'mux kill-server 2>/dev/null; rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER TMUX NO_COLOR
-LC_ALL=C.UTF-8
-export LC_ALL
-
-screen() { mux capture-pane -p -t view; }
-tell_more() { screen | sed 's/^/  | /'; }
-type_keys() { mux send-keys -t view "$@"; }
-shows() { screen | grep -Fq -e "$1"; }
-hides() { ! shows "$1"; }
-# Cells of rows FROM to TO and columns FROM to TO (from 1) that are no blanks; `filled` or `clear`.
-part() { screen | sed -n "$1,$2p" | sed "s/^.\{0,$(($3 - 1))\}//" | cut_columns $(($4 - $3 + 1)) | tr -d ' \n'; }
-cut_columns() { sed "s/^\(.\{0,$1\}\).*/\1/"; }
-filled() { [ -n "$(part "$@")" ]; }
-clear_of() { [ -z "$(part "$@")" ]; }
-
-mux new-session -d -s view -x 80 -y 24 "PS1='ready: ' sh" || skip "tmux does not start"
-soon shows 'ready:' || skip "no shell under tmux"
+# shellcheck source=tests/view/tmux.sh
+. "$(dirname "$0")/tmux.sh"
 
 # start [options] SCRIPT: a view in the terminal; `status N` is on the screen when it has ended.
 start() {
+    wipe
     view="$petri view $* 2>err; code=\$?"
     type_keys "clear; echo before; stty -a >stty.before; $view; stty -a >stty.after; echo status \$code" Enter
 }
@@ -42,9 +18,6 @@ ended() {
     soon shows "status $1" && shows before && cmp -s stty.before stty.after &&
         [ "$(mux display-message -p -t view '#{alternate_on} #{cursor_flag} #{mouse_any_flag}')" = '0 1 0' ]
 }
-# A picture is there, on the other screen: before that it might be the command line that is seen.
-started() { soon seen && soon filled 1 24 1 80; }
-seen() { mux display-message -p -t view '#{alternate_on}#{cursor_flag}' | grep -q 10; }
 
 # Circles in the left half only. A picture of 640 by 384 fills 80 by 24 cells of 8 by 16.
 cat >left.fl <<'END'
@@ -144,10 +117,12 @@ start left.fl --frames 10
 check "--frames ends it" ended 0
 start left.fl --runtime 1 --lockstep
 check "--runtime ends it" ended 0
+wipe
 type_keys "clear; echo before; $petri view left.fl --frames 12; echo status \$?" Enter
 check "on the screen that is there again one line sums up" soon shows 'petri: 12 frames in '
 check "the rest of it is as before" soon shows 'before'
 check "and it ended well" soon shows 'status 0'
+wipe
 type_keys "clear; $petri view left.fl --frames 12 --quiet; echo status \$?" Enter
 check "not with --quiet" soon shows 'status 0'
 check "which says nothing" hides 'frames in'
@@ -162,8 +137,6 @@ done
 start left.fl
 started
 type_keys C-c
-soon shows 'ready:' # the shell gives up the rest of its line
-type_keys 'echo status $?; stty -a >stty.after' Enter
 check "Ctrl-C ends it" ended 130
 start left.fl
 started
@@ -174,6 +147,15 @@ check "fg goes on" soon seen
 check "with the picture" soon filled 1 24 1 38
 type_keys q
 soon shows 'left.fl'
+
+# A display that is not there, as an old ssh session leaves it: the terminal it is, and soon.
+for place in DISPLAY=:9999 DISPLAY=localhost:99.0 WAYLAND_DISPLAY=wayland-none; do
+    type_keys "clear; env XDG_RUNTIME_DIR=. $place $petri view left.fl 2>err; echo status \$?" Enter
+    check "with $place it is the terminal" started
+    check "which shows the picture" soon filled 22 24 1 38
+    type_keys q
+    check "q quits" soon shows 'status 0'
+done
 
 # Without a terminal there is nothing to show on.
 "$petri" view --terminal left.fl >out 2>err </dev/null

@@ -333,7 +333,22 @@ check "two scripts are one too many" [ $? -eq 2 ]
 check "no display and no terminal fails" [ $? -eq 1 ]
 check "with a message" has err "no display"
 DISPLAY=:9999 "$petri" view still.fl >out 2>err </dev/null
-check "a display that does not answer fails" [ $? -eq 1 ]
-check "with a message" has err "cannot open a window"
+check "a display that is not there fails" [ $? -eq 1 ]
+check "with a message" has err "cannot open a window: nothing answers at DISPLAY=:9999"
+# Without a driver that is chosen, SDL would open a window that nobody sees.
+unset SDL_VIDEODRIVER
+for place in DISPLAY=:9999 DISPLAY=localhost:99.0 DISPLAY=nonsense WAYLAND_DISPLAY=wayland-none; do
+    env -u DISPLAY XDG_RUNTIME_DIR=. "$place" timeout 60 "$petri" view still.fl >out 2>err </dev/null
+    check "$place fails" [ $? -eq 1 ]
+    check "and is named" has err "nothing answers at $place"
+done
+view still still.fl
+press q
+check "the display that is there needs no driver" ended 0
+kill -STOP "$server"
+timeout 60 "$petri" view still.fl >out 2>err </dev/null
+check "one that takes connections and never answers fails" [ $? -eq 1 ]
+kill -CONT "$server"
+check "with a message, too" has err "nothing answers at DISPLAY="
 
 finish

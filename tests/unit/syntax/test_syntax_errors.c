@@ -75,9 +75,10 @@ static void test_slips(void **state) {
         {"1..2..3", "1:5: unexpected '..'"},
         {"$", "1:2: unexpected end of line, expected an expression"},
         {"x\n    y\n  z", "3:3: this line's indentation matches none of the lines above"},
-        {"\ufeff"
-         "!a",
-         "1:1: byte-order mark: save the file as UTF-8 without one"},
+        {"!a\n\ufeff"
+         "!b",
+         "2:1: a byte-order mark (U+FEFF) can only begin a file"},
+        {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"}, // there it is left out
         {"!a\n\t!b\n    !c\n", "3:5: this line's indentation matches none of the lines above | a tab counts as eight "
                                "spaces: do not mix the two"},
         {"if x\n    !a (\nelse\n    !b )\n!c",
@@ -120,10 +121,13 @@ static void test_encoding(void **state) {
         Str text;
         const char *wanted;
     } rows[] = {
-        {{"!a\n!b \xff\n!c )", 12}, "2:4: the file is not valid UTF-8 | is this a text file?"},
-        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | is this a text file?"},
-        {{"'\xed\xa0\x80'", 5}, "1:2: the file is not valid UTF-8 | is this a text file?"},
-        {{"-- \xe2\x82", 5}, "1:4: the file is not valid UTF-8 | is this a text file?"},
+        {{"!a\n!b \xff\n!c )", 12},
+         "2:4: the file is not valid UTF-8 | the byte 0xFF cannot stand here: save the file as UTF-8"},
+        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | the byte 0xC0 cannot stand here: save the file as UTF-8"},
+        {{"'\xed\xa0\x80'", 5},
+         "1:2: the file is not valid UTF-8 | the byte 0xED cannot stand here: save the file as UTF-8"},
+        {{"-- \xe2\x82", 5},
+         "1:4: the file is not valid UTF-8 | the byte 0xE2 cannot stand here: save the file as UTF-8"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_text(rows[i].wanted, complaints(world, rows[i].text), rows[i].wanted);
