@@ -93,7 +93,7 @@ const OptionSpec RENDER_OPTION_SPECS[] = {
     {"frame", 0, OPT_FRAME, "N", "draw frame N (0 is the first); the last one if not given"},
     {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
-    {"every", 0, OPT_EVERY, "K", "draw each K-th frame, starting with frame 0"},
+    {"every", 0, OPT_EVERY, "K", "draw each K-th frame, starting with the first"},
     {"size", 0, OPT_SIZE, "WxH", "size of the picture in pixels (that of the script's window)"},
     {"scale", 0, OPT_SCALE, "S", "S pixels for each unit of the window's size (1)"},
     {"auto", 0, OPT_AUTO, NULL, "draw the particles themselves, not the script's own canvas"},

@@ -160,6 +160,7 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
                             .dimensions = system->dimensions,
                             .particle_count = count < listed ? count : listed,
                             .steps = system->steps,
+                            .began = system->began,
                             .slots = system->slots};
         return true;
     }

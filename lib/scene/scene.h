@@ -52,6 +52,7 @@ typedef struct SceneView {
     uint32_t dimensions;
     uint32_t particle_count;
     uint64_t steps; // made in the last update
+    bool began;     // it had simulated before that
     const StateSlot *slots;
 } SceneView;
 bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view);
