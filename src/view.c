@@ -11,6 +11,7 @@
 #include "display.h"
 #include "hints.h"
 #include "progress.h"
+#include "view_parameters.h"
 #include "view_world.h"
 
 // Seconds: the longest sleep (a saved script is seen after at most that); how long a notice stays; between two measures
@@ -63,6 +64,7 @@ typedef struct View {
     int height;
     char title[300];
     Event pointer; // the last that moved
+    ParameterKeys parameters;
 } View;
 
 static void set_notice(View *view, const char *text, double ends) {
@@ -89,6 +91,14 @@ static void update_trouble(View *view) {
     view->redraw = overlay_set(view->overlay.trouble, sizeof view->overlay.trouble, trouble) || view->redraw;
 }
 
+static void add_parameters(View *view, char *text, size_t size) {
+    Bytes more = {0};
+    size_t length = strlen(text);
+    parameter_status(&view->parameters, &view->world, &more);
+    snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
+    bytes_free(&more);
+}
+
 static void update_status(View *view) {
     char text[sizeof view->overlay.status] = "";
     if (view->shows_status) {
@@ -101,6 +111,7 @@ static void update_status(View *view) {
                  "s screenshot  h this  q quit",
                  view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
                  frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
+        add_parameters(view, text, sizeof text);
     }
     view->redraw = overlay_set(view->overlay.status, sizeof view->overlay.status, text) || view->redraw;
 }
@@ -228,6 +239,21 @@ static void reset(View *view) {
     notice(view, "reset");
 }
 
+// Keys for the script's parameters; what they do is seen at once.
+static void change_parameters(View *view, const char *key) {
+    Bytes text = {0};
+    ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
+    if (act != PARAMETER_OTHER) {
+        notice(view, "%s", text.data);
+        update_status(view);
+    }
+    if (act == PARAMETER_CHANGES) {
+        view->step_once = view->step_once || view->paused;
+        update_trouble(view);
+    }
+    bytes_free(&text);
+}
+
 static void obey(View *view, const char *key) {
     if (strcmp(key, "q") == 0 || strcmp(key, "escape") == 0) {
         view->closing = true;
@@ -246,6 +272,8 @@ static void obey(View *view, const char *key) {
     } else if (strcmp(key, "h") == 0) {
         view->shows_status = !view->shows_status;
         update_status(view);
+    } else {
+        change_parameters(view, key);
     }
 }
 
@@ -255,7 +283,8 @@ static void take_key(View *view, const Event *event) {
         return;
     }
     bool pressed = event->kind == EVENT_TAP || event->pressed;
-    if (pressed && !event->again && (event->control || !petri_key_bound(view->world.session, event->key))) {
+    bool repeated = event->again && !parameter_key_repeats(event->key);
+    if (pressed && !repeated && (event->control || !petri_key_bound(view->world.session, event->key))) {
         obey(view, event->key);
     }
     petri_key(view->world.session, event->key, pressed);
@@ -468,7 +497,9 @@ const Command VIEW_COMMAND = {
         "last good version goes on.\n"
         "\n"
         "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
-        "rate and clocks, q or Escape quits. Those that the script asks for by !key are the script's; with Control\n"
+        "rate and clocks, q or Escape quits. Tab or ] and [ choose a parameter of the script (petri help run), up and\n"
+        "down or + and - change it (page up and down: ten steps), 0 or backspace sets its default. Those that the "
+        "script asks for by !key are the script's; with Control\n"
         "they have the meaning above.",
     .options = VIEW_OPTION_SPECS,
     .run = view_run,

@@ -95,6 +95,81 @@ check "a key reaches the script" soon filled 21 24 72 80
 type_keys q
 check "q quits" ended 0
 
+# Parameters are chosen and changed, and the world goes on: what the script keeps of the key x stays.
+cat >dots.fl <<'END'
+let DOTS=DOTS or 2 -- 1..9 dots in a row
+    HIGH=HIGH or 0.5 -- 0.1..1|0.1 height
+    NAME=NAME or 'dots'
+!window size=640;384 title=NAME
+    !key name=:x state=:x
+    !key name=:page_up state=:up
+    !canvas
+        !rect size=640;384 color=0 fill=true
+        for i in ..DOTS
+            !rect point=16+64*i;16 size=32;320*HIGH color=1 stroke=true stroke_width=3
+        if $(:x;:toggled)
+            !rect point=600;340 size=30;30 color=1 stroke=true stroke_width=3
+        if $(:up;:toggled)
+            !rect point=540;340 size=30;30 color=1 stroke=true stroke_width=3
+END
+start dots.fl -D HIGH=0.3
+soon seen
+type_keys x
+check "two dots" soon filled 2 6 2 14
+check "and no third" soon clear_of 1 10 17 80
+check "and the mark" soon filled 21 24 75 80
+type_keys Up
+check "the first key tells what is chosen" soon shows 'DOTS = 2  (1..9)  dots in a row'
+check "and changes nothing" clear_of 1 10 17 80
+type_keys Up
+check "up changes it" soon shows 'DOTS = 3  (1..9, default 2)  dots in a row'
+check "which is seen" soon filled 2 6 18 22
+type_keys + =
+check "+ and = as well" soon shows 'DOTS = 5'
+check "what the world keeps is kept" filled 21 24 75 80
+type_keys Down -
+check "down and - go back" soon shows 'DOTS = 3'
+type_keys Space
+soon shows 'paused'
+type_keys Up
+check "while paused it is seen as well" soon filled 2 6 26 30
+type_keys Space
+type_keys BSpace
+check "backspace sets the default" soon shows 'DOTS = 2  (1..9)'
+check "which is seen, too" soon clear_of 1 10 17 80
+type_keys Tab
+check "Tab chooses the next" soon shows 'HIGH = 0.3  (0.1..1|0.1, default 0.5)  height'
+type_keys Up
+check "by steps of its own" soon shows 'HIGH = 0.4'
+type_keys NPage
+check "page down takes ten, and stays in the range" soon shows 'HIGH = 0.1 '
+type_keys ']' Up
+check "what is no number is not changed" soon shows "NAME = 'dots': keys change numbers only"
+type_keys '[' '['
+check "[ chooses the one before" soon shows 'DOTS = 2'
+type_keys PPage
+check "a key that the script asks for is the script's" soon filled 21 24 68 72
+check "and changes no parameter" shows 'DOTS = 2'
+type_keys Up
+soon shows 'DOTS = 3'
+cp dots.fl dots.saved
+sed 's/-- 1..9 dots/-- 1..20 spots/' dots.saved >dots.fl
+check "a saved script keeps what was set" soon shows 'loaded the changed script'
+type_keys h
+check "h shows it, and the keys" soon shows 'DOTS = 3  (1..20, default 2)  spots in a row'
+check "with theirs" shows 'tab parameter'
+type_keys 0
+check "0 sets the default" soon shows 'DOTS = 2  (1..20)'
+type_keys q
+check "q quits" ended 0
+check "nothing was said of all that" [ ! -s err ]
+start left.fl
+started
+type_keys Up
+check "a script without parameters has none" soon shows 'the script has no parameters'
+type_keys q
+check "q quits" ended 0
+
 # Mistakes are told over the picture, and the last good version goes on.
 start left.fl
 started
