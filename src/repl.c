@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "args.h"
+#include "parameters.h"
 #include "repl_line.h"
 #include "script.h"
 
@@ -118,6 +119,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     if (diagnostic->code != NULL && strcmp(diagnostic->code, "unread-definition") == 0) {
         return; // what is typed may read it
     }
+    repl->wrong_definition = repl->wrong_definition || is_wrong_definition(diagnostic);
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }
@@ -316,6 +318,9 @@ static int run_session(Repl *repl, const char *state) {
     repl->files = watch_new();
     catch_interrupt();
     start(repl, state);
+    if (repl->wrong_definition) {
+        return STATUS_USAGE;
+    }
     if (repl->terminal) {
         repl_say(repl, "petri %s; .help lists the commands, Ctrl-D leaves", petri_version());
     }

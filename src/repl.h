@@ -23,9 +23,10 @@ typedef struct Repl {
     int64_t limit; // frames that .run and .until make at the most
     bool terminal; // a person types and reads
     bool colour;
-    bool utf8;       // other characters than ASCII can be shown
-    bool failed;     // the input at hand was in error
-    bool any_failed; // some input was
+    bool utf8;             // other characters than ASCII can be shown
+    bool failed;           // the input at hand was in error
+    bool any_failed;       // some input was
+    bool wrong_definition; // the script cannot take a value that was set
     bool quit;
     bool incomplete;    // a step was interrupted: of the frame at hand only the state is there
     bool rates_changed; // .tempo or .fps was used since the script was loaded
