@@ -20,6 +20,7 @@ typedef struct OptionSpec {
 typedef struct Host {
     size_t stack_bytes;  // C stack that evaluation may use
     const char *program; // path of this program, from wherever it is started
+    const char *called;  // … as the user called it, for hints
 } Host;
 
 typedef struct Command {
@@ -38,6 +39,7 @@ extern const Command REPL_COMMAND;
 extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;
+extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 
 // The commands in the order of help, ended by NULL.

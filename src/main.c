@@ -13,10 +13,10 @@
 #include "pass_on.h"
 
 #ifdef PETRI_PICTURES
-const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,  &RENDER_COMMAND, &REPL_COMMAND,
-                                   &TEST_COMMAND, &CHECK_COMMAND, &HELP_COMMAND,   NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
+                                   &CHECK_COMMAND, &NEW_COMMAND,  &HELP_COMMAND,   NULL};
 #else // those that never draw
-const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND, NULL};
 #endif
 
 const Command *command_find(const char *name) {
@@ -147,6 +147,7 @@ int main(int argc, char **argv) {
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
+               .host.called = argc > 0 ? argv[0] : "petri",
                .argc = argc,
                .argv = argv,
                .status = STATUS_FAILED};

@@ -189,6 +189,13 @@ static void search_language(Search *search, const char *line, size_t length) {
     }
 }
 
+static void offer_parameters(Search *search) {
+    PetriParameter parameter;
+    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter) && parameter.settable; i++) {
+        offer(search, parameter.name);
+    }
+}
+
 static void offer_topics(Search *search) {
     offer_commands(search);
     offer_kinds(search, "!");
@@ -203,8 +210,9 @@ static void search_operand(Search *search, const char *line, size_t name, size_t
         const char *name;
         void (*offer)(Search *search);
     } rows[] = {
-        {".help", offer_topics},  {".load", offer_files},     {".save", offer_files}, {".restore", offer_files},
-        {".record", offer_files}, {".energy", offer_systems}, {".state", offer_keys}, {".particles", offer_systems},
+        {".help", offer_topics},   {".load", offer_files},        {".save", offer_files},
+        {".restore", offer_files}, {".record", offer_files},      {".energy", offer_systems},
+        {".state", offer_keys},    {".particles", offer_systems}, {".set", offer_parameters},
     };
     size_t start = name + strspn(line + name, " \t");
     search_from(search, line, start < length ? start : length, length);

@@ -42,6 +42,7 @@ enum {
     OPT_SCALE,
     OPT_AUTO,
     OPT_TERMINAL,
+    OPT_SHOW,
     OPT_PARAMETERS,
 };
 
@@ -75,6 +76,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
     WORLD_OPTIONS,
+    {"show", 0, OPT_SHOW, NULL, "on a terminal, show its picture there, if it has one and no text is asked for"},
     {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     {"profile", 0, OPT_PROFILE, NULL, "close with the time that each line of the script took, the slowest first"},
@@ -290,6 +292,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_PROFILE:
         options->profile = true;
+        return true;
+    case OPT_SHOW:
+        options->show = true;
         return true;
     case OPT_PARAMETERS:
         options->parameters = true;

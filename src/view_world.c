@@ -186,6 +186,17 @@ bool world_reload(World *world) {
     return true;
 }
 
+bool world_set_parameter(World *world, const char *name, const char *value) {
+    size_t before = world->trouble.length;
+    bool done = petri_set_parameter(world->session, name, value) == PETRI_OK;
+    if (done) {
+        world->halted = false;
+        cut_trouble(world, world->broken ? before : 0);
+    }
+    petri_hold(world->session);
+    return done;
+}
+
 void world_reset(World *world) {
     petri_clear(world->session);
     world->halted = false;

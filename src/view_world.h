@@ -40,6 +40,8 @@ bool world_step(World *world);
 // If files of the script have changed: loads it, keeping state and clock. True if there was an attempt; then
 // world->trouble tells whether it went well.
 bool world_reload(World *world);
+// Gives a parameter of the script another value, or its default if that is NULL, and goes on; false if it cannot be.
+bool world_set_parameter(World *world, const char *name, const char *value);
 // The last good program starts anew: without state, before frame 0.
 void world_reset(World *world);
 // What is wrong, "" if nothing is. Valid until the next call.

@@ -401,6 +401,8 @@ typedef struct PetriPrompted {
     uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
     uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
                     // are added to those of the script; they are written, too, as they are now
+    const char *hidden; // a name bound that the script's top level binds, too: the script goes on with its own; or
+                        // NULL. Valid until the next call
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.

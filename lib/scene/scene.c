@@ -38,6 +38,10 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+void scene_lint(Scene *scene) {
+    scene->schema.lint = true;
+}
+
 static void free_system(PhysicsSystem *system) {
     phys_free(system->engine);
     free(system->slots);

@@ -259,6 +259,39 @@ check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
 check "the state has where the pointer was" has out '$:mouse = 0.75'
 
+# Parameters: what is seen is what -D would give, but that the world goes on.
+cat >steps.fl <<'END'
+let PARTS=PARTS or 2 -- 1..7 parts
+    SHADE=SHADE or 0.5 -- 0.1..1|0.1
+!counter state=:c rate=0 initial=PARTS
+!window size=400;300 title='steps'
+    !canvas
+        !rect size=400;300 color=0 fill=true
+        for i in ..PARTS
+            !rect point=50*i;0 size=40;100 color=SHADE fill=true
+        !rect point=0;150 size=50*($:c);30 color=0;1;0 fill=true
+END
+view steps steps.fl
+check "two parts" point 70 50 808080
+check "no third" point 120 50 000000
+press Up
+check "the first key shows what is chosen" dark 384 284
+press Up
+check "up: a third" point 120 50 808080
+press plus KP_Add
+check "plus: a fourth and a fifth" point 220 50 808080
+check "the state stays" point 110 165 000000
+press minus
+check "minus takes one" point 220 50 000000
+press Tab Down
+check "another parameter by its own step" point 70 50 666666
+press bracketleft BackSpace
+check "its default again" point 120 50 000000
+check "the other one stays" point 70 50 666666
+press q
+check "all ends well" ended 0
+check "without a word" [ ! -s err ]
+
 # Saving the script: it is loaded anew, keeps state and clock; mistakes are shown, and the last good version goes on.
 cat >work.fl <<'END'
 !counter state=:c rate=0 initial=7
