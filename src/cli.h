@@ -20,6 +20,7 @@ typedef struct OptionSpec {
 typedef struct Host {
     size_t stack_bytes;  // C stack that evaluation may use
     const char *program; // path of this program, from wherever it is started
+    const char *called;  // … as the user called it, for hints
 } Host;
 
 typedef struct Command {

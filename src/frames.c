@@ -112,19 +112,19 @@ void frames_begin(Frames *frames) {
 }
 
 bool frames_due(const Frames *frames) {
-    if (interrupted || frames->done >= frames->options.frames) {
+    int64_t counted = frames->done - frames->early;
+    if (interrupted || counted >= frames->options.frames) {
         return false;
     }
     if (isnan(frames->options.run_time)) {
         return true;
     }
-    double time =
-        frames->options.realtime ? clock_seconds() - frames->start : (double)frames->done / frames_fps(frames);
+    double time = frames->options.realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
     return time < frames->options.run_time;
 }
 
 bool frames_step(Frames *frames) {
-    progress_update(&frames->progress, frames->done);
+    progress_update(&frames->progress, frames->done - frames->early);
     PetriStatus status = petri_step(frames->session);
     if (status != PETRI_OK) {
         progress_erase(&frames->progress);

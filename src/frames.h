@@ -13,6 +13,7 @@ typedef struct Frames {
     PetriSession *session;
     Progress progress;
     int64_t done;          // frames that were made
+    int64_t early;         // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
     double start;          // seconds of the monotonic clock
     double saved;          // when the state was saved last
     bool state_lost;       // the state file could not be read or written

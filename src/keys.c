@@ -12,10 +12,10 @@ const char *key_of_character(char character) {
         char character;
         const char *name;
     } signs[] = {
-        {' ', "space"},         {'\'', "apostrophe"},  {',', "comma"},  {'-', "minus"},        {'.', "period"},
-        {'/', "slash"},         {';', "semicolon"},    {'=', "equal"},  {'[', "left_bracket"}, {'\\', "backslash"},
-        {']', "right_bracket"}, {'`', "grave_accent"}, {'\r', "enter"}, {'\n', "enter"},       {'\t', "tab"},
-        {'\b', "backspace"},    {127, "backspace"},    {27, "escape"},
+        {' ', "space"}, {'\'', "apostrophe"},   {',', "comma"},        {'-', "minus"},        {'.', "period"},
+        {'/', "slash"}, {';', "semicolon"},     {'=', "equal"},        {'[', "left_bracket"}, {'\\', "backslash"},
+        {'+', "equal"}, {']', "right_bracket"}, {'`', "grave_accent"}, {'\r', "enter"},       {'\n', "enter"},
+        {'\t', "tab"},  {'\b', "backspace"},    {127, "backspace"},    {27, "escape"},
     };
     if (character >= 'a' && character <= 'z') {
         return letters[character - 'a'];

@@ -147,6 +147,7 @@ int main(int argc, char **argv) {
     signal(SIGXFSZ, SIG_IGN);
     char resolved[PATH_MAX];
     Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
+               .host.called = argc > 0 ? argv[0] : "petri",
                .argc = argc,
                .argv = argv,
                .status = STATUS_FAILED};

@@ -117,7 +117,8 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
 static void output_frame(Render *render) {
     const RunOptions *options = &render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
-    bool wanted = options->frame >= 0 ? number == options->frame : number % options->every == 0;
+    bool wanted =
+        options->frame >= 0 ? number == options->frame : (number - render->frames.early) % options->every == 0;
     if (wanted && render->kind == OUTPUT_FILM) {
         draw_frame(render, true, NULL);
     } else if (wanted && render->kind == OUTPUT_SERIES) {
@@ -127,6 +128,13 @@ static void output_frame(Render *render) {
     } else if (petri_records(render->frames.session)) {
         draw_frame(render, false, NULL);
     }
+}
+
+// The frames before particles are where they are (petri_picture_ready) are made, since what comes depends on them, but
+// neither drawn nor counted: a film does not begin with everything in one place. Files keep the numbers of their
+// frames, and whoever asks for a frame by its number gets it.
+static bool is_early(const Render *render) {
+    return render->frames.options.frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
 }
 
 // A single picture shows the last frame that there is.
@@ -190,7 +198,9 @@ static int render_frames(Render *render) {
     bool going = true;
     while (going && !render->failed && frames_due(frames)) {
         going = frames_step(frames);
-        if (going) {
+        if (going && is_early(render)) {
+            frames->early++;
+        } else if (going) {
             output_frame(render);
         }
         painting_tell(render->painting, frames->session);
@@ -241,9 +251,11 @@ const Command RENDER_COMMAND = {
     .details =
         "Draws what a script's !window holds, or its particles if it does not draw itself. OUT's suffix tells what is\n"
         "written: a picture of the last frame, or of one that is chosen; a picture of each frame, if the name has a\n"
-        "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard "
-        "output\n"
-        "when all is drawn: petri render dish.fl -o - --format gif >dish.gif",
+        "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard\n"
+        "output when all is drawn: petri render dish.fl -o - --format gif >dish.gif\n"
+        "\n"
+        "A script that draws what its !physics has stored finds nothing stored in frames 0 and 1. They are made, but\n"
+        "not drawn and not counted: the first picture is that of frame 2, and --frames 60 makes a film of 60 frames.",
     .options = RENDER_OPTION_SPECS,
     .run = render_run,
 };

@@ -15,6 +15,7 @@
 #include <unistd.h>
 
 #include "args.h"
+#include "parameters.h"
 #include "repl_line.h"
 #include "script.h"
 
@@ -118,6 +119,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     if (diagnostic->code != NULL && strcmp(diagnostic->code, "unread-definition") == 0) {
         return; // what is typed may read it
     }
+    repl->wrong_definition = repl->wrong_definition || is_wrong_definition(diagnostic);
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }
@@ -138,14 +140,24 @@ static void take_language(Repl *repl, const char *text, size_t length) {
     repl_status(repl, status);
 }
 
-void repl_take(Repl *repl, const char *text, size_t length) {
-    repl->failed = false;
+// What begins with a dot and is no number, or what people type without one.
+static void take_text(Repl *repl, const char *text, size_t length) {
+    Bytes remark = {0};
     size_t start = strspn(text, " \t");
     if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.') {
         repl_command(repl, text + start);
-    } else {
+    } else if (!bare_take(repl, text, &remark)) {
         take_language(repl, text, length);
     }
+    if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n")) != NULL)) {
+        repl_say(repl, "%s", remark.data);
+    }
+    bytes_free(&remark);
+}
+
+void repl_take(Repl *repl, const char *text, size_t length) {
+    repl->failed = false;
+    take_text(repl, text, length);
     repl->any_failed = repl->any_failed || repl->failed;
 }
 
@@ -158,8 +170,8 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
     }
 }
 
-static bool is_blank(const Bytes *line) {
-    return line->length == strspn(line->data, " \t");
+static bool is_blank(const char *line) {
+    return line[strspn(line, " \t\n")] == '\0';
 }
 
 // Does a line go on with the lines above it?
@@ -167,36 +179,53 @@ static bool goes_on(const char *line) {
     return line[0] == ' ' || line[0] == '\t' || strncmp(line, "else", 4) == 0 || strncmp(line, "elif", 4) == 0;
 }
 
+// Where the last line begins.
+static size_t last_line(const char *text, size_t length) {
+    size_t at = length > 0 ? length - 1 : 0;
+    while (at > 0 && text[at - 1] != '\n') {
+        at--;
+    }
+    return at;
+}
+
+bool repl_wants_more(Repl *repl, const char *text, size_t length, size_t *taken) {
+    size_t last = last_line(text, length);
+    *taken = length;
+    if (text[strspn(text, " \t")] == '.') {
+        return false;
+    }
+    PetriInput above = last == 0 ? PETRI_INPUT_PART : petri_input(repl->session, text, last);
+    if (above != PETRI_INPUT_PART && (is_blank(text + last) || !goes_on(text + last))) {
+        *taken = last;
+        return false;
+    }
+    return petri_input(repl->session, text, length) != PETRI_INPUT_WHOLE;
+}
+
 // Reads the lines that belong to the first. A line that does not is left in `next`.
 static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
-    for (;;) {
-        PetriInput need = petri_input(repl->session, text->data, text->length);
-        if (need == PETRI_INPUT_WHOLE) {
-            return LINE_READ;
-        }
+    size_t taken = 0;
+    while (repl_wants_more(repl, text->data, text->length, &taken)) {
         Bytes line = {0};
         LineStatus status = line_read(reader, "... ", &line);
-        bool suite = need != PETRI_INPUT_PART, ends = suite && (is_blank(&line) || !goes_on(line.data));
-        if (status == LINE_READ && !ends) {
-            bytes_add(text, line.data, line.length);
-            bytes_add(text, "\n", 1);
-        } else if (status == LINE_READ && !is_blank(&line)) {
-            bytes_add(next, line.data, line.length);
-        }
+        bytes_add(text, line.data, line.length);
         bytes_free(&line);
-        if (status != LINE_READ || ends) {
+        if (status != LINE_READ) {
             return status;
         }
+        bytes_add(text, "\n", 1);
     }
+    if (!is_blank(text->data + taken)) {
+        bytes_add(next, text->data + taken, text->length - taken - 1);
+    }
+    text->data[text->length = taken] = '\0';
+    return LINE_READ;
 }
 
 // One input: its first line is in `text`.
 static LineStatus handle(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
-    LineStatus status = LINE_READ;
     bytes_add(text, "\n", 1);
-    if (text->data[strspn(text->data, " \t")] != '.') {
-        status = read_rest(repl, reader, text, next);
-    }
+    LineStatus status = read_rest(repl, reader, text, next);
     if (status != LINE_INTERRUPTED) { // what the end of the input cuts off is tried as it is
         repl_take(repl, text->data, text->length);
     }
@@ -214,7 +243,7 @@ static void converse(Repl *repl) {
         make_prompt(repl, prompt, sizeof prompt);
         repl_notice(repl, false);
         status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
-        if (status == LINE_READ && !is_blank(&text)) {
+        if (status == LINE_READ && !is_blank(text.data)) {
             status = handle(repl, reader, &text, &next);
         }
         bytes_free(&text);
@@ -289,6 +318,9 @@ static int run_session(Repl *repl, const char *state) {
     repl->files = watch_new();
     catch_interrupt();
     start(repl, state);
+    if (repl->wrong_definition) {
+        return STATUS_USAGE;
+    }
     if (repl->terminal) {
         repl_say(repl, "petri %s; .help lists the commands, Ctrl-D leaves", petri_version());
     }

@@ -23,10 +23,12 @@ typedef struct Repl {
     int64_t limit; // frames that .run and .until make at the most
     bool terminal; // a person types and reads
     bool colour;
-    bool utf8;       // other characters than ASCII can be shown
-    bool failed;     // the input at hand was in error
-    bool any_failed; // some input was
+    bool utf8;             // other characters than ASCII can be shown
+    bool failed;           // the input at hand was in error
+    bool any_failed;       // some input was
+    bool wrong_definition; // the script cannot take a value that was set
     bool quit;
+    bool incomplete;    // a step was interrupted: of the frame at hand only the state is there
     bool rates_changed; // .tempo or .fps was used since the script was loaded
     bool record_fps;    // --fps was given: goldens must say so
     double fps;
@@ -42,6 +44,9 @@ __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *for
 bool repl_status(Repl *repl, PetriStatus status);
 // Takes one line or suite, which is not blank: a command or something of the language.
 void repl_take(Repl *repl, const char *text, size_t length);
+// Whether more lines are wanted after these, each ended. *taken is how much of them belongs together: the last line may
+// be no part of what is above it, or the empty one that ends it.
+bool repl_wants_more(Repl *repl, const char *text, size_t length, size_t *taken);
 // A PetriWrite to Bytes, and one to the output; `host` is the Bytes or the Repl.
 bool repl_collect(void *bytes, const char *text, size_t length);
 bool repl_write(void *repl, const char *text, size_t length);
@@ -74,6 +79,14 @@ typedef struct ReplCommand {
 extern const ReplCommand REPL_COMMANDS[]; // the last has no name
 void repl_command(Repl *repl, const char *line);
 
+// Commands without a dot (repl_bare.c).
+// `help`, `?`, `quit`, `exit`, `q`: true if the text was one of those and is done; also if it begins with the name of
+// another command, after a message. Where the word is a name of the script, the prompt or petri, the text is left to
+// the language, and a remark is for when that has failed or, with the words above, has shown its value.
+bool bare_take(Repl *repl, const char *text, Bytes *remark);
+// The command that such a word stands for, or NULL.
+const char *bare_alias(const char *name, size_t length);
+
 // Parameters (repl_parameters.c).
 bool repl_set(Repl *repl, const char *rest);
 bool repl_show_parameters(Repl *repl);
@@ -90,11 +103,14 @@ bool repl_walk(Repl *repl, const Walk *walk);
 // Writes the present frame's `@` line, what it logged and what is watched.
 void repl_show_frame(Repl *repl);
 bool repl_goto(Repl *repl, int64_t frame);
+// Makes the present frame again if Ctrl-C has taken away what it computed beside the state: the systems, the tree.
+void repl_complete_frame(Repl *repl);
 
-// Shows (repl_show.c, repl_picture.c, repl_plot.c, repl_help.c, repl_record.c).
-bool repl_show_state(Repl *repl, const char *prefix);
-bool repl_show_tree(Repl *repl, const char *kind);
-bool repl_show_particles(Repl *repl, const char *system);
+// Shows (repl_show.c, repl_particles.c, repl_picture.c, repl_plot.c, repl_help.c, repl_record.c).
+// Of long ones a screenful, or as many lines as a number or `all` at the end of the text says.
+bool repl_show_state(Repl *repl, const char *rest);
+bool repl_show_tree(Repl *repl, const char *rest);
+bool repl_show_particles(Repl *repl, const char *rest);
 bool repl_show_energy(Repl *repl, const char *rest);
 bool repl_show_picture(Repl *repl);
 bool repl_plot(Repl *repl, const char *rest);

@@ -21,7 +21,10 @@ static bool run_run(Repl *repl, const char *rest) {
     if (rest[0] == '\0') {
         return repl_walk(repl, &(Walk){.count = repl->limit, .limited = true});
     }
-    if (!petri_read_number(rest, &seconds) || !isfinite(seconds) || seconds < 0) {
+    if (!word_number(repl, rest, &seconds)) {
+        return false;
+    }
+    if (seconds < 0) {
         return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
     }
     double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
@@ -43,9 +46,33 @@ static bool run_until(Repl *repl, const char *rest) {
     return good;
 }
 
+// Adds what the first frame of the history is.
+static void add_start(const Repl *repl, Bytes *text) {
+    const char *why = repl->history.why;
+    if (why == NULL) {
+        bytes_format(text, "this is the start");
+    } else {
+        bytes_format(text, "the history begins here (%s)", why);
+    }
+}
+
 static bool run_back(Repl *repl, const char *rest) {
-    int64_t count = 1;
-    return word_count(repl, rest, 1, &count) && repl_goto(repl, petri_frame(repl->session).number - count);
+    int64_t count = 1, ago = petri_frame(repl->session).number - repl->history.first;
+    if (!word_count(repl, rest, 1, &count)) {
+        return false;
+    }
+    if (count <= ago) {
+        return repl_goto(repl, petri_frame(repl->session).number - count);
+    }
+    Bytes start = {0};
+    add_start(repl, &start);
+    if (ago > 0) {
+        repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
+    } else {
+        repl_fail(repl, "there is nothing to go back to: %s", start.data);
+    }
+    bytes_free(&start);
+    return ago > 0 && repl_goto(repl, repl->history.first);
 }
 
 static bool run_go(Repl *repl, const char *rest) {
@@ -148,8 +175,7 @@ static void show_number(Repl *repl, const char *name, double value) {
 }
 
 static bool read_rate(Repl *repl, const char *rest, double *value) {
-    return (petri_read_number(rest, value) && isfinite(*value) && *value > 0) ||
-           repl_fail(repl, "'%s' is no number above 0", rest);
+    return word_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
 }
 
 static bool run_tempo(Repl *repl, const char *rest) {
@@ -288,8 +314,9 @@ void repl_command(Repl *repl, const char *line) {
     size_t length = strcspn(line, " \t\n");
     char *name = memory_copied(line, length);
     char *rest = word_trimmed(line + length);
+    const char *alias = bare_alias(name + 1, length - 1); // .exit, .q
     const ReplCommand *command = REPL_COMMANDS;
-    while (command->name != NULL && strcmp(command->name, name) != 0) {
+    while (command->name != NULL && strcmp(command->name, alias != NULL ? alias : name) != 0) {
         command++;
     }
     if (command->name == NULL) {

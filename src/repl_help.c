@@ -20,9 +20,11 @@ static void list_commands(Repl *repl) {
     table_free(&table);
     output_format(
         &repl->output,
-        "Anything else is of the language. The value of an expression is printed; let, func, import and nodes\n"
-        "stay. Lines indented below the first belong to it; an empty line ends them. Ctrl-C stops what is\n"
-        "being done. Try .help builtins, .help nodes, .help !particle, .help polar.\n");
+        "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of an expression\n"
+        "is printed; let, func, import and nodes stay. Lines indented below the first belong to it, and Up goes back "
+        "to\n"
+        "them; an empty line ends them. Ctrl-C stops what is being done. Try .help builtins, .help nodes,\n"
+        ".help !particle, .help polar, .help tempo.\n");
 }
 
 static void list_builtins(Repl *repl) {

@@ -212,6 +212,32 @@ PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t fr
     return status;
 }
 
+static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t setup, int64_t frame) {
+    PetriSnapshot *present = petri_snapshot(session);
+    if (present == NULL) {
+        return PETRI_MEMORY;
+    }
+    PetriStatus status = replay(session, from, setup, frame);
+    if (status != PETRI_OK) {
+        petri_rewind(session, present);
+    }
+    petri_snapshot_free(present);
+    return status;
+}
+
+PetriStatus history_remake(ReplHistory *history, PetriSession *session) {
+    int64_t frame = petri_frame(session).number;
+    const Keyframe *from = frame <= history->first || frame > history->last ? NULL : keyframe_before(history, frame);
+    PetriSetup *setup = petri_setup(session);
+    PetriStatus status = setup == NULL ? PETRI_MEMORY : PETRI_OK;
+    if (status == PETRI_OK && from != NULL) {
+        status = remake(from, session, epoch_of(history, frame)->setup, frame);
+        petri_setup_use(session, setup);
+    }
+    petri_setup_free(setup);
+    return status;
+}
+
 PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
     PetriSetup *setup = petri_setup(session);
     PetriStatus status = setup == NULL ? PETRI_MEMORY : petri_rewind(session, history->origin);

@@ -52,6 +52,10 @@ PetriStatus history_step(ReplHistory *history, PetriSession *session);
 // Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
 // again. PETRI_INTERRUPTED in some frame on the way. The setup stays.
 PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why);
+// Makes the present frame again, with its systems and its tree, from the keyframe before it. The first one of the
+// timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_MEMORY change
+// nothing.
+PetriStatus history_remake(ReplHistory *history, PetriSession *session);
 // Goes to where the timeline began, even if that was dropped since. The setup stays.
 PetriStatus history_reset(ReplHistory *history, PetriSession *session);
 

@@ -59,6 +59,7 @@ bool repl_show_picture(Repl *repl) {
     }
     PetriPictureOptions options = petri_default_picture_options();
     PetriPicture *picture = NULL;
+    repl_complete_frame(repl);
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
     if (status == PETRI_OK) {

@@ -4,7 +4,8 @@
 
 #include "bytes.h"
 
-enum { SAVED_MOST = 2000 }; // lines that are kept
+enum { SAVED_MOST = 2000 };       // lines that are kept
+enum { SAVED_LINE_END = '\036' }; // stands for the line ends in a block, which is one line of the file
 
 // Reads the lines, oldest first, each ended; nothing if there are none.
 void saved_read(Bytes *lines);

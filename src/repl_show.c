@@ -1,12 +1,12 @@
-// repl_show.c: what a frame holds, as text: state, nodes, particles, energies.
-#include <inttypes.h>
-#include <math.h>
-#include <stdio.h>
+// repl_show.c: what a frame holds, as text: state and nodes.
+#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "repl.h"
-#include "repl_table.h"
+#include "repl_words.h"
+
+enum { AROUND = 3 }; // lines of the screen that a long output leaves: the command, the closing line, the prompt
 
 // Text that comes in pieces, cut into lines for a filter.
 typedef struct Filter {
@@ -14,6 +14,8 @@ typedef struct Filter {
     const char *wanted;
     size_t depth; // of the node whose subtree is being written, SIZE_MAX outside
     size_t found;
+    size_t lines; // that were to be written, of which the first `most` are
+    size_t most;
     bool header; // the `@` line is still to come
     Bytes line;
     void (*take)(struct Filter *filter, const char *line, size_t length);
@@ -50,6 +52,20 @@ static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
     return filter->found;
 }
 
+static void write_line(Filter *filter, const char *line, size_t length) {
+    if (filter->lines++ < filter->most) {
+        output_write(&filter->repl->output, line, length);
+    }
+}
+
+// What was left out, and how it is seen: `asked` is what was typed, without a number of lines.
+static void tell_rest(const Filter *filter, const char *command, const char *asked) {
+    if (filter->lines > filter->most) {
+        repl_say(filter->repl, "%zu more lines; %s%s%s all shows all", filter->lines - filter->most, command,
+                 asked[0] == '\0' ? "" : " ", asked);
+    }
+}
+
 // `$:cells = …` and `$(:cells;0) = …` are both under `:cells`, and under `$:cells`, `(:cells)` and `cells` as well.
 static void take_entry(Filter *filter, const char *line, size_t length) {
     const char *key = line + 1 + (line[1] == '(');
@@ -59,23 +75,29 @@ static void take_entry(Filter *filter, const char *line, size_t length) {
                                  (key[wanted] == ';' || key[wanted] == ')' || key[wanted] == ' '));
     if (under) {
         filter->found++;
-        output_write(&filter->repl->output, line, length);
+        write_line(filter, line, length);
     }
 }
 
-bool repl_show_state(Repl *repl, const char *prefix) {
-    prefix += prefix[0] == '$';
+bool repl_show_state(Repl *repl, const char *rest) {
+    char *asked = memory_copied(rest, strlen(rest));
+    // A number alone is a key.
+    size_t most = strpbrk(asked, " \t") != NULL || strcmp(asked, "all") == 0 ? word_lines(repl, asked, AROUND)
+                                                                             : word_lines(repl, (char[]){""}, AROUND);
+    const char *prefix = asked + (asked[0] == '$');
     bool enclosed = prefix[0] == '(';
     char *wanted = memory_copied(prefix + enclosed, strlen(prefix + enclosed));
     size_t length = strlen(wanted);
     if (enclosed && length > 0 && wanted[length - 1] == ')') {
         wanted[length - 1] = '\0';
     }
-    Filter filter = {.wanted = wanted, .take = take_entry};
+    Filter filter = {.wanted = wanted, .take = take_entry, .most = most};
     if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0) {
         repl_say(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
     }
+    tell_rest(&filter, ".state", asked);
     free(wanted);
+    free(asked);
     return true;
 }
 
@@ -89,154 +111,30 @@ static void take_node(Filter *filter, const char *line, size_t length) {
     }
     if (filter->depth != SIZE_MAX) {
         size_t cut = wanted == 0 ? 0 : filter->depth;
-        output_write(&filter->repl->output, line + cut, length - cut);
+        write_line(filter, line + cut, length - cut);
     }
 }
 
-bool repl_show_tree(Repl *repl, const char *kind) {
-    kind += kind[0] == '!';
+static bool show_tree(Repl *repl, const char *asked, size_t most) {
+    const char *kind = asked + (asked[0] == '!');
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
     repl_idle(repl);
     if (!repl_status(repl, status)) {
         return false;
     }
-    Filter filter = {.wanted = kind, .take = take_node};
+    Filter filter = {.wanted = kind, .take = take_node, .most = most};
     if (print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0) {
         repl_say(repl, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
     }
+    tell_rest(&filter, ".tree", asked);
     return true;
 }
 
-static bool is_meant(const char *name, const char *wanted) {
-    return wanted[0] == '\0' || strcmp(name, wanted) == 0 || (name[0] == ':' && strcmp(name + 1, wanted) == 0);
-}
-
-// Calls `show` for each system that is meant.
-static bool each_system(Repl *repl, const char *wanted, void (*show)(Repl *, size_t, const PetriSystem *)) {
-    PetriSystem system;
-    size_t count = 0, shown = 0;
-    for (; petri_system(repl->session, count, &system); count++) {
-        char *name = memory_copied(system.name, strlen(system.name)); // the next call takes it
-        system.name = name;
-        if (is_meant(name, wanted)) {
-            show(repl, count, &system);
-            shown++;
-        }
-        free(name);
-    }
-    if (count == 0) {
-        repl_say(repl, "no particle system was updated in this frame");
-    } else if (shown == 0) {
-        return repl_fail(repl, "there is no system '%.40s'", wanted);
-    }
-    return true;
-}
-
-static void add_vector(Table *table, const double *vector, uint32_t dimensions) {
-    char number[40];
-    Bytes cell = {0};
-    for (uint32_t k = 0; k < dimensions && vector != NULL; k++) {
-        snprintf(number, sizeof number, "%s%.6g", k == 0 ? "" : ";", vector[k]);
-        bytes_add(&cell, number, strlen(number));
-    }
-    table_add(table, vector == NULL ? "-" : cell.data);
-    bytes_free(&cell);
-}
-
-static void add_number(Table *table, double x) {
-    add_vector(table, &x, 1);
-}
-
-static double speed_of(const PetriParticle *particle, uint32_t dimensions) {
-    double sum = 0;
-    for (uint32_t k = 0; k < dimensions; k++) {
-        sum += particle->velocity[k] * particle->velocity[k];
-    }
-    return sqrt(sum);
-}
-
-static uint32_t count_anchors(const Repl *repl, size_t number) {
-    PetriParticle particle;
-    uint32_t anchors = 0;
-    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
-        anchors += particle.anchor;
-    }
-    return anchors;
-}
-
-static void show_particles(Repl *repl, size_t number, const PetriSystem *system) {
-    Table table = table_new(5);
-    PetriParticle particle;
-    uint32_t anchors = count_anchors(repl, number), moving = system->particle_count - anchors;
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
-    if (anchors > 0) {
-        output_format(&repl->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
-    }
-    output_write(&repl->output, "\n", 1);
-    const char *const heads[] = {"id", "position", "velocity", "speed", "force"};
-    for (size_t i = 0; i < 5; i++) {
-        table_add(&table, heads[i]);
-    }
-    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
-        table_add(&table, particle.id);
-        add_vector(&table, particle.position, system->dimensions);
-        add_vector(&table, particle.velocity, system->dimensions);
-        add_number(&table, speed_of(&particle, system->dimensions));
-        if (particle.anchor) {
-            table_add(&table, "anchor");
-        } else {
-            add_vector(&table, particle.force, system->dimensions);
-        }
-    }
-    table_write(&table, &repl->output);
-    table_free(&table);
-}
-
-bool repl_show_particles(Repl *repl, const char *wanted) {
-    return each_system(repl, wanted, show_particles);
-}
-
-static void show_energy(Repl *repl, size_t number, const PetriSystem *system) {
-    PetriParticle particle;
-    double *momentum = memory_zeroed(system->dimensions * sizeof *momentum);
-    double energy = 0, fastest = -1;
-    uint32_t moving = 0;
-    Bytes id = {0};
-    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
-        if (particle.anchor) {
-            continue;
-        }
-        double speed = speed_of(&particle, system->dimensions);
-        moving++;
-        energy += 0.5 * particle.mass * speed * speed;
-        for (uint32_t k = 0; k < system->dimensions; k++) {
-            momentum[k] += particle.mass * particle.velocity[k];
-        }
-        if (speed > fastest) {
-            fastest = speed;
-            id.length = 0;
-            bytes_add(&id, particle.id, strlen(particle.id));
-        }
-    }
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, moving,
-                  moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
-    if (moving > 0) {
-        Table table = table_new(2);
-        table_add(&table, "  kinetic energy");
-        add_number(&table, energy);
-        table_add(&table, "  momentum");
-        add_vector(&table, momentum, system->dimensions);
-        table_add(&table, "  fastest");
-        bytes_format(&id, " at %.6g", fastest);
-        table_add(&table, id.data);
-        table_write(&table, &repl->output);
-        table_free(&table);
-    }
-    bytes_free(&id);
-    free(momentum);
-}
-
-bool repl_show_energy(Repl *repl, const char *wanted) {
-    return each_system(repl, wanted, show_energy);
+bool repl_show_tree(Repl *repl, const char *rest) {
+    char *asked = memory_copied(rest, strlen(rest));
+    size_t most = word_lines(repl, asked, AROUND);
+    bool good = show_tree(repl, asked, most);
+    free(asked);
+    return good;
 }

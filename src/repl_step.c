@@ -68,6 +68,7 @@ static Outcome one_step(Repl *repl, const Walk *walk) {
 }
 
 static void conclude(Repl *repl, const Walk *walk, int64_t made, Outcome outcome) {
+    repl->incomplete = repl_interrupted();
     if (repl_interrupted()) {
         repl_fail(repl, "interrupted after %" PRId64 " frame%s", made, made == 1 ? "" : "s");
     } else if (outcome == GOING && walk->until != NULL) {
@@ -106,6 +107,17 @@ bool repl_walk(Repl *repl, const Walk *walk) {
     return !repl->failed;
 }
 
+void repl_complete_frame(Repl *repl) {
+    if (!repl->incomplete) {
+        return;
+    }
+    repl_busy(repl);
+    PetriStatus status = history_remake(&repl->history, repl->session);
+    repl_idle(repl);
+    repl->incomplete = status != PETRI_OK;
+    repl_status(repl, status);
+}
+
 // Within the timeline at one go, beyond it by steps that show how far it is.
 static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
     int64_t last = repl->history.last, made = 0;
@@ -127,6 +139,7 @@ bool repl_goto(Repl *repl, int64_t frame) {
     repl_busy(repl);
     PetriStatus status = go(repl, frame, &why);
     bool stopped = repl_idle(repl);
+    repl->incomplete = stopped;
     if (stopped) {
         repl_fail(repl, "interrupted");
     } else if (status == PETRI_INVALID) {

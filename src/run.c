@@ -7,13 +7,16 @@
 
 #include "bytes.h"
 #include "frames.h"
+#include "hints.h"
 #include "output.h"
 #include "parameters.h"
 #include "script.h"
+#include "show.h"
 #include "stats.h"
 #include "trajectory.h"
 
 typedef struct Run {
+    const Host *host;
     Frames frames;
     bool to_terminal; // standard output is a terminal
     Stats stats;
@@ -107,8 +110,7 @@ static void report_pictures(const Run *run) {
         script_is_stdin(options->script)) {
         return;
     }
-    message("to see it: petri view %s", options->script);
-    message("to keep a picture of it: petri render %s -o OUT.png (or OUT.mp4)", options->script);
+    hint_pictures(run->host, options->script);
 }
 
 static void report_summary(Run *run) {
@@ -183,7 +185,11 @@ static int run_run(const Host *host, int argc, char **argv) {
     }
     output_start(&run->output, STDOUT_FILENO);
     run->to_terminal = isatty(STDOUT_FILENO);
+    run->host = host;
     int status = frames_open(&run->frames, &RUN_COMMAND, host, argc, argv);
+    if (status == RUN_OPTIONS_OK && show_wanted(&run->frames.options, argc, argv)) {
+        show(&run->frames.options, host, argc, argv);
+    }
     if (status == RUN_OPTIONS_OK) {
         status = output_finish(&run->output, run_session(run));
     }

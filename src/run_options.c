@@ -42,6 +42,7 @@ enum {
     OPT_SCALE,
     OPT_AUTO,
     OPT_TERMINAL,
+    OPT_SHOW,
     OPT_PARAMETERS,
 };
 
@@ -75,6 +76,7 @@ const OptionSpec RUN_OPTION_SPECS[] = {
      "print tree, state, log, error (any of them, with commas); logs alone if not given"},
     {"every", 0, OPT_EVERY, "K", "print and record each K-th frame, starting with frame 0"},
     WORLD_OPTIONS,
+    {"show", 0, OPT_SHOW, NULL, "on a terminal, show its picture there, if it has one and no text is asked for"},
     {"stats", 0, OPT_STATS, NULL, "close with a table of times, speeds and each system's energy"},
     {"trajectory", 0, OPT_TRAJECTORY, "FILE", "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv"},
     {"profile", 0, OPT_PROFILE, NULL, "close with the time that each line of the script took, the slowest first"},
@@ -91,7 +93,7 @@ const OptionSpec RENDER_OPTION_SPECS[] = {
     {"frame", 0, OPT_FRAME, "N", "draw frame N (0 is the first); the last one if not given"},
     {"frames", 0, OPT_FRAMES, "N", "stop after N frames (600 if neither this nor --runtime is given)"},
     {"runtime", 0, OPT_RUNTIME, "T", "stop after T seconds, or a time code (m:s, h:m:s)"},
-    {"every", 0, OPT_EVERY, "K", "draw each K-th frame, starting with frame 0"},
+    {"every", 0, OPT_EVERY, "K", "draw each K-th frame, starting with the first"},
     {"size", 0, OPT_SIZE, "WxH", "size of the picture in pixels (that of the script's window)"},
     {"scale", 0, OPT_SCALE, "S", "S pixels for each unit of the window's size (1)"},
     {"auto", 0, OPT_AUTO, NULL, "draw the particles themselves, not the script's own canvas"},
@@ -290,6 +292,9 @@ static bool apply_flag(int id, RunOptions *options) {
         return true;
     case OPT_PROFILE:
         options->profile = true;
+        return true;
+    case OPT_SHOW:
+        options->show = true;
         return true;
     case OPT_PARAMETERS:
         options->parameters = true;

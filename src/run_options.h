@@ -27,6 +27,7 @@ typedef struct RunOptions {
     bool profile;
     const char *state_file; // NULL: the state is neither taken from a file nor kept in one
     int dump;               // PetriDump, or -1
+    bool show;              // run: in the terminal, if somebody watches
     bool parameters;        // they are listed, and nothing is run
     bool stats;
     const char *trajectory; // NULL: none is written

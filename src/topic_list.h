@@ -29,6 +29,7 @@ TOPIC("inf",         "inf",                      "the number beyond all others")
 TOPIC("nan",         "nan",                      "no number, such as inf-inf")
 // Words of the language.
 TOPIC("let",         "let NAME=EXPR NAME=EXPR ...", "gives names to values, for the lines below")
+TOPIC("parameters",  "let NAME=NAME or VALUE -- 1..9 text", "what -D, .set and petri view can set; --parameters lists them")
 TOPIC("where",       "EXPR where NAME=EXPR",     "gives names to values, for one expression")
 TOPIC("func",        "func NAME(A, B=DEFAULT)",  "makes a function of the indented lines below it; what they yield is its value")
 TOPIC("for",         "for NAME in VECTOR",       "repeats the indented lines below it; also EXPR for NAME in VECTOR")

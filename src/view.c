@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include "display.h"
+#include "hints.h"
 #include "progress.h"
+#include "view_parameters.h"
 #include "view_world.h"
 
 // Seconds: the longest sleep (a saved script is seen after at most that); how long a notice stays; between two measures
@@ -35,6 +37,7 @@ static void catch_interrupts(void) {
 }
 
 typedef struct View {
+    const Host *host;
     World world;
     const DisplayKind *kind;
     Display *display;
@@ -61,6 +64,7 @@ typedef struct View {
     int height;
     char title[300];
     Event pointer; // the last that moved
+    ParameterKeys parameters;
 } View;
 
 static void set_notice(View *view, const char *text, double ends) {
@@ -87,6 +91,14 @@ static void update_trouble(View *view) {
     view->redraw = overlay_set(view->overlay.trouble, sizeof view->overlay.trouble, trouble) || view->redraw;
 }
 
+static void add_parameters(View *view, char *text, size_t size) {
+    Bytes more = {0};
+    size_t length = strlen(text);
+    parameter_status(&view->parameters, &view->world, &more);
+    snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
+    bytes_free(&more);
+}
+
 static void update_status(View *view) {
     char text[sizeof view->overlay.status] = "";
     if (view->shows_status) {
@@ -99,6 +111,7 @@ static void update_status(View *view) {
                  "s screenshot  h this  q quit",
                  view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
                  frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
+        add_parameters(view, text, sizeof text);
     }
     view->redraw = overlay_set(view->overlay.status, sizeof view->overlay.status, text) || view->redraw;
 }
@@ -137,8 +150,8 @@ static void follow_script(View *view) {
 }
 
 static void step(View *view) {
-    view->step_once = false;
     world_step(&view->world);
+    view->step_once = view->paused && view->world.early; // what is not seen is no step
     follow_script(view);
     update_trouble(view);
     if (view->paused) {
@@ -226,6 +239,21 @@ static void reset(View *view) {
     notice(view, "reset");
 }
 
+// Keys for the script's parameters; what they do is seen at once.
+static void change_parameters(View *view, const char *key) {
+    Bytes text = {0};
+    ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
+    if (act != PARAMETER_OTHER) {
+        notice(view, "%s", text.data);
+        update_status(view);
+    }
+    if (act == PARAMETER_CHANGES) {
+        view->step_once = view->step_once || view->paused;
+        update_trouble(view);
+    }
+    bytes_free(&text);
+}
+
 static void obey(View *view, const char *key) {
     if (strcmp(key, "q") == 0 || strcmp(key, "escape") == 0) {
         view->closing = true;
@@ -244,6 +272,8 @@ static void obey(View *view, const char *key) {
     } else if (strcmp(key, "h") == 0) {
         view->shows_status = !view->shows_status;
         update_status(view);
+    } else {
+        change_parameters(view, key);
     }
 }
 
@@ -253,7 +283,8 @@ static void take_key(View *view, const Event *event) {
         return;
     }
     bool pressed = event->kind == EVENT_TAP || event->pressed;
-    if (pressed && !event->again && (event->control || !petri_key_bound(view->world.session, event->key))) {
+    bool repeated = event->again && !parameter_key_repeats(event->key);
+    if (pressed && !repeated && (event->control || !petri_key_bound(view->world.session, event->key))) {
         obey(view, event->key);
     }
     petri_key(view->world.session, event->key, pressed);
@@ -324,7 +355,7 @@ static void draw(View *view) {
         return;
     }
     PetriStatus status = PETRI_INVALID;
-    if (view->world.picture != NULL) {
+    if (view->world.picture != NULL && !view->world.unseen) {
         status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
                                     (size_t)width * sizeof *view->pixels);
         petri_picture_tell(view->world.session, view->world.picture);
@@ -403,6 +434,11 @@ static void report_summary(const View *view) {
         message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
     }
+    if (view->world.options.terminal && verbosity == LOG_VERBOSE) {
+        hint_pictures(view->host, view->world.options.script);
+    } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
+        message("it was shown in the terminal, for this petri was built without SDL; './dev build' has windows");
+    }
 }
 
 static int run_view(View *view) {
@@ -435,6 +471,7 @@ static int run_view(View *view) {
 
 static int view_run(const Host *host, int argc, char **argv) {
     View *view = memory_zeroed(sizeof *view);
+    view->host = host;
     int status = run_options_read(&view->world.options, &VIEW_COMMAND, argc, argv);
     if (status == RUN_OPTIONS_OK) {
         status = world_open(&view->world, host);
@@ -460,7 +497,9 @@ const Command VIEW_COMMAND = {
         "last good version goes on.\n"
         "\n"
         "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
-        "rate and clocks, q or Escape quits. Those that the script asks for by !key are the script's; with Control\n"
+        "rate and clocks, q or Escape quits. Tab or ] and [ choose a parameter of the script (petri help run), up and\n"
+        "down or + and - change it (page up and down: ten steps), 0 or backspace sets its default. Those that the "
+        "script asks for by !key are the script's; with Control\n"
         "they have the meaning above.",
     .options = VIEW_OPTION_SPECS,
     .run = view_run,

@@ -125,11 +125,17 @@ static void record(World *world) {
     }
 }
 
+// Of an early frame, unless there is a picture that can stay for so long, only the size is wanted.
 static void take_picture(World *world) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = world->options.automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    world->early = !petri_picture_ready(world->session, &options);
+    if (world->early && world->picture != NULL) {
+        return;
+    }
+    world->unseen = world->early;
     petri_picture_free(&world->picture);
-    if (petri_picture(world->session, &options, &world->picture) == PETRI_OK) {
+    if (petri_picture(world->session, &options, &world->picture) == PETRI_OK && !world->early) {
         record(world);
         petri_picture_tell(world->session, world->picture);
     }
@@ -150,9 +156,9 @@ bool world_step(World *world) {
         world->halted = true;
         return false;
     }
-    world->frames++;
     watch_sources(world); // modules are imported by frames
     take_picture(world);
+    world->frames += world->early ? 0 : 1;
     cut_trouble(world, before); // faults of a frame that went on are told on standard error, as in a run
     if (world->options.verbosity >= LOG_DEBUG) {
         char line[200];
@@ -180,6 +186,17 @@ bool world_reload(World *world) {
     return true;
 }
 
+bool world_set_parameter(World *world, const char *name, const char *value) {
+    size_t before = world->trouble.length;
+    bool done = petri_set_parameter(world->session, name, value) == PETRI_OK;
+    if (done) {
+        world->halted = false;
+        cut_trouble(world, world->broken ? before : 0);
+    }
+    petri_hold(world->session);
+    return done;
+}
+
 void world_reset(World *world) {
     petri_clear(world->session);
     world->halted = false;
@@ -200,7 +217,7 @@ static void base_name(const char *script, char *name, size_t size) {
 
 bool world_screenshot(World *world, char *name, size_t size) {
     char base[200];
-    if (world->picture == NULL) {
+    if (world->picture == NULL || world->unseen) {
         snprintf(name, size, "a picture, for there is none");
         return false;
     }

@@ -17,7 +17,9 @@ typedef struct World {
     PetriPainter *painter;
     PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
     Watch *watch;
-    int64_t frames; // made since the view was opened
+    int64_t frames; // made since the view was opened, without early ones
+    bool early;     // the last frame could not show particles where they are (petri_picture_ready)
+    bool unseen;    // `picture` is of an early frame: it tells its size and is not shown
     bool halted;    // a frame could not be made; the next load or reset goes on
     bool broken;    // the script on disk cannot be loaded; an earlier version is running
     bool failed;    // something could not be read, written or recorded
@@ -38,6 +40,8 @@ bool world_step(World *world);
 // If files of the script have changed: loads it, keeping state and clock. True if there was an attempt; then
 // world->trouble tells whether it went well.
 bool world_reload(World *world);
+// Gives a parameter of the script another value, or its default if that is NULL, and goes on; false if it cannot be.
+bool world_set_parameter(World *world, const char *name, const char *value);
 // The last good program starts anew: without state, before frame 0.
 void world_reset(World *world);
 // What is wrong, "" if nothing is. Valid until the next call.

@@ -109,6 +109,12 @@ static void report_attr(const Reader *reader, const char *code, const Symbol *at
     report(reader, node_place(reader->node, attr), code, attr->name, text);
 }
 
+static void add_hex(Text *out, Str text) {
+    Text colour = text_new(out->arena);
+    if (text_add_hex_colour(&colour, text))
+        text_add_format(out, ", did you mean %.*s?", (int)colour.len, colour.bytes);
+}
+
 // "attribute should be …, not …".
 static void report_shape(const Reader *reader, const Row *row, Value found) {
     Text out = text_new(reader->arena);
@@ -117,6 +123,8 @@ static void report_shape(const Reader *reader, const Row *row, Value found) {
         format_value(&out, reader->schema->symbols, found);
     else
         text_add_format(&out, "%u elements", found.len);
+    if (row->type == TYPE_COLOR && found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING)
+        add_hex(&out, found.as.items[0].as.string->text);
     report_attr(reader, "bad-attribute", reader->schema->names[row->name], text_str(&out));
 }
 
@@ -178,6 +186,24 @@ static bool read_word(const Reader *reader, Value v, DrawType type, int *word) {
     return false;
 }
 
+// Colours of bytes: whole numbers, of which one is far beyond white.
+static void lint_colour(const Reader *reader, const Row *row, Value v) {
+    const double *numbers = value_numbers(&v);
+    double most = 0;
+    for (uint32_t i = 0; i < v.len && i < 3; i++) {
+        if (numbers[i] != floor(numbers[i]))
+            return;
+        most = fmax(most, numbers[i]);
+    }
+    if (most < 2)
+        return;
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s=", names[row->name]);
+    format_value(&out, reader->schema->symbols, v);
+    text_add_c(&out, " is beyond white, which is 1;1;1: parts that go up to 255 are written (r;g;b)/255");
+    report_attr(reader, "colour-range", reader->schema->names[row->name], text_str(&out));
+}
+
 static void report_composite(const Reader *reader) {
     report_attr(reader, "bad-attribute", reader->schema->names[NAME_COMPOSITE],
                 STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
@@ -209,7 +235,11 @@ static bool read_value(const Reader *reader, const Row *row, Value v, DrawAttr *
     case TYPE_ANY:
         return true;
     default:
-        return read_numbers(v, row->type, attr);
+        if (!read_numbers(v, row->type, attr))
+            return false;
+        if (row->type == TYPE_COLOR && reader->schema->lint)
+            lint_colour(reader, row, v);
+        return true;
     }
 }
 

@@ -301,6 +301,11 @@ enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
 
 // Whether the last frame has anything to draw: a window with a canvas, or physics.
 bool petri_drawable(PetriSession *session);
+// Whether the picture of the last frame shows particles where they are. A system stores nothing in frame 0, and what it
+// stores is seen by the frame after; so a script that draws what its systems have stored finds nothing in frames 0 and
+// 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
+// a state that was restored, and in each frame from 2 on, whatever systems do then.
+bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
 // Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
 bool petri_records(const PetriSession *session);
 

@@ -14,7 +14,7 @@
 #define PETRI_PHYSICS_INTERNAL_H
 
 #include "base/arena.h"
-#include "physics/system.h"
+#include "physics/forces.h"
 
 #include <math.h>
 
@@ -25,9 +25,6 @@ typedef struct Buffer {
     void *bytes;
     uint64_t capacity; // in bytes
 } Buffer;
-
-// The stages of a step in which forces act.
-typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_COUNT } Stage;
 
 #define NO_GROUP UINT32_MAX
 
@@ -121,6 +118,8 @@ struct PhysSystem {
     // arranged for simulation
     Buffer indices;     // uint32_t: `order`, `place`, `starts`
     Buffer forces;      // Force, by group, then stage, then declaration
+    Buffer terms;       // PairTerm: those of the pass that is running
+    Buffer chain;       // Force *: those that act on the group whose turn it is
     Buffer column_data; // what `columns` points to
     uint32_t *order;    // column -> handle
     uint32_t *place;    // handle -> column
@@ -167,10 +166,6 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);
 void phys_apply_pairs(PhysSystem *system, const Group *group);
-void phys_apply_singles(const Columns *columns, const Group *group, ForceRange forces, double delta);
-void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces);
-// integrate.c: moves particle i (4.3) and leaves its acceleration in phys_acceleration().
-void phys_move(const Columns *columns, size_t i, double delta, double speed_of_light);
 // barrier.c: after a move of `delta`, lets particle i bounce off one barrier (4.4).
 void phys_bounce(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
@@ -185,16 +180,6 @@ static inline double phys_at(PhysVector vector, size_t k) {
 // `factor` of a strength (or of a particle's own force) while it is eased in.
 static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
-}
-
-// displacement^power as section 4.1 defines it. The exponent must not be a constant at the place of the call:
-// compilers replace pow by other operations then.
-static inline double phys_power(double displacement, double power) {
-    if (power == 1)
-        return displacement;
-    if (power == 2)
-        return displacement * displacement;
-    return pow(displacement, power < 0 ? 0.0 : power);
 }
 
 // Forces that `group` declares for a stage.

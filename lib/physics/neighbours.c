@@ -23,7 +23,7 @@ static bool bounded(const PairPass *pass, double *bound, bool *touch_only) {
     *touch_only = true;
     for (size_t t = 0; t < pass->term_count; t++) {
         const PairTerm *term = &pass->terms[t];
-        if (term->kind == TERM_COLLISION || term->kind == TERM_ADHESION)
+        if (phys_force_row(term->kind).reach == REACH_CONTACT)
             continue;
         *touch_only = false;
         *bound = fmax(*bound, term->bound);

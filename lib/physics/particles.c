@@ -53,15 +53,16 @@ static void raise_radii(const Columns *columns, double power, double *to) {
 void phys_raise_radii(PhysSystem *system) {
     const Columns *columns = &system->columns;
     const Force *forces = system->forces.bytes;
-    bool drag = false, buoyancy = false;
+    bool section = false, volume = false;
     for (uint32_t i = 0; i < system->force_count; i++) {
-        drag |= forces[i].given.kind == PHYS_DRAG;
-        buoyancy |= forces[i].given.kind == PHYS_BUOYANCY;
+        ForceNeed need = phys_force_row(forces[i].given.kind).need;
+        section |= need == NEED_SECTION;
+        volume |= need == NEED_VOLUME;
     }
     double n = (double)columns->dimensions;
-    if (drag)
+    if (section)
         raise_radii(columns, n - 1, columns->section);
-    if (buoyancy)
+    if (volume)
         raise_radii(columns, n, columns->volume);
     system->radii_raised = true;
 }

@@ -38,9 +38,10 @@ PhysSystem *phys_new(void) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,   &system->force_records,
-                         &system->vectors,   &system->indices,    &system->forces, &system->column_data,
-                         &system->last_rows, &system->unfinished, &system->thrusts};
+    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,    &system->force_records,
+                         &system->vectors,   &system->indices,    &system->forces,  &system->column_data,
+                         &system->last_rows, &system->unfinished, &system->thrusts, &system->terms,
+                         &system->chain};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
@@ -68,7 +69,7 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
 
 const Kernels *phys_kernels(const PhysSystem *system) {
     static const Kernels *const levels[CPU_LEVELS] = {
-        [CPU_SCALAR] = &phys_kernels_plain,
+        [CPU_SCALAR] = &phys_kernels_two,
 #ifdef PETRI_X86
         [CPU_AVX2] = &phys_kernels_avx2,
         [CPU_AVX512] = &phys_kernels_avx512,
@@ -212,26 +213,11 @@ static uint64_t keep_vector(PhysSystem *system, PhysVector vector) {
     return begin + 1;
 }
 
-// Which of its two vectors a force reads; the others may be garbage.
-static int vectors_of(PhysForceKind kind) {
-    switch (kind) {
-    case PHYS_CONSTANT:
-    case PHYS_BARRIER:
-        return 2;
-    case PHYS_FIELD:
-    case PHYS_DRAG:
-    case PHYS_BUOYANCY:
-        return 1;
-    default:
-        return 0;
-    }
-}
-
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
         return 0;
     assert(group < system->group_count);
-    int vectors = vectors_of(force->kind);
+    int vectors = phys_force_row(force->kind).vectors; // the others may be garbage
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? keep_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? keep_vector(system, force->vector2) : 0;

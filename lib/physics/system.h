@@ -9,6 +9,7 @@
 #define PETRI_PHYSICS_SYSTEM_H
 
 #include "base/cpu.h"
+#include "physics/force_list.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -34,21 +35,10 @@ typedef struct PhysParticle {
 } PhysParticle;
 
 typedef enum PhysForceKind {
-    // pair forces (4.1)
-    PHYS_COLLISION,
-    PHYS_GRAVITY,
-    PHYS_ELECTROSTATIC,
-    PHYS_ADHESION,
-    // between two given particles (4.1)
-    PHYS_DISTANCE,
-    // single-particle forces (4.2)
-    PHYS_CONSTANT,
-    PHYS_RANDOM,
-    PHYS_FIELD,
-    PHYS_DRAG,
-    PHYS_BUOYANCY,
-    // barriers (4.4)
-    PHYS_BARRIER,
+#define PHYS_KIND(KIND, ...) PHYS_##KIND,
+    PHYS_FORCES(PHYS_KIND, PHYS_KIND, PHYS_KIND, PHYS_KIND)
+#undef PHYS_KIND
+        PHYS_FORCE_KINDS,
 } PhysForceKind;
 
 // One force applier or barrier. Fields that its kind does not name are ignored. Vectors are copied by phys_add_force.

@@ -79,6 +79,7 @@ static ExprKind plain_kind(AstKind kind) {
 static const Expr *compile_arith(Compiler *compiler, const Ast *ast, ArithOp op) {
     Expr *expr = compile_children(compiler, EXPR_ARITH, ast);
     expr->slot = op;
+    lint_arith(compiler, ast, expr);
     return expr;
 }
 
@@ -173,12 +174,14 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
     Span *spans = arena_alloc_array(compiler->arena, ast->count, sizeof *spans);
     const Expr **children = arena_alloc_array(compiler->arena, ast->count, sizeof *children);
     *code = (DecorateCode){.tags = tags, .names = names, .spans = spans};
+    compiler->subject = ast->children[0];
     children[0] = compile_expr(compiler, ast->children[0]);
     for (uint32_t i = 1; i < ast->count; i++) {
         const Ast *decoration = ast->children[i];
         if (decoration->kind == AST_TAG) {
             tags[code->tag_count++] = decoration->name;
         } else {
+            lint_negation(compiler, decoration->children[0]);
             spans[code->attr_count] = decoration->span;
             names[code->attr_count++] = decoration->name;
             children[code->attr_count] = compile_expr(compiler, decoration->children[0]);
@@ -383,6 +386,9 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
         return compile_arith(compiler, ast, ARITH_MOD);
     case AST_POW:
         return compile_arith(compiler, ast, ARITH_POW);
+    case AST_APPEND:
+        compiler->subject = ast->children[0];
+        return compile_children(compiler, EXPR_APPEND, ast);
     case AST_LOOKUP:
         compiler->function->dynamic = true;
         return compile_children(compiler, EXPR_LOOKUP, ast);
@@ -391,6 +397,13 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
         lint_branches(compiler, expr);
         return expr;
     }
+    case AST_AND:
+    case AST_OR:
+    case AST_XOR:
+    case AST_NOT:
+        for (uint32_t i = 0; i < ast->count; i++)
+            lint_negation(compiler, ast->children[i]);
+        return compile_children(compiler, plain_kind(ast->kind), ast);
     case AST_LT:
     case AST_GT:
     case AST_LE:

@@ -60,6 +60,7 @@ typedef struct Compiler {
     uint32_t parameter_capacity;
     Str *imports;
     uint32_t import_count;
+    const Ast *subject; // to which attributes or children are being added
 } Compiler;
 
 typedef struct ScopeMark {
@@ -120,6 +121,8 @@ void lint_bind(Compiler *compiler, const Binding *binding);
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
 void lint_branches(Compiler *compiler, const Expr *expr);
+void lint_negation(Compiler *compiler, const Ast *ast);
+void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr);
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file);
 void lint_pragma(Compiler *compiler, const Ast *pragma);
 

@@ -13,6 +13,10 @@ static void warn(Compiler *compiler, Span span, const char *code, Str text) {
     compile_report(compiler, span, DIAG_WARNING, code, text, (Str){0});
 }
 
+static void warn_hint(Compiler *compiler, Span span, const char *code, Str text, Str hint) {
+    compile_report(compiler, span, DIAG_WARNING, code, text, hint);
+}
+
 static bool is_builtin(Str name) {
     Value value;
     return builtin_find(name) || builtin_constant(name, &value);
@@ -104,14 +108,63 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
         lint_builtin_call(compiler, ast, item.as.function->builtin, code);
 }
 
+static void warn_negation(Compiler *compiler, Span span, Str name) {
+    warn_hint(compiler, span, "node-as-test",
+              str_format(compiler->arena, "'!%.*s' is a node, which is always true", (int)name.len, name.bytes),
+              str_format(compiler->arena, "to negate write not %.*s", (int)name.len, name.bytes));
+}
+
+static const Node *constant_node(const Expr *expr) {
+    bool node = expr->kind == EXPR_CONST && expr->as.value.kind == VALUE_MIXED && expr->as.value.len == 1 &&
+                expr->as.value.as.items[0].type == ITEM_NODE;
+    return node ? expr->as.value.as.items[0].as.node : NULL;
+}
+
 // An `if` whose test is a true constant never gets to what follows.
 void lint_branches(Compiler *compiler, const Expr *expr) {
     if (!wanted(compiler))
         return;
+    for (uint32_t i = 0; i + 1 < expr->count; i += 2) {
+        const Node *node = constant_node(expr->children[i]);
+        if (node) {
+            warn_negation(compiler, expr->children[i]->span, node->kind->name);
+            return;
+        }
+    }
     for (uint32_t i = 0; i + 2 < expr->count; i += 2)
         if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
             warn(compiler, expr->children[i]->span, "unreachable",
                  STR("always true: what follows under else is never reached"));
+            return;
+        }
+}
+
+static bool is_engine_name(Str name) {
+    for (int i = 0; i < ENGINE_NAME_COUNT; i++)
+        if (str_equal(name, str_from(engine_name_text((EngineName)i))))
+            return true;
+    return false;
+}
+
+// `!x` where x is a name: negated, as they say elsewhere?
+void lint_negation(Compiler *compiler, const Ast *ast) {
+    if (wanted(compiler) && ast->kind == AST_NODE &&
+        (compile_find_binding(compiler, ast->name) || is_engine_name(ast->name->name)))
+        warn_negation(compiler, ast->span, ast->name->name);
+}
+
+static bool has_text(Value v) {
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
+        if (v.as.items[i].type == ITEM_STRING)
+            return true;
+    return false;
+}
+
+void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
+    for (uint32_t i = 0; wanted(compiler) && i < expr->count; i++)
+        if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
+            warn_hint(compiler, ast->span, "text-arithmetic", STR("arithmetic on a text is null"),
+                      STR("a text of several parts is written with semicolons: 'x=';x"));
             return;
         }
 }

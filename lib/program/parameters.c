@@ -91,6 +91,21 @@ static void read_comment(Str comment, Parameter *parameter) {
         parameter->comment = str_trim((Str){comment.bytes + len, comment.len - len});
 }
 
+// A default that its own range leaves out is hardly meant.
+static void lint(Compiler *compiler, const Parameter *parameter) {
+    Value v = parameter->value;
+    bool within = true;
+    for (uint32_t i = 0; parameter->is_static && v.kind == VALUE_NUMBERS && i < v.len; i++) {
+        double x = value_numbers(&v)[i];
+        within = within && x >= parameter->least && x <= parameter->most;
+    }
+    if (compiler->options->lint && !within)
+        compile_report(compiler, parameter->span, DIAG_WARNING, "outside-range",
+                       str_format(compiler->arena, "the default of '%.*s' is outside the range in its comment",
+                                  (int)parameter->name->name.len, parameter->name->name.bytes),
+                       (Str){0});
+}
+
 static Parameter *add(Compiler *compiler) {
     if (compiler->parameter_count == compiler->parameter_capacity) {
         uint32_t old = compiler->parameter_capacity, capacity = old ? old * 2 : 8;
@@ -116,6 +131,7 @@ void compile_note_parameter(Compiler *compiler, const Ast *binding) {
     const Ast *fallback = value->children[1];
     if (value->children[0] == use)
         parameter.is_static = compile_static_value(compiler, fallback, &parameter.value);
+    lint(compiler, &parameter);
     *add(compiler) = parameter;
 }
 

@@ -212,6 +212,23 @@ static void consider(Nearest *nearest, Str name) {
     }
 }
 
+static const struct {
+    Str name;
+    Str hint;
+} habits[] = {
+#define HABIT(name, hint) {{name, sizeof name - 1}, {hint, sizeof hint - 1}},
+#include "program/habit_list.h"
+};
+
+// Does a name stand behind `//`? There it is read as a divisor.
+static bool follows_slashes(const Compiler *compiler, Span span) {
+    const char *text = compiler->source->text.bytes;
+    uint32_t at = span.start;
+    while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t'))
+        at--;
+    return at > 1 && text[at - 1] == '/' && text[at - 2] == '/';
+}
+
 // "did you mean …", if some visible name is close.
 static Str nearest_name(Compiler *compiler, Str wanted) {
     Nearest nearest = {.wanted = wanted, .distance = wanted.len < 4 ? 2 : 3};
@@ -230,6 +247,18 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
     return str_format(compiler->arena, "did you mean '%.*s'?", (int)nearest.name.len, nearest.name.bytes);
 }
 
+// What the author of an unbound name may have meant; empty if nothing comes to mind.
+static Str unbound_hint(Compiler *compiler, const Ast *ast) {
+    Str name = ast->name->name;
+    for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
+        if (str_equal(name, habits[i].name))
+            return habits[i].hint;
+    if (compiler->subject == ast)
+        return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
+    Str nearest = nearest_name(compiler, name);
+    return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
+}
+
 static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     if (compile_uses_parameter(compiler, ast))
@@ -241,7 +270,7 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     }
     compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
                    str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
-                   nearest_name(compiler, name));
+                   unbound_hint(compiler, ast));
     return constant(compiler, ast, VALUE_NULL);
 }
 

@@ -96,6 +96,20 @@ void reader_check_names(const Reader *reader, SceneKind kind) {
             report_unknown(reader, kind, reader->node->attrs[i].name);
 }
 
+void reader_lint(const Reader *reader, SceneKind kind) {
+    static const AttrRow from_zero[] = {ROW_PARTICLE_RADIUS, ROW_PARTICLE_MASS, ROW_ANCHOR_RADIUS, ROW_ANCHOR_MASS};
+    for (size_t i = 0; reader->schema->lint && i < sizeof from_zero / sizeof from_zero[0]; i++) {
+        Value v = rows[from_zero[i]].kind == kind ? attr_value(reader, from_zero[i]) : VALUE_NULL;
+        if (v.kind != VALUE_NUMBERS || v.len != 1 || !(v.as.number < 0))
+            continue;
+        Text out = text_new(reader->arena);
+        text_add_format(&out, "%s=", rows[from_zero[i]].name);
+        format_value(&out, reader->schema->symbols, v);
+        text_add_c(&out, " is below 0 and counts as 0");
+        reader_report_attr(reader, "below-zero", reader->schema->attrs[from_zero[i]], text_str(&out));
+    }
+}
+
 Value attr_value(const Reader *reader, AttrRow row) {
     return node_get(reader->node, reader->schema->attrs[row]);
 }

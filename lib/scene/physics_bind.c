@@ -228,6 +228,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
                        const SceneFrame *frame) {
     State *state = frame->state;
     double clock = scene_number(state, system->clock, 0);
+    system->began = clock > 0;
     double last = scene_number(state, system->last, settings->time);
     double iteration = floor(scene_number(state, system->iteration, -1)) + 1;
     Value stored_run = state_slot_get(state, system->run);

@@ -104,6 +104,8 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
     physics_read_particle(tree, node, anchor, &id, &numbers);
     if (!add_body(tree, node, id, anchor))
         return;
+    Reader reader = reader_of(tree, node);
+    reader_lint(&reader, anchor ? KIND_ANCHOR : KIND_PARTICLE);
     if (!anchor) {
         const StateSlot *slots = tree->system->slots + 2 * (size_t)(tree->body_count - 1);
         numbers.position = stored_or(tree, slots[0], numbers.position, &position, &numbers.fresh_position);

@@ -38,6 +38,10 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+void scene_lint(Scene *scene) {
+    scene->schema.lint = true;
+}
+
 static void free_system(PhysicsSystem *system) {
     phys_free(system->engine);
     free(system->slots);
@@ -156,6 +160,7 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
                             .dimensions = system->dimensions,
                             .particle_count = count < listed ? count : listed,
                             .steps = system->steps,
+                            .began = system->began,
                             .slots = system->slots};
         return true;
     }

@@ -38,6 +38,7 @@ struct PhysicsSystem {
     uint32_t slot_count;
     uint32_t slot_capacity;
     uint64_t steps; // of the last update
+    bool began;     // it had simulated before the last update, so the script could see its particles
     uint64_t seen;  // number of the scene's frame in which it was updated last
 
     StateViewer viewer;

@@ -83,7 +83,8 @@ static PetriStatus check(PetriSession *session, const char *file, const char *te
     PetriSession *scratch = open_scratch(session);
     if (!scratch)
         return PETRI_MEMORY;
-    scratch->lint = true;
+    scratch->lint = scratch->canvas.lint = true;
+    scene_lint(scratch->scene);
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
     scratch->lint = false; // modules, which the frame loads, are checked for themselves
     if (status == PETRI_OK)

@@ -274,6 +274,22 @@ static const Define *find_define(const PetriSession *session, const Symbol *name
     return NULL;
 }
 
+// A piece of a script as text of one line, without anything that a terminal would act on.
+static const char *one_line(Arena *arena, Str piece) {
+    Text text = text_new(arena);
+    for (size_t at = 0; at < piece.len;) {
+        int32_t c = utf8_next(piece, &at);
+        bool blank = c < 0x20 || (c >= 0x7f && c < 0xa0);
+        if (!blank)
+            text_add_code_point(&text, (uint32_t)c);
+        else if (text.len && text.bytes[text.len - 1] != ' ')
+            text_add_char(&text, ' ');
+        while (c == '\n' && at < piece.len && piece.bytes[at] == ' ')
+            at++;
+    }
+    return str_to_c(arena, text_str(&text));
+}
+
 static void describe(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {
     Arena *arena = &session->text_arena;
     const Define *define = settable ? find_define(session, parameter->name) : NULL;
@@ -282,10 +298,10 @@ static void describe(PetriSession *session, const Parameter *parameter, bool set
     SourcePlace place = source_locate(parameter->source, parameter->span.start);
     *out = (PetriParameter){
         .name = str_to_c(arena, parameter->name->name),
-        .fallback = str_to_c(arena, parameter->fallback),
-        .value = str_to_c(arena,
-                          defined || parameter->is_static ? value_printed(session, arena, value) : parameter->fallback),
-        .comment = str_to_c(arena, parameter->comment),
+        .fallback = one_line(arena, parameter->fallback),
+        .value = defined || parameter->is_static ? str_to_c(arena, value_printed(session, arena, value))
+                                                 : one_line(arena, parameter->fallback),
+        .comment = one_line(arena, parameter->comment),
         .number = defined || parameter->is_static ? one_number(session, value) : NAN,
         .fallback_number = parameter->is_static ? one_number(session, parameter->value) : NAN,
         .least = parameter->least,

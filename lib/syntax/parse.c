@@ -3,6 +3,7 @@
 
 #include "parser.h"
 #include "syntax/foreign.h"
+#include "syntax/habits.h"
 #include "syntax/layout.h"
 #include "syntax/literal.h"
 
@@ -10,12 +11,25 @@
 
 enum { MOST_EXPECTED = 3 }; // more alternatives than this say nothing
 
+// What is wrong with a line is told once.
 static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
+    uint32_t line = source_locate(context->source, span.start).line;
+    bool follows = context->failed && line == context->faulty_line;
     context->failed = true;
+    context->faulty_line = line;
+    if (follows)
+        return;
     diag_report(
         context->diags,
         &(Diag){
             .level = DIAG_ERROR, .source = context->source, .span = span, .text = text, .hint = hint, .code = code});
+}
+
+// The same of a token that cannot stand where it is: the hint is the given one unless a better is known.
+static void report_token(ParseContext *context, Span span, Str text, Str hint) {
+    bool kept = context->diags->count < context->diags->limit;
+    Str habit = kept ? parse_habit(context->diags->arena, context->source, span) : (Str){0};
+    report(context, span, "syntax", text, habit.len ? habit : hint);
 }
 
 Ast *parse_checked(ParseContext *context, Ast *ast) {
@@ -49,7 +63,7 @@ static void add_token_name(Text *out, const char *name) {
 }
 
 // A second sentence for common slips.
-static Str syntax_hint(const ParseContext *context, Span span, const char *found, bool wants_block) {
+static Str syntax_hint(const char *found, bool wants_block) {
     if (wants_block)
         return STR("the line above needs an indented block under it");
     if (strcmp(found, "'='") == 0)
@@ -60,8 +74,6 @@ static Str syntax_hint(const ParseContext *context, Span span, const char *found
         return STR("vectors are written with semicolons: 1;2;3");
     if (strcmp(found, "else") == 0 || strcmp(found, "elif") == 0)
         return STR("it must follow the block of an if, at the same indentation");
-    if (strcmp(found, "end of line") == 0 && span.start > 0 && context->source->text.bytes[span.start - 1] == ';')
-        return STR("a vector may not end in a semicolon");
     return (Str){0};
 }
 
@@ -118,7 +130,7 @@ void parse_syntax_error(ParseContext *context, Span span, const char *found, con
         else
             add_token_name(&text, expected[i]);
     }
-    report(context, span, "syntax", text_str(&text), syntax_hint(context, span, found, wants_block));
+    report_token(context, span, text_str(&text), syntax_hint(found, wants_block));
 }
 
 // A character at which no token starts.
@@ -137,13 +149,11 @@ static void report_character(ParseContext *context, Span span) {
         report(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
                STR("is this a text file?"));
     else if (c == ':' || c == '!' || c == '#')
-        report(context, span, "syntax", str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
-               c == '#'   ? STR("comments start with --")
-               : c == '!' ? STR("to negate write not")
-                          : (Str){0});
+        report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
+                     c == '!' ? STR("to negate write not") : (Str){0});
     else
-        report(
-            context, span, "syntax",
+        report_token(
+            context, span,
             str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
             (Str){0});
 }

@@ -10,10 +10,11 @@ typedef struct ParseContext {
     SymbolTable *symbols;
     const Source *source;
     DiagSink *diags;
-    Ast *program;  // the result
-    bool failed;   // an error was reported
-    bool too_deep; // … that of nesting; reported once, and parsing stops
-    bool reported; // the lexer or the layout has explained the present error already
+    Ast *program;         // the result
+    bool failed;          // an error was reported
+    uint32_t faulty_line; // of the last error
+    bool too_deep;        // … that of nesting; reported once, and parsing stops
+    bool reported;        // the lexer or the layout has explained the present error already
 } ParseContext;
 
 // The node itself, unless the tree has become too high (then the error is reported once).

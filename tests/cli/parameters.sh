@@ -25,6 +25,13 @@ check "-D sets parameters" out_is "@0 time=0 beat=0
 !n c=5 s=1.5 t='b c' f=7 b=6"
 check "… without a word" empty err
 
+echo 'let N=N or 900 -- 1..500
+!n v=N' >outside.fl
+petri check outside.fl
+check "a default outside its own range is told" has err "outside.fl:1:5: warning: the default of 'N' is outside the range"
+petri run --frames 1 outside.fl
+check "… by a check only" empty err
+
 petri run --parameters cells.fl
 check "--parameters lists name, default, range and comment" out_is "CELLS  200       1..500  how many cells
 SPEED  1.5
@@ -71,6 +78,8 @@ petri render cells.fl -o never.png -D CELLS=12x
 check "render knows wrong definitions" status_is 2
 petri view --terminal cells.fl -D CELLS=12x
 check "view knows wrong definitions" status_is 2
+petri repl cells.fl -D CELLS=12x
+check "repl, too" status_is 2
 petri repl cells.fl -D 5=5
 check "repl knows wrong definitions" status_is 2
 

@@ -107,6 +107,40 @@ END
     petri render record.fl -o last.png --frames 4
     check "!record to another kind of file is an error" one_error
 
+    # frames before the systems have stored where the particles are: red where that cannot be seen
+    cat >early.fl <<'END'
+!physics state=:w dimensions=2
+    !particle id=1 position=20;20 velocity=1;0
+!window size=20;20
+    !canvas
+        !rect size=20 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
+    !record filename=concat("early-";frame;".png")
+END
+    printf '!window size=20;20\n    !canvas\n        !rect size=20 fill=true color=0;1;0\n' >green.fl
+    petri render green.fl -o green.png --frames 1
+    petri render early.fl -o early%02d.png --frames 3
+    check "a series begins with the first frame that shows its particles" [ "$(echo early0*.png)" = "early02.png early03.png early04.png" ]
+    check "… which they are seen in" cmp -s early02.png green.png
+    check "… !record waits, too" [ "$(echo early-*.png)" = "early-2.png early-3.png early-4.png" ]
+    rm -f early*.png
+    petri render early.fl -o early%02d.png --frames 7 --every 3
+    check "… with --every" [ "$(echo early0*.png)" = "early02.png early05.png early08.png" ]
+    petri render early.fl -o early.png --frames 1
+    check "one frame is one with particles" cmp -s early.png green.png
+    petri render early.fl -o early.png --runtime 0.01
+    check "… also by time" cmp -s early.png green.png
+    petri render early.fl -o early.png --frame 0
+    check "whoever asks for frame 0 gets it" eval '[ "$status" -eq 0 ] && ! cmp -s early.png green.png'
+    petri run early.fl --frames 100 --state early.state
+    rm -f early*.png
+    petri render early.fl -o early%02d.png --frames 1 --state early.state
+    check "a state that is restored has particles at once" cmp -s early100.png green.png
+    sed 's/dimensions=2/dimensions=2 time=0/' early.fl >stands.fl
+    petri render stands.fl -o stands%d.png --frames 1
+    check "a system whose time stands still is not waited for" [ -e stands2.png ]
+    petri render early.fl --auto -o auto%d.png --frames 1 --size 20x20
+    check "the automatic picture shows particles in frame 0" [ -e auto0.png ]
+
     # bad sizes
     for size in 0 -1 1e9 '0/0' '100;0' '1;2;3' ':big'; do
         printf '!window size=%s\n    !canvas\n        !rect size=5 fill=true\n' "$size" >size.fl
@@ -211,6 +245,11 @@ END
             check "… with all frames: $suffix" [ "${frames%%,*}" = 10 ]
         done
         check "… and nothing beside them" nothing_beside
+        petri render early.fl -o early.mp4 --frames 10
+        frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 early.mp4)
+        check "a film has as many frames as were asked for" [ "${frames%%,*}" = 10 ]
+        ffmpeg -v error -i early.mp4 -frames:v 1 -pix_fmt rgb24 -f rawvideo - </dev/null | od -An -N3 -tu1 >colour
+        check "… and begins with one that shows its particles" awk '{ exit !($1 < 50 && $2 > 200) }' colour
         petri render disc.fl -o odd.mp4 --frames 2 --size 41x31
         check "a film may have an odd size" status_is 0
         for name in file:film.mp4 at:12.gif; do

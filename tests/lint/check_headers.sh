@@ -10,14 +10,8 @@ trap 'rm -rf "$scratch"' EXIT
 
 for header in lib/*/*.h src/*.h tests/support/*.h; do
     case $header in *_list.h | */engine_names.h) continue ;; esac
-    # The kernels' vocabulary is for files that are compiled for one instruction set.
-    case $header in
-    lib/physics/simd.h | lib/physics/pair_sum.h | lib/physics/pair_terms.h)
-        case $(uname -m) in x86_64) isa=-mavx2 ;; *) continue ;; esac
-        ;;
-    *) isa= ;;
-    esac
-    # So is what draws for builds that have the library.
+    # What draws is for builds that have the library.
+    isa=
     case $header in
     lib/canvas/draw.h)
         pkg-config --exists pangocairo 2>/dev/null || continue

@@ -259,6 +259,39 @@ check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
 check "the state has where the pointer was" has out '$:mouse = 0.75'
 
+# Parameters: what is seen is what -D would give, but that the world goes on.
+cat >steps.fl <<'END'
+let PARTS=PARTS or 2 -- 1..7 parts
+    SHADE=SHADE or 0.5 -- 0.1..1|0.1
+!counter state=:c rate=0 initial=PARTS
+!window size=400;300 title='steps'
+    !canvas
+        !rect size=400;300 color=0 fill=true
+        for i in ..PARTS
+            !rect point=50*i;0 size=40;100 color=SHADE fill=true
+        !rect point=0;150 size=50*($:c);30 color=0;1;0 fill=true
+END
+view steps steps.fl
+check "two parts" point 70 50 808080
+check "no third" point 120 50 000000
+press Up
+check "the first key shows what is chosen" dark 384 284
+press Up
+check "up: a third" point 120 50 808080
+press plus KP_Add
+check "plus: a fourth and a fifth" point 220 50 808080
+check "the state stays" point 110 165 000000
+press minus
+check "minus takes one" point 220 50 000000
+press Tab Down
+check "another parameter by its own step" point 70 50 666666
+press bracketleft BackSpace
+check "its default again" point 120 50 000000
+check "the other one stays" point 70 50 666666
+press q
+check "all ends well" ended 0
+check "without a word" [ ! -s err ]
+
 # Saving the script: it is loaded anew, keeps state and clock; mistakes are shown, and the last good version goes on.
 cat >work.fl <<'END'
 !counter state=:c rate=0 initial=7
@@ -319,6 +352,34 @@ check "all files are whole" sh -c 'for file in film/*; do convert "$file" null: 
 check "and nothing else is left" sh -c 'test "$(find film -type f ! -name "*.png" | wc -l)" -eq 0'
 render film.fl --frame 2 -o wanted.png
 check "they are what petri render draws" cmp -s film/2.png wanted.png
+
+# The frames in which particles cannot be seen yet are neither shown nor recorded, also after a reset, even while paused.
+cat >early.fl <<'END'
+%pragma fps 4
+!physics state=:w dimensions=2
+    !particle id=1 position=20;20 velocity=1;0
+!window size=300;200 title='early'
+    !canvas
+        !rect size=300;200 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
+    !record filename=concat('early/';frame;'.png')
+END
+mkdir early
+view early early.fl --frames 60
+check "a view begins with black" point 150 100 000000
+check "then the particles are seen" point 150 100 00ff00
+press space
+soon exists early/2.png
+rm -f early/*
+press r
+check "after a reset the first frame with particles is seen" soon exists early/2.png
+check "no other is recorded" [ ! -e early/0.png ]
+sleep 1
+check "while paused one step is shown" [ "$(echo early/*)" = early/2.png ]
+check "and that is what is seen" point 150 100 00ff00
+press q
+check "q quits" ended 0
+short early.fl --lockstep --frames 5 --verbose
+check "--frames counts what is seen" [ "$(echo early/*)" = "early/2.png early/3.png early/4.png early/5.png early/6.png" ]
 
 # What cannot be.
 "$petri" view nothing.fl >out 2>err </dev/null

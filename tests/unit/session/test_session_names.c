@@ -124,7 +124,8 @@ static void test_diagnostics(void **state) {
         {"let x=x\n", "warning t.fl:1:7 unbound name 'x' is null [unbound-name]\n"},
         {"!a v=(sin;'s';1;!n)(0)\n", "warning t.fl:1:6 not callable: a string [not-callable]\n"
                                      "warning t.fl:1:6 not callable: a number [not-callable]\n"
-                                     "warning t.fl:1:6 not callable: a node [not-callable]\n"},
+                                     "warning t.fl:1:6 not callable: a node; attributes are written without "
+                                     "parentheses: !name a=1 [not-callable]\n"},
         {"!a v=1(2);null(3)\n", ""},
         {"!a v='a'+1;[]\n", NULL},
         {"!a v='a'+1;(1;2)[null];1<'a'\n3 x=1\n", ""}, // mistakes of type are silent

@@ -40,6 +40,8 @@ static void test_which_lets(void **state) {
         {"let k=3\nlet N=N or k*2\n", "N 6 (k*2) 6/6 -inf..inf|0 '' 2:5\n", true},
         {"let N=N or beat\n", "N beat (beat) nan/nan -inf..inf|0 '' 1:5\n", true},
         {"let N=N or 0 or 5\n", "N 0 or 5 (0 or 5) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let N=N or (1;\n  2)\n", "N 1;2 ((1; 2)) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let N=N or beat -- a\033[31m\tb\302\233c\n", "N beat (beat) nan/nan -inf..inf|0 'a [31m b c' 1:5\n", true},
         {"let N=N or false -- 0..1\n", "N 0 (false) 0/0 0..1|0 '' 1:5\n", true},
         // The second has a value to begin with.
         {"let N=N or 1\nlet N=N or 2\n", "N 1 (1) 1/1 -inf..inf|0 '' 1:5\n", true},

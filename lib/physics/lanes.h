@@ -1,11 +1,16 @@
-// simd.h: the vocabulary of the vector kernels, in the width of the instruction set that this file is compiled for.
+// lanes.h: the vocabulary in which formulas and kernels are written, in the width for which a file is compiled.
 //
-// Real holds LANES doubles, Mask one truth per lane. All operations on Real are single IEEE operations.
-#ifndef PETRI_PHYSICS_SIMD_H
-#define PETRI_PHYSICS_SIMD_H
+// Real holds LANES doubles, Mask one truth per lane. All operations on Real are single IEEE operations, so a formula
+// gives the same bits in every width. PETRI_LANES=1 is plain C (lanes_one.h); PETRI_LANES=2 is what every processor
+// with vectors has: SSE2, NEON or SIMD128 (lanes_two.h); without it, it is AVX-512 or AVX2
+// where the compiler may use them.
+#ifndef PETRI_PHYSICS_LANES_H
+#define PETRI_PHYSICS_LANES_H
 
-#ifdef PETRI_PLAIN
-#include "physics/simd_plain.h"
+#if defined(PETRI_LANES) && PETRI_LANES == 1
+#include "physics/lanes_one.h"
+#elif defined(PETRI_LANES) || !defined(__AVX2__)
+#include "physics/lanes_two.h"
 #else
 
 #include <float.h>
@@ -272,6 +277,6 @@ KERNEL Real real_larger(Real a, Real b) {
     return SIMD(max)(a, b);
 }
 
-#endif // PETRI_PLAIN
+#endif // PETRI_LANES
 
 #endif

@@ -1,7 +1,7 @@
-// simd_plain.h: the vocabulary of simd.h for any processor: two lanes, in the vector extension that gcc and clang
-// share.
-#ifndef PETRI_PHYSICS_SIMD_PLAIN_H
-#define PETRI_PHYSICS_SIMD_PLAIN_H
+// lanes_two.h: the vocabulary of lanes.h with two lanes, in the vector extension that gcc and clang share. It comes out
+// as SSE2 on x86-64, as NEON on AArch64, as SIMD128 in WebAssembly, and as plain C elsewhere.
+#ifndef PETRI_PHYSICS_LANES_TWO_H
+#define PETRI_PHYSICS_LANES_TWO_H
 
 #include <float.h>
 #include <math.h>
@@ -10,9 +10,17 @@
 #include <stdint.h>
 #include <string.h>
 
+#if defined(__SSE2__)
+#include <emmintrin.h>
+#elif defined(__aarch64__)
+#include <arm_neon.h>
+#elif defined(__wasm_simd128__)
+#include <wasm_simd128.h>
+#endif
+
 #define KERNEL static inline __attribute__((always_inline))
 #define LANES 2
-#define PER_ISA(name) name##_plain
+#define PER_ISA(name) name##_two
 
 typedef double Real __attribute__((vector_size(16)));
 typedef int64_t Mask __attribute__((vector_size(16)));
@@ -71,8 +79,17 @@ KERNEL Real real_mul(Real a, Real b) {
 KERNEL Real real_div(Real a, Real b) {
     return a / b;
 }
+// The vector extension has no square root.
 KERNEL Real real_sqrt(Real a) {
+#if defined(__SSE2__)
+    return (Real)_mm_sqrt_pd((__m128d)a);
+#elif defined(__aarch64__)
+    return (Real)vsqrtq_f64((float64x2_t)a);
+#elif defined(__wasm_simd128__)
+    return (Real)wasm_f64x2_sqrt((v128_t)a);
+#else
     return (Real){sqrt(a[0]), sqrt(a[1])};
+#endif
 }
 KERNEL Real real_larger(Real a, Real b) {
     return real_select((Mask)(a > b), a, b);
