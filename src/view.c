@@ -437,7 +437,7 @@ static void report_summary(const View *view) {
     if (view->world.options.terminal && verbosity == LOG_VERBOSE) {
         hint_pictures(view->host, view->world.options.script);
     } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
-        message("it was shown in the terminal, for this petri was built without SDL; './dev build' has windows");
+        message("it was shown in the terminal, for this petri was built without SDL; './dev build' adds windows");
     }
 }
 

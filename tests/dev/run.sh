@@ -34,6 +34,7 @@ lines_at_most() { [ "$(wc -l <"$work/$1")" -le "$2" ]; }
 
 # stand_in NAME: a program with this text.
 stand_in() {
+    rm -f "$work/$1" # it may be a link to the real one
     { echo '#!/bin/sh' && echo "echo \"${1##*/} \$*\" >>'$work/calls'" && cat; } >"$work/$1"
     chmod +x "$work/$1"
 }
@@ -48,7 +49,7 @@ machine() {
     done
     cp "$root/dev" "$work/project"
     cp "$root"/.ci/* "$work/project/.ci"
-    sed -i "s|/usr/share/fonts|$work/fonts|" "$work/project/dev" "$work/project/.ci"/*
+    sed -i "s|/usr/share/fonts|$work/fonts|; s|:/usr/sbin:/sbin||" "$work/project/dev" "$work/project/.ci"/*
     : >"$work/calls"
     uid=0 network=yes breaks=
     stand_in bin/id <<'END'
@@ -88,6 +89,7 @@ case " $* " in
         case $package in
         lib*-dev) touch "$WORK/later/$package" ;;
         -* | install) ;;
+        debootstrap) echo '#!/bin/sh' >"$WORK/bin/debootstrap"; chmod +x "$WORK/bin/debootstrap" ;;
         *) [ -e "$WORK/bin/$package" ] || cp "$WORK/later/$package" "$WORK/bin" 2>/dev/null || {
                echo '#!/bin/sh' >"$WORK/bin/$package"; chmod +x "$WORK/bin/$package"; } ;;
         esac
@@ -256,6 +258,39 @@ network=yes breaks=dpkg
 dev run dish.fl
 check "what goes wrong otherwise is told" has err "E: Sub-process dpkg returned an error code (1)"
 check "with the log" has err "build/packages.log"
+
+machine
+dev install "$work/some where"
+check "what is installed is compiled before" grep -q 'ninja .*lib/session/libpetri.a' "$work/calls"
+check "it is installed where it was asked for" has calls "meson configure $work/project/build -Dprefix=$work/some where"
+check "by meson" has calls "meson install -C $work/project/build --no-rebuild"
+check "it says that this is not in PATH" has err "$work/some where/bin is not in PATH"
+dev install
+check "root installs for all" has calls "-Dprefix=/usr/local"
+uid=1000
+dev install
+check "a user installs for himself" has calls "-Dprefix=$work/.local"
+
+machine
+for tool in bash dirname mktemp unshare git; do
+    rm -f "$work/bin/$tool"
+    ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
+done
+uid=1000
+dev fresh
+check "a bare machine needs root" status_is 77
+check "and says so" has err "not possible here: it needs root"
+uid=0
+dev fresh
+check "it installs debootstrap" grep -q 'apt-get .* install debootstrap' "$work/calls"
+check "what is no checkout has no HEAD" status_is 77
+check "and says so" has err "not possible here: this is no git checkout"
+(cd "$work/project" && git init -q && git -c user.name=x -c user.email=x@y commit -q --allow-empty -m x)
+echo 'exit 1' | stand_in bin/unshare
+dev fresh
+check "it needs namespaces" status_is 77
+check "and says so" has err "not possible here: no namespaces"
+check "it leaves nothing behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-fresh-run-*' -newer "$work/bin/unshare")" ]
 
 # A bare container has no pseudo-terminals.
 if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null; then

@@ -1,7 +1,7 @@
 #!/bin/sh
 # terminal.sh: `petri view` in a terminal, under tmux: what the cells show, keys, the mouse, and that the terminal is
 # given back as it was.
-# usage: tests/view/terminal.sh PATH-OF-PETRI chafa|none
+# usage: tests/view/terminal.sh PATH-OF-PETRI chafa|none sdl|none
 # shellcheck source=tests/view/support.sh
 . "$(dirname "$0")/support.sh"
 # shellcheck source=tests/view/tmux.sh
@@ -201,6 +201,11 @@ wipe
 type_keys "clear; $petri view left.fl --frames 12 --quiet; echo status \$?" Enter
 check "not with --quiet" soon shows 'status 0'
 check "which says nothing" hides 'frames in'
+if [ "${3:-sdl}" = none ]; then
+    wipe
+    type_keys "clear; DISPLAY=:77 $petri view left.fl --frames 3; echo status \$?" Enter
+    check "where there could be a window, it says how to get one" soon shows "'./dev build' adds windows"
+fi
 viewer() { pgrep -f "^$petri view left.fl" | head -n 1; }
 running() { [ -n "$(viewer)" ]; }
 for signal in TERM:143 HUP:129 INT:130 ABRT:134 SEGV:139 QUIT:131; do
