@@ -2,7 +2,7 @@
 #include "session/session.h"
 
 #include "base/unicode.h"
-#include "syntax/literal.h"
+#include "ast/literal.h"
 
 #include <math.h>
 #include <stdio.h>
