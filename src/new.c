@@ -6,6 +6,7 @@
 
 #include "args.h"
 #include "bytes.h"
+#include "hints.h"
 #include "new_dish.h"
 
 static bool ends_in(const char *text, const char *end) {
@@ -55,7 +56,7 @@ static int write_dish(const char *path) {
 }
 
 // NAME is the file's name, with or without its suffix.
-static int start_script(const char *name) {
+static int start_script(const Host *host, const char *name) {
     const char *last = strrchr(name, '/');
     last = last == NULL ? name : last + 1;
     if (last[0] == '\0' || strcmp(last, ".fl") == 0 || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) {
@@ -68,14 +69,13 @@ static int start_script(const char *name) {
     int status = write_dish(path.data);
     if (status == STATUS_DONE) {
         message("%s is a dish of drops; change it, and what you save is shown at once", path.data);
-        message("to see it: petri view %s", path.data);
+        hint_pictures(host, path.data);
     }
     bytes_free(&path);
     return status;
 }
 
 static int new_run(const Host *host, int argc, char **argv) {
-    (void)host;
     Args args = args_start(&NEW_COMMAND, argc, argv);
     const char *name = NULL;
     for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
@@ -95,7 +95,7 @@ static int new_run(const Host *host, int argc, char **argv) {
         message("a new script needs a name: petri new NAME");
         return STATUS_USAGE;
     }
-    return start_script(name);
+    return start_script(host, name);
 }
 
 static const OptionSpec NEW_OPTIONS[] = {{0}};

@@ -391,6 +391,7 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
         return compile_children(compiler, EXPR_APPEND, ast);
     case AST_LOOKUP:
         compiler->function->dynamic = true;
+        compiler->key = ast->children[0];
         return compile_children(compiler, EXPR_LOOKUP, ast);
     case AST_IF: {
         const Expr *expr = compile_children(compiler, EXPR_IF, ast);

@@ -61,6 +61,7 @@ typedef struct Compiler {
     Str *imports;
     uint32_t import_count;
     const Ast *subject; // to which attributes or children are being added
+    const Ast *key;     // that is being looked up in the state
 } Compiler;
 
 typedef struct ScopeMark {

@@ -255,6 +255,9 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
             return habits[i].hint;
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
+    if (compiler->key == ast)
+        return str_format(compiler->arena, "$ looks a key of the state up, such as $:%.*s; a name stands without it",
+                          (int)name.len, name.bytes);
     Str nearest = nearest_name(compiler, name);
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
 }

@@ -56,33 +56,65 @@ static void look_at_windows(PetriSession *session) {
     session->scene_arena.escape = NULL;
 }
 
-// What the scratch session has to say is said by the one that was asked.
-static void pass_on(void *host, const PetriDiagnostic *diagnostic) {
-    PetriSession *session = host;
-    if (diagnostic->code && strcmp(diagnostic->code, "undrawn-node") == 0)
-        return; // the script is right, petri shows less of it
-    session->counts[diagnostic->level]++;
-    if (session->options.diagnostic)
-        session->options.diagnostic(session->options.host, diagnostic);
+// What the scratch session has to say. Its stages each see the whole script; people read it from top to bottom.
+typedef struct Heard {
+    Arena arena;
+    PetriDiagnostic *items;
+    size_t count;
+} Heard;
+
+static const char *keep(Heard *heard, const char *text) {
+    return text ? str_to_c(&heard->arena, str_from(text)) : NULL;
 }
 
-static PetriSession *open_scratch(PetriSession *session) {
+static void hear(void *host, const PetriDiagnostic *diagnostic) {
+    Heard *heard = host;
+    if (diagnostic->code && strcmp(diagnostic->code, "undrawn-node") == 0)
+        return; // the script is right, petri shows less of it
+    size_t size = heard->count * sizeof *heard->items;
+    heard->items = arena_grow(&heard->arena, heard->items, size, size + sizeof *heard->items);
+    PetriDiagnostic *item = &heard->items[heard->count++];
+    *item = *diagnostic;
+    item->file = keep(heard, diagnostic->file);
+    item->text = keep(heard, diagnostic->text);
+    item->code = keep(heard, diagnostic->code);
+    item->rendered = keep(heard, diagnostic->rendered);
+}
+
+static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
+    return a->file && b->file && strcmp(a->file, b->file) == 0 &&
+           (a->line < b->line || (a->line == b->line && a->column < b->column));
+}
+
+// In the order of the text, as far as they are of one file.
+static void tell_in_order(PetriSession *session, Heard *heard) {
+    for (size_t i = 0; i < heard->count; i++) {
+        PetriDiagnostic item = heard->items[i];
+        size_t at = i;
+        for (; at > 0 && comes_before(&item, &heard->items[at - 1]); at--)
+            heard->items[at] = heard->items[at - 1];
+        heard->items[at] = item;
+    }
+    for (size_t i = 0; i < heard->count; i++) {
+        session->counts[heard->items[i].level]++;
+        if (session->options.diagnostic)
+            session->options.diagnostic(session->options.host, &heard->items[i]);
+    }
+}
+
+static PetriSession *open_scratch(PetriSession *session, Heard *heard) {
     PetriOptions options = session->options;
     options.realtime = options.profile = options.interruptible = options.keep_forces = false;
     options.threads = 1;
-    options.diagnostic = pass_on;
-    options.host = session;
+    options.diagnostic = hear;
+    options.host = heard;
     PetriSession *scratch = petri_open(&options);
     for (uint32_t i = 0; scratch && i < session->define_count; i++)
         petri_define(scratch, session->defines[i].text);
     return scratch;
 }
 
-// A file, or a text of this name.
-static PetriStatus check(PetriSession *session, const char *file, const char *text, size_t length) {
-    PetriSession *scratch = open_scratch(session);
-    if (!scratch)
-        return PETRI_MEMORY;
+static PetriStatus look_over(PetriSession *scratch, const char *file, const char *text, size_t length) {
     scratch->lint = scratch->canvas.lint = true;
     scene_lint(scratch->scene);
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
@@ -91,7 +123,20 @@ static PetriStatus check(PetriSession *session, const char *file, const char *te
         status = petri_step(scratch);
     if (status == PETRI_OK)
         look_at_windows(scratch);
+    return status;
+}
+
+// A file, or a text of this name.
+static PetriStatus check(PetriSession *session, const char *file, const char *text, size_t length) {
+    Heard heard = {0};
+    PetriStatus status = PETRI_MEMORY;
+    arena_init(&heard.arena, "check", SIZE_MAX);
+    PetriSession *scratch = open_scratch(session, &heard);
+    if (scratch)
+        status = look_over(scratch, file, text, length);
     petri_close(&scratch);
+    tell_in_order(session, &heard);
+    arena_free(&heard.arena);
     return status;
 }
 

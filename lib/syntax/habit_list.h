@@ -87,13 +87,16 @@ HABIT("['\"]" BLANK "$", "^['\"]", TEXT)
 HABIT("['\"]" BLANK "%" BLANK "[(][^)]*$", "^,", TEXT)
 HABIT("", "^`", "a text stands in quotes: 'one'; " TEXT)
 HABIT("[0-9]$", "^[.]([^.]|$)", "write 1.0 or 1")
+HABIT("[0-9]%$", "^$", "% is the remainder of a division: a half is 0.5")
 HABIT("console$", "^[.]", "to see a value write debug(value)")
 HABIT(BEGIN "(import|%include)" GAP, "^[.]", FILES)
 HABIT("[A-Za-z0-9_)]$", "^[.]([^.]|$)", "nothing stands behind a dot: a function is sin(x), an element v[0]")
 
 // Nodes.
 HABIT(BEGIN "$", "^<[A-Za-z/]", "a node is written !name a=1 b=2")
-HABIT(BEGIN "!", "^:", "an attribute is written name=value")
+HABIT(BEGIN "!.*;" BLANK WORD BLANK "$", "^=[^=]", "no semicolons between attributes: !name a=1 b=2")
+HABIT(BEGIN "let" GAP ".*;" BLANK WORD BLANK "$", "^=[^=]", "no semicolons between names: let a=1 b=2")
+HABIT(BEGIN "!.*" GAP WORD BLANK "$", "^:", "an attribute is written name=value")
 HABIT(BEGIN "!" WORD BLANK "$", "^[{].*[=:]", "attributes follow the name: !name a=1 b=2")
 
 // Vectors and blocks.

@@ -132,3 +132,15 @@ petri check --werror -D SIZE=3 define.fl clean.fl
 check "-D defines it, for all scripts" status_is 0
 petri check -D SIZE define.fl
 check "-D without a value is a wrong command line" status_is 2
+
+cat >order.fl <<'END'
+!window
+    !canvas
+        !elipse
+!n a=1 b=unknown
+!physics state=:s dimensions=1
+    !particle
+END
+petri check order.fl
+check "what is said comes in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
+    "order.fl:3 order.fl:4 order.fl:6 " ]
