@@ -319,7 +319,10 @@ END
         check "… and says so" has err "stopped; 'film.mp4' is not written"
         check "… the old film is left alone" cmp -s film.mp4 before.mp4
         check "… and no half of a new one" nothing_beside
-        check "… no ffmpeg goes on" [ -z "$(pgrep -f 'film.mp4.*[.]tmp')" ]
+        # Others may be at work on this machine.
+        encoding_here() { for id in $(pgrep -x ffmpeg); do readlink "/proc/$id/cwd"; done | grep -qxF "$work"; }
+        nothing_goes_on() { ! encoding_here; }
+        check "… no ffmpeg goes on" nothing_goes_on
     fi
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
