@@ -9,14 +9,27 @@
 
 #include "parameters.h"
 #include "script.h"
+#include "unfinished.h"
 
 enum { SECONDS_BETWEEN_SAVES = 5 };
+// Seconds: timeout(1) sends its signal twice, which is no second wish.
+static const double SAME_SIGNAL = 0.2;
 
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
 
 static void on_interrupt(int signal_number) {
     static const char note[] = "\r\033[Kpetri: stopping after this frame; Ctrl-C again stops at once\n";
+    static double first;
+    if (interrupted) {
+        if (clock_seconds() - first > SAME_SIGNAL) {
+            unfinished_abandon();
+            signal(signal_number, SIG_DFL);
+            raise(signal_number);
+        }
+        return;
+    }
+    first = clock_seconds();
     interrupted = signal_number;
     if (signal_number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
@@ -24,10 +37,10 @@ static void on_interrupt(int signal_number) {
     }
 }
 
-// The first Ctrl-C (or SIGTERM) ends the run after the frame at hand, with its state saved; a second one ends the
-// process, should that frame not end.
+// The first Ctrl-C (or SIGTERM) ends the run after the frame at hand, with its state saved and what was drawn kept; a
+// second one ends the process, should that take too long.
 static void catch_interrupt(void) {
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    struct sigaction action = {.sa_handler = on_interrupt};
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
@@ -79,7 +92,9 @@ double frames_fps(const Frames *frames) {
 // A file that could not be read is left alone: it may be all that is left of something.
 static void save_state(Frames *frames) {
     if (frames->options.state_file != NULL && !frames->state_lost) {
+        int unfinished = unfinished_begin(frames->options.state_file);
         frames->state_lost = petri_save(frames->session, frames->options.state_file) != PETRI_OK;
+        unfinished_end(unfinished);
         frames->saved = clock_seconds();
     }
 }

@@ -9,6 +9,7 @@
 #include "bytes.h"
 #include "cli.h"
 #include "progress.h"
+#include "unfinished.h"
 #include "video.h"
 
 enum { QUEUE = 4, MOST_WORKERS = 16 };
@@ -80,7 +81,9 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
 }
 
 static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painter, const char *file) {
+    int unfinished = unfinished_begin(file);
     PetriStatus status = petri_picture_save(picture, painter, file);
+    unfinished_end(unfinished);
     if (status == PETRI_MEMORY) {
         set_trouble(painting, "out of memory");
     }
@@ -196,7 +199,7 @@ Painting *painting_start(const char *film, double fps) {
     painting->last = &painting->waiting;
     painting->film = film;
     painting->fps = fps;
-    painting->video = (Video){.frames = -1, .errors = -1};
+    painting->video = (Video){.frames = -1, .errors = -1, .unfinished = -1};
     while (painting->worker_count < wanted &&
            pthread_create(&painting->workers[painting->worker_count], NULL, work, painting) == 0) {
         painting->worker_count++;

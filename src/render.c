@@ -161,18 +161,31 @@ static void report_summary(const Render *render) {
             painting_seconds(render->painting));
 }
 
+// Films and series keep what was drawn before a signal came; half of what a picture needs is no picture.
+static void report_stop(const Render *render, bool kept) {
+    const char *frames = render->drawn == 1 ? "frame" : "frames";
+    if (!kept) {
+        message("stopped; '%s' is not written", render->shown);
+    } else if (render->kind == OUTPUT_FILM) {
+        message("stopped; '%s' is whole, with the %" PRId64 " %s drawn so far", render->shown, render->drawn, frames);
+    } else {
+        message("stopped; '%s' has the %" PRId64 " %s drawn so far", render->shown, render->drawn, frames);
+    }
+}
+
 static int end_render(Render *render, bool going) {
     const char *trouble = NULL;
     Frames *frames = &render->frames;
     int stopped = frames_signal();
-    bool abandon = stopped != 0 || !going || render->failed;
+    bool keeps = render->kind != OUTPUT_PICTURE && render->drawn > 0;
+    bool abandon = (stopped != 0 && !keeps) || !going || render->failed;
     bool good = painting_finish(render->painting, frames->session, abandon, &trouble);
     frames_end(frames, going);
     if (trouble != NULL) {
         message("%s", trouble);
     }
     if (stopped != 0) {
-        message("stopped; '%s' is not %s", render->shown, render->kind == OUTPUT_SERIES ? "complete" : "written");
+        report_stop(render, keeps && good);
         return STATUS_SIGNAL + stopped;
     }
     if (!going || !good || frames->state_lost) {
@@ -253,9 +266,14 @@ const Command RENDER_COMMAND = {
         "written: a picture of the last frame, or of one that is chosen; a picture of each frame, if the name has a\n"
         "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard\n"
         "output when all is drawn: petri render dish.fl -o - --format gif >dish.gif\n"
+        "Ctrl-C ends a film or a series after the frame at hand and keeps what is done; a second Ctrl-C keeps no "
+        "film.\n"
         "\n"
         "A script that draws what its !physics has stored finds nothing stored in frames 0 and 1. They are made, but\n"
         "not drawn and not counted: the first picture is that of frame 2, and --frames 60 makes a film of 60 frames.",
+    .examples = "  petri render dish.fl -o dish.png --frame 100    one picture\n"
+                "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
+                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a film\n",
     .options = RENDER_OPTION_SPECS,
     .run = render_run,
 };

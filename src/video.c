@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "bytes.h"
+#include "unfinished.h"
 
 extern char **environ;
 
@@ -128,6 +129,8 @@ static void forget(Video *video) {
     if (video->errors >= 0) {
         close(video->errors);
     }
+    unfinished_end(video->unfinished);
+    video->unfinished = -1;
     free(video->beside);
     free(video->target);
     video->beside = video->target = NULL;
@@ -145,6 +148,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     *video =
         (Video){.file = file, .target = target, .beside = beside.data, .width = width, .height = height, .frames = -1};
     video->errors = unnamed_file();
+    video->unfinished = unfinished_begin(file);
     if (video->errors < 0 || pipe(ends) != 0) {
         set_trouble(video, "cannot start ffmpeg: %s", strerror(errno));
         forget(video);
@@ -158,6 +162,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     video->frames = ends[1];
     video->pid = start(video, ends[0], fps);
     int error = errno;
+    unfinished_process(video->unfinished, video->pid);
     close(ends[0]);
     if (video->pid < 0) {
         set_trouble(video, "cannot start ffmpeg, which writes '%s': %s%s", file, strerror(error),
@@ -202,6 +207,7 @@ static bool finish(Video *video) {
     close(video->frames);
     video->frames = -1;
     int status = wait_for(video->pid);
+    unfinished_process(video->unfinished, 0);
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return true;
     }

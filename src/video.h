@@ -18,6 +18,7 @@ typedef struct Video {
     pid_t pid;
     int frames;        // pipe to ffmpeg
     int errors;        // file without a name that holds its messages
+    int unfinished;    // its number there (unfinished.h)
     char trouble[512]; // why the last of the functions below failed
 } Video;
 

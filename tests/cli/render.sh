@@ -310,16 +310,60 @@ END
         check "… the old film is left alone" cmp -s film.mp4 before.mp4
         check "… and no half of a new one" nothing_beside
         printf '!window size=200;200\n    !canvas\n        !ellipse point=frame%%200 radius=9 fill=true\n' >long.fl
-        "$petri" render long.fl -o film.mp4 --frames 1000000 >out 2>err </dev/null &
-        sleep 1
-        kill -INT $!
-        wait $!
-        status=$?
-        check "Ctrl-C ends with the signal's status" status_is 130
-        check "… and says so" has err "stopped; 'film.mp4' is not written"
-        check "… the old film is left alone" cmp -s film.mp4 before.mp4
-        check "… and no half of a new one" nothing_beside
-        check "… no ffmpeg goes on" [ -z "$(pgrep -f 'film.mp4.*[.]tmp')" ]
+        # start_long ARGUMENT...: renders without end until the film has grown; stop_long: waits for its end.
+        start_long() {
+            "$petri" render long.fl --frames 1000000 "$@" >out 2>err </dev/null &
+            job=$!
+            tries=0
+            while [ -z "$(find . -name 'long*' -size +0c ! -name long.fl)" ] && [ $tries -lt 300 ]; do
+                sleep 0.1
+                tries=$((tries + 1))
+            done
+        }
+        stop_long() {
+            wait "$job"
+            status=$?
+        }
+        no_ffmpeg() { ! grep -aq 'long[.].*[.][t]mp' /proc/[0-9]*/cmdline 2>/dev/null; }
+        for suffix in mp4 webm gif; do
+            start_long -o long.$suffix
+            kill -INT "$job"
+            stop_long
+            check "Ctrl-C in a film ends with the signal's status: $suffix" status_is 130
+            kept=$(sed -n "s/.*stopped; 'long.$suffix' is whole, with the \([0-9]*\) frames* drawn so far.*/\1/p" err)
+            frames=$(ffprobe -v error -count_frames -show_entries stream=nb_read_frames -of csv=p=0 long.$suffix 2>&1)
+            check "… says how many frames are kept" [ "${kept:-0}" -gt 0 ]
+            check "… which can be played: ${frames%%,*}" [ "${frames%%,*}" = "$kept" ]
+            check "… nothing is beside them" nothing_beside
+            rm -f long.$suffix
+        done
+        start_long -o long%06d.png
+        kill -TERM "$job"
+        stop_long
+        check "SIGTERM in a series ends with the signal's status" status_is 143
+        kept=$(sed -n "s/.*stopped; 'long%06d.png' has the \([0-9]*\) frames* drawn so far.*/\1/p" err)
+        check "… says how many pictures there are" [ "$(find . -name 'long*.png' | wc -l)" -eq "${kept:-0}" ]
+        check "… from the first to the last" [ -e "$(printf long%06d.png $((${kept:-0} - 1)))" ]
+        check "… none of them half" nothing_beside
+        rm -f long0*.png
+        cp film.mp4 long.mp4
+        for output in long.mp4 long%06d.png; do
+            printf '!window size=1500;1500\n    !canvas\n        for i in ..20000\n            !ellipse point=1500*uniform(:p;i)[..2] radius=40 stroke=true\n' >slow.fl
+            "$petri" render slow.fl --frames 1000000 -o "$output" >out 2>err </dev/null &
+            job=$!
+            sleep 1
+            kill -INT "$job"
+            sleep 0.5
+            kill -INT "$job"
+            stop_long
+            check "a second Ctrl-C ends at once: $output" status_is 130
+            check "… and leaves nothing half: $output" nothing_beside
+            check "… no ffmpeg goes on" no_ffmpeg
+        done
+        check "… the old film is left alone" cmp -s long.mp4 film.mp4
+        rm -f long.mp4
+        timeout 1 "$petri" render long.fl --frames 1000000 -o long.mp4 >out 2>err </dev/null
+        check "timeout's signal, sent twice, keeps what is done" ffprobe -v error long.mp4
     fi
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?

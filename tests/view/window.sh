@@ -217,7 +217,7 @@ if command -v openbox >/dev/null 2>&1; then
     check "f goes back" soon size_is 320 240
     press q
     ended 0
-    kill "$manager"
+    kill -KILL "$manager" # it does not always heed SIGTERM
     wait "$manager" 2>/dev/null
     manager=
 else
