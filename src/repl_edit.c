@@ -46,10 +46,14 @@ static void catch_ends(void) {
     }
 }
 
-static const char *prompt_of(EditLine *line) {
+static Editor *editor_of(EditLine *line) {
     Editor *editor = NULL;
     el_get(line, EL_CLIENTDATA, &editor);
-    return editor->prompt;
+    return editor;
+}
+
+static const char *prompt_of(EditLine *line) {
+    return editor_of(line)->prompt;
 }
 
 // To below the lines that follow the cursor's, for what is written next; a line too far down where some are broken.
@@ -65,8 +69,7 @@ static void leave_block(Editor *editor) {
 
 // One character. Waits where changed files are noticed and where Ctrl-C ends it.
 static int read_character(EditLine *line, wchar_t *character) {
-    Editor *editor = NULL;
-    el_get(line, EL_CLIENTDATA, &editor);
+    Editor *editor = editor_of(line);
     mbstate_t state = {0};
     for (;;) {
         char byte;
@@ -120,8 +123,7 @@ static unsigned char push(EditLine *line, const char *keys) {
 // Enter: goes on at the end of the block, in a new line if more is wanted.
 static unsigned char enter(EditLine *line, wint_t character) {
     (void)character;
-    Editor *editor = NULL;
-    el_get(line, EL_CLIENTDATA, &editor);
+    Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
     Bytes text = {0};
     size_t taken = 0;
@@ -144,8 +146,7 @@ static unsigned char open_line(EditLine *line, wint_t character) {
 
 static unsigned char go_up(EditLine *line, wint_t character) {
     (void)character;
-    Editor *editor = NULL;
-    el_get(line, EL_CLIENTDATA, &editor);
+    Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
     bool inside = line_start(info) > info->buffer;
     editor->back += !inside;
@@ -155,8 +156,7 @@ static unsigned char go_up(EditLine *line, wint_t character) {
 // Below the last line there is nothing, unless we are in the history: libedit would empty the line.
 static unsigned char go_down(EditLine *line, wint_t character) {
     (void)character;
-    Editor *editor = NULL;
-    el_get(line, EL_CLIENTDATA, &editor);
+    Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
     if (memchr(info->cursor, '\n', (size_t)(info->lastchar - info->cursor)) != NULL) {
         return push(line, KEY_LINE_DOWN);
@@ -217,10 +217,12 @@ static unsigned char kill_rest(EditLine *line, wint_t character) {
 
 static unsigned char complete(EditLine *line, wint_t character) {
     (void)character;
-    Editor *editor = NULL;
-    el_get(line, EL_CLIENTDATA, &editor);
+    Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
     const char *start = line_start(info);
+    if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start)) {
+        return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // there is no word yet: indentation
+    }
     Completion completion;
     complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
     bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
