@@ -67,7 +67,7 @@ static int unknown_option(const Args *args, const char *word, const char *name) 
 // Takes the value from the next word of the command line.
 static int take_value(Args *args, const char *shown) {
     if (args->next == args->argc) {
-        message("option '%s' needs a value: %s", shown, args->option->value);
+        message("option '%s' needs a value: %s, %s", shown, args->option->value, args->option->help);
         return ARG_WRONG;
     }
     args->value = args->argv[args->next++];

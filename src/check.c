@@ -144,6 +144,8 @@ const Command CHECK_COMMAND = {
         "pragmas,\n"
         "branches that are never reached, misspelled nodes and attributes. To see the latter it makes the first\n"
         "frame, of which nothing is printed, drawn or stored. The exit status is 1 if there was an error.",
+    .examples = "  petri check dish.fl\n"
+                "  petri check --werror .                          all scripts here, for CI\n",
     .options = OPTIONS,
     .run = check_run,
 };

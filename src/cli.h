@@ -28,6 +28,7 @@ typedef struct Command {
     const char *operands; // how usage names what follows the options
     const char *summary;  // one line, for the list of commands
     const char *details;  // a few sentences, for the command's own help
+    const char *examples; // lines to try, for its own help; NULL: none
     const OptionSpec *options;
     bool live;                                           // follows the wall clock and goes on until it is stopped
     int (*run)(const Host *host, int argc, char **argv); // without the command's name; returns the exit status

@@ -3,6 +3,7 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 #include <unistd.h>
 
 #include "cli.h"
@@ -37,10 +38,30 @@ int help_overview(void) {
         output_format(output, "  %-8s %s\n", COMMANDS[i]->name, COMMANDS[i]->summary);
     }
     output_format(
-        output, "\nSCRIPT.fl may be - for standard input. 'petri help COMMAND' lists a command's options. Scripts are\n"
-                "made of functions ('petri help builtins') and nodes ('petri help nodes'); 'petri help WORD' tells of\n"
-                "one, such as sin, particle or tempo. 'petri --version' prints the version.\n");
+        output,
+        "\nTo begin: petri new dish, then petri view dish.fl, and change dish.fl in an editor.\n\n"
+        "'petri help COMMAND' lists a command's options. Scripts are made of functions ('petri help builtins') and\n"
+        "nodes ('petri help nodes'); 'petri help WORD' tells of one, such as sin, particle or tempo. SCRIPT.fl may\n"
+        "be - for standard input. 'petri --version' prints the version.\n");
     return help_end(output);
+}
+
+// Text whose first line begins in a column and whose other lines are put below it.
+static void write_wrapped(Output *output, const char *text, int column) {
+    enum { LAST_COLUMN = 108 };
+    size_t most = (size_t)(LAST_COLUMN - column);
+    while (strlen(text) > most) {
+        size_t length = most;
+        while (length > 0 && text[length] != ' ') {
+            length--;
+        }
+        if (length == 0) {
+            break; // a word that is too long
+        }
+        output_format(output, "%.*s\n%*s", (int)length, text, column, "");
+        text += length + 1;
+    }
+    output_format(output, "%s\n", text);
 }
 
 void help_option(Output *output, const OptionSpec *spec) {
@@ -51,7 +72,8 @@ void help_option(Output *output, const OptionSpec *spec) {
     char head[80];
     snprintf(head, sizeof head, "  %s--%s%s%s", letter, spec->name, spec->value == NULL ? "" : " ",
              spec->value == NULL ? "" : spec->value);
-    output_format(output, "%-*s  %s\n", OPTION_COLUMN, head, spec->help);
+    output_format(output, "%-*s  ", OPTION_COLUMN, head);
+    write_wrapped(output, spec->help, OPTION_COLUMN + 2);
 }
 
 int help_for(const Command *command) {
@@ -64,6 +86,9 @@ int help_for(const Command *command) {
     for (const OptionSpec *spec = command->options; spec->name != NULL; spec++) {
         output_format(output, "%s", spec == command->options ? "\n" : "");
         help_option(output, spec);
+    }
+    if (command->examples != NULL) {
+        output_format(output, "\nExamples:\n%s", command->examples);
     }
     return help_end(output);
 }

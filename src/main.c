@@ -49,6 +49,13 @@ static int unknown_command(const char *word) {
             nearest = COMMANDS[i]->name;
         }
     }
+    static const char *const lists[] = {"builtins", "nodes"};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        if (is_nearer(word, lists[i], &best)) {
+            message("there is no command and no file '%s', did you mean 'petri help %s'?", word, lists[i]);
+            return STATUS_USAGE;
+        }
+    }
     if (word[0] == '\0') {
         message("the name of the script is empty");
     } else if (is_script_without_suffix(word)) {
@@ -63,7 +70,8 @@ static int unknown_command(const char *word) {
 
 static int dispatch(const Host *host, int argc, char **argv) {
     if (argc < 2) {
-        message("nothing to do; 'petri SCRIPT.fl' runs a script, 'petri help' lists the commands");
+        message("nothing to do; 'petri new NAME' begins a script, 'petri view SCRIPT.fl' shows it, 'petri help' lists "
+                "all commands");
         return STATUS_USAGE;
     }
     const char *first = argv[1];

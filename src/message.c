@@ -70,7 +70,7 @@ bool is_nearer(const char *word, const char *candidate, size_t *best) {
     if (length >= 3 && strncmp(word, candidate, length) == 0) {
         distance = 1;
     }
-    if (distance > 1 + length / 4 || distance >= *best) {
+    if (distance > 1 + length / 5 || distance >= *best) {
         return false;
     }
     *best = distance;

@@ -271,6 +271,9 @@ const Command RENDER_COMMAND = {
         "\n"
         "A script that draws what its !physics has stored finds nothing stored in frames 0 and 1. They are made, but\n"
         "not drawn and not counted: the first picture is that of frame 2, and --frames 60 makes a film of 60 frames.",
+    .examples = "  petri render dish.fl -o dish.png --frame 100    one picture\n"
+                "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
+                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a film\n",
     .options = RENDER_OPTION_SPECS,
     .run = render_run,
 };

@@ -23,7 +23,7 @@ enum { OPT_DEFINE = 1, OPT_FPS, OPT_STATE, OPT_LIMIT, OPT_THREADS, OPT_NOSIMPLIF
 enum { DEFAULT_LIMIT = 100000, MOST_THREADS = 1024 };
 
 static const OptionSpec OPTIONS[] = {
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "define a name for the script; may be repeated"},
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "set a parameter of the script; may be repeated"},
     {"fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins"},
     {"state", 0, OPT_STATE, "FILE", "begin with the state in FILE"},
     {"limit", 0, OPT_LIMIT, "N", "frames that .run and .until make at the most (100000)"},
@@ -170,38 +170,6 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
     }
 }
 
-static bool is_blank(const char *line) {
-    return line[strspn(line, " \t\n")] == '\0';
-}
-
-// Does a line go on with the lines above it?
-static bool goes_on(const char *line) {
-    return line[0] == ' ' || line[0] == '\t' || strncmp(line, "else", 4) == 0 || strncmp(line, "elif", 4) == 0;
-}
-
-// Where the last line begins.
-static size_t last_line(const char *text, size_t length) {
-    size_t at = length > 0 ? length - 1 : 0;
-    while (at > 0 && text[at - 1] != '\n') {
-        at--;
-    }
-    return at;
-}
-
-bool repl_wants_more(Repl *repl, const char *text, size_t length, size_t *taken) {
-    size_t last = last_line(text, length);
-    *taken = length;
-    if (text[strspn(text, " \t")] == '.') {
-        return false;
-    }
-    PetriInput above = last == 0 ? PETRI_INPUT_PART : petri_input(repl->session, text, last);
-    if (above != PETRI_INPUT_PART && (is_blank(text + last) || !goes_on(text + last))) {
-        *taken = last;
-        return false;
-    }
-    return petri_input(repl->session, text, length) != PETRI_INPUT_WHOLE;
-}
-
 // Reads the lines that belong to the first. A line that does not is left in `next`.
 static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
     size_t taken = 0;
@@ -215,7 +183,7 @@ static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *
         }
         bytes_add(text, "\n", 1);
     }
-    if (!is_blank(text->data + taken)) {
+    if (!repl_is_blank(text->data + taken)) {
         bytes_add(next, text->data + taken, text->length - taken - 1);
     }
     text->data[text->length = taken] = '\0';
@@ -243,7 +211,7 @@ static void converse(Repl *repl) {
         make_prompt(repl, prompt, sizeof prompt);
         repl_notice(repl, false);
         status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
-        if (status == LINE_READ && !is_blank(text.data)) {
+        if (status == LINE_READ && !repl_is_blank(text.data)) {
             status = handle(repl, reader, &text, &next);
         }
         bytes_free(&text);
@@ -336,7 +304,7 @@ typedef struct Settings {
 
 static bool set_script(const Args *args, Settings *settings) {
     if (settings->script != NULL) {
-        message("one script at a time: '%s' and '%s' were given", settings->script, args->value);
+        script_second(settings->script, args->value);
         return false;
     }
     if (args->value[0] == '\0' || script_is_stdin(args->value)) {
@@ -444,10 +412,12 @@ const Command REPL_COMMAND = {
     .summary = "step a script by hand: evaluate, go back and forth, change it",
     .details =
         "Reads lines: expressions, whose value is printed; let, func, import and nodes, which stay; and commands, "
-        "which\n"
-        "begin with a dot (.help lists them). The script is loaded anew when it was changed, and the state stays.\n"
-        "Ctrl-C stops what is being done, Ctrl-D or .quit leaves. The exit status is 0; if the lines come from a file\n"
-        "or a pipe, it is 1 when one of them was in error.",
+        "such\n"
+        "as .step, which makes a frame, and .help, which lists the others. The script is loaded anew when it was\n"
+        "changed, and the state stays. Ctrl-C stops what is being done, Ctrl-D or .quit leaves. The exit status is 0;\n"
+        "if the lines come from a file or a pipe, it is 1 when one of them was in error.",
+    .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
+                "  petri repl                                      without a script, to try things out\n",
     .options = OPTIONS,
     .run = repl_run,
 };

@@ -44,9 +44,6 @@ __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *for
 bool repl_status(Repl *repl, PetriStatus status);
 // Takes one line or suite, which is not blank: a command or something of the language.
 void repl_take(Repl *repl, const char *text, size_t length);
-// Whether more lines are wanted after these, each ended. *taken is how much of them belongs together: the last line may
-// be no part of what is above it, or the empty one that ends it.
-bool repl_wants_more(Repl *repl, const char *text, size_t length, size_t *taken);
 // A PetriWrite to Bytes, and one to the output; `host` is the Bytes or the Repl.
 bool repl_collect(void *bytes, const char *text, size_t length);
 bool repl_write(void *repl, const char *text, size_t length);
@@ -68,6 +65,12 @@ bool repl_notice(Repl *repl, bool at_prompt);
 // Reloads if files have changed: before a step. The old script stays where the new one is wrong.
 void repl_refresh(Repl *repl);
 void repl_watch_files(Repl *repl);
+
+// Lines that belong together (repl_block.c).
+// Whether more lines are wanted after these, each ended. *taken is how much of them belongs together: the last line may
+// be no part of what is above it, or the empty one that ends it.
+bool repl_wants_more(Repl *repl, const char *text, size_t length, size_t *taken);
+bool repl_is_blank(const char *line);
 
 // Commands (repl_commands.c).
 typedef struct ReplCommand {

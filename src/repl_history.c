@@ -77,11 +77,11 @@ static bool add_keyframe(ReplHistory *history, PetriSession *session) {
     return true;
 }
 
-// From the present frame on, the present setup counts.
+// From the present frame on, the present configuration counts.
 static bool begin_epoch(ReplHistory *history, PetriSession *session) {
     history->epochs = memory_resized(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
     history->epochs[history->epoch_count++] =
-        (Epoch){++history->last_epoch, petri_frame(session).number, petri_setup_number(session)};
+        (Epoch){++history->last_epoch, petri_frame(session).number, petri_config_number(session)};
     return add_keyframe(history, session);
 }
 
@@ -118,14 +118,14 @@ static void cut(ReplHistory *history, int64_t frame) {
 }
 
 static bool prepare(ReplHistory *history, PetriSession *session, int64_t frame) {
-    if (epoch_of(history, frame + 1)->setup == petri_setup_number(session)) {
+    if (epoch_of(history, frame + 1)->config == petri_config_number(session)) {
         return true;
     }
     cut(history, frame);
     if (frame > history->first) {
         return begin_epoch(history, session);
     }
-    // Nothing was made with the old setup that could be asked for.
+    // Nothing was made with the old configuration that could be asked for.
     drop_all(history);
     return begin_epoch(history, session);
 }
@@ -135,13 +135,13 @@ PetriStatus history_step(ReplHistory *history, PetriSession *session) {
     if (!prepare(history, session, before)) {
         return PETRI_MEMORY;
     }
-    uint64_t setup = petri_setup_number(session);
+    uint64_t config = petri_config_number(session);
     PetriStatus status = petri_step(session);
     int64_t frame = petri_frame(session).number;
     if (status == PETRI_INTERRUPTED || frame == before) {
         return status;
     }
-    if (petri_setup_number(session) != setup) {
+    if (petri_config_number(session) != config) {
         PetriStatus started =
             history_start(history, session, "a file that the script imports was changed") ? PETRI_OK : PETRI_MEMORY;
         return status == PETRI_OK ? started : status;
@@ -169,10 +169,10 @@ static const Keyframe *keyframe_before(const ReplHistory *history, int64_t frame
 }
 
 // Makes frames again up to one in the timeline, from a keyframe or from where the session is.
-static PetriStatus replay(PetriSession *session, const Keyframe *from, uint64_t setup, int64_t frame) {
+static PetriStatus replay(PetriSession *session, const Keyframe *from, uint64_t config, int64_t frame) {
     int64_t now = petri_frame(session).number;
     PetriStatus status = PETRI_OK;
-    if (now >= frame || now < from->frame || petri_setup_number(session) != setup) {
+    if (now >= frame || now < from->frame || petri_config_number(session) != config) {
         status = petri_rewind(session, from->snapshot);
     }
     while (status == PETRI_OK && petri_frame(session).number < frame) {
@@ -191,12 +191,12 @@ static PetriStatus go_back(ReplHistory *history, PetriSession *session, int64_t 
                      frame, history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
         return PETRI_INVALID;
     }
-    return replay(session, from, epoch_of(history, frame)->setup, frame);
+    return replay(session, from, epoch_of(history, frame)->config, frame);
 }
 
 PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
-    PetriSetup *setup = petri_setup(session);
-    if (setup == NULL) {
+    PetriConfig *config = petri_config(session);
+    if (config == NULL) {
         return PETRI_MEMORY;
     }
     PetriStatus status = PETRI_OK;
@@ -204,20 +204,20 @@ PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t fr
     if (petri_frame(session).number != target) {
         status = go_back(history, session, target, why);
     }
-    petri_setup_use(session, setup);
-    petri_setup_free(setup);
+    petri_config_use(session, config);
+    petri_config_free(config);
     while (status == PETRI_OK && petri_frame(session).number < frame) {
         status = history_step(history, session);
     }
     return status;
 }
 
-static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t setup, int64_t frame) {
+static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t config, int64_t frame) {
     PetriSnapshot *present = petri_snapshot(session);
     if (present == NULL) {
         return PETRI_MEMORY;
     }
-    PetriStatus status = replay(session, from, setup, frame);
+    PetriStatus status = replay(session, from, config, frame);
     if (status != PETRI_OK) {
         petri_rewind(session, present);
     }
@@ -228,22 +228,22 @@ static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t 
 PetriStatus history_remake(ReplHistory *history, PetriSession *session) {
     int64_t frame = petri_frame(session).number;
     const Keyframe *from = frame <= history->first || frame > history->last ? NULL : keyframe_before(history, frame);
-    PetriSetup *setup = petri_setup(session);
-    PetriStatus status = setup == NULL ? PETRI_MEMORY : PETRI_OK;
+    PetriConfig *config = petri_config(session);
+    PetriStatus status = config == NULL ? PETRI_MEMORY : PETRI_OK;
     if (status == PETRI_OK && from != NULL) {
-        status = remake(from, session, epoch_of(history, frame)->setup, frame);
-        petri_setup_use(session, setup);
+        status = remake(from, session, epoch_of(history, frame)->config, frame);
+        petri_config_use(session, config);
     }
-    petri_setup_free(setup);
+    petri_config_free(config);
     return status;
 }
 
 PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
-    PetriSetup *setup = petri_setup(session);
-    PetriStatus status = setup == NULL ? PETRI_MEMORY : petri_rewind(session, history->origin);
-    if (setup != NULL) {
-        petri_setup_use(session, setup);
+    PetriConfig *config = petri_config(session);
+    PetriStatus status = config == NULL ? PETRI_MEMORY : petri_rewind(session, history->origin);
+    if (config != NULL) {
+        petri_config_use(session, config);
     }
-    petri_setup_free(setup);
+    petri_config_free(config);
     return status;
 }

@@ -7,7 +7,7 @@
 //
 // What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a
 // keyframe of its own: a frame is made again with what was in force when it was made. To step on from a frame in the
-// past under a changed setup gives the timeline another future: what was after that frame is forgotten then.
+// past under a changed configuration gives the timeline another future: what was after that frame is forgotten then.
 #ifndef PETRI_SRC_REPL_HISTORY_H
 #define PETRI_SRC_REPL_HISTORY_H
 
@@ -28,7 +28,7 @@ typedef struct Keyframe {
 typedef struct Epoch {
     uint32_t number;
     int64_t start;
-    uint64_t setup;
+    uint64_t config;
 } Epoch;
 
 typedef struct ReplHistory {
@@ -50,13 +50,13 @@ void history_free(ReplHistory *history);
 // petri_step, with the history kept.
 PetriStatus history_step(ReplHistory *history, PetriSession *session);
 // Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
-// again. PETRI_INTERRUPTED in some frame on the way. The setup stays.
+// again. PETRI_INTERRUPTED in some frame on the way. The configuration stays.
 PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why);
 // Makes the present frame again, with its systems and its tree, from the keyframe before it. The first one of the
 // timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_MEMORY change
 // nothing.
 PetriStatus history_remake(ReplHistory *history, PetriSession *session);
-// Goes to where the timeline began, even if that was dropped since. The setup stays.
+// Goes to where the timeline began, even if that was dropped since. The configuration stays.
 PetriStatus history_reset(ReplHistory *history, PetriSession *session);
 
 #endif

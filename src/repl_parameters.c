@@ -46,7 +46,7 @@ static void report_set(Repl *repl, const char *name, bool warned) {
 
 // Defines the name and compiles the script for it. Where that fails everything is as before.
 static bool set(Repl *repl, const char *name, const char *definition) {
-    PetriSetup *before = petri_setup(repl->session);
+    PetriConfig *before = petri_config(repl->session);
     if (before == NULL) {
         return repl_status(repl, PETRI_MEMORY);
     }
@@ -54,11 +54,11 @@ static bool set(Repl *repl, const char *name, const char *definition) {
     bool good = petri_define(repl->session, definition) == PETRI_OK ||
                 repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50");
     if (good && petri_reload(repl->session, NULL) != PETRI_OK) {
-        petri_setup_use(repl->session, before);
+        petri_config_use(repl->session, before);
         good = false;
         repl->failed = true;
     }
-    petri_setup_free(before);
+    petri_config_free(before);
     if (good) {
         repl_keep_definition(repl, definition);
         report_set(repl, name, petri_diagnostic_count(repl->session, PETRI_WARNING) > warnings);

@@ -50,7 +50,7 @@ static bool may_record(Repl *repl, const char *script) {
                 history->epochs[i].start);
         }
     }
-    if (history->epochs[0].setup != petri_setup_number(repl->session)) {
+    if (history->epochs[0].config != petri_config_number(repl->session)) {
         return repl_fail(repl, "things were changed after these frames were made; .reset and step again");
     }
     if (petri_resolution(repl->session) > 0 || repl->rates_changed) {

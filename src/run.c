@@ -211,6 +211,10 @@ const Command RUN_COMMAND = {
         "outside\n"
         "is a warning, and so is a name that the script does not take. Numbers may have suffixes (1k, 20m), vectors\n"
         "are 1;2;3, symbols :name; 0 is as good as none, for it is false. Modules see none of this.",
+    .examples = "  petri run dish.fl --stats                       how fast it is, and the energy at the end\n"
+                "  petri run dish.fl --print state --every 60      where everything is, once a second\n"
+                "  petri run dish.fl -D DROPS=50 --frames 100      another number of drops\n"
+                "  petri run dish.fl --trajectory dish.csv         all ways as a table\n",
     .options = RUN_OPTION_SPECS,
     .run = run_run,
 };

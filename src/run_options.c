@@ -215,7 +215,7 @@ static bool read_size(const Args *args, RunOptions *options) {
 
 static bool read_script(const Args *args, RunOptions *options) {
     if (options->script != NULL) {
-        message("one script at a time: '%s' and '%s' were given", options->script, args->value);
+        script_second(options->script, args->value);
         return false;
     }
     if (args->value[0] == '\0') {

@@ -23,6 +23,29 @@ const char *script_shown(const char *name) {
     return script_is_stdin(name) ? SCRIPT_STDIN : name;
 }
 
+static bool is_picture(const char *name) {
+    static const char *const suffixes[] = {".png", ".svg", ".pdf", ".mp4", ".webm", ".gif"};
+    const char *dot = strrchr(name, '.');
+    for (size_t i = 0; dot != NULL && i < sizeof suffixes / sizeof suffixes[0]; i++) {
+        if (strcmp(dot, suffixes[i]) == 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
+void script_second(const char *first, const char *second) {
+    bool swapped = is_picture(first) || strchr(first, '=') != NULL;
+    const char *other = swapped ? first : second;
+    if (is_picture(other)) {
+        message("'%s' is no script; to write it: petri render %s -o %s", other, swapped ? second : first, other);
+    } else if (strchr(other, '=') != NULL) {
+        message("'%s' is no script, did you mean '-D %s'?", other, other);
+    } else {
+        message("one script at a time: '%s' and '%s' were given", first, second);
+    }
+}
+
 static bool read_stdin(Bytes *text) {
     char block[1 << 16];
     ssize_t got = 0;

@@ -14,6 +14,8 @@ const char *script_shown(const char *name);
 // could be meant.
 PetriStatus script_load(PetriSession *session, const char *name);
 PetriStatus script_check(PetriSession *session, const char *name);
+// Says that a second script was named on the command line, which may have been meant as an option's value.
+void script_second(const char *first, const char *second);
 // Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
 // holds.
 void script_suggest(const char *name);

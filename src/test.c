@@ -236,7 +236,7 @@ static int run_suite(Suite *suite) {
     }
     if (suite->count == 0) {
         message("no script found that has a .golden or a .err beside it%s",
-                suite->filter == NULL ? "" : " and fits the filter");
+                suite->filter == NULL ? "; 'petri help test' tells how to make one" : " and fits the filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
@@ -333,7 +333,12 @@ const Command TEST_COMMAND = {
     .details =
         "Runs each NAME.fl that has a NAME.golden beside it and compares its output with the golden, whose first\n"
         "line holds the options: '# run --frames 61 --every 20 --print state'. A NAME.err holds 'line N': the\n"
-        "script must be rejected with an error in that line. Each script runs in the folder that it is in.",
+        "script must be rejected with an error in that line. Each script runs in the folder that it is in.\n\n"
+        "To make a golden, write its first line and let petri write the rest:\n\n"
+        "  echo '# run --frames 61 --every 20 --print state' >dish.golden\n"
+        "  petri test --update dish.fl",
+    .examples = "  petri test .                                    all scripts here that have a golden\n"
+                "  petri test --update dish.fl                     its golden becomes what it prints now\n",
     .options = OPTIONS,
     .run = test_run,
 };

@@ -512,12 +512,14 @@ const Command VIEW_COMMAND = {
         "display. Saving the script loads it anew and keeps its state; while it has mistakes they are shown, and the\n"
         "last good version goes on.\n"
         "\n"
-        "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, w lists\n"
-        "warnings, of which a corner shows the number, h shows frame rate and clocks, q or Escape quits. Tab or ] and "
-        "[ choose a parameter of the script (petri help run), up and\n"
-        "down or + and - change it (page up and down: ten steps), 0 or backspace sets its default. Those that the "
-        "script asks for by !key are the script's; with Control\n"
-        "they have the meaning above.",
+        "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
+        "rate and clocks, w lists warnings, whose number a corner shows, q or Escape quits. Tab or ] and [ choose a\n"
+        "parameter of the script (petri help run), up and down or + and - change it (page up and down: ten steps), 0\n"
+        "or backspace sets its default. Those that the script asks for by !key are the script's; with Control they\n"
+        "have the meaning above.",
+    .examples =
+        "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
+        "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
     .options = VIEW_OPTION_SPECS,
     .run = view_run,
 };

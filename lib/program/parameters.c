@@ -5,7 +5,7 @@
 // comment behind it, which the scanner drops, but the source text still has.
 #include "program/compile.h"
 
-#include "syntax/literal.h"
+#include "ast/literal.h"
 
 #include <math.h>
 #include <string.h>

@@ -8,7 +8,7 @@
 #define PETRI_PROGRAM_PROGRAM_H
 
 #include "base/diag.h"
-#include "syntax/ast.h"
+#include "ast/ast.h"
 #include "value/node.h"
 #include "value/ops.h"
 #include "value/value.h"

@@ -202,7 +202,7 @@ static Unit *cached_module(PetriSession *session, Str path, Str version) {
         if (str_equal(unit->version, version))
             return unit;
         unit->retired = true;
-        session_change_setup(session, true);
+        session_change_config(session, true);
     }
     return NULL;
 }

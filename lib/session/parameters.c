@@ -365,7 +365,7 @@ PetriStatus petri_set_parameter(PetriSession *session, const char *name, const c
     if (status != PETRI_OK) {
         session->defines = before;
         session->define_count = session->told_defines = count;
-        session_change_setup(session, true);
+        session_change_config(session, true);
     }
     return status;
 }

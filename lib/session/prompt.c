@@ -284,7 +284,7 @@ static bool keep(PetriSession *session, const Job *job, bool adds) {
     prompts[session->prompt_count++] = (Prompt){session_put(session, job->unit), job->ast, job->program, adds};
     job->unit->references++;
     add_names(session, job->program);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return true;
 }
 
@@ -440,7 +440,7 @@ uint32_t petri_drop(PetriSession *session, bool bindings) {
     session->prompt_count = kept;
     if (kept == count)
         return 0;
-    session_change_setup(session, false);
+    session_change_config(session, false);
     session_compile_prompts(session);
     return count - kept;
 }

@@ -83,3 +83,43 @@ for name in $(sed -n 's/^ENGINE_NAME([A-Z_]*, *"\([a-z_]*\)".*/\1/p' "$here/../.
     petri help "$name"
     check "help $name tells of the value" status_is 0
 done
+
+# values that lack their option, options that lack their value
+petri run dish.fl SIZE=5
+check "NAME=VALUE alone is taken for a definition" has err "'SIZE=5' is no script, did you mean '-D SIZE=5'?"
+petri render dish.fl dish.png
+check "a picture alone is taken for an output" has err "to write it: petri render dish.fl -o dish.png"
+petri view dish.png dish.fl
+check "in whatever order" has err "to write it: petri render dish.fl -o dish.png"
+petri run dish.fl shelf/book.fl
+check "two scripts are told to be two" has err "one script at a time: 'dish.fl' and 'shelf/book.fl'"
+petri run dish.fl --frames
+check "an option tells what its value would do" has err "option '--frames' needs a value: N, stop after N frames"
+petri nodes
+check "a list of help alone is found" has err "did you mean 'petri help nodes'?"
+petri list
+check "a word like no other suggests nothing" lacks err "did you mean"
+petri test dish.fl
+check "a test without goldens tells where to read of them" has err "'petri help test' tells how to make one"
+petri
+check "nothing to do tells how to begin" has err "'petri new NAME' begins a script"
+
+# help fits a screen that is not wide, and gives examples
+for command in run view render repl test check new help; do
+    petri help "$command"
+    check "help $command fits 112 columns" [ "$(awk 'length > 112' out | wc -l)" -eq 0 ]
+done
+for command in run view render repl test check; do
+    petri help "$command"
+    sed -n "s/^  petri $command \\(.*\\)/\\1/p" out >examples
+    check "help $command has examples" test -s examples
+done
+petri help test
+echo '!n a=frame' >made.fl
+sed -n "s/^  echo \\('.*'\\) >dish.golden/echo \\1 >made.golden/p" out >making.sh
+check "how to make a golden" [ "$(wc -l <making.sh)" -eq 1 ]
+# shellcheck source=/dev/null
+. ./making.sh
+petri test --update made.fl
+petri test made.fl
+check "makes one" has out "1 passed"

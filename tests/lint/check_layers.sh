@@ -22,8 +22,11 @@ FILENAME == ARGV[1] {
     sub(/:$/, "", room)
     is_room[room] = 1
     may[room, room] = 1
-    for (i = 2; i <= NF; i++)
+    for (i = 2; i <= NF; i++) {
         may[room, $i] = 1
+        if (!($i in is_room) && $i != "petri")
+            complain("room " room " may only include rooms that stand above it, not " $i)
+    }
     next
 }
 

@@ -43,7 +43,7 @@ expect() {
     until screen | grep -q -e "$2"; do
         tries=$((tries + 1))
         if [ $tries -ge $patience ]; then
-            patience=50 # what comes after is mostly in vain, too
+            patience=200 # what comes after is mostly in vain, too
             failed=$((failed + 1))
             echo "FAIL $1: no line like '$2' in"
             screen | sed -e 's/^/  | /' -e '/^  | $/d'

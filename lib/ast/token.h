@@ -1,6 +1,6 @@
 // token.h: what the scanner yields, and the scanner's interface (grammar/lexer.re).
-#ifndef PETRI_SYNTAX_TOKEN_H
-#define PETRI_SYNTAX_TOKEN_H
+#ifndef PETRI_AST_TOKEN_H
+#define PETRI_AST_TOKEN_H
 
 #include "base/source.h"
 #include "value/value.h"

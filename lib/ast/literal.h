@@ -1,6 +1,6 @@
 // literal.h: the values of literal tokens (spec language.md L2.5 to L2.8).
-#ifndef PETRI_SYNTAX_LITERAL_H
-#define PETRI_SYNTAX_LITERAL_H
+#ifndef PETRI_AST_LITERAL_H
+#define PETRI_AST_LITERAL_H
 
 #include "base/arena.h"
 #include "base/str.h"

@@ -2,15 +2,15 @@
 //
 // Nodes are immutable once built, live in the program's arena and know their place in the source. ast_list.h says for
 // each kind what its children are.
-#ifndef PETRI_SYNTAX_AST_H
-#define PETRI_SYNTAX_AST_H
+#ifndef PETRI_AST_AST_H
+#define PETRI_AST_AST_H
 
 #include "base/source.h"
 #include "value/value.h"
 
 typedef enum AstKind {
 #define AST(kind, text) AST_##kind,
-#include "syntax/ast_list.h"
+#include "ast/ast_list.h"
 #undef AST
 } AstKind;
 

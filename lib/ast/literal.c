@@ -1,5 +1,5 @@
 // literal.c: see literal.h.
-#include "syntax/literal.h"
+#include "ast/literal.h"
 
 #include "base/number.h"
 

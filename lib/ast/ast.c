@@ -1,5 +1,5 @@
 // ast.c: see ast.h.
-#include "syntax/ast.h"
+#include "ast/ast.h"
 
 #include "value/format.h"
 
@@ -54,7 +54,7 @@ Ast *ast_literal(Arena *arena, Span span, Value value) {
 const char *ast_kind_name(AstKind kind) {
     static const char *const names[] = {
 #define AST(kind, text) text,
-#include "syntax/ast_list.h"
+#include "ast/ast_list.h"
 #undef AST
     };
     return names[kind];
