@@ -112,7 +112,7 @@ static void keep_children(Compiler *compiler, Expr *expr) {
         return;
     NodeList *list = arena_alloc(compiler->arena, sizeof *list);
     *list = node_list(compiler->arena, expr->children[1]->as.value);
-    list->kept = true;
+    list->program_lifetime = true;
     expr->as.kept = list;
 }
 

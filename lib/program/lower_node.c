@@ -115,7 +115,7 @@ static const Node *with_places(Arena *arena, const Node *node, const Expr *decor
         attrs[i] = (struct AttrOrigin){code->names[i], code->spans[i]};
     NodeOrigin origin = {node->origin->place, attrs, code->attr_count};
     Node *placed = arena_copy(arena, node, sizeof *node);
-    placed->kept = false;
+    placed->program_lifetime = false;
     placed->origin = arena_copy(arena, &origin, sizeof origin);
     return placed;
 }

@@ -107,7 +107,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
         return;
     node->children = list->nodes;
     node->child_count = list->count;
-    node->kept_children = list->kept;
+    node->program_lifetime_children = list->program_lifetime;
     if (list->height >= node->height)
         node->height = (uint16_t)(list->height + 1);
 }
@@ -121,7 +121,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     Attr *attrs = (Attr *)(made + 1);
     const Node **nodes = (const Node **)(attrs + instr->count);
     made->node = *plan->base;
-    made->node.kept = made->node.kept_children = false;
+    made->node.program_lifetime = made->node.program_lifetime_children = false;
     made->item = (Item){ITEM_NODE, .as.node = &made->node};
     if (instr->count)
         set_attributes(vm, list, slots, instr, &made->node, attrs);

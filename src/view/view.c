@@ -2,7 +2,6 @@
 #include <inttypes.h>
 #include <math.h>
 #include <signal.h>
-#include <stdarg.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,13 +9,10 @@
 
 #include "cli/hints.h"
 #include "cli/progress.h"
-#include "view/display.h"
-#include "view/parameters.h"
-#include "view/world.h"
+#include "view/view.h"
 
-// Seconds: the longest sleep (a saved script is seen after at most that); how long a notice stays; between two measures
-// of the frame rate, and between two saves of the state.
-static const double LONGEST_SLEEP = 0.05, NOTICE = 4, MEASURE = 0.5, BETWEEN_SAVES = 5;
+// Seconds: the longest sleep (a saved script is seen after at most that); between two saves of the state.
+static const double LONGEST_SLEEP = 0.05, BETWEEN_SAVES = 5;
 enum { MOST_EVENTS = 256, DEFAULT_SIZE = 512 };
 
 // A signal handler can reach nothing but a global.
@@ -34,110 +30,6 @@ static void catch_interrupts(void) {
     for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
         sigaction(numbers[i], &action, NULL);
     }
-}
-
-typedef struct View {
-    const Host *host;
-    World world;
-    const DisplayKind *kind;
-    Display *display;
-    Overlay overlay;
-    bool paused;
-    bool step_once;
-    bool shows_status;
-    bool shows_warnings;
-    bool redraw;
-    bool closing;
-    bool broken; // the display, or memory for it, is gone
-    double start;
-    double drawn; // when the picture was drawn last
-    double saved;
-    double notice_ends; // INFINITY: it stays
-    // The frame rate
-    double measured;
-    int64_t measured_frames;
-    double rate;
-    // Pixels of the display
-    uint32_t *pixels;
-    size_t pixel_count;
-    // The script's size and title as the display knows them
-    int width;
-    int height;
-    char title[300];
-    Event pointer; // the last that moved
-    ParameterKeys parameters;
-} View;
-
-static void set_notice(View *view, const char *text, double ends) {
-    view->redraw = overlay_set(view->overlay.notice, sizeof view->overlay.notice, text) || view->redraw;
-    view->notice_ends = ends;
-}
-
-__attribute__((format(printf, 2, 3))) static void notice(View *view, const char *format, ...) {
-    char text[sizeof view->overlay.notice];
-    va_list arguments;
-    va_start(arguments, format);
-    vsnprintf(text, sizeof text, format, arguments);
-    va_end(arguments);
-    set_notice(view, text, clock_seconds() + NOTICE);
-}
-
-// What is shown when there is nothing to tell.
-static void settle_notice(View *view) {
-    set_notice(view, view->paused ? "paused: space goes on, . steps" : "", INFINITY);
-}
-
-// What stops the script comes first; warnings are listed if that is wanted, else a mark tells that there are some.
-static void update_trouble(View *view) {
-    Overlay *overlay = &view->overlay;
-    const char *trouble = world_trouble(&view->world);
-    char text[sizeof overlay->trouble] = "", mark[sizeof overlay->mark] = "";
-    overlay->mild = trouble[0] == '\0';
-    if (overlay->mild && view->shows_warnings) {
-        warnings_list(&view->world.warnings, text, sizeof text);
-    } else if (overlay->mild) {
-        warnings_mark(&view->world.warnings, mark, sizeof mark);
-    }
-    bool changed = overlay_set(overlay->trouble, sizeof overlay->trouble, overlay->mild ? text : trouble);
-    changed = overlay_set(overlay->mark, sizeof overlay->mark, mark) || changed;
-    view->redraw = changed || view->redraw;
-}
-
-static void add_parameters(View *view, char *text, size_t size) {
-    Bytes more = {0};
-    size_t length = strlen(text);
-    parameter_status(&view->parameters, &view->world, &more);
-    snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
-    bytes_free(&more);
-}
-
-static void update_status(View *view) {
-    char text[sizeof view->overlay.status] = "";
-    if (view->shows_status) {
-        PetriFrame frame = petri_frame(view->world.session);
-        double seconds = frame.beat * 60 / frame.tempo;
-        snprintf(text, sizeof text,
-                 "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"
-                 "script %.2f ms  physics %.2f ms  steps %" PRIu64 "\n"
-                 "space pause  . step  r reset  f full screen\n"
-                 "s screenshot  w warnings  h this  q quit",
-                 view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
-                 frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
-        add_parameters(view, text, sizeof text);
-    }
-    view->redraw = overlay_set(view->overlay.status, sizeof view->overlay.status, text) || view->redraw;
-}
-
-// Twice a second is as much as can be read; while paused the numbers are those of the frame that is seen.
-static void measure_rate(View *view) {
-    double now = clock_seconds(), passed = now - view->measured;
-    if (passed < MEASURE) {
-        return;
-    }
-    view->rate = (double)(view->world.frames - view->measured_frames) / passed;
-    view->measured = now;
-    view->measured_frames = view->world.frames;
-    update_status(view);
 }
 
 // The window's size and title, of which the script may change its mind at any time.
@@ -165,9 +57,9 @@ static void step(View *view) {
     world_step(&view->world);
     view->step_once = view->paused && view->world.early; // what is not seen is no step
     follow_script(view);
-    update_trouble(view);
+    view_update_trouble(view);
     if (view->paused) {
-        update_status(view);
+        view_update_status(view);
     }
     view->redraw = true;
     if (clock_seconds() - view->saved > BETWEEN_SAVES) {
@@ -227,16 +119,16 @@ static void report_pointer(View *view, const Event *event) {
 static void set_paused(View *view, bool paused) {
     view->paused = paused;
     petri_hold(view->world.session);
-    settle_notice(view);
-    update_status(view);
+    view_settle_notice(view);
+    view_update_status(view);
 }
 
 static void take_screenshot(View *view) {
     char name[300];
     if (world_screenshot(&view->world, name, sizeof name)) {
-        notice(view, "saved %s", name);
+        view_notice(view, "saved %s", name);
     } else {
-        notice(view, "cannot save %s", name);
+        view_notice(view, "cannot save %s", name);
         view->world.failed = true;
     }
     if (view->kind->logs) {
@@ -247,8 +139,8 @@ static void take_screenshot(View *view) {
 static void reset(View *view) {
     world_reset(&view->world);
     view->step_once = true; // so that the first frame is seen even while paused
-    update_trouble(view);
-    notice(view, "reset");
+    view_update_trouble(view);
+    view_notice(view, "reset");
 }
 
 // Keys for the script's parameters; what they do is seen at once.
@@ -256,12 +148,12 @@ static void change_parameters(View *view, const char *key) {
     Bytes text = {0};
     ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
     if (act != PARAMETER_OTHER) {
-        notice(view, "%s", text.data);
-        update_status(view);
+        view_notice(view, "%s", text.data);
+        view_update_status(view);
     }
     if (act == PARAMETER_CHANGES) {
         view->step_once = view->step_once || view->paused;
-        update_trouble(view);
+        view_update_trouble(view);
     }
     bytes_free(&text);
 }
@@ -283,10 +175,10 @@ static void obey(View *view, const char *key) {
         take_screenshot(view);
     } else if (strcmp(key, "w") == 0) {
         view->shows_warnings = !view->shows_warnings;
-        update_trouble(view);
+        view_update_trouble(view);
     } else if (strcmp(key, "h") == 0) {
         view->shows_status = !view->shows_status;
-        update_status(view);
+        view_update_status(view);
     } else {
         change_parameters(view, key);
     }
@@ -374,7 +266,7 @@ static void draw(View *view) {
         status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
                                     (size_t)width * sizeof *view->pixels);
         petri_picture_tell(view->world.session, view->world.picture);
-        update_trouble(view); // what drawing has found wrong
+        view_update_trouble(view); // what drawing has found wrong
     }
     if (status == PETRI_OK) {
         make_opaque(view->pixels, count);
@@ -391,10 +283,10 @@ static void take_changes(View *view) {
         return;
     }
     if (world_trouble(&view->world)[0] == '\0') {
-        notice(view, "loaded the changed script");
+        view_notice(view, "loaded the changed script");
         view->step_once = view->paused; // so that the change is seen
     }
-    update_trouble(view);
+    view_update_trouble(view);
 }
 
 static void run_loop(View *view) {
@@ -402,7 +294,7 @@ static void run_loop(View *view) {
         take_events(view);
         take_changes(view);
         if (clock_seconds() >= view->notice_ends) {
-            settle_notice(view);
+            view_settle_notice(view);
         }
         if (may_step(view) && (view->step_once || petri_due(view->world.session) <= 0)) {
             if (view->paused) {
@@ -414,7 +306,7 @@ static void run_loop(View *view) {
         if (view->world.halted && (view->world.options.frames < INT64_MAX || !isnan(view->world.options.run_time))) {
             return;
         }
-        measure_rate(view);
+        view_measure_rate(view);
         if (view->redraw && clock_seconds() - view->drawn >= view->kind->least_seconds) {
             draw(view);
         }
