@@ -1,5 +1,5 @@
-// complete.c: see complete.h.
-#include "repl/complete.h"
+// complete.c: what a word at the prompt may go on with.
+#include "repl/repl.h"
 
 #include <ctype.h>
 #include <dirent.h>
@@ -36,15 +36,16 @@ static bool is_word(char c) {
 }
 
 static void offer_commands(Search *search) {
-    for (const ReplCommand *command = REPL_COMMANDS; command->name != NULL; command++) {
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
         offer(search, command->name);
     }
 }
 
-static void offer_kinds(Search *search, const char *sigil) {
+static void offer_kinds(Search *search) {
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        offer_with(search, sigil, kind.name, "");
+        offer(search, kind.name);
     }
 }
 
@@ -178,7 +179,7 @@ static void search_language(Search *search, const char *line, size_t length) {
     }
     search_from(search, line, start, length);
     if (start > 0 && line[start - 1] == '!') {
-        offer_kinds(search, "");
+        offer_kinds(search);
         return;
     }
     const char *kind = node_before(line, start, &kind_length);
@@ -197,8 +198,11 @@ static void offer_parameters(Search *search) {
 }
 
 static void offer_topics(Search *search) {
+    PetriNodeKind kind;
     offer_commands(search);
-    offer_kinds(search, "!");
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        offer_with(search, "!", kind.name, "");
+    }
     offer_names(search);
     offer(search, "builtins");
     offer(search, "nodes");
@@ -206,24 +210,15 @@ static void offer_topics(Search *search) {
 
 // What follows a command.
 static void search_operand(Search *search, const char *line, size_t name, size_t length) {
-    static const struct {
-        const char *name;
-        void (*offer)(Search *search);
-    } rows[] = {
-        {".help", offer_topics},   {".load", offer_files},        {".save", offer_files},
-        {".restore", offer_files}, {".record", offer_files},      {".energy", offer_systems},
-        {".state", offer_keys},    {".particles", offer_systems}, {".set", offer_parameters},
+    static void (*const offers[])(Search *) = {
+        [COMPLETE_FILES] = offer_files, [COMPLETE_SYSTEMS] = offer_systems,       [COMPLETE_KEYS] = offer_keys,
+        [COMPLETE_KINDS] = offer_kinds, [COMPLETE_PARAMETERS] = offer_parameters, [COMPLETE_TOPICS] = offer_topics,
     };
     size_t start = name + strspn(line + name, " \t");
     search_from(search, line, start < length ? start : length, length);
-    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
-        if (strlen(rows[i].name) == name && memcmp(rows[i].name, line, name) == 0) {
-            rows[i].offer(search);
-            return;
-        }
-    }
-    if (name == 5 && memcmp(line, ".tree", 5) == 0) {
-        offer_kinds(search, "");
+    const ReplCommand *command = repl_find_command(line, name);
+    if (command != NULL && command->complete != COMPLETE_LANGUAGE) {
+        offers[command->complete](search);
     } else {
         search_language(search, line, length);
     }

@@ -1,5 +1,5 @@
-// edit.c: see edit.h.
-#include "repl/edit.h"
+// edit.c: lines edited on a terminal, with history and completion, by libedit.
+#include "repl/line.h"
 
 #ifdef HAVE_LIBEDIT
 
@@ -13,10 +13,6 @@
 #include <termios.h>
 #include <unistd.h>
 #include <wchar.h>
-
-#include "repl/complete.h"
-#include "repl/plain.h"
-#include "repl/saved.h"
 
 struct Editor {
     Repl *repl;
@@ -73,7 +69,7 @@ static int read_character(EditLine *line, wchar_t *character) {
     mbstate_t state = {0};
     for (;;) {
         char byte;
-        PlainWait wait = plain_wait(editor->repl);
+        LineWait wait = line_wait(editor->repl);
         if (wait == WAIT_INTERRUPTED) {
             leave_block(editor);
             errno = EINTR;
@@ -129,7 +125,7 @@ static unsigned char enter(EditLine *line, wint_t character) {
     size_t taken = 0;
     bytes_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
     bytes_add(&text, "\n", 1);
-    bool more = repl_wants_more(editor->repl, text.data, text.length, &taken);
+    bool more = line_wants_more(editor->repl, text.data, text.length, &taken);
     el_cursor(line, (int)text.length); // it stops at the end
     bytes_free(&text);
     if (!more) {

@@ -1,13 +1,14 @@
-// plot.c: a number over the last frames, drawn as a line, and how long things take.
+// plot.c: a number over the last frames, drawn as a line, and the frame's picture in the terminal.
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
 
-#include "cli/progress.h"
 #include "repl/repl.h"
-#include "repl/words.h"
+#include "view/terminal_picture.h"
 
 // Cells of the picture. A braille cell is 2 dots wide and 4 high; without Unicode a cell is one dot.
 enum { WIDEST = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MOST_FRAMES = 1000000 };
@@ -164,7 +165,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     return status == PETRI_OK && !repl->failed;
 }
 
-bool repl_plot(Repl *repl, const char *rest) {
+static bool run_plot(Repl *repl, const char *rest) {
     char *expression = memory_copied(rest, strlen(rest));
     int64_t count = DEFAULT_FRAMES;
     word_last_count(expression, &count);
@@ -179,47 +180,76 @@ bool repl_plot(Repl *repl, const char *rest) {
     return good;
 }
 
-static void say_seconds(Repl *repl, double seconds, const char *more) {
-    static const struct {
-        double unit;
-        const char *name;
-    } units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}};
-    size_t i = 0;
-    while (i < 3 && seconds < units[i].unit) {
-        i++;
-    }
-    repl_say(repl, "%.3g %s%s", seconds / units[i].unit, units[i].name, more);
+enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30 };
+
+// Of the terminal, with a line left for the prompt.
+static void find_room(int *columns, int *rows) {
+    struct winsize size;
+    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 2;
+    *columns = known ? size.ws_col : DEFAULT_COLUMNS;
+    *rows = known ? size.ws_row - 2 : DEFAULT_ROWS;
 }
 
-// The best of many, since other programs can only make it slower.
-static bool time_expression(Repl *repl, const char *expression) {
-    double best = INFINITY, start = clock_seconds();
-    int64_t count = 0;
-    PetriStatus status = PETRI_OK;
+static PetriStatus draw_picture(Repl *repl, PetriPicture *picture, uint32_t *pixels, const TerminalCells *cells) {
+    PetriPainter *painter = petri_painter_open();
+    if (painter == NULL) {
+        return PETRI_MEMORY;
+    }
+    PetriStatus status =
+        petri_picture_draw(picture, painter, pixels, cells->width, cells->height, (size_t)cells->width * 4);
+    petri_picture_tell(repl->session, picture);
+    petri_painter_close(&painter);
+    return status;
+}
+
+static PetriStatus show_picture(Repl *repl, PetriPicture *picture) {
+    int columns = 0, rows = 0, width = 0, height = 0;
+    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->colour);
+    if (way == NULL) {
+        return PETRI_MEMORY;
+    }
+    find_room(&columns, &rows);
+    petri_picture_size(picture, &width, &height);
+    TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);
+    uint32_t *pixels = memory_zeroed((size_t)cells.width * (size_t)cells.height * sizeof *pixels);
+    PetriStatus status = draw_picture(repl, picture, pixels, &cells);
+    size_t length = 0;
+    char *text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
+    if (text != NULL) {
+        output_write(&repl->output, text, length);
+        output_write(&repl->output, "\n", 1);
+    } else if (status == PETRI_OK) {
+        status = PETRI_MEMORY;
+    }
+    free(text);
+    free(pixels);
+    terminal_picture_free(way);
+    return status;
+}
+
+static bool run_show(Repl *repl, const char *rest) {
+    (void)rest;
+    if (!terminal_picture_possible()) {
+        return repl_fail(repl, "this petri was built without libchafa: it cannot show pictures in the terminal");
+    }
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    repl_complete_frame(repl);
     repl_busy(repl);
-    while (status == PETRI_OK && count < 100000 && (count < 3 || clock_seconds() - start < 0.2)) {
-        PetriResult result;
-        status = petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL);
-        best = status == PETRI_OK ? fmin(best, result.seconds) : best;
-        count++;
+    PetriStatus status = petri_preview(repl->session);
+    if (status == PETRI_OK) {
+        status = petri_picture(repl->session, &options, &picture);
+    }
+    if (status == PETRI_OK) {
+        status = show_picture(repl, picture);
     }
     repl_idle(repl);
-    if (repl_status(repl, status)) {
-        say_seconds(repl, best, ", the best of several evaluations");
-    }
-    return status == PETRI_OK;
+    petri_picture_free(&picture);
+    return repl_status(repl, status);
 }
 
-bool repl_time(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".time needs an expression, or a command");
-    }
-    if (rest[0] != '.' || (rest[1] >= '0' && rest[1] <= '9') || rest[1] == '.') {
-        return time_expression(repl, rest);
-    }
-    double start = clock_seconds();
-    repl_command(repl, rest);
-    double seconds = clock_seconds() - start;
-    say_seconds(repl, seconds, "");
-    return !repl->failed;
-}
+const ReplCommand PLOT_COMMANDS[] = {
+    {".plot", "EXPR [N]", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
+    {".show", "", "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
+    {0},
+};

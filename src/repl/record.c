@@ -11,7 +11,6 @@
 #include <unistd.h>
 
 #include "repl/repl.h"
-#include "repl/words.h"
 
 // Up to and including the last slash.
 static size_t folder_length(const char *path) {
@@ -146,7 +145,7 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
     return good;
 }
 
-bool repl_record(Repl *repl, const char *rest) {
+static bool run_record(Repl *repl, const char *rest) {
     char *name = memory_copied(rest, strlen(rest));
     int64_t every = 1;
     word_last_count(name, &every);
@@ -168,3 +167,9 @@ bool repl_record(Repl *repl, const char *rest) {
     free(name);
     return good;
 }
+
+const ReplCommand RECORD_COMMANDS[] = {
+    {".record", "FILE [K]", "write each K-th frame from the first on as a golden for petri test", run_record,
+     COMPLETE_FILES},
+    {0},
+};

@@ -173,7 +173,7 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
 // Reads the lines that belong to the first. A line that does not is left in `next`.
 static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
     size_t taken = 0;
-    while (repl_wants_more(repl, text->data, text->length, &taken)) {
+    while (line_wants_more(repl, text->data, text->length, &taken)) {
         Bytes line = {0};
         LineStatus status = line_read(reader, "... ", &line);
         bytes_add(text, line.data, line.length);
@@ -183,7 +183,7 @@ static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *
         }
         bytes_add(text, "\n", 1);
     }
-    if (!repl_is_blank(text->data + taken)) {
+    if (!line_is_blank(text->data + taken)) {
         bytes_add(next, text->data + taken, text->length - taken - 1);
     }
     text->data[text->length = taken] = '\0';
@@ -211,7 +211,7 @@ static void converse(Repl *repl) {
         make_prompt(repl, prompt, sizeof prompt);
         repl_notice(repl, false);
         status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
-        if (status == LINE_READ && !repl_is_blank(text.data)) {
+        if (status == LINE_READ && !line_is_blank(text.data)) {
             status = handle(repl, reader, &text, &next);
         }
         bytes_free(&text);

@@ -59,30 +59,39 @@ bool repl_interrupted(void);
 
 // Loading (script.c). True if the script is running now.
 bool repl_load(Repl *repl, const char *file);
-bool repl_reload(Repl *repl);
 // Looks whether files have changed and says so: true if it did. `at_prompt`: something stands in the line already.
 bool repl_notice(Repl *repl, bool at_prompt);
 // Reloads if files have changed: before a step. The old script stays where the new one is wrong.
 void repl_refresh(Repl *repl);
 void repl_watch_files(Repl *repl);
 
-// Lines that belong together (block.c).
-// Whether more lines are wanted after these, each ended. *taken is how much of them belongs together: the last line may
-// be no part of what is above it, or the empty one that ends it.
-bool repl_wants_more(Repl *repl, const char *text, size_t length, size_t *taken);
-bool repl_is_blank(const char *line);
-
-// Commands (commands.c).
+// Commands (commands.c). Those of a file are in a table at its end: a new one is a row there and its function.
+typedef enum Completes {
+    COMPLETE_LANGUAGE,
+    COMPLETE_FILES,
+    COMPLETE_KEYS,
+    COMPLETE_KINDS,
+    COMPLETE_PARAMETERS,
+    COMPLETE_SYSTEMS,
+    COMPLETE_TOPICS
+} Completes;
 typedef struct ReplCommand {
-    const char *name; // with its dot
-    const char *operands;
+    const char *name;     // with its dot
+    const char *operands; // "": it takes none
     const char *help;
     bool (*run)(Repl *repl, const char *rest); // false if it failed, after a message
+    Completes complete;                        // how its operand goes on
 } ReplCommand;
-extern const ReplCommand REPL_COMMANDS[]; // the last has no name
+// Each ends with a row without a name.
+extern const ReplCommand STEP_COMMANDS[], SHOW_COMMANDS[], PLOT_COMMANDS[], SETTING_COMMANDS[], SCRIPT_COMMANDS[],
+    RECORD_COMMANDS[], OTHER_COMMANDS[];
+// All of them in the order of help; NULL beyond the last.
+const ReplCommand *repl_command_at(size_t index);
+// By its name with or without the dot; NULL if there is none.
+const ReplCommand *repl_find_command(const char *name, size_t length);
 void repl_command(Repl *repl, const char *line);
 
-// Commands without a dot (bare.c).
+// Commands without a dot (words.c).
 // `help`, `?`, `quit`, `exit`, `q`: true if the text was one of those and is done; also if it begins with the name of
 // another command, after a message. Where the word is a name of the script, the prompt or petri, the text is left to
 // the language, and a remark is for when that has failed or, with the words above, has shown its value.
@@ -90,35 +99,40 @@ bool bare_take(Repl *repl, const char *text, Bytes *remark);
 // The command that such a word stands for, or NULL.
 const char *bare_alias(const char *name, size_t length);
 
-// Parameters (parameters.c).
-bool repl_set(Repl *repl, const char *rest);
-bool repl_show_parameters(Repl *repl);
-// Says that the script has a name of its own which was bound at the prompt just now.
-void repl_tell_hidden(Repl *repl, const char *name);
+// What follows a command's name (words.c).
+// A copy without blanks at its ends; to be freed.
+char *word_trimmed(const char *text);
+// A finite number: one as the command line takes it, a time code, or an expression of the present frame. False after a
+// message.
+bool word_number(Repl *repl, const char *text, double *number);
+// A whole number from `least` on, or an expression for one; an empty text leaves *count. False after a message.
+bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count);
+// Takes `--limit N` off the text's beginning or end. False after a message.
+bool word_limit(Repl *repl, char *text, int64_t *limit);
+// Takes a whole number off the text's end, if there is one after a blank and something before it.
+void word_last_count(char *text, int64_t *count);
+// Takes a whole number, or `all`, off the end of what a table is asked for: how many lines to show. What is not said is
+// a screenful, less `around` lines, on a terminal and everything elsewhere.
+size_t word_lines(const Repl *repl, char *text, size_t around);
 
-// Steps (step.c): frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
-typedef struct Walk {
-    int64_t count;
-    const char *until; // NULL: no condition
-    bool limited;      // reaching the count is worth a word
-} Walk;
-bool repl_walk(Repl *repl, const Walk *walk);
-// Writes the present frame's `@` line, what it logged and what is watched.
+// Says that the script has a name of its own which was bound at the prompt just now (settings.c).
+void repl_tell_hidden(Repl *repl, const char *name);
+// Writes the present frame's `@` line, what it logged and what is watched (steps.c).
 void repl_show_frame(Repl *repl);
-bool repl_goto(Repl *repl, int64_t frame);
 // Makes the present frame again if Ctrl-C has taken away what it computed beside the state: the systems, the tree.
 void repl_complete_frame(Repl *repl);
 
-// Shows (show.c, particles.c, picture.c, plot.c, help.c, record.c).
-// Of long ones a screenful, or as many lines as a number or `all` at the end of the text says.
-bool repl_show_state(Repl *repl, const char *rest);
-bool repl_show_tree(Repl *repl, const char *rest);
-bool repl_show_particles(Repl *repl, const char *rest);
-bool repl_show_energy(Repl *repl, const char *rest);
-bool repl_show_picture(Repl *repl);
-bool repl_plot(Repl *repl, const char *rest);
-bool repl_time(Repl *repl, const char *rest);
-bool repl_help(Repl *repl, const char *topic);
-bool repl_record(Repl *repl, const char *rest);
+// What a word may go on with (complete.c).
+typedef struct Completion {
+    Bytes words; // that begin with what was typed, each ended by NUL, sorted, each once
+    size_t count;
+    Bytes common; // what all of them have beyond what was typed
+} Completion;
+
+// For the first `length` bytes of a line. To be freed.
+void complete_line(Repl *repl, const char *line, size_t length, Completion *completion);
+void complete_free(Completion *completion);
+// Writes the words in columns.
+void complete_show(const Completion *completion, Output *output);
 
 #endif

@@ -1,9 +1,18 @@
-// step.c: making frames at the prompt, forward and back, and what is said of them.
+// steps.c: commands that make frames, forward and back, and what is said of them.
 #include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
 #include <string.h>
 
 #include "cli/progress.h"
 #include "repl/repl.h"
+
+// Frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
+typedef struct Walk {
+    int64_t count;
+    const char *until; // NULL: no condition
+    bool limited;      // reaching the count is worth a word
+} Walk;
 
 // Adds `EXPR = value` for each expression that is watched.
 static void add_watched(Repl *repl, Bytes *text) {
@@ -78,7 +87,7 @@ static void conclude(Repl *repl, const Walk *walk, int64_t made, Outcome outcome
     }
 }
 
-bool repl_walk(Repl *repl, const Walk *walk) {
+static bool walk_frames(Repl *repl, const Walk *walk) {
     Progress progress;
     Outcome outcome = GOING;
     int64_t made = 0;
@@ -132,7 +141,7 @@ static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
     return status;
 }
 
-bool repl_goto(Repl *repl, int64_t frame) {
+static bool go_to(Repl *repl, int64_t frame) {
     Bytes why = {0};
     repl_refresh(repl);
     repl->failed = false;
@@ -153,3 +162,100 @@ bool repl_goto(Repl *repl, int64_t frame) {
     }
     return status == PETRI_OK;
 }
+
+static bool run_step(Repl *repl, const char *rest) {
+    int64_t count = 1;
+    return word_count(repl, rest, 1, &count) && walk_frames(repl, &(Walk){.count = count});
+}
+
+static bool run_run(Repl *repl, const char *rest) {
+    double seconds = 0;
+    if (rest[0] == '\0') {
+        return walk_frames(repl, &(Walk){.count = repl->limit, .limited = true});
+    }
+    if (!word_number(repl, rest, &seconds)) {
+        return false;
+    }
+    if (seconds < 0) {
+        return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
+    }
+    double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
+    bool limited = frames > (double)repl->limit;
+    return walk_frames(repl, &(Walk){.count = limited ? repl->limit : (int64_t)frames, .limited = limited});
+}
+
+static bool run_until(Repl *repl, const char *rest) {
+    char *expression = memory_copied(rest, strlen(rest));
+    int64_t limit = repl->limit;
+    bool good = word_limit(repl, expression, &limit);
+    if (good && expression[0] == '\0') {
+        good = repl_fail(repl, ".until needs an expression");
+    }
+    PetriResult result; // of the present frame: whether it is an expression at all
+    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
+    good = good && walk_frames(repl, &(Walk){.count = limit, .until = expression});
+    free(expression);
+    return good;
+}
+
+// Adds what the first frame of the history is.
+static void add_start(const Repl *repl, Bytes *text) {
+    const char *why = repl->history.why;
+    if (why == NULL) {
+        bytes_format(text, "this is the start");
+    } else {
+        bytes_format(text, "the history begins here (%s)", why);
+    }
+}
+
+static bool run_back(Repl *repl, const char *rest) {
+    int64_t count = 1, ago = petri_frame(repl->session).number - repl->history.first;
+    if (!word_count(repl, rest, 1, &count)) {
+        return false;
+    }
+    if (count <= ago) {
+        return go_to(repl, petri_frame(repl->session).number - count);
+    }
+    Bytes start = {0};
+    add_start(repl, &start);
+    if (ago > 0) {
+        repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
+    } else {
+        repl_fail(repl, "there is nothing to go back to: %s", start.data);
+    }
+    bytes_free(&start);
+    return ago > 0 && go_to(repl, repl->history.first);
+}
+
+static bool run_go(Repl *repl, const char *rest) {
+    int64_t frame = -1;
+    if (rest[0] == '\0') {
+        return repl_fail(repl, ".goto needs the number of a frame");
+    }
+    return word_count(repl, rest, -1, &frame) && go_to(repl, frame);
+}
+
+static bool run_reset(Repl *repl, const char *rest) {
+    (void)rest;
+    PetriStatus status = history_reset(&repl->history, repl->session);
+    if (status == PETRI_OK && petri_frame(repl->session).number < repl->history.first &&
+        !history_start(&repl->history, repl->session, NULL)) {
+        status = PETRI_MEMORY;
+    }
+    if (!repl_status(repl, status)) {
+        return false;
+    }
+    repl_show_frame(repl);
+    return true;
+}
+
+const ReplCommand STEP_COMMANDS[] = {
+    {".step", "[N]", "make N frames (1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", "make frames for T seconds of the script's time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "make frames until the expression is true, N at the most", run_until,
+     COMPLETE_LANGUAGE},
+    {".back", "[N]", "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
+    {".goto", "FRAME", "go to a frame, back or forward; -1 is before the first", run_go, COMPLETE_LANGUAGE},
+    {".reset", "", "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
+    {0},
+};

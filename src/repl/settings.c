@@ -1,10 +1,9 @@
-// parameters.c: `.set` and `.parameters`: what the script leaves to whoever runs it.
+// settings.c: what the script leaves to whoever runs it: parameters and rates.
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/parameters.h"
 #include "repl/repl.h"
-#include "repl/words.h"
 
 // Is a text, a name or NAME=VALUE, of the name?
 static bool is_of(const char *text, const char *name) {
@@ -76,9 +75,17 @@ static bool show_one(Repl *repl, const char *name) {
     return true;
 }
 
-bool repl_set(Repl *repl, const char *rest) {
+static bool run_parameters(Repl *repl, const char *rest) {
+    (void)rest;
+    if (parameters_list(repl->session, &repl->output) == 0) {
+        repl_say(repl, "the script has no parameters; `let SIZE=SIZE or 20 -- 1..100 how large` makes one");
+    }
+    return true;
+}
+
+static bool run_set(Repl *repl, const char *rest) {
     if (rest[0] == '\0') {
-        return repl_show_parameters(repl);
+        return run_parameters(repl, rest);
     }
     size_t length = strcspn(rest, " \t=");
     char *name = memory_copied(rest, length);
@@ -94,13 +101,6 @@ bool repl_set(Repl *repl, const char *rest) {
     return good;
 }
 
-bool repl_show_parameters(Repl *repl) {
-    if (parameters_list(repl->session, &repl->output) == 0) {
-        repl_say(repl, "the script has no parameters; `let SIZE=SIZE or 20 -- 1..100 how large` makes one");
-    }
-    return true;
-}
-
 void repl_tell_hidden(Repl *repl, const char *name) {
     PetriParameter parameter;
     if (parameter_find(repl->session, name, &parameter)) {
@@ -110,3 +110,61 @@ void repl_tell_hidden(Repl *repl, const char *name) {
         repl_say(repl, "the script keeps its own %s; only what is typed here sees the new one", name);
     }
 }
+
+static void show_number(Repl *repl, const char *name, double value) {
+    output_format(&repl->output, "%s = %.12g\n", name, value);
+}
+
+static bool read_rate(Repl *repl, const char *rest, double *value) {
+    return word_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
+}
+
+static bool run_tempo(Repl *repl, const char *rest) {
+    double tempo = 0;
+    if (rest[0] != '\0' && !(read_rate(repl, rest, &tempo) && petri_set_tempo(repl->session, tempo) == PETRI_OK)) {
+        return false;
+    }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
+    show_number(repl, "tempo", petri_frame(repl->session).tempo);
+    return true;
+}
+
+static bool run_fps(Repl *repl, const char *rest) {
+    double fps = 0;
+    if (rest[0] != '\0' && !(read_rate(repl, rest, &fps) && petri_set_fps(repl->session, fps) == PETRI_OK)) {
+        return false;
+    }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
+    show_number(repl, "fps", petri_frame(repl->session).fps);
+    return true;
+}
+
+static bool run_resolution(Repl *repl, const char *rest) {
+    double step = 0;
+    bool off = strcmp(rest, "off") == 0;
+    if (rest[0] != '\0' && !off && !read_rate(repl, rest, &step)) {
+        return false;
+    }
+    if (rest[0] != '\0') {
+        petri_set_resolution(repl->session, step);
+    }
+    step = petri_resolution(repl->session);
+    if (step > 0) {
+        show_number(repl, "resolution", step);
+    } else {
+        repl_say(repl, "each system's own resolution counts");
+    }
+    return true;
+}
+
+const ReplCommand SETTING_COMMANDS[] = {
+    {".parameters", "", "list the script's parameters: value, default, range, comment", run_parameters,
+     COMPLETE_LANGUAGE},
+    {".set", "[NAME [VALUE]]", "give a parameter of the script a value, as -D does; or show it", run_set,
+     COMPLETE_PARAMETERS},
+    {".tempo", "[T]", "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
+    {".fps", "[F]", "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
+    {".resolution", "[R | off]", "show or change the longest simulation step of all systems", run_resolution,
+     COMPLETE_LANGUAGE},
+    {0},
+};
