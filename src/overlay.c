@@ -100,12 +100,13 @@ static void add_panel(Bytes *script, const Panel *panel, double x, double y, con
     }
 }
 
-// The whole overlay as a script: what is wrong at the top, the status at the bottom left, a notice at the bottom right,
-// above the status if there is no room beside it.
+// The whole overlay as a script: what is wrong at the top, the mark at its right, the status at the bottom left, a
+// notice at the bottom right, above the status if there is no room beside it.
 static void write_scene(Bytes *script, const Overlay *overlay, double scale, int width, int height) {
     static const Look wrong = {"0.16;0.03;0.04;0.92", "1;0.93;0.91", "0.94;0.27;0.23"},
                       usual = {"0.05;0.07;0.1;0.82", "0.92;0.94;0.96", NULL},
-                      news = {"0.05;0.07;0.1;0.82", "0.7;0.88;1", NULL};
+                      news = {"0.05;0.07;0.1;0.82", "0.7;0.88;1", NULL},
+                      careful = {"0.14;0.1;0.02;0.92", "1;0.95;0.8", "1;0.75;0.2"};
     Panel status = {.width = 0}, panel;
     double across = width / scale, bottom = height / scale - MARGIN, room = across - 2 * MARGIN;
     bytes_format(script,
@@ -114,7 +115,11 @@ static void write_scene(Bytes *script, const Overlay *overlay, double scale, int
                  width, height, scale, TEXT_SIZE);
     if (overlay->trouble[0] != '\0') {
         lay_out(&panel, overlay->trouble, room, true);
-        add_panel(script, &panel, MARGIN, MARGIN, &wrong);
+        add_panel(script, &panel, MARGIN, MARGIN, overlay->mild ? &careful : &wrong);
+    }
+    if (overlay->mark[0] != '\0') {
+        lay_out(&panel, overlay->mark, room, false);
+        add_panel(script, &panel, across - MARGIN - panel.width, MARGIN, &careful);
     }
     if (overlay->status[0] != '\0') {
         lay_out(&status, overlay->status, room, false);
@@ -154,7 +159,8 @@ static void use_size(OverlayPainter *painter, int width, int height) {
 
 static void redraw(OverlayPainter *painter, const Overlay *overlay, double scale) {
     Bytes script = {0};
-    painter->any = overlay->status[0] != '\0' || overlay->notice[0] != '\0' || overlay->trouble[0] != '\0';
+    painter->any = overlay->status[0] != '\0' || overlay->notice[0] != '\0' || overlay->trouble[0] != '\0' ||
+                   overlay->mark[0] != '\0';
     if (painter->any) {
         write_scene(&script, overlay, scale, painter->width, painter->height);
         painter->any = draw_scene(painter, &script);
@@ -166,7 +172,7 @@ static void redraw(OverlayPainter *painter, const Overlay *overlay, double scale
 
 static bool same_texts(const Overlay *a, const Overlay *b) {
     return strcmp(a->status, b->status) == 0 && strcmp(a->notice, b->notice) == 0 &&
-           strcmp(a->trouble, b->trouble) == 0;
+           strcmp(a->trouble, b->trouble) == 0 && strcmp(a->mark, b->mark) == 0 && a->mild == b->mild;
 }
 
 // One colour of `over`, which is multiplied by its alpha, on an opaque one.

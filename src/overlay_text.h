@@ -10,6 +10,8 @@ typedef struct Overlay {
     char status[400];   // frame rate and clocks, some lines
     char notice[400];   // what was done just now, one line
     char trouble[4000]; // what is wrong with the script, some lines
+    char mark[40];      // that there is more to tell, a few words in a corner
+    bool mild;          // `trouble` tells of nothing that stops anything
 } Overlay;
 
 // Sets one of them from any text: escape sequences and what is no UTF-8 are left out, tabs become blanks, and what does

@@ -250,13 +250,19 @@ static void add_lines(Bytes *out, const char *text, int row, const Display *disp
     }
 }
 
-// What is wrong at the top, the rest at the bottom.
+// What is wrong at the top, the mark at its right, the rest at the bottom.
 static void add_overlay(Bytes *out, const Display *display, const Overlay *overlay) {
-    static const char reverse[] = "\033[7m";
+    static const char reverse[] = "\033[7m", careful[] = "\033[38;5;230;48;5;58m";
     char text[sizeof *overlay];
     int columns = display->columns - 2, row = display->rows;
     overlay_fit(text, sizeof text, overlay->trouble, columns);
-    add_lines(out, text, 0, display, display->colour ? "\033[38;5;224;48;5;52m" : reverse);
+    const char *wrong = overlay->mild ? careful : "\033[38;5;224;48;5;52m";
+    add_lines(out, text, 0, display, display->colour ? wrong : reverse);
+    int length = overlay_columns(overlay->mark);
+    if (length > 0 && length + 2 <= display->columns) {
+        bytes_format(out, "\033[1;%dH%s %s \033[0m", display->columns - length - 1, display->colour ? careful : reverse,
+                     overlay->mark);
+    }
     overlay_fit(text, sizeof text, overlay->status, columns);
     row -= overlay_lines(text);
     add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;253;48;5;234m" : reverse);
@@ -278,7 +284,8 @@ static void add_picture(Bytes *out, const Display *display, const char *text, si
 
 static bool same_lines(const Overlay *a, const Overlay *b) {
     return overlay_lines(a->trouble) == overlay_lines(b->trouble) &&
-           overlay_lines(a->notice) == overlay_lines(b->notice) && overlay_lines(a->status) == overlay_lines(b->status);
+           overlay_lines(a->notice) == overlay_lines(b->notice) &&
+           overlay_lines(a->status) == overlay_lines(b->status) && strcmp(a->mark, b->mark) == 0;
 }
 
 static bool terminal_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {

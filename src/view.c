@@ -45,6 +45,7 @@ typedef struct View {
     bool paused;
     bool step_once;
     bool shows_status;
+    bool shows_warnings;
     bool redraw;
     bool closing;
     bool broken; // the display, or memory for it, is gone
@@ -86,9 +87,20 @@ static void settle_notice(View *view) {
     set_notice(view, view->paused ? "paused: space goes on, . steps" : "", INFINITY);
 }
 
+// What stops the script comes first; warnings are listed if that is wanted, else a mark tells that there are some.
 static void update_trouble(View *view) {
+    Overlay *overlay = &view->overlay;
     const char *trouble = world_trouble(&view->world);
-    view->redraw = overlay_set(view->overlay.trouble, sizeof view->overlay.trouble, trouble) || view->redraw;
+    char text[sizeof overlay->trouble] = "", mark[sizeof overlay->mark] = "";
+    overlay->mild = trouble[0] == '\0';
+    if (overlay->mild && view->shows_warnings) {
+        warnings_list(&view->world.warnings, text, sizeof text);
+    } else if (overlay->mild) {
+        warnings_mark(&view->world.warnings, mark, sizeof mark);
+    }
+    bool changed = overlay_set(overlay->trouble, sizeof overlay->trouble, overlay->mild ? text : trouble);
+    changed = overlay_set(overlay->mark, sizeof overlay->mark, mark) || changed;
+    view->redraw = changed || view->redraw;
 }
 
 static void add_parameters(View *view, char *text, size_t size) {
@@ -108,7 +120,7 @@ static void update_status(View *view) {
                  "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"
                  "script %.2f ms  physics %.2f ms  steps %" PRIu64 "\n"
                  "space pause  . step  r reset  f full screen\n"
-                 "s screenshot  h this  q quit",
+                 "s screenshot  w warnings  h this  q quit",
                  view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
                  frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
         add_parameters(view, text, sizeof text);
@@ -269,6 +281,9 @@ static void obey(View *view, const char *key) {
         view->redraw = true;
     } else if (strcmp(key, "s") == 0) {
         take_screenshot(view);
+    } else if (strcmp(key, "w") == 0) {
+        view->shows_warnings = !view->shows_warnings;
+        update_trouble(view);
     } else if (strcmp(key, "h") == 0) {
         view->shows_status = !view->shows_status;
         update_status(view);
@@ -359,6 +374,7 @@ static void draw(View *view) {
         status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
                                     (size_t)width * sizeof *view->pixels);
         petri_picture_tell(view->world.session, view->world.picture);
+        update_trouble(view); // what drawing has found wrong
     }
     if (status == PETRI_OK) {
         make_opaque(view->pixels, count);
@@ -497,9 +513,10 @@ const Command VIEW_COMMAND = {
         "last good version goes on.\n"
         "\n"
         "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
-        "rate and clocks, q or Escape quits. Tab or ] and [ choose a parameter of the script (petri help run), up and\n"
-        "down or + and - change it (page up and down: ten steps), 0 or backspace sets its default. Those that the\n"
-        "script asks for by !key are the script's; with Control they have the meaning above.",
+        "rate and clocks, w lists warnings, whose number a corner shows, q or Escape quits. Tab or ] and [ choose a\n"
+        "parameter of the script (petri help run), up and down or + and - change it (page up and down: ten steps), 0\n"
+        "or backspace sets its default. Those that the script asks for by !key are the script's; with Control they\n"
+        "have the meaning above.",
     .examples =
         "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
         "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",

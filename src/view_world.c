@@ -29,6 +29,7 @@ static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     }
     if (world->shown) {
         log_text(world, diagnostic->rendered);
+        warnings_add(&world->warnings, diagnostic);
     }
     if (diagnostic->level == PETRI_ERROR && world->trouble.length < MOST_TROUBLE) {
         bytes_format(&world->trouble, "%s", diagnostic->rendered);
@@ -110,6 +111,7 @@ void world_close(World *world) {
     watch_free(world->watch);
     bytes_free(&world->log);
     bytes_free(&world->trouble);
+    warnings_forget(&world->warnings);
 }
 
 // Files that the script's `!record` nodes name.
@@ -169,12 +171,26 @@ bool world_step(World *world) {
     return true;
 }
 
+// After an attempt to load: what it said counts if it went well, what was said before if not.
+static void choose_warnings(World *world, Warnings *before, bool loaded) {
+    if (loaded) {
+        warnings_forget(before);
+    } else {
+        warnings_forget(&world->warnings);
+        world->warnings = *before;
+    }
+}
+
 bool world_reload(World *world) {
     if (!watch_changed(world->watch)) {
         return false;
     }
+    Warnings before = world->warnings;
+    world->warnings = (Warnings){0};
     forget_trouble(world);
-    if (petri_reload(world->session, world->options.script) == PETRI_OK) {
+    bool loaded = petri_reload(world->session, world->options.script) == PETRI_OK;
+    choose_warnings(world, &before, loaded);
+    if (loaded) {
         world->halted = world->broken = false;
         watch_sources(world);
         forget_trouble(world); // of a load that went well, errors are only warnings to the eye
@@ -188,7 +204,10 @@ bool world_reload(World *world) {
 
 bool world_set_parameter(World *world, const char *name, const char *value) {
     size_t before = world->trouble.length;
+    Warnings known = world->warnings;
+    world->warnings = (Warnings){0};
     bool done = petri_set_parameter(world->session, name, value) == PETRI_OK;
+    choose_warnings(world, &known, done);
     if (done) {
         world->halted = false;
         cut_trouble(world, world->broken ? before : 0);

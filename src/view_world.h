@@ -8,6 +8,7 @@
 #include "bytes.h"
 #include "petri.h"
 #include "run_options.h"
+#include "warnings.h"
 #include "watch.h"
 
 typedef struct World {
@@ -26,10 +27,11 @@ typedef struct World {
     bool state_lost;
     bool wrong_definition; // the script cannot take a value of -D
     // Messages
-    bool mute;     // standard error belongs to the display: messages are kept in `log` until it is closed
-    bool shown;    // the last diagnostic that was no note was shown
-    Bytes log;     // bounded
-    Bytes trouble; // what is wrong now, for the overlay
+    bool mute;         // standard error belongs to the display: messages are kept in `log` until it is closed
+    bool shown;        // the last diagnostic that was no note was shown
+    Bytes log;         // bounded
+    Bytes trouble;     // what is wrong now, for the overlay
+    Warnings warnings; // of the program that is running, since it was loaded
 } World;
 
 // Opens and loads; the status to exit with, or RUN_OPTIONS_OK. The options have been read. Close in either case.

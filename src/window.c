@@ -9,6 +9,7 @@
 #include "overlay.h"
 #include "petri.h"
 #include "screen.h"
+#include "window_manager.h"
 
 // A way to the screen that the user has chosen, as SDL's users do; NULL: none.
 static const char *chosen_driver(void) {
@@ -38,6 +39,8 @@ struct Display {
     int texture_width;
     int texture_height;
     OverlayPainter *overlay;
+    bool filled;    // the screen, by ourselves
+    SDL_Rect usual; // … where the window was before
 };
 
 // As large as the script says, but shrunk to what fits on the screen.
@@ -331,16 +334,40 @@ static void window_set_title(Display *display, const char *title) {
 }
 
 static void window_resize(Display *display, int width, int height) {
-    if ((SDL_GetWindowFlags(display->window) & (SDL_WINDOW_FULLSCREEN | SDL_WINDOW_MAXIMIZED)) == 0) {
+    if (!display->filled &&
+        (SDL_GetWindowFlags(display->window) & (SDL_WINDOW_FULLSCREEN | SDL_WINDOW_MAXIMIZED)) == 0) {
         fit_screen(&width, &height);
         SDL_SetWindowSize(display->window, width, height);
     }
 }
 
+// Where nobody manages windows, and so nothing but ours is on the screen, they are what we make them.
+static void fill_screen(Display *display) {
+    SDL_Rect screen, *usual = &display->usual;
+    int number = SDL_GetWindowDisplayIndex(display->window);
+    if (SDL_GetDisplayBounds(number < 0 ? 0 : number, &screen) != 0) {
+        return;
+    }
+    SDL_GetWindowPosition(display->window, &usual->x, &usual->y);
+    SDL_GetWindowSize(display->window, &usual->w, &usual->h);
+    SDL_SetWindowPosition(display->window, screen.x, screen.y);
+    SDL_SetWindowSize(display->window, screen.w, screen.h);
+    display->filled = true;
+}
+
 static void window_toggle_full_screen(Display *display) {
     bool full = (SDL_GetWindowFlags(display->window) & SDL_WINDOW_FULLSCREEN) != 0;
-    SDL_SetWindowFullscreen(display->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+    if (display->filled) {
+        SDL_SetWindowSize(display->window, display->usual.w, display->usual.h);
+        SDL_SetWindowPosition(display->window, display->usual.x, display->usual.y);
+        display->filled = false;
+    } else if (!full && !window_manager_fills_screen(display->window)) {
+        fill_screen(display);
+    } else {
+        SDL_SetWindowFullscreen(display->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+    }
 }
+
 static const DisplayKind WINDOW = {
     .open = window_open,
     .close = window_close,
