@@ -37,6 +37,10 @@ test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-e
 CLANG_NEEDS='command -v clang: clang'
 FORMAT_NEEDS='command -v clang-format: clang-format'
 TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
+CROSS_NEEDS='
+command -v aarch64-linux-gnu-gcc: gcc-aarch64-linux-gnu libc6-dev-arm64-cross
+command -v qemu-aarch64  : qemu-user
+'
 PEER_NEEDS='
 command -v lmp   : lammps
 command -v mpirun: openmpi-bin
