@@ -411,8 +411,9 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
                          PetriPrompted *done);
 // Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were.
 uint32_t petri_drop(PetriSession *session, bool bindings);
-// A statement that the prompt has kept, by number from 0; NULL beyond the last. Valid until the next prompt or drop.
-const char *petri_kept(PetriSession *session, size_t number);
+// A statement that is evaluated in each frame, by number from 0; NULL beyond the last. Valid until the next call that
+// changes the configuration.
+const char *petri_prompt_statement(const PetriSession *session, size_t number);
 
 typedef struct PetriResult {
     bool is_true;
@@ -428,7 +429,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
 PetriStatus petri_preview(PetriSession *session);
 
 // A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
-const char *petri_name(PetriSession *session, size_t number);
+const char *petri_name(const PetriSession *session, size_t number);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code.

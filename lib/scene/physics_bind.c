@@ -111,7 +111,7 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
 
 bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFrame *frame) {
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
-    if (!system || !keep_slots(system, saved->slots, saved->slot_count))
+    if (!system || !system->engine || !keep_slots(system, saved->slots, saved->slot_count))
         return false;
     system->seen = scene->frame_number; // the next update is that of the frame after
     return true;
@@ -265,6 +265,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
         physics_store(&tree, false);
     }
     system->described &= faultless;
+    scene->exhausted |= tree.failed;
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     return steps;
@@ -293,6 +294,7 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     PhysicsSystem *system = find_system(scene, attr_value(&reader, ROW_PHYSICS_STATE), frame);
     if (!system || !system->engine) {
         reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
+        scene->exhausted = true;
         return 0;
     }
     if (system->occurrence == 1)

@@ -12,16 +12,11 @@ static void report(void *host, DiagLevel level, const char *code, const Origin *
     scene->host.report(scene->host.host, level, code, origin, node, key, text);
 }
 
-Scene *scene_new(SymbolTable *symbols, SceneHost host) {
-    Scene *scene = calloc(1, sizeof *scene);
-    if (!scene)
-        return NULL;
-    scene->host = host;
+Scene *scene_new(Arena *arena, SymbolTable *symbols, SceneHost host) {
+    Scene *scene = arena_alloc(arena, sizeof *scene);
+    *scene = (Scene){.host = host};
     schema_init(&scene->schema, symbols, (SceneHost){scene, report});
-    if (!input_init(&scene->input, symbols)) {
-        scene_free(scene);
-        return NULL;
-    }
+    input_init(&scene->input, symbols);
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
@@ -53,25 +48,42 @@ static void free_system(PhysicsSystem *system) {
     free(system);
 }
 
-void scene_reset(Scene *scene, State *state) {
-    for (PhysicsSystem *system = scene->systems, *next; system; system = next) {
+void scene_free_systems(PhysicsSystem *systems) {
+    for (PhysicsSystem *system = systems, *next; system; system = next) {
         next = system->next;
-        if (state)
-            physics_store_settle(system, state);
         free_system(system);
     }
+}
+
+PhysicsSystem *scene_set_aside(Scene *scene) {
+    PhysicsSystem *systems = scene->systems;
     scene->systems = NULL;
     scene->marked = NULL;
+    return systems;
+}
+
+void scene_bring_back(Scene *scene, PhysicsSystem *systems) {
+    scene_reset(scene);
+    scene->systems = systems;
+}
+
+void scene_reset(Scene *scene) {
+    scene_free_systems(scene_set_aside(scene));
 }
 
 void scene_free(Scene *scene) {
-    if (scene) {
-        scene_reset(scene, NULL);
-        phys_threads_free(scene->physics.pool);
-        free(scene->bodies);
-        input_free(&scene->input);
-    }
-    free(scene);
+    if (!scene)
+        return;
+    scene_reset(scene);
+    phys_threads_free(scene->physics.pool);
+    free(scene->bodies);
+    input_free(&scene->input);
+}
+
+bool scene_take_exhausted(Scene *scene) {
+    bool was = scene->exhausted;
+    scene->exhausted = false;
+    return was;
 }
 
 Input *scene_input(Scene *scene) {

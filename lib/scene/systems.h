@@ -24,7 +24,6 @@ typedef struct Link {
 // where the engine has them (state.h, views). So a tree that is the same in the next frame costs nothing, and one with
 // the same particles costs what has changed: `described` says that this is possible. Anything out of the ordinary
 // clears it, and the next frame's tree is read from scratch, with positions and velocities from the state.
-typedef struct PhysicsSystem PhysicsSystem;
 struct PhysicsSystem {
     PhysicsSystem *next;
     StateSlot start;     // slot of the prefix itself: what identifies the system
@@ -69,6 +68,7 @@ struct PhysicsSystem {
 struct Scene {
     SceneHost host;
     uint64_t reports; // given so far
+    bool exhausted;   // see scene_take_exhausted
     Schema schema;
     Input input;
     PhysicsSystem *systems;
