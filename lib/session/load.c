@@ -16,12 +16,13 @@ static Unit *unit_new(PetriSession *session) {
         arena_exhausted(&session->arena);
     unit->references = 1;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
+    arena_init(&unit->scratch, "compiler", UNIT_BUDGET);
     unit_arena(session, unit);
     return unit;
 }
 
 Arena *unit_arena(const PetriSession *session, Unit *unit) {
-    unit->arena.escape = session->arena.escape;
+    unit->arena.escape = unit->scratch.escape = session->arena.escape;
     return &unit->arena;
 }
 
@@ -30,6 +31,7 @@ void unit_free(Unit *unit) {
         return;
     diag_sink_free(&unit->parse_sink);
     diag_sink_free(&unit->sink);
+    arena_free(&unit->scratch);
     arena_free(&unit->arena);
     free(unit);
 }
@@ -50,9 +52,9 @@ static bool take_include(Unit *unit, Str path) {
     return true;
 }
 
-static const Ast *parse(PetriSession *session, Unit *unit, const Source *source) {
+static const Ast *parse(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
     unit->parse_sink = diag_sink_new(unit_arena(session, unit), MOST_ERRORS);
-    const Ast *ast = parse_program(&unit->arena, &session->symbols, source, &unit->parse_sink);
+    const Ast *ast = parse_program(arena, &session->symbols, source, &unit->parse_sink);
     tell_and_free(session, &unit->parse_sink);
     return ast;
 }
@@ -72,7 +74,7 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
         return NULL;
     }
     *source = source_new(&unit->arena, path, canonical, text);
-    const Ast *ast = parse(session, unit, *source);
+    const Ast *ast = parse(session, unit, &unit->scratch, *source);
     if (!ast) {
         *why = STR("it does not parse");
         return NULL;
@@ -81,45 +83,38 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     uint32_t skip = 0;
     while (skip < ast->count && ast->children[skip]->kind == AST_PRAGMA)
         skip++;
-    return ast_new(&unit->arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
+    return ast_new(&unit->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
 // Memory that evaluating one expression ahead may take.
 #define STATIC_BUDGET ((size_t)1 << 29)
 
 typedef struct Ahead {
-    const Expr *expr;
-    uint32_t frame_size;
+    const Code *code;
     Value value;
     bool done;
 } Ahead;
 
 static void evaluate_ahead(PetriSession *session, void *context) {
     Ahead *ahead = context;
-    Arena *arena = &session->loader.compiling->arena;
-    ahead->done = vm_run_static(&session->static_vm, arena, ahead->expr, ahead->frame_size, &ahead->value);
+    ahead->done = vm_run_static(&session->static_vm, &session->loader.compiling->arena, ahead->code, &ahead->value);
 }
 
 // What does not fit is left for the frames.
-static bool host_evaluate(void *host, const Expr *expr, uint32_t frame_size, Value *value) {
+static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loader.compiling->arena;
     size_t budget = arena->budget;
-    ArenaMark mark = arena_mark(arena);
-    Ahead ahead = {.expr = expr, .frame_size = frame_size};
+    Ahead ahead = {.code = code};
     if (arena->budget - arena->used > STATIC_BUDGET)
         arena->budget = arena->used + STATIC_BUDGET;
     PetriStatus status = session_protect(session, arena, evaluate_ahead, &ahead);
     arena->budget = budget;
     if (status == PETRI_MEMORY)
         arena_exhausted(arena);
-    if (status != PETRI_OK || !ahead.done) {
-        *value = VALUE_NULL;
-        arena_rewind(arena, mark);
-        return false;
-    }
-    *value = ahead.value;
-    return true;
+    bool done = status == PETRI_OK && ahead.done;
+    *value = done ? ahead.value : VALUE_NULL;
+    return done;
 }
 
 // In the order of the text, as far as they are of one file: a name is known to be unused only at the end.
@@ -147,7 +142,8 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loader.compiling;
     session->loader.compiling = unit;
-    const Program *program = program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
+    const Program *program =
+        program_compile(&unit->arena, &unit->scratch, &session->symbols, unit->source, ast, &options, &unit->sink);
     session->loader.compiling = outer;
     sort_by_place(&unit->sink);
     tell_and_free(session, &unit->sink);
@@ -156,11 +152,13 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
     unit->source = source_new(&unit->arena, name, unit->path, text);
-    unit->ast = parse(session, unit, unit->source);
-    if (unit->ast)
-        unit->program = unit_compile(session, unit, unit->ast, module, (Names){0});
+    const Ast *ast = parse(session, unit, &unit->scratch, unit->source);
+    unit->empty = ast && ast->count == 0;
+    if (ast)
+        unit->program = unit_compile(session, unit, ast, module, (Names){0});
     else
         unit->why = STR("it does not parse");
+    arena_free(&unit->scratch);
     if (unit->program && !module && !session_check_definitions(session, unit))
         unit->program = NULL;
 }
@@ -169,7 +167,7 @@ Unit *unit_parse(PetriSession *session, Str name, Str text) {
     Unit *unit = session->loader.begun = unit_new(session);
     unit->path = name;
     unit->source = source_new(&unit->arena, name, name, text);
-    unit->ast = parse(session, unit, unit->source);
+    unit->ast = parse(session, unit, &unit->arena, unit->source);
     return unit;
 }
 

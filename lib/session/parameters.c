@@ -252,7 +252,7 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     // What is set by hand is told each time, what was told at the load is not.
     uint32_t first = session->again ? session->told_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->again);
-    for (uint32_t i = first; i < session->config.define_count && unit->ast->count > 0; i++)
+    for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
         if (is_last(session, i))
             good =
                 check_one(&(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) && good;

@@ -2,6 +2,7 @@
 #include "session/session.h"
 
 #include "base/number.h"
+#include "syntax/parse.h"
 #include "value/format.h"
 
 #include <string.h>
@@ -156,10 +157,14 @@ PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host
 
 static void print_code(Output *out, PetriSession *session, unsigned what) {
     const Unit *unit = session->config.program;
-    if (what == PETRI_DUMP_AST)
-        ast_print(&out->text, &session->symbols, unit->source, unit->ast);
-    else
+    if (what == PETRI_DUMP_CODE) {
         program_print(&out->text, &session->symbols, unit->program);
+    } else { // the tree was dropped when the program was compiled
+        DiagSink nowhere = diag_sink_new(out->text.arena, 0);
+        const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &nowhere);
+        ast_print(&out->text, &session->symbols, unit->source, ast);
+        diag_sink_free(&nowhere);
+    }
 }
 
 PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host) {

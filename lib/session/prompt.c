@@ -105,6 +105,7 @@ void prompt_list_compile(PetriSession *session, const PromptList *list, const Pr
         if (choice == PROMPT_NONE || (choice == PROMPT_BINDINGS && statement.adds))
             continue;
         statement.program = unit_compile(session, statement.unit, statement.ast, false, (*made)->names);
+        arena_free(&statement.unit->scratch);
         PromptList *shorter = *made;
         *made = prompt_list_add(shorter, &statement);
         prompt_list_free(shorter);
@@ -157,6 +158,7 @@ static void run(PetriSession *session, void *context) {
     Job *job = context;
     session_set_globals(session, &session->static_vm);
     job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
+    arena_free(&job->unit->scratch);
     session->vm.state = session->state;
     session->vm.interrupt = &session->interrupt;
     session->vm.arena = session->vm.builtins.arena = job->arena;

@@ -11,11 +11,13 @@
 typedef struct Unit Unit;
 struct Unit {
     Unit *next;
-    Arena arena; // to be used through unit_arena
-    Str path;    // canonical; NUL-terminated
-    Str version; // changes when the file does: modification time, size, inode
+    Arena arena;   // to be used through unit_arena
+    Arena scratch; // while it is compiled: syntax tree, expressions
+    Str path;      // canonical; NUL-terminated
+    Str version;   // changes when the file does: modification time, size, inode
     const Source *source;
-    const Ast *ast;
+    const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
+    bool empty;             // there is no statement in it
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
     uint32_t references;    // freed with the last

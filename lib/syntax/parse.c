@@ -244,7 +244,7 @@ static void retoken(Layout *layout, Token *token, int kind, uint32_t len) {
 }
 
 // Context decides what a word or a directive is (L2.2, L2.12).
-static void settle_kind(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
+static void resolve_keyword(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
     Str text = token_text(context, token->span);
     if ((token->kind == PRAGMA || token->kind == INCLUDE) && !gr_accepts(parser, token->kind)) {
         retoken(layout, token, '%', 1);
@@ -324,7 +324,7 @@ static void parse_text(ParseContext *context, Layout *layout) {
     int status = YYPUSH_MORE;
     while (parser && status == YYPUSH_MORE && !context->too_deep) {
         Token token = layout_next(layout);
-        settle_kind(context, layout, parser, &token);
+        resolve_keyword(context, layout, parser, &token);
         status = push(context, layout, parser, &token);
         if (status == 1 && token.kind != END) {
             // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
@@ -365,7 +365,7 @@ static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser)
     bool begins = true;
     for (;;) {
         Token token = layout_next(layout);
-        settle_kind(context, layout, parser, &token);
+        resolve_keyword(context, layout, parser, &token);
         if (token.kind == GR_UNDEF || token.error)
             return !token.error && opens_string(text, token.span) ? PARSE_PART : PARSE_WHOLE;
         if (token.kind == END)

@@ -51,6 +51,8 @@ tell_more() {
 }
 
 # view NAME [options] SCRIPT: starts a view, and waits until its window, called NAME, is there: $window.
+# The server takes away the window of a view that has ended when it comes to it: it must not be taken for the next one's.
+none_is_left() { ! find_window; }
 find_window() {
     window=$(xdotool search --name "^$title\$" 2>/dev/null | tail -n 1)
     [ -n "$window" ]
@@ -58,6 +60,7 @@ find_window() {
 view() {
     title=$1
     shift
+    soon none_is_left
     "$petri" view "$@" >out 2>err </dev/null &
     viewer=$!
     if ! soon find_window; then

@@ -1,7 +1,7 @@
 // test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
-#include "cli.h"
+#include "cli/cli.h"
 #include "player.h"
-#include "repl_history.h"
+#include "repl/history.h"
 
 #include <stdarg.h>
 
