@@ -66,8 +66,8 @@ typedef struct PetriOptions {
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
-    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false: only
-    // evaluation is interrupted.
+    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
+    // only evaluation is interrupted.
     bool interruptible;
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
@@ -228,8 +228,8 @@ PetriStatus petri_save(PetriSession *session, const char *file);
 PetriStatus petri_restore(PetriSession *session, const char *file);
 
 // The particle systems of the last frame, for drawing and measuring. Numbers count from 0 in order of declaration; each
-// function is false beyond the last, and if memory is used up. Texts and vectors are valid until the next of these calls,
-// steps or loads; names of systems until the next step or load.
+// function is false beyond the last, and if memory is used up. Texts and vectors are valid until the next of these
+// calls, steps or loads; names of systems until the next step or load.
 typedef struct PetriSystem {
     const char *name; // its state prefix in printed form, such as ":cells"
     uint32_t dimensions;
@@ -433,8 +433,8 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
 // Evaluates the script for the present frame, or frame 0, if petri_step has not done so: for petri_print.
 PetriStatus petri_preview(PetriSession *session);
 
-// A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice. Valid
-// as long as the session.
+// A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
+// Valid as long as the session.
 const char *petri_name(const PetriSession *session, size_t number);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
