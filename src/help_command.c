@@ -34,6 +34,9 @@ static void write_attributes(Output *output, size_t kind) {
         char head[48];
         snprintf(head, sizeof head, "      %s", attribute.name);
         output_format(output, "%-*s  %s", ATTRIBUTE_COLUMN, head, attribute.type);
+        if (attribute.unit[0] != '\0') {
+            output_format(output, ", in %s", attribute.unit);
+        }
         if (attribute.fallback[0] != '\0') {
             output_format(output, " (%s)", attribute.fallback);
         }

@@ -57,19 +57,18 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     bool kept = node->kept && system->generation == tree->frame->generation;
     if (kept && body < system->node_count && system->nodes[body] == node)
         return true;
-    Value id;
-    PhysParticle numbers;
-    physics_read_particle(tree, node, anchor, &id, &numbers);
-    if (!physics_has_id(tree, body, id))
+    BodyAttrs read;
+    physics_read_particle(tree, node, anchor, &read);
+    if (!physics_has_id(tree, body, read.id))
         return false;
     PhysKeep keep = {false, false};
     if (!anchor) {
         const StateSlot *slots = system->slots + 2 * (size_t)body;
         keep.position = state_slot_get(tree->frame->state, slots[0]).len > 0;
         keep.velocity = state_slot_get(tree->frame->state, slots[1]).len > 0;
-        numbers.fresh_position = numbers.fresh_velocity = true; // if they are not kept
+        read.numbers.fresh_position = read.numbers.fresh_velocity = true; // if they are not kept
     }
-    phys_update_particle(tree->engine, body, &numbers, keep);
+    phys_update_particle(tree->engine, body, &read.numbers, keep);
     if (body < system->node_count)
         system->nodes[body] = NULL;
     physics_keep_node(tree, body, node);
@@ -79,7 +78,7 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
 static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
-        SceneKind kind = schema_kind(&tree->scene->schema, child);
+        NodeKind kind = schema_kind(tree->scene->schema, child);
         if (kind == KIND_GROUP) {
             uint32_t number = tree->next_group++;
             if (number >= phys_group_count(tree->engine) || phys_group_parent(tree->engine, number) != group ||

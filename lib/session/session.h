@@ -92,7 +92,7 @@ struct PetriSession {
     SymbolTable symbols;
     State *state;
     Scene *scene;
-    CanvasSchema canvas;
+    Schema schema;
     AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;
@@ -200,7 +200,8 @@ void session_set_rates(PetriSession *session, const ClockRates *rates);
 void session_clear_frame(PetriSession *session);
 // Evaluates script and prompt statements; false if that was given up. Within escapes.
 bool session_evaluate(PetriSession *session);
-// Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within escapes.
+// Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within
+// escapes.
 void session_look_at_top(PetriSession *session);
 // Tells that the setup has changed; `frame_stays` says that what the last frame computed is still right.
 void session_change_setup(PetriSession *session, bool frame_stays);
