@@ -194,23 +194,24 @@ double petri_resolution(const PetriSession *session);
 // Forgets the state dictionary and goes to before frame 0.
 void petri_clear(PetriSession *session);
 
-// What a session computes with, as opposed to what it has computed: script, definitions, statements of the prompt,
-// clock rates, resolution. It is shared, not copied, and must be freed before the session is closed.
-typedef struct PetriSetup PetriSetup;
-// The present one, or NULL if memory is used up. Free with petri_setup_free, which takes NULL, too.
-PetriSetup *petri_setup(PetriSession *session);
-void petri_setup_free(PetriSetup *setup);
-// Goes back to a setup of this session; state, frame, time and beat stay.
-void petri_setup_use(PetriSession *session, PetriSetup *setup);
-// A number that is another whenever the setup is; modules that changed on disk count as well.
-uint64_t petri_setup_number(const PetriSession *session);
+// A session's configuration: script, definitions, statements of the prompt, clock rates, resolution. It is shared, not
+// copied, and must be freed before the session is closed.
+typedef struct PetriConfig PetriConfig;
+// The present one, or NULL if memory is used up. Free with petri_config_free, which takes NULL, too.
+PetriConfig *petri_config(PetriSession *session);
+void petri_config_free(PetriConfig *config);
+// Goes back to a configuration of this session; state, frame, time and beat stay.
+void petri_config_use(PetriSession *session, PetriConfig *config);
+// A number that is another whenever the configuration is; modules that changed on disk count as well.
+uint64_t petri_config_number(const PetriSession *session);
 
-// A copy of all that decides how a session goes on: state, systems, clock and setup. Free it before the session.
+// A copy of all that decides how a session goes on: state, systems, clock and configuration. Free it before the
+// session.
 typedef struct PetriSnapshot PetriSnapshot;
 // NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
 PetriSnapshot *petri_snapshot(PetriSession *session);
 void petri_snapshot_free(PetriSnapshot *snapshot);
-size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a setup is shared
+size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a configuration is shared
 // Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as
 // long as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);

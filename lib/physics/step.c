@@ -26,22 +26,22 @@ static void start_share(void *context, int share, int shares) {
     size_t count = phys_share(columns->count, share + 1, shares) - first;
     for (size_t k = 0; k < n; k++) {
         double *force = columns->force + k * stride + first;
-        const double *thrust = columns->thrust + k * stride + first;
-        if (!system->pushed)
+        const double *own_force = columns->own_force + k * stride + first;
+        if (!system->has_own_forces)
             memset(force, 0, count * sizeof *force);
-        else if (!system->eased)
-            memcpy(force, thrust, count * sizeof *force);
+        else if (!system->has_eased_forces)
+            memcpy(force, own_force, count * sizeof *force);
         else
             for (size_t i = 0; i < count; i++)
-                force[i] = thrust[i] * phys_ramp(columns->ease[first + i], start->clock);
+                force[i] = own_force[i] * phys_ramp(columns->ease[first + i], start->clock);
     }
 }
 
 static void start_forces(const PhysSystem *system, double clock) {
-    enum { FEW = 50000 }; // that are set before a second thread is ready
+    enum { MIN_FOR_THREADS = 50000 }; // particles
     Start start = {system, clock};
     if (system->columns.count)
-        phys_parallel(system, phys_shares(system, system->columns.count, FEW), start_share, &start);
+        phys_parallel(system, phys_shares(system, system->columns.count, MIN_FOR_THREADS), start_share, &start);
 }
 
 void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {

@@ -91,8 +91,8 @@ void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
         share.kernel = kernels->sweep;
         share.lanes = kernels->lanes;
     }
-    size_t few = share.random ? PHYS_FEW_PARTICLES / 4 : PHYS_FEW_PARTICLES;
-    phys_parallel(system, wide ? phys_shares(system, group->count, few) : 1, sweep_share, &share);
+    size_t least = share.random ? PHYS_MIN_FOR_THREADS / 4 : PHYS_MIN_FOR_THREADS;
+    phys_parallel(system, wide ? phys_shares(system, group->count, least) : 1, sweep_share, &share);
     if (share.random)
         advance_streams(&pass, group);
 }

@@ -165,8 +165,8 @@ static uint64_t count_nodes(const Node *node) {
 }
 
 static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
-    enum { FEW = 64, COPIES = 16 };
-    if (settings->dimensions <= FEW)
+    enum { MAX_UNCOUNTED = 64, COPIES = 16 };
+    if (settings->dimensions <= MAX_UNCOUNTED)
         return true;
     double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
@@ -186,7 +186,7 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttr
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
                      .speed_of_light = settings->speed_of_light,
-                     .settle = physics_can_show(tree),
+                     .keep_last_finite = physics_can_show(tree),
                      .interrupt = tree->frame->interrupt};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;

@@ -50,7 +50,7 @@ static bool reserve_body(PhysicsSystem *system, uint32_t count) {
 
 void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node) {
     PhysicsSystem *system = tree->system;
-    if (tree->root->kept_children || !node->kept)
+    if (tree->root->program_lifetime_children || !node->program_lifetime)
         return; // the whole tree is known by its address, or the node does not last
     if (!scene_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
@@ -119,8 +119,8 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
     PhysParticle *numbers = &body.numbers;
     if (!anchor) {
         const StateSlot *slots = tree->system->slots + 2 * (size_t)(tree->body_count - 1);
-        numbers->position = stored_or(tree, slots[0], numbers->position, &position, &numbers->fresh_position);
-        numbers->velocity = stored_or(tree, slots[1], numbers->velocity, &velocity, &numbers->fresh_velocity);
+        numbers->position = stored_or(tree, slots[0], numbers->position, &position, &numbers->position_from_attribute);
+        numbers->velocity = stored_or(tree, slots[1], numbers->velocity, &velocity, &numbers->velocity_from_attribute);
     }
     phys_add_particle(tree->engine, group, numbers);
 }

@@ -15,7 +15,7 @@ static bool stored(const PhysicsTree *tree, StateSlot slot, const double *number
     if (v.len == 0)
         return false;
     if (tree->dimensions > 1)
-        *same = *same && state_slot_viewed(state, slot, tree->system->viewer);
+        *same = *same && state_slot_borrows(state, slot, tree->system->lender);
     else
         *same = *same && v.len == 1 && v.kind == VALUE_NUMBERS && !memcmp(&v.as.number, numbers, sizeof *numbers);
     return true;
@@ -54,21 +54,21 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     if (2 * (uint64_t)body >= system->slot_count || is_anchor(tree, body) != anchor ||
         phys_particle_group(tree->engine, body) != group)
         return false;
-    bool kept = node->kept && system->generation == tree->frame->generation;
+    bool kept = node->program_lifetime && system->generation == tree->frame->generation;
     if (kept && body < system->node_count && system->nodes[body] == node)
         return true;
     BodyAttrs read;
     physics_read_particle(tree, node, anchor, &read);
     if (!physics_has_id(tree, body, read.id))
         return false;
-    PhysKeep keep = {false, false};
+    PhysPreserve preserve = {false, false};
     if (!anchor) {
         const StateSlot *slots = system->slots + 2 * (size_t)body;
-        keep.position = state_slot_get(tree->frame->state, slots[0]).len > 0;
-        keep.velocity = state_slot_get(tree->frame->state, slots[1]).len > 0;
-        read.numbers.fresh_position = read.numbers.fresh_velocity = true; // if they are not kept
+        preserve.position = state_slot_get(tree->frame->state, slots[0]).len > 0;
+        preserve.velocity = state_slot_get(tree->frame->state, slots[1]).len > 0;
+        read.numbers.position_from_attribute = read.numbers.velocity_from_attribute = true; // if not preserved
     }
-    phys_update_particle(tree->engine, body, &read.numbers, keep);
+    phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)
         system->nodes[body] = NULL;
     physics_keep_node(tree, body, node);
@@ -95,13 +95,13 @@ static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
 static bool same_children(const PhysicsTree *tree) {
     const PhysicsSystem *system = tree->system;
     const Node *root = tree->root;
-    return root->kept_children && root->children == system->children && root->child_count == system->child_count &&
-           system->generation == tree->frame->generation;
+    return root->program_lifetime_children && root->children == system->children &&
+           root->child_count == system->child_count && system->generation == tree->frame->generation;
 }
 
 bool physics_reuse(PhysicsTree *tree) {
     PhysicsSystem *system = tree->system;
-    bool disturbed = system->viewer && state_take_disturbed(tree->frame->state, system->viewer);
+    bool disturbed = system->lender && state_take_disturbed(tree->frame->state, system->lender);
     if (!system->described || disturbed || !tree->from_state || system->dimensions != tree->dimensions ||
         !entries_agree(tree))
         return false;

@@ -85,7 +85,7 @@ bool physics_has_position(const PhysicsTree *tree, StateSlot slot) {
 void physics_forget_slots(const PhysicsTree *tree) {
     enum { MANY = 1 << 16 }; // that are worth their memory
     Scene *scene = tree->scene;
-    if (!tree->root->kept_children || scene->body_capacity < MANY)
+    if (!tree->root->program_lifetime_children || scene->body_capacity < MANY)
         return;
     physics_clear_marks(tree);
     free(scene->bodies);

@@ -9,9 +9,9 @@
 // Keeps copies of what entries show, unless they belong to the tree that was read last.
 static void settle_slots(const PhysicsTree *tree, const PhysicsSystem *system, State *state, const StateSlot *slots,
                          uint32_t count) {
-    for (uint32_t i = 0; system->viewer && i < count; i++)
+    for (uint32_t i = 0; system->lender && i < count; i++)
         if (!tree || !physics_has_slot(tree, slots[i]))
-            state_slot_settle(state, slots[i], system->viewer);
+            state_slot_own_copy(state, slots[i], system->lender);
 }
 
 void physics_store_settle(PhysicsSystem *system, State *state) {
@@ -32,7 +32,7 @@ static void swap_lists(PhysicsSystem *system) {
 }
 
 bool physics_can_show(const PhysicsTree *tree) {
-    return !tree->shared && !tree->failed && (tree->system->viewer || tree->dimensions == 1) &&
+    return !tree->shared && !tree->failed && (tree->system->lender || tree->dimensions == 1) &&
            phys_particle_count(tree->engine) == tree->body_count;
 }
 
@@ -40,8 +40,8 @@ void physics_store_begin(PhysicsTree *tree) {
     PhysicsSystem *system = tree->system;
     if (system->open) // the last description broke off
         physics_store_settle(system, tree->frame->state);
-    if (!system->viewer)
-        system->viewer = state_add_viewer(tree->frame->state);
+    if (!system->lender)
+        system->lender = state_add_lender(tree->frame->state);
     swap_lists(system);
     system->described = false;
     system->open = true;
@@ -88,9 +88,9 @@ static void show(const PhysicsTree *tree, StateSlot slot, const double *numbers,
     if (!fresh && stored.len == 0) {
         system->absent++;
     } else if (n > 1 && ours && (fresh || alike)) {
-        state_slot_view(state, slot, system->viewer, numbers, n);
+        state_slot_borrow(state, slot, system->lender, numbers, n);
     } else {
-        state_slot_settle(state, slot, system->viewer);
+        state_slot_own_copy(state, slot, system->lender);
         if (fresh)
             state_slot_set(state, slot, value_numbers_view(numbers, n));
         system->described &= ours && (fresh || alike);
@@ -132,8 +132,8 @@ static void finish_description(PhysicsTree *tree, bool shown) {
     PhysicsSystem *system = tree->system;
     State *state = tree->frame->state;
     settle_slots(shown ? tree : NULL, system, state, system->old_slots, system->old_count);
-    if (system->viewer)
-        state_take_disturbed(state, system->viewer); // by none but itself
+    if (system->lender)
+        state_take_disturbed(state, system->lender); // by none but itself
     system->old_count = 0;
     system->open = false;
     physics_forget_slots(tree);
@@ -157,6 +157,6 @@ void physics_store(PhysicsTree *tree, bool simulated) {
         finish_description(tree, shown);
     system->dimensions = tree->dimensions;
     system->generation = tree->frame->generation;
-    system->children = tree->root->kept_children ? tree->root->children : NULL;
+    system->children = tree->root->program_lifetime_children ? tree->root->children : NULL;
     system->child_count = tree->root->child_count;
 }

@@ -41,7 +41,7 @@ struct PhysicsSystem {
     bool began;     // it had simulated before the last update, so the script could see its particles
     uint64_t seen;  // number of the scene's frame in which it was updated last
 
-    StateViewer viewer;
+    StateLender lender;
     bool described;
     bool open;            // a description was begun and not finished
     StateSlot *old_slots; // of the description before, whose rows entries may still show

@@ -81,7 +81,7 @@ void session_start(PetriSession *session, const Program *program) {
     session->frame.tempo = session->said.tempo;
     session->quantum = session->said.quantum;
     rewind_clock(session);
-    session_change_setup(session, false);
+    session_change_config(session, false);
 }
 
 // What is due and what the beat is stay as they are; what comes is counted from here.
@@ -127,7 +127,7 @@ PetriStatus petri_set_tempo(PetriSession *session, double tempo) {
     if (!is_rate(tempo))
         return PETRI_INVALID;
     set_tempo(session, tempo);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -135,7 +135,7 @@ PetriStatus petri_set_fps(PetriSession *session, double fps) {
     if (!is_rate(fps))
         return PETRI_INVALID;
     set_fps(session, fps);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -143,7 +143,7 @@ PetriStatus petri_set_resolution(PetriSession *session, double resolution) {
     if (!(resolution >= 0) || !isfinite(resolution))
         return PETRI_INVALID;
     session->resolution = resolution;
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -156,14 +156,14 @@ void petri_clear(PetriSession *session) {
     scene_reset(session->scene, NULL);
     session_clear_frame(session);
     rewind_clock(session);
-    session_change_setup(session, false);
+    session_change_config(session, false);
 }
 
 void session_resume(PetriSession *session, int64_t number) {
     PetriFrame *frame = &session->frame;
     session->base = (ClockBase){0};
     session->wall.running = false;
-    session_change_setup(session, false);
+    session_change_config(session, false);
     frame->number = number;
     frame->time = (double)number / frame->fps;
     frame->beat = frame->time / (60 / frame->tempo);

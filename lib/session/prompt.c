@@ -91,6 +91,7 @@ void session_collect_names(PetriSession *session) {
 
 static void compile(PetriSession *session, Job *job) {
     job->program = unit_compile(session, job->unit, job->ast, false, session->name_count);
+    arena_free(&job->unit->scratch);
 }
 
 // A statement that does not fit in memory any more is dropped.
@@ -284,7 +285,7 @@ static bool keep(PetriSession *session, const Job *job, bool adds) {
     prompts[session->prompt_count++] = (Prompt){session_put(session, job->unit), job->ast, job->program, adds};
     job->unit->references++;
     add_names(session, job->program);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return true;
 }
 
@@ -440,7 +441,7 @@ uint32_t petri_drop(PetriSession *session, bool bindings) {
     session->prompt_count = kept;
     if (kept == count)
         return 0;
-    session_change_setup(session, false);
+    session_change_config(session, false);
     session_compile_prompts(session);
     return count - kept;
 }

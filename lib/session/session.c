@@ -2,7 +2,7 @@
 #include "session/session.h"
 
 #include "base/unicode.h"
-#include "syntax/literal.h"
+#include "ast/literal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -116,7 +116,7 @@ void petri_close(PetriSession **handle) {
     if (!session)
         return;
     session_free_prompts(session);
-    petri_setup_free(session->setup);
+    petri_config_free(session->config);
     free(session->undo.bytes);
     free(session->names);
     unit_free(session->program);
@@ -281,7 +281,7 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
         (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
     session->defines = defines;
     session->define_count = count + 1;
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -322,7 +322,7 @@ static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
         session_start(session, unit->program);
     else
         session_take_rates(session, unit->program);
-    session_change_setup(session, false);
+    session_change_config(session, false);
     session_compile_prompts(session);
     session->unseen = true;
 }

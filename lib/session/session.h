@@ -16,10 +16,12 @@ typedef struct Unit Unit;
 struct Unit {
     Unit *next;
     Arena arena;
+    Arena scratch; // while it is compiled: syntax tree, expressions
     Str path;    // canonical
     Str version; // changes when the file does: modification time, size, inode
     const Source *source;
-    const Ast *ast;
+    const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
+    bool empty;             // there is no statement in it
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
     uint32_t references;    // freed with the last
@@ -63,7 +65,7 @@ typedef struct ClockRates {
     double quantum;
 } ClockRates;
 
-struct PetriSetup {
+struct PetriConfig {
     uint32_t references;
     uint64_t number;
     Unit *program;
@@ -77,7 +79,7 @@ struct PetriSetup {
 };
 
 struct PetriSnapshot {
-    PetriSetup *setup; // a reference
+    PetriConfig *config; // a reference
     PetriFrame frame;
     ClockBase base;
     double delta;
@@ -96,7 +98,7 @@ struct PetriSession {
     AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;
-    const Define *defines; // replaced as a whole: setups share it
+    const Define *defines; // replaced as a whole: configurations share it
     uint32_t define_count;
     uint32_t told_defines; // of these it was told what the script does with them
     bool again;            // the same text is being compiled once more, for other definitions
@@ -106,15 +108,15 @@ struct PetriSession {
     double resolution; // 0: as systems say
     Prompt *prompts;
     uint32_t prompt_count;
-    PetriSetup *setup;     // of the present number, once somebody has asked for it
-    uint64_t setup_number; // of the present setup
-    uint64_t last_number;  // given so far
-    Unit *modules;         // list
-    uint64_t generation;   // counts the units that frames came to depend on (session_put)
-    Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
-    Unit *loading;         // whose compiler calls back
-    bool lint;             // petri_check is at work
-    bool unseen;           // no frame of the loaded script has been made
+    PetriConfig *config;    // of the present number, once somebody has asked for it
+    uint64_t config_number; // of the present configuration
+    uint64_t last_number;   // given so far
+    Unit *modules;          // list
+    uint64_t generation;    // counts the units that frames came to depend on (session_put)
+    Unit *fresh;            // the script that was begun to be loaded last, for when its memory runs out
+    Unit *loading;          // whose compiler calls back
+    bool lint;              // petri_check is at work
+    bool unseen;            // no frame of the loaded script has been made
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
 
@@ -148,7 +150,7 @@ struct PetriSession {
     Value *values;
     uint32_t value_count;
     uint32_t value_capacity;
-    bool evaluated;     // tree and values are those of the present frame and setup
+    bool evaluated;     // tree and values are those of the present frame and configuration
     Arena prompt_arena; // of one expression
     bool tell_again;    // what a person types twice is told twice
     atomic_bool interrupt;
@@ -203,10 +205,10 @@ bool session_evaluate(PetriSession *session);
 // Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within
 // escapes.
 void session_look_at_top(PetriSession *session);
-// Tells that the setup has changed; `frame_stays` says that what the last frame computed is still right.
-void session_change_setup(PetriSession *session, bool frame_stays);
-// The present setup, borrowed; NULL if memory is used up.
-PetriSetup *session_setup(PetriSession *session);
+// Tells that the configuration has changed; `frame_stays` says that what the last frame computed is still right.
+void session_change_config(PetriSession *session, bool frame_stays);
+// The present configuration, borrowed; NULL if memory is used up.
+PetriConfig *session_config(PetriSession *session);
 
 // Copies state and systems into a snapshot's memory, which is used again; false if memory is used up.
 bool session_take(PetriSession *session, PetriSnapshot *snapshot);

@@ -1,11 +1,11 @@
 // parse.c: the parser's driver: decides what words are keywords, builds literals, phrases errors; see parse.h.
 #include "syntax/parse.h"
 
+#include "ast/literal.h"
 #include "parser.h"
 #include "syntax/foreign.h"
 #include "syntax/habits.h"
 #include "syntax/layout.h"
-#include "syntax/literal.h"
 
 #include <string.h>
 
@@ -32,16 +32,10 @@ static void report_token(ParseContext *context, Span span, Str text, Str hint) {
     report(context, span, "syntax", text, habit.len ? habit : hint);
 }
 
-Ast *parse_checked(ParseContext *context, Ast *ast) {
-    if (ast->height <= AST_MAX_HEIGHT)
-        return ast;
-    parse_too_deep(context, ast->span);
-    return ast_literal(context->arena, ast->span, VALUE_NULL); // any shallow tree: the program has failed
-}
-
-void parse_too_deep(ParseContext *context, Span span) {
+// Ends parsing.
+static void report_overflow(ParseContext *context) {
     if (!context->too_deep)
-        report(context, span, "too-deep",
+        report(context, context->overflow_at, "too-deep",
                str_format(context->arena, "nested too deeply: the limit is %d levels", AST_MAX_HEIGHT), (Str){0});
     context->too_deep = true;
 }
@@ -95,10 +89,10 @@ static const char *after_names(const ParseContext *context, Span span, const cha
     return NULL;
 }
 
-void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count,
-                        bool wants_value) {
-    if (context->reported)
-        return;
+static void report_unexpected(ParseContext *context, const Unexpected *unexpected) {
+    const char *found = unexpected->found, *const *expected = unexpected->expected;
+    int count = unexpected->expected_count;
+    Span span = unexpected->span;
     const char *wanted = after_names(context, span, expected, count);
     if (wanted) {
         expected = &wanted;
@@ -121,7 +115,7 @@ void parse_syntax_error(ParseContext *context, Span span, const char *found, con
         add_token_name(&text, found);
     }
     bool ends = strcmp(found, "end of line") == 0 || strcmp(found, "end of file") == 0;
-    if (count == 0 && wants_value && ends)
+    if (count == 0 && unexpected->wants_value && ends)
         text_add_c(&text, ", expected an expression");
     for (int i = 0; i < count; i++) {
         text_add_c(&text, i == 0 ? ", expected " : i + 1 < count ? ", " : " or ");
@@ -250,7 +244,7 @@ static void retoken(Layout *layout, Token *token, int kind, uint32_t len) {
 }
 
 // Context decides what a word or a directive is (L2.2, L2.12).
-static void settle_kind(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
+static void resolve_keyword(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
     Str text = token_text(context, token->span);
     if ((token->kind == PRAGMA || token->kind == INCLUDE) && !gr_accepts(parser, token->kind)) {
         retoken(layout, token, '%', 1);
@@ -285,7 +279,12 @@ static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token 
         report_character(context, token->span);
     GR_STYPE semantic = token_value(context, token);
     Span span = token->span;
+    context->unexpected.found = NULL;
     int status = gr_push_parse(parser, token->kind, &semantic, &span, context);
+    if (context->overflow)
+        report_overflow(context);
+    if (context->unexpected.found && !context->reported)
+        report_unexpected(context, &context->unexpected);
     if (context->diags->count > errors_before || context->reported) {
         add_paren_hint(context, layout, token, errors_before);
         layout_recover(layout, token);
@@ -325,7 +324,7 @@ static void parse_text(ParseContext *context, Layout *layout) {
     int status = YYPUSH_MORE;
     while (parser && status == YYPUSH_MORE && !context->too_deep) {
         Token token = layout_next(layout);
-        settle_kind(context, layout, parser, &token);
+        resolve_keyword(context, layout, parser, &token);
         status = push(context, layout, parser, &token);
         if (status == 1 && token.kind != END) {
             // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
@@ -366,7 +365,7 @@ static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser)
     bool begins = true;
     for (;;) {
         Token token = layout_next(layout);
-        settle_kind(context, layout, parser, &token);
+        resolve_keyword(context, layout, parser, &token);
         if (token.kind == GR_UNDEF || token.error)
             return !token.error && opens_string(text, token.span) ? PARSE_PART : PARSE_WHOLE;
         if (token.kind == END)

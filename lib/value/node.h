@@ -20,7 +20,7 @@ typedef struct NodeOrigin {
     const struct AttrOrigin {
         const Symbol *name;
         Span span;
-    } *attrs; // those that were written with it, in the same text
+    } * attrs; // those that were written with it, in the same text
     uint32_t attr_count;
 } NodeOrigin;
 
@@ -35,10 +35,10 @@ struct Node {
     uint32_t child_count;
     uint16_t height; // 1 + the greatest height of a child or of a node in an attribute
     // Lives as long as the program that made it, not only for a frame: as long as no program is dropped, the same
-    // address means the same node with everything in it. The children may be kept though the node is not: then the
-    // same `children` and `child_count` mean the same children.
-    bool kept;
-    bool kept_children;
+    // address means the same node with everything in it. The children may live so long though the node does not: then
+    // the same `children` and `child_count` mean the same children.
+    bool program_lifetime;
+    bool program_lifetime_children;
 };
 
 _Static_assert(sizeof(Node) == 56, "scripts make thousands of nodes a frame");
@@ -55,20 +55,20 @@ Node *node_new(Arena *arena, const Symbol *kind);
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
 // Sets attributes in order; a null or stream value removes one (L7.2). NULL if the tree would be too high.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
-// Appends the nodes of `children`; other elements are ignored. NULL if the tree would be too high.
-Node *node_append(Arena *arena, const Node *node, Value children);
-// The nodes of a vector, ready to be appended: a node that has no children yet shares the array.
+// The nodes of a vector, ready to be appended; other elements are ignored. A node that has no children yet shares the
+// array.
 typedef struct NodeList {
     const Node *const *nodes;
     uint32_t count;
-    uint16_t height; // the greatest of a node
-    bool kept;       // as in Node
+    uint16_t height;       // the greatest of a node
+    bool program_lifetime; // as in Node
 } NodeList;
 NodeList node_list(Arena *arena, Value children);
 // The same in an array that has room for as many nodes as there are elements.
 NodeList node_list_in(const Node **nodes, Value children);
 // The greatest height of the nodes in a vector, 0 if there are none.
 uint32_t value_height(Value v);
+// NULL if the tree would be too high.
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Marks the nodes of a value that lives as long as its program, and all that are in them.
 void value_keep(Value v);

@@ -324,7 +324,9 @@ END
             wait "$job"
             status=$?
         }
-        no_ffmpeg() { ! grep -aq 'long[.].*[.][t]mp' /proc/[0-9]*/cmdline 2>/dev/null; }
+        # Others may be at work on this machine: ours is that in this folder.
+        encoders() { for id in $(pgrep -x ffmpeg); do readlink "/proc/$id/cwd"; done; }
+        no_ffmpeg() { ! encoders | grep -qxF "$work"; }
         for suffix in mp4 webm gif; do
             start_long -o long.$suffix
             kill -INT "$job"

@@ -19,7 +19,8 @@ cd "$work" || exit 1
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm
-export TMPDIR TERM
+SHELL=/bin/sh # that of `script`; others warn of locales that are not installed
+export TMPDIR TERM SHELL
 
 passed=0
 failed=0

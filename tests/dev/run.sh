@@ -43,7 +43,7 @@ stand_in() {
 machine() {
     rm -rf "$work/bin" "$work/later" "$work/project" "$work/fonts" "$work/lists"
     mkdir -p "$work/bin" "$work/later" "$work/project/.ci" "$work/fonts/truetype/dejavu"
-    for tool in awk cat chmod cp cut dirname echo env fold grep head ln mkdir mktemp mv rm sed sh sleep stty tail tee touch \
+    for tool in awk cat chmod cp cut dirname echo env fold grep head ln mkdir mktemp mv nproc rm sed sh sleep stty tail tee touch \
         tr true wc xargs; do
         ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
     done

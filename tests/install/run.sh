@@ -7,6 +7,8 @@ work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 cd "$work" || exit 1
+SHELL=/bin/sh # that of `script`
+export SHELL
 passed=0
 failed=0
 

@@ -8,7 +8,7 @@ faults=0
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-for header in lib/*/*.h src/*.h tests/support/*.h; do
+for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     case $header in *_list.h | */engine_names.h) continue ;; esac
     # What draws is for builds that have the library.
     isa=
@@ -22,7 +22,7 @@ for header in lib/*/*.h src/*.h tests/support/*.h; do
     printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"
     # shellcheck disable=SC2086 # no option is no word
     if ! ${CC:-cc} $isa -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Wno-unused-variable \
-        -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Itests/support \
+        -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Isrc -Itests/support \
         -I"$build/grammar" "$scratch/alone.c"; then
         echo "$header does not compile alone"
         faults=1

@@ -43,7 +43,7 @@ expect() {
     until screen | grep -q -e "$2"; do
         tries=$((tries + 1))
         if [ $tries -ge $patience ]; then
-            patience=50 # what comes after is mostly in vain, too
+            patience=200 # what comes after is mostly in vain, too
             failed=$((failed + 1))
             echo "FAIL $1: no line like '$2' in"
             screen | sed -e 's/^/  | /' -e '/^  | $/d'
@@ -179,6 +179,9 @@ if [ $edits = yes ]; then
     expect "to its last line" '^        1$'
     type_keys Up Up Up Up Home C-k 'func h(n)' Enter Enter 'h(0)+76' Enter
     expect "which can be changed and taken again" '^77$'
+    type_keys C-l 'for i in ..3' Enter Tab 'if i' Enter Tab Tab 'i*11' Enter Enter
+    expect "Tab indents where there is no word yet" '^        i\*11$'
+    expect "and the block is taken" '^11;22$'
     type_keys C-l 'let five=5' Down '+1' Enter 'five' Enter
     expect "Down below the last line leaves the line alone" '^6$'
     type_keys C-l 'func k(n)' Enter '    n' M-Enter '    n' Up Up C-c '8*8' Enter
@@ -197,7 +200,9 @@ fi
 if [ $edits = yes ]; then
     start --color never cells.fl
     type_keys 'let unusual=100+23' Enter
-    type_keys 'unusual' Enter C-d
+    type_keys 'unusual' Enter
+    expect "its value" '^123$'
+    type_keys C-d
     expect "what the next session will find" '^left with 0$'
     start --color never cells.fl
     type_keys Up Up Enter

@@ -49,7 +49,7 @@ soon() {
         tries=$((tries + 1))
         sleep 0.1
     done
-    patience=50
+    patience=200
     return 1
 }
 

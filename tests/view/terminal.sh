@@ -187,6 +187,36 @@ check "q quits" ended 0
 check "afterwards the mistake is on standard error" has err 'error:'
 mv good.fl left.fl
 
+# Warnings: a mark in a corner has their number, w lists them; they are those of the version that is running.
+sed 's/stroke_width=3/stroke_with=3/' left.fl >warn.fl
+start warn.fl
+check "a corner shows that there is a warning" soon shows '1 warning: w'
+check "in the first row" eval 'screen | head -n 1 | grep -q "1 warning: w *$"'
+check "the picture is there all the same" filled 12 24 1 38
+type_keys w
+check "w lists it" soon shows "unknown attribute 'stroke_with'"
+check "with its place" shows 'warn.fl:6'
+check "the mark is not needed then" hides 'warning: w '
+type_keys w
+check "w hides the list" soon hides 'stroke_with'
+check "and the mark is back" soon shows '1 warning: w'
+sed '$d' warn.fl >other.fl && echo '                !elipse point=30+48*i;32+64*j radius=9 colr=1' >>other.fl && cp other.fl warn.fl
+echo '        !rect size=9 fil=true clor=1' >>warn.fl
+check "after a reload there are others" soon shows '3 warnings: w'
+cp warn.fl other.fl
+echo '        !rect size=(' >>warn.fl
+check "a mistake comes first" soon shows 'cannot be loaded'
+check "without the mark" hides 'warnings: w'
+cp other.fl warn.fl
+check "the mended script has its own again" soon shows '3 warnings: w'
+cp left.fl warn.fl
+check "one without a fault has no mark" soon hides 'warnings: w'
+type_keys w
+check "w says so" soon shows 'No warnings'
+type_keys q
+check "q quits" ended 0
+check "standard error has all of them" has err "'stroke_with'"
+
 # It ends by itself, by signals, and by its own death: the terminal is as before.
 start left.fl --frames 10
 check "--frames ends it" ended 0

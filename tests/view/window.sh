@@ -51,6 +51,8 @@ tell_more() {
 }
 
 # view NAME [options] SCRIPT: starts a view, and waits until its window, called NAME, is there: $window.
+# The server takes away the window of a view that has ended when it comes to it: it must not be taken for the next one's.
+none_is_left() { ! find_window; }
 find_window() {
     window=$(xdotool search --name "^$title\$" 2>/dev/null | tail -n 1)
     [ -n "$window" ]
@@ -58,6 +60,7 @@ find_window() {
 view() {
     title=$1
     shift
+    soon none_is_left
     "$petri" view "$@" >out 2>err </dev/null &
     viewer=$!
     if ! soon find_window; then
@@ -204,7 +207,35 @@ check "nothing else was written" lacks err error
 press q
 check "q quits" ended 0
 
-# Full screen and back: that is for a window manager to do.
+# Warnings: a mark in a corner, and a list while it is wanted.
+sed 's/radius=60/radus=60 radius=60/' still.fl >warn.fl
+view still warn.fl
+check "a mark at the right tells of a warning" dark 300 16
+check "and nothing is at the left" point 20 20 336699
+press w
+check "w lists it" dark 20 20
+press w
+check "and hides it" point 20 20 336699
+cp still.fl warn.fl
+check "a reload without warnings has no mark" point 300 16 336699
+press q
+check "q quits" ended 0
+
+# Full screen where there is no window manager: the window is as large as the screen, and the picture as large as it goes.
+view still still.fl
+press f
+check "f fills the screen without a window manager" soon size_is 1000 700
+check "from its corner" soon eval 'xdotool getwindowgeometry "$window" | grep -q "Position: 0,0"'
+check "the picture fills its height" point 40 5 336699
+check "and is in the middle" point 960 690 336699
+check "with bars beside it" point 20 350 000000
+press f
+check "f goes back" soon size_is 320 240
+check "with the picture as it was" shows still.png
+press q
+check "q quits" ended 0
+
+# With a window manager it is for that to do.
 if command -v openbox >/dev/null 2>&1; then
     openbox >openbox.log 2>&1 &
     manager=$!

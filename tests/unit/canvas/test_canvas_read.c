@@ -1,5 +1,6 @@
 // Reading nodes into a drawing: types, words, reports. What the nodes look like is tested by tests/pictures.
 #include "check.h"
+#include "nodes.h"
 
 #include "canvas/read.h"
 

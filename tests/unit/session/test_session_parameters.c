@@ -249,14 +249,14 @@ static void test_set(void **state) {
     assert_int_equal(petri_set_parameter(player->session, "N", NULL), PETRI_OK);
     player_step(player, 1);
     assert_text("the default again", player_tree(player), "!unbound\n!a v=3;'b c' f=4\n!counter state=:c rate=60\n");
-    uint64_t number = petri_setup_number(player->session);
+    uint64_t number = petri_config_number(player->session);
     assert_int_equal(petri_set_parameter(player->session, "N", "x"), PETRI_INVALID);
     assert_text("wrong", player_told(player),
                 "error t.fl:1:5 'x' is not a number, and 'N' takes numbers: its default "
                 "is 3 [bad-definition]\n");
     assert_int_equal(petri_set_parameter(player->session, "M", "1"), PETRI_INVALID);
     assert_int_equal(petri_set_parameter(player->session, "", "1"), PETRI_INVALID);
-    assert_true(number <= petri_setup_number(player->session));
+    assert_true(number <= petri_config_number(player->session));
     player_step(player, 1);
     assert_text("a failure changes nothing", player_tree(player),
                 "!unbound\n!a v=3;'b c' f=5\n!counter state=:c rate=60\n");

@@ -1,7 +1,7 @@
 // test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
-#include "cli.h"
+#include "cli/cli.h"
 #include "player.h"
-#include "repl_history.h"
+#include "repl/history.h"
 
 #include <stdarg.h>
 
@@ -149,13 +149,13 @@ static void test_remade(void **state) {
         go(player, frame);
         lose_systems(player);
         assert_int_equal(petri_set_tempo(player->session, 90 + (double)frame), PETRI_OK);
-        uint64_t setup = petri_setup_number(player->session);
+        uint64_t config = petri_config_number(player->session);
         assert_int_equal(history_remake(&history, player->session), PETRI_OK);
         assert_true(petri_system(player->session, 0, &system));
         assert_int_equal(system.particle_count, 4);
         assert_int_equal(petri_frame(player->session).number, frame);
         assert_true(hash_of(player) == hashes[frame]);
-        assert_true(petri_setup_number(player->session) == setup);
+        assert_true(petri_config_number(player->session) == config);
     }
     lose_systems(player);
     int64_t frame = petri_frame(player->session).number;

@@ -1,7 +1,7 @@
 // test_src_parameter_step.c: where the keys of `petri view` take a parameter.
 #include "check.h"
 
-#include "parameter_step.h"
+#include "view/parameter_step.h"
 
 static PetriParameter parameter(double number, double fallback, double least, double most, double step) {
     return (PetriParameter){.number = number, .fallback_number = fallback, .least = least, .most = most, .step = step};
