@@ -6,7 +6,7 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
-#include "canvas/automatic.h"
+#include "draw/automatic.h"
 #include "canvas/read.h"
 #include "scene/scene.h"
 #include "vm/vm.h"

@@ -1,10 +1,10 @@
 // draw.h: what the files that draw with Cairo share.
-#ifndef PETRI_CANVAS_DRAW_H
-#define PETRI_CANVAS_DRAW_H
+#ifndef PETRI_DRAW_DRAW_H
+#define PETRI_DRAW_DRAW_H
 
 #include <pango/pangocairo.h>
 
-#include "canvas/canvas.h"
+#include "draw/paint.h"
 
 typedef struct Picture Picture; // of an image file: images.c
 
