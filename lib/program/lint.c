@@ -6,7 +6,7 @@
 #include "value/format.h"
 
 static bool wanted(const Compiler *compiler) {
-    return compiler->options->lint;
+    return compiler->options->lint && !compiler->fixed;
 }
 
 static void warn(Compiler *compiler, Span span, const char *code, Str text) {
@@ -99,7 +99,7 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
         return;
     const Binding *binding =
         ast->children[0]->kind == AST_NAME ? compile_find_binding(compiler, ast->children[0]->name) : NULL;
-    if (binding && binding->value && binding->value->kind == AST_FUNC && binding->element_count == 1)
+    if (binding && binding->value && binding->value->kind == AST_FUNC)
         lint_user_call(compiler, ast, binding->value, code);
     if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1)
         return;
@@ -127,13 +127,13 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
     for (uint32_t i = 0; i + 1 < expr->count; i += 2) {
         const Node *node = constant_node(expr->children[i]);
         if (node) {
-            warn_negation(compiler, expr->children[i]->span, node->kind->name);
+            warn_negation(compiler, expr->children[i]->place.span, node->kind->name);
             return;
         }
     }
     for (uint32_t i = 0; i + 2 < expr->count; i += 2)
         if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
-            warn(compiler, expr->children[i]->span, "unreachable",
+            warn(compiler, expr->children[i]->place.span, "unreachable",
                  STR("always true: what follows under else is never reached"));
             return;
         }

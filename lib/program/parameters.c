@@ -118,28 +118,32 @@ static Parameter *add(Compiler *compiler) {
 
 void compile_note_parameter(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0], *value = binding->children[1], *use = first_operand(value);
-    if (compiler->depth != 1 || compiler->ahead || names->count != 1 || !use || use->name != names->children[0]->name ||
+    compiler->parameter_use = compiler->fallback = NULL;
+    if (compiler->depth != 1 || names->count != 1 || !use || use->name != names->children[0]->name ||
         !compile_is_free(compiler, use->name))
         return;
     Parameter parameter = {.name = use->name,
                            .source = compiler->source,
                            .span = names->children[0]->span,
-                           .use = use,
                            .fallback = default_text(compiler->source, use, value)};
     read_comment(comment_behind(compiler->source, value->span.end), &parameter);
-    // `X or A or B` without X is `A or B`.
-    const Ast *fallback = value->children[1];
-    if (value->children[0] == use)
-        parameter.is_static = compile_static_value(compiler, fallback, &parameter.value);
-    lint(compiler, &parameter);
     *add(compiler) = parameter;
+    compiler->parameter_use = use;
+    if (value->children[0] == use) // `X or A or B` without X is `A or B`, which is nowhere as a whole
+        compiler->fallback = value->children[1];
 }
 
-bool compile_uses_parameter(const Compiler *compiler, const Ast *name) {
-    for (uint32_t i = 0; i < compiler->parameter_count; i++)
-        if (compiler->parameters[i].use == name)
-            return true;
-    return false;
+void compile_note_fallback(Compiler *compiler, const Expr *fallback) {
+    uint32_t last = compiler->parameter_count - 1;
+    Parameter *parameter = &compiler->parameters[last];
+    parameter->is_static = fallback->kind == EXPR_CONST;
+    if (parameter->is_static)
+        parameter->value = fallback->as.value;
+    if (compiler->rehearsal) {
+        parameter->is_static = compiler->rehearsal->parameters[last].is_static;
+        parameter->value = compiler->rehearsal->parameters[last].value;
+    }
+    lint(compiler, parameter);
 }
 
 void compile_note_define(Compiler *compiler, const Binding *binding) {

@@ -257,7 +257,7 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     // What is set by hand is told each time, what was told at the load is not.
     uint32_t first = session->again ? session->told_defines : 0;
     session->tell_again = outer || session->again;
-    for (uint32_t i = first; i < session->define_count && unit->ast->count > 0; i++)
+    for (uint32_t i = first; i < session->define_count && !unit->empty; i++)
         if (is_last(session, i))
             good = check_one(&(Check){session, unit, &session->defines[i], &unit->program->define_uses[i]}) && good;
     session->tell_again = outer;

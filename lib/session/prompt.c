@@ -91,6 +91,7 @@ void session_collect_names(PetriSession *session) {
 
 static void compile(PetriSession *session, Job *job) {
     job->program = unit_compile(session, job->unit, job->ast, false, session->name_count);
+    arena_free(&job->unit->scratch);
 }
 
 // A statement that does not fit in memory any more is dropped.

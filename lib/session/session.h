@@ -6,7 +6,7 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
-#include "canvas/automatic.h"
+#include "draw/automatic.h"
 #include "canvas/read.h"
 #include "scene/scene.h"
 #include "vm/vm.h"
@@ -16,10 +16,12 @@ typedef struct Unit Unit;
 struct Unit {
     Unit *next;
     Arena arena;
+    Arena scratch; // while it is compiled: syntax tree, expressions
     Str path;    // canonical
     Str version; // changes when the file does: modification time, size, inode
     const Source *source;
-    const Ast *ast;
+    const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
+    bool empty;             // there is no statement in it
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
     uint32_t references;    // freed with the last

@@ -171,9 +171,14 @@ fi
 timeout 100 "$petri" run --frames 1 --print tree plain.fl >&- 2>err
 status=$?
 check "a closed stdout is an error" status_is 1
-"$petri" run --frames 1000000000 --verbose plain.fl >out 2>err &
+rm out # that of the command before
+"$petri" run --frames 1000000000 --print tree --every 100 --verbose plain.fl >out 2>err &
 job=$!
-sleep 1
+tries=0
+until [ -s out ] || [ $tries -ge 600 ]; do # it runs
+    sleep 0.1
+    tries=$((tries + 1))
+done
 kill -INT "$job"
 wait "$job"
 status=$?

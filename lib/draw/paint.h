@@ -1,12 +1,12 @@
-// canvas.h: drawings become pixels and files. What draws is Cairo; without it everything here says CANVAS_MISSING.
+// paint.h: drawings become pixels and files. What draws is Cairo; without it everything here says CANVAS_MISSING.
 //
 // A picture is plain data that nobody changes while it is drawn. A painter holds what is worth keeping from picture to
 // picture: fonts and images. Both are used by one thread at a time; there is nothing global.
-#ifndef PETRI_CANVAS_CANVAS_H
-#define PETRI_CANVAS_CANVAS_H
+#ifndef PETRI_DRAW_PAINT_H
+#define PETRI_DRAW_PAINT_H
 
 #include "base/diag.h"
-#include "canvas/automatic.h"
+#include "draw/automatic.h"
 #include "canvas/drawing.h"
 
 typedef struct CanvasPainter CanvasPainter;

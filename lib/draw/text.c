@@ -1,7 +1,7 @@
 // text.c: text, laid out by Pango.
 //
 // Letters are not fitted to the grid of pixels: they look the same whatever the transform and the desktop's settings.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <math.h>
 #include <string.h>

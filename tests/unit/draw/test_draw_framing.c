@@ -1,7 +1,7 @@
 // What the automatic picture shows of space: all that matters, and the same from frame to frame as long as it goes.
 #include "check.h"
 
-#include "canvas/automatic.h"
+#include "draw/automatic.h"
 
 #include <math.h>
 

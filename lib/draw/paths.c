@@ -1,5 +1,5 @@
 // paths.c: nodes that add to the path.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <math.h>
 

@@ -3,8 +3,8 @@
 // Each system gets a panel of its own. One and two dimensions are seen from above (y upwards, as in physics), three in
 // perspective from the front, a little to the right and above. What is framed changes only when it must: it grows as
 // soon as particles leave it, and shrinks when they need less than half of it.
-#ifndef PETRI_CANVAS_AUTOMATIC_H
-#define PETRI_CANVAS_AUTOMATIC_H
+#ifndef PETRI_DRAW_AUTOMATIC_H
+#define PETRI_DRAW_AUTOMATIC_H
 
 #include "base/arena.h"
 #include "base/str.h"

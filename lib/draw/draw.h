@@ -1,10 +1,10 @@
 // draw.h: what the files that draw with Cairo share.
-#ifndef PETRI_CANVAS_DRAW_H
-#define PETRI_CANVAS_DRAW_H
+#ifndef PETRI_DRAW_DRAW_H
+#define PETRI_DRAW_DRAW_H
 
 #include <pango/pangocairo.h>
 
-#include "canvas/canvas.h"
+#include "draw/paint.h"
 
 // The part of the graphics state that Cairo does not keep: how things look. It is inherited down the tree.
 typedef struct Look {

@@ -1,7 +1,7 @@
-// canvas.c: see canvas.h: surfaces to draw on, and the canvases of a window one over the other.
-#include "canvas/canvas.h"
+// paint.c: see paint.h: surfaces to draw on, and the canvases of a window one over the other.
+#include "draw/paint.h"
 
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>

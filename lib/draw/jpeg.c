@@ -1,5 +1,5 @@
 // jpeg.c: reads JPEG files.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <stdio.h>
 

@@ -1,5 +1,5 @@
 // framing.c: what the automatic picture shows of space; see automatic.h.
-#include "canvas/automatic.h"
+#include "draw/automatic.h"
 
 #include <math.h>
 #include <stdlib.h>

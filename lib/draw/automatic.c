@@ -1,5 +1,5 @@
 // automatic.c: draws particle systems by themselves; see automatic.h.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <math.h>
 #include <stdlib.h>

@@ -1,5 +1,5 @@
-// none.c: canvas.h in a build without Cairo.
-#include "canvas/canvas.h"
+// none.c: paint.h in a build without Cairo.
+#include "draw/paint.h"
 
 #include <stdlib.h>
 

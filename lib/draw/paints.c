@@ -1,5 +1,5 @@
 // paints.c: colours, gradients, lines, ways to combine colours.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <math.h>
 #include <string.h>

@@ -1,5 +1,5 @@
 // images.c: pictures from files, kept by the painter until the file changes.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include "base/file.h"
 #include "base/source.h"

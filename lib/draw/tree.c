@@ -1,7 +1,7 @@
 // tree.c: walks over a canvas's nodes and draws them.
 //
 // Trees may be thousands of nodes deep, and whoever draws may have a small stack: so the walk keeps its own.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 const Look DRAW_FIRST_LOOK = {.color = {1, 1, 1, 1},
                               .stroke_width = 1,

@@ -1,5 +1,5 @@
 // looks.c: the graphics state: transforms, and how a node's attributes change what is inherited.
-#include "canvas/draw.h"
+#include "draw/draw.h"
 
 #include <math.h>
 
