@@ -246,6 +246,10 @@ uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle) {
     return ((const ParticleRecord *)system->particles.bytes)[particle].group;
 }
 
+bool phys_is_anchor(const PhysSystem *system, uint32_t particle) {
+    return ((const ParticleRecord *)system->particles.bytes)[particle].anchor;
+}
+
 uint32_t phys_group_count(const PhysSystem *system) {
     return system->group_count;
 }

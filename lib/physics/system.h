@@ -112,6 +112,7 @@ typedef struct PhysPreserve {
 } PhysPreserve;
 void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve);
 uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle);
+bool phys_is_anchor(const PhysSystem *system, uint32_t particle);
 uint32_t phys_group_count(const PhysSystem *system);
 uint32_t phys_group_parent(const PhysSystem *system, uint32_t group);
 // Drops all forces; phys_add_force gives new ones.

@@ -18,7 +18,7 @@ typedef struct SceneFrame {
     double fps;
     double performance;
     bool lockstep;
-    uint64_t generation;          // another one: programs have been dropped, and what was kept (value/node.h) with them
+    uint64_t generation;          // another one: programs have been dropped, and nodes of their lifetime with them
     double resolution;            // of all systems, whatever they say themselves; 0: as they say
     const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;

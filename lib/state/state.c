@@ -11,7 +11,7 @@
 
 typedef struct StateEntry {
     Value key;   // in `keys`, or inline
-    Value value; // one heap block, or inline; a view if there is a lender. Null: the slot is empty
+    Value value; // one heap block, or inline; borrowed if there is a lender. Null: the slot is empty
     uint32_t hash;
     StateLender lender;
 } StateEntry;
@@ -272,7 +272,7 @@ void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const d
 }
 
 bool state_slot_borrows(const State *state, StateSlot slot, StateLender lender) {
-    return slot < state->count && state->entries[slot].lender == lender;
+    return lender && slot < state->count && state->entries[slot].lender == lender;
 }
 
 bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {

@@ -1,7 +1,7 @@
-// test_session_code.c: what the machine's instructions could get wrong: registers that are used again, loops and nodes
+// test_vm_code.c: what the machine's instructions could get wrong: registers that are used again, loops and nodes
 // that are put together in another way than they are written, look-ups that are guessed. `z` is a zero that only the
 // frame knows, so that the simplifier leaves things to the machine.
-#include "player.h"
+#include "runner.h"
 
 #define Z "let z=frame*0\n"
 
@@ -98,23 +98,24 @@ static void test_elements(void **state) {
 // The n-th look-up of a place is guessed to find what it found in the frame before.
 static void test_lookups(void **state) {
     static const ScriptRow rows[] = {
-        {"for i in ..3\n    !counter state=:k;i initial=10+i rate=0\n!counter state='s' initial=7 rate=0\n"
-         "!counter state=:k initial=5 rate=0\n!counter state=4 initial=6 rate=0\n"
-         "!a v=($(:k;(i+frame)%3) for i in ..3) w=$(:k;frame-1);$(frame+1);$:k;$'s';$('s';frame);$(nan+frame)\n"
+        {"!a v=($(:k;(i+frame)%3) for i in ..3) w=$(:k;frame-1);$(frame+1);$:k;$'s';$('s';frame);$(nan+frame)\n"
          "!b v=($(:k;i) for i in ..(frame-1));($(:k;i;:nothing) for i in ..frame);$uniform(:k)\n"
          "!c v=($(:k;(i where i=frame-1)));($((:k;i)) for i in (0;2));$(null;:k;null;frame-2);$(frame*0;:k)\n",
-         "!counter state=:k;0 initial=10 rate=0\n!counter state=:k;1 initial=11 rate=0\n"
-         "!counter state=:k;2 initial=12 rate=0\n!counter state='s' initial=7 rate=0\n"
-         "!counter state=:k initial=5 rate=0\n!counter state=4 initial=6 rate=0\n"
          "!a v=10;11;12 w=12;6;5;7\n!b v=10;11\n!c v=12;10;12;11\n"},
     };
-    check_trees(*state, rows, COUNT_OF(rows), 4);
+    static const char *const entries[][2] = {{":k;0", "10"}, {":k;1", "11"}, {":k;2", "12"},
+                                             {"'s'", "7"},   {":k", "5"},    {"4", "6"}};
+    Runner *runner = *state;
+    for (size_t i = 0; i < COUNT_OF(entries); i++)
+        assert_true(state_set(runner->state, read_value(&runner->world, entries[i][0]),
+                              read_value(&runner->world, entries[i][1])));
+    check_trees(runner, rows, COUNT_OF(rows), 4);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_registers), PLAYER_TEST(test_loops),   PLAYER_TEST(test_nodes),
-        PLAYER_TEST(test_elements),  PLAYER_TEST(test_lookups),
+        RUNNER_TEST(test_registers), RUNNER_TEST(test_loops),   RUNNER_TEST(test_nodes),
+        RUNNER_TEST(test_elements),  RUNNER_TEST(test_lookups),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
