@@ -115,7 +115,6 @@ void input_forget(InputHands *hands, InputBindings *bindings) {
 
 void input_init(Input *input, SymbolTable *symbols) {
     input_forget(&input->hands, &input->bindings);
-    input->window = symbol_intern(symbols, STR("window"));
     for (int i = 0; i < INPUT_BUTTONS; i++)
         input->button_words[i] = symbol_know(symbols, str_from(button_names[i]));
     input->pushed = symbol_know(symbols, STR("pushed"));
@@ -162,10 +161,9 @@ void input_let_go(Input *input) {
 }
 
 // The key that a `!key` names, by a symbol or a string.
-static int named_key(const Reader *reader) {
-    Value name = attr_value(reader, ROW_KEY_NAME);
+static int named_key(const SymbolTable *symbols, Value name) {
     const Symbol *symbol =
-        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(reader->schema->symbols, name.as.number) : NULL;
+        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(symbols, name.as.number) : NULL;
     Str word = {0};
     if (symbol)
         word = symbol->name;
@@ -174,8 +172,7 @@ static int named_key(const Reader *reader) {
     return input_key_number(word);
 }
 
-static void report_key(const Reader *reader) {
-    Value name = attr_value(reader, ROW_KEY_NAME);
+static void report_key(const Reader *reader, Value name) {
     Text out = text_new(reader->arena);
     text_add_c(&out, name.len ? "there is no key called " : "it names no key");
     if (name.len > 8)
@@ -196,21 +193,21 @@ void input_add_binding(InputBindings *bindings, Value state, int key) {
     bindings->items[bindings->count++] = binding;
 }
 
-static void bind_node(InputBindings *bindings, Reader *reader, SceneKind kind) {
-    reader_check_names(reader, kind);
-    Value state = attr_value(reader, kind == KIND_KEY ? ROW_KEY_STATE : ROW_POINTER_STATE);
-    int key = kind == KIND_KEY ? named_key(reader) : INPUT_KEY_NONE;
-    if (state.len == 0 || !state_key_valid(state)) {
+static void bind_node(InputBindings *bindings, const Reader *reader) {
+    InputAttrs attrs;
+    schema_defaults(reader->kind, &attrs);
+    reader_fill(reader, &attrs);
+    bool names_key = reader->kind == KIND_KEY;
+    int key = names_key ? named_key(reader->schema->symbols, attrs.name) : INPUT_KEY_NONE;
+    if (attrs.state.len == 0 || !state_key_valid(attrs.state))
         reader_report(reader, "skipped-input", "state", STR("no usable state key; skipped"));
-        return;
-    }
-    if (kind == KIND_KEY && key == INPUT_KEY_NONE)
-        report_key(reader);
+    else if (names_key && key == INPUT_KEY_NONE)
+        report_key(reader, attrs.name);
     else
-        input_add_binding(bindings, state, key);
+        input_add_binding(bindings, attrs.state, key);
 }
 
-void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena) {
+void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
     InputBindings *bindings = &input->bindings;
     arena_reset(&bindings->arena);
     bindings->arena.escape = arena->escape;
@@ -218,13 +215,13 @@ void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena) {
     bindings->count = bindings->capacity = 0;
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         const Node *window = tree.as.items[i].type == ITEM_NODE ? tree.as.items[i].as.node : NULL;
-        if (!window || window->kind != input->window)
+        if (!window || window->kind != schema->kinds[KIND_WINDOW])
             continue;
         for (uint32_t j = 0; j < window->child_count; j++) {
-            Reader reader = {schema, arena, window->children[j], 1};
-            SceneKind kind = schema_kind(schema, reader.node);
+            NodeKind kind = schema_window_kind(schema, window->children[j]);
+            Reader reader = {schema, arena, window->children[j], kind, 1};
             if (kind == KIND_POINTER || kind == KIND_KEY)
-                bind_node(bindings, &reader, kind);
+                bind_node(bindings, &reader);
         }
     }
     bindings->arena.escape = NULL;

@@ -6,7 +6,7 @@
 #ifndef PETRI_SCENE_INPUT_BIND_H
 #define PETRI_SCENE_INPUT_BIND_H
 
-#include "scene/attrs.h"
+#include "schema/reader.h"
 #include "state/state.h"
 
 enum { INPUT_BUTTONS = 8, INPUT_KEYS = 105, INPUT_KEY_NONE = -1 };
@@ -46,8 +46,7 @@ typedef struct InputHands {
 typedef struct Input {
     InputBindings bindings;
     InputHands hands;
-    // Kinds and the words of state keys
-    const Symbol *window;
+    // Words of state keys
     const Symbol *button_words[INPUT_BUTTONS];
     const Symbol *pushed;
     const Symbol *released;
@@ -75,7 +74,7 @@ void input_let_go(Input *input);
 // Adds a binding; the key of the state is copied.
 void input_add_binding(InputBindings *bindings, Value state, int key);
 // Takes the bindings from the windows of a frame's tree; `arena` is for messages, and its escape the one to use.
-void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena);
+void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
 // What a write has changed, for when the frame is given up.
 typedef struct InputChange InputChange;
 typedef struct InputUndo {

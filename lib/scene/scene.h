@@ -23,13 +23,11 @@ typedef struct SceneFrame {
     const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
 
-// The arena and the symbol table must outlive the scene.
-Scene *scene_new(Arena *arena, SymbolTable *symbols, SceneHost host);
+// The arena and the schema must outlive the scene.
+Scene *scene_new(Arena *arena, Schema *schema);
 void scene_free(Scene *scene);
 // How the physics of new systems is computed (not what: results do not depend on it).
 void scene_set_physics(Scene *scene, const PhysOptions *options);
-// Reports what is hardly meant from now on, too.
-void scene_lint(Scene *scene);
 // Forgets what was in the last frame's tree (for when the state dictionary is cleared).
 void scene_reset(Scene *scene);
 // Sets the systems aside while others are restored, with another dictionary; they are brought back, in place of those,

@@ -116,8 +116,8 @@ bool session_heal(PetriSession *session) {
 static void open_parts(PetriSession *session, void *context) {
     (void)context;
     const PetriOptions *options = &session->options;
-    session->scene = scene_new(&session->arena, &session->symbols, (SceneHost){session, tell_scene});
-    canvas_schema_init(&session->canvas, &session->symbols, (CanvasHost){session, tell_scene});
+    schema_init(&session->schema, &session->symbols, (SchemaHost){session, tell_scene});
+    session->scene = scene_new(&session->arena, &session->schema);
     session->state = state_new();
     session->files = file_cache_new();
     session->noise = noise_cache_new();

@@ -9,8 +9,8 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
-#include "draw/automatic.h"
 #include "canvas/read.h"
+#include "draw/automatic.h"
 #include "scene/scene.h"
 #include "session/checkpoint.h"
 #include "session/clock.h"
@@ -54,7 +54,7 @@ struct PetriSession {
     Scene *scene;
     FileCache *files;
     NoiseCache *noise;
-    CanvasSchema canvas;
+    Schema schema;
     AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
