@@ -219,7 +219,8 @@ size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a con
 // long as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
-// Writes the state dictionary, the frame number and what the systems need to go on to a file, which is replaced as a
+// Writes the state dictionary, the frame number and what the systems need to go on (not what the user's hands do) to a
+// file, which is replaced as a
 // whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
 PetriStatus petri_save(PetriSession *session, const char *file);
 // Takes a saved state back, after petri_load: the next frame is the one after that which was saved, and goes on from it
