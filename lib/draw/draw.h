@@ -6,22 +6,6 @@
 
 #include "draw/paint.h"
 
-// The part of the graphics state that Cairo does not keep: how things look. It is inherited down the tree.
-typedef struct Look {
-    double color[4];
-    const DrawNode *source; // a gradient in place of the colour, or NULL
-    double stroke_width;
-    uint8_t join;
-    uint8_t cap;
-    uint8_t composite;
-    uint8_t fill_type;
-    bool antialias;
-    uint8_t slant;
-    uint16_t weight;
-    double font_size;
-    const char *family;
-} Look;
-
 typedef struct Picture Picture; // of an image file: images.c
 
 struct CanvasPainter {
@@ -54,7 +38,6 @@ __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel 
                                                       const char *format, ...);
 
 // tree.c
-extern const Look DRAW_FIRST_LOOK;
 void draw_tree(Canvas *canvas, const DrawNode *canvas_node);
 
 // looks.c

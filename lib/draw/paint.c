@@ -48,7 +48,7 @@ static void fit(cairo_t *cr, double width, double height, double box_width, doub
 static void draw_sheet(Canvas *canvas, const DrawNode *node) {
     double size[2];
     cairo_save(canvas->cr);
-    if (draw_pair(node, NAME_SIZE, size) && size[0] > 0 && size[1] > 0)
+    if (draw_pair(node, ATTR_SIZE, size) && size[0] > 0 && size[1] > 0)
         fit(canvas->cr, size[0], size[1], canvas->picture->width, canvas->picture->height);
     draw_tree(canvas, node);
     cairo_restore(canvas->cr);
@@ -56,10 +56,9 @@ static void draw_sheet(Canvas *canvas, const DrawNode *node) {
 
 // The first canvas can be drawn directly where it begins with nothing; the others are each drawn apart.
 static void draw_window(Canvas *canvas, const DrawNode *window) {
-    const DrawAttr *composite = draw_attr(window, NAME_COMPOSITE);
     bool direct = !canvas->vector || !canvas->picture->opaque;
     for (uint32_t i = 0; i < window->child_count; i++) {
-        if (window->children[i]->kind != DRAW_CANVAS)
+        if (window->children[i]->kind != KIND_CANVAS)
             continue;
         if (direct) {
             draw_sheet(canvas, window->children[i]);
@@ -67,7 +66,7 @@ static void draw_window(Canvas *canvas, const DrawNode *window) {
             cairo_push_group(canvas->cr);
             draw_sheet(canvas, window->children[i]);
             cairo_pop_group_to_source(canvas->cr);
-            draw_paint(canvas, composite ? composite->as.word : COMPOSITE_OVER, 1);
+            draw_paint(canvas, draw_word(window, ATTR_COMPOSITE), 1);
         }
         direct = false;
     }

@@ -129,7 +129,7 @@ static void add_letters(Canvas *canvas, const double point[2]) {
 }
 
 static void draw_letters(Canvas *canvas, const DrawNode *node, const Look *look, const double point[2]) {
-    bool fill = draw_flag(node, NAME_FILL, true), stroke = draw_flag(node, NAME_STROKE, false);
+    bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {
         add_letters(canvas, point);
         return;
@@ -144,9 +144,9 @@ static void draw_letters(Canvas *canvas, const DrawNode *node, const Look *look,
 }
 
 void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
-    const DrawAttr *text = draw_attr(node, NAME_TEXT);
+    const AttrValue *text = draw_attr(node, ATTR_TEXT);
     double point[2];
-    draw_pair(node, NAME_POINT, point);
+    draw_pair(node, ATTR_POINT, point);
     if (!text || text->as.text.len == 0 || !has_drawable_size(canvas, look))
         return;
     if (text->as.text.len > LONGEST_TEXT) {
@@ -157,6 +157,6 @@ void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
     set_font(canvas, look);
     pango_cairo_update_layout(canvas->cr, layout);
     pango_layout_set_text(layout, text->as.text.bytes, (int)text->as.text.len);
-    place(layout, draw_flag(node, NAME_CENTER, true), point);
+    place(layout, draw_flag(node, ATTR_CENTER), point);
     draw_letters(canvas, node, look, point);
 }

@@ -246,23 +246,9 @@ typedef struct PetriParticle {
                          // made or without PetriOptions.keep_forces
 } PetriParticle;
 
-typedef enum PetriForceKind {
-    PETRI_COLLISION,
-    PETRI_GRAVITY,
-    PETRI_ELECTROSTATIC,
-    PETRI_ADHESION,
-    PETRI_DISTANCE,
-    PETRI_CONSTANT,
-    PETRI_RANDOM,
-    PETRI_FIELD,
-    PETRI_DRAG,
-    PETRI_BUOYANCY,
-    PETRI_BARRIER,
-} PetriForceKind;
-
 // A force applier or barrier: what can be seen of it.
 typedef struct PetriForce {
-    PetriForceKind kind;
+    const char *kind;       // its node, without the `!`, such as "distance"; lives as long as the library
     double strength;        // before easing in
     uint32_t from;          // distance: the particles that it joins
     uint32_t to;            //
@@ -357,6 +343,7 @@ typedef struct PetriNodeAttribute {
     const char *type;     // as words, such as "number" or ":butt, :round or :square"
     const char *fallback; // the default, as words; "" for none
     const char *help;     // "" where the name says all
+    const char *unit;     // as words, such as "turns"; "" for none
 } PetriNodeAttribute;
 
 bool petri_node_kind(size_t kind, PetriNodeKind *out);

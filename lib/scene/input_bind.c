@@ -111,7 +111,6 @@ bool input_init(Input *input, SymbolTable *symbols) {
         input->keys[i] = NEVER_PRESSED;
     for (int i = 0; i < INPUT_BUTTONS; i++)
         input->buttons[i] = NEVER_PRESSED;
-    input->window = symbol_intern(symbols, STR("window"));
     for (int i = 0; i < INPUT_BUTTONS; i++)
         input->button_words[i] = symbol_know(symbols, str_from(button_names[i]));
     input->pushed = symbol_know(symbols, STR("pushed"));
@@ -159,10 +158,9 @@ void input_let_go(Input *input) {
 }
 
 // The key that a `!key` names, by a symbol or a string.
-static int named_key(const Reader *reader) {
-    Value name = attr_value(reader, ROW_KEY_NAME);
+static int named_key(const SymbolTable *symbols, Value name) {
     const Symbol *symbol =
-        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(reader->schema->symbols, name.as.number) : NULL;
+        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(symbols, name.as.number) : NULL;
     Str word = {0};
     if (symbol)
         word = symbol->name;
@@ -171,8 +169,7 @@ static int named_key(const Reader *reader) {
     return input_key_number(word);
 }
 
-static void report_key(const Reader *reader) {
-    Value name = attr_value(reader, ROW_KEY_NAME);
+static void report_key(const Reader *reader, Value name) {
     Text out = text_new(reader->arena);
     text_add_c(&out, name.len ? "there is no key called " : "it names no key");
     if (name.len > 8)
@@ -183,19 +180,21 @@ static void report_key(const Reader *reader) {
     reader_report(reader, "skipped-input", "name", text_str(&out));
 }
 
-static void bind_node(Input *input, Reader *reader, SceneKind kind, uint32_t *capacity) {
-    reader_check_names(reader, kind);
-    Value state = attr_value(reader, kind == KIND_KEY ? ROW_KEY_STATE : ROW_POINTER_STATE);
-    InputBinding binding = {.key = kind == KIND_KEY ? named_key(reader) : INPUT_KEY_NONE};
-    if (state.len == 0 || !state_key_valid(state)) {
+static void bind_node(Input *input, const Reader *reader, uint32_t *capacity) {
+    InputAttrs attrs;
+    schema_defaults(reader->kind, &attrs);
+    reader_fill(reader, &attrs);
+    bool key = reader->kind == KIND_KEY;
+    InputBinding binding = {.key = key ? named_key(reader->schema->symbols, attrs.name) : INPUT_KEY_NONE};
+    if (attrs.state.len == 0 || !state_key_valid(attrs.state)) {
         reader_report(reader, "skipped-input", "state", STR("no usable state key; skipped"));
         return;
     }
-    if (kind == KIND_KEY && binding.key == INPUT_KEY_NONE) {
-        report_key(reader);
+    if (key && binding.key == INPUT_KEY_NONE) {
+        report_key(reader, attrs.name);
         return;
     }
-    binding.state = value_copy(&input->arena, state);
+    binding.state = value_copy(&input->arena, attrs.state);
     if (input->binding_count == *capacity) {
         size_t old = *capacity * sizeof binding;
         *capacity = *capacity ? *capacity * 2 : 8;
@@ -204,7 +203,7 @@ static void bind_node(Input *input, Reader *reader, SceneKind kind, uint32_t *ca
     input->bindings[input->binding_count++] = binding;
 }
 
-void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena) {
+void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
     uint32_t capacity = 0;
     arena_reset(&input->arena);
     input->arena.escape = arena->escape;
@@ -212,13 +211,13 @@ void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena) {
     input->binding_count = 0;
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         const Node *window = tree.as.items[i].type == ITEM_NODE ? tree.as.items[i].as.node : NULL;
-        if (!window || window->kind != input->window)
+        if (!window || window->kind != schema->kinds[KIND_WINDOW])
             continue;
         for (uint32_t j = 0; j < window->child_count; j++) {
-            Reader reader = {schema, arena, window->children[j], 1};
-            SceneKind kind = schema_kind(schema, reader.node);
+            NodeKind kind = schema_window_kind(schema, window->children[j]);
+            Reader reader = {schema, arena, window->children[j], kind, 1};
             if (kind == KIND_POINTER || kind == KIND_KEY)
-                bind_node(input, &reader, kind, &capacity);
+                bind_node(input, &reader, &capacity);
         }
     }
     input->arena.escape = NULL;

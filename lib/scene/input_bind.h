@@ -6,7 +6,7 @@
 #ifndef PETRI_SCENE_INPUT_BIND_H
 #define PETRI_SCENE_INPUT_BIND_H
 
-#include "scene/attrs.h"
+#include "schema/reader.h"
 #include "state/state.h"
 
 enum { INPUT_BUTTONS = 8, INPUT_KEY_NONE = -1 };
@@ -36,8 +36,7 @@ typedef struct Input {
     bool heard; // the host has reported something
     bool inside;
     double position[2];
-    // Kinds and the words of state keys
-    const Symbol *window;
+    // Words of state keys
     const Symbol *button_words[INPUT_BUTTONS];
     const Symbol *pushed;
     const Symbol *released;
@@ -62,7 +61,7 @@ void input_pointer(Input *input, const double *position, uint32_t buttons);
 void input_let_go(Input *input);
 
 // Takes the bindings from the windows of a frame's tree; `arena` is for messages, and its escape the one to use.
-void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena);
+void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
 // Writes the state before the frame of this beat is evaluated; `arena` is for temporaries.
 void input_write(Input *input, State *state, Arena *arena, double beat);
 

@@ -23,13 +23,11 @@ typedef struct SceneFrame {
     const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
 
-// NULL if memory is used up. The symbol table must outlive the scene.
-Scene *scene_new(SymbolTable *symbols, SceneHost host);
+// NULL if memory is used up. The schema must outlive the scene.
+Scene *scene_new(Schema *schema);
 void scene_free(Scene *scene);
 // How the physics of new systems is computed (not what: results do not depend on it).
 void scene_set_physics(Scene *scene, const PhysOptions *options);
-// Reports what is hardly meant from now on, too.
-void scene_lint(Scene *scene);
 // Forgets what was in the last frame's tree (for when the state dictionary is replaced). `state` is the dictionary that
 // was used so far, which keeps its entries; NULL: it is not needed any more, or gone already.
 void scene_reset(Scene *scene, State *state);

@@ -5,16 +5,17 @@
 
 // Any node may stand at the top, and means nothing there; one that is nearly spelled like one that does is a mistake.
 // Empty if this is none.
-static Str nearly(const PetriSession *session, Str kind) {
-    const Str known[] = {str_from(schema_kind_name(KIND_PHYSICS)), str_from(schema_kind_name(KIND_COUNTER)),
-                         session->canvas.kinds[DRAW_WINDOW]->name, session->canvas.kinds[DRAW_OFFSCREEN]->name};
+static Str nearly(Str kind) {
     Str nearest = {0};
     int least = 3;
-    for (size_t i = 0; i < sizeof known / sizeof known[0] && least > 0; i++) {
-        int distance = str_distance(kind, known[i]);
+    for (int i = 0; i < KIND_COUNT && least > 0; i++) {
+        if (schema_kinds[i].place != PLACE_SCENE && schema_kinds[i].place != PLACE_TOP)
+            continue;
+        Str known = str_from(schema_kinds[i].name);
+        int distance = str_distance(kind, known);
         if (distance < least && 3 * distance <= (int)kind.len) {
             least = distance;
-            nearest = distance > 0 ? known[i] : (Str){0};
+            nearest = distance > 0 ? known : (Str){0};
         }
     }
     return nearest;
@@ -27,7 +28,7 @@ void session_look_at_top(PetriSession *session) {
         if (item->type != ITEM_NODE || item->as.node->kind == last)
             continue;
         last = item->as.node->kind;
-        Str kind = last->name, nearest = nearly(session, kind);
+        Str kind = last->name, nearest = nearly(kind);
         if (!nearest.len)
             continue;
         Origin place = node_place(item->as.node, NULL);
@@ -49,9 +50,9 @@ static void look_at_windows(PetriSession *session) {
     if (setjmp(escape) == 0)
         for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
             const Item *item = &session->tree.as.items[i];
-            DrawKind kind = item->type == ITEM_NODE ? canvas_kind(&session->canvas, item->as.node) : DRAW_KIND_COUNT;
-            if (kind == DRAW_WINDOW || kind == DRAW_OFFSCREEN)
-                canvas_read(&session->canvas, &session->scene_arena, item->as.node);
+            NodeKind kind = item->type == ITEM_NODE ? schema_window_kind(&session->schema, item->as.node) : KIND_COUNT;
+            if (kind == KIND_WINDOW || kind == KIND_OFFSCREEN)
+                canvas_read(&session->schema, &session->scene_arena, item->as.node);
         }
     session->scene_arena.escape = NULL;
 }
@@ -115,8 +116,7 @@ static PetriSession *open_scratch(PetriSession *session, Heard *heard) {
 }
 
 static PetriStatus look_over(PetriSession *scratch, const char *file, const char *text, size_t length) {
-    scratch->lint = scratch->canvas.lint = true;
-    scene_lint(scratch->scene);
+    scratch->lint = scratch->schema.lint = true;
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
     scratch->lint = false; // modules, which the frame loads, are checked for themselves
     if (status == PETRI_OK)

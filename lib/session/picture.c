@@ -21,13 +21,13 @@ typedef struct Request {
 static bool is_window(const PetriSession *session, const Item *item) {
     if (item->type != ITEM_NODE)
         return false;
-    DrawKind kind = canvas_kind(&session->canvas, item->as.node);
-    return kind == DRAW_WINDOW || kind == DRAW_OFFSCREEN;
+    NodeKind kind = schema_window_kind(&session->schema, item->as.node);
+    return kind == KIND_WINDOW || kind == KIND_OFFSCREEN;
 }
 
 static bool has_canvas(const PetriSession *session, const Node *window) {
     for (uint32_t i = 0; i < window->child_count; i++)
-        if (canvas_kind(&session->canvas, window->children[i]) == DRAW_CANVAS)
+        if (schema_window_kind(&session->schema, window->children[i]) == KIND_CANVAS)
             return true;
     return false;
 }
@@ -149,15 +149,15 @@ static void take_window(Request *request, const Node *node) {
     PetriPicture *picture = request->picture;
     PetriSession *session = request->session;
     Arena *arena = &picture->arena;
-    const DrawNode *window = canvas_read(&session->canvas, arena, node);
-    const DrawAttr *title = draw_attr(window, NAME_TITLE);
+    const DrawNode *window = canvas_read(&session->schema, arena, node);
+    const AttrValue *title = draw_attr(window, ATTR_TITLE);
     picture->picture.window = window;
-    picture->picture.opaque = window->kind == DRAW_WINDOW;
+    picture->picture.opaque = window->kind == KIND_WINDOW;
     picture->title = title ? title->as.text.bytes : "";
     picture->records = arena_alloc_array(arena, window->child_count, sizeof *picture->records);
     for (uint32_t i = 0; i < window->child_count; i++) {
-        const DrawAttr *file =
-            window->children[i]->kind == DRAW_RECORD ? draw_attr(window->children[i], NAME_FILENAME) : NULL;
+        const AttrValue *file =
+            window->children[i]->kind == KIND_RECORD ? draw_attr(window->children[i], ATTR_FILENAME) : NULL;
         if (file && file->as.text.len)
             picture->records[picture->record_count++] =
                 str_to_c(arena, path_join(arena, picture->picture.directory, file->as.text));
@@ -173,11 +173,11 @@ static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *
     picture->height = window ? DEFAULT_HEIGHT : AUTO_SIDE;
     if (!window)
         return true;
-    bool found = draw_pair(window, NAME_SIZE, size);
+    bool found = draw_pair(window, ATTR_SIZE, size);
     if (!found && node_get(node, name).len > 0)
         return false;
     for (uint32_t i = 0; i < window->child_count && !found; i++)
-        found = window->children[i]->kind == DRAW_CANVAS && draw_pair(window->children[i], NAME_SIZE, size);
+        found = window->children[i]->kind == KIND_CANVAS && draw_pair(window->children[i], ATTR_SIZE, size);
     if (found) {
         picture->width = size[0];
         picture->height = size[1];
@@ -239,8 +239,8 @@ bool petri_records(const PetriSession *session) {
         const Item *item = &session->tree.as.items[i];
         const Node *window = is_window(session, item) ? item->as.node : NULL;
         for (uint32_t k = 0; window && k < window->child_count; k++)
-            if (canvas_kind(&session->canvas, window->children[k]) == DRAW_RECORD &&
-                node_get(window->children[k], session->canvas.names[NAME_FILENAME]).len > 0)
+            if (schema_window_kind(&session->schema, window->children[k]) == KIND_RECORD &&
+                node_get(window->children[k], session->schema.slots[ROW_RECORD_FILENAME].name).len > 0)
                 return true;
     }
     return false;
@@ -270,7 +270,7 @@ static bool make_picture(Request *request) {
     }
     if (window)
         take_window(request, window);
-    if (!choose_size(&picture->picture, window, session->canvas.names[NAME_SIZE])) {
+    if (!choose_size(&picture->picture, window, session->schema.slots[ROW_WINDOW_SIZE].name)) {
         request->problem = "the size of the window makes no sense";
         return false;
     }

@@ -89,8 +89,8 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->log = diag_sink_new(&session->frame_arena, MOST_LINES);
     session->errors = diag_sink_new(&session->frame_arena, MOST_LINES);
     session->state = state_new();
-    session->scene = scene_new(&session->symbols, (SceneHost){session, tell_scene});
-    canvas_schema_init(&session->canvas, &session->symbols, (CanvasHost){session, tell_scene});
+    schema_init(&session->schema, &session->symbols, (SchemaHost){session, tell_scene});
+    session->scene = scene_new(&session->schema);
     session->files = file_cache_new();
     session->noise = noise_cache_new();
     vm_init(&session->vm, &session->frame_arena, &session->symbols,

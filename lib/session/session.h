@@ -94,7 +94,7 @@ struct PetriSession {
     SymbolTable symbols;
     State *state;
     Scene *scene;
-    CanvasSchema canvas;
+    Schema schema;
     AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;

@@ -3,11 +3,6 @@
 
 #include "value/format.h"
 
-// The public kinds are those of the engine: a row of force_list.h that petri.h lacks does not compile.
-#define SAME(KIND, ...) _Static_assert((int)PETRI_##KIND == (int)PHYS_##KIND, "petri.h has other kinds of forces");
-PHYS_FORCES(SAME, SAME, SAME, SAME)
-#undef SAME
-
 static const char *printed(PetriSession *session, Value v) {
     Text text = text_new(&session->text_arena);
     format_value(&text, &session->symbols, v);
@@ -64,7 +59,7 @@ bool petri_force(PetriSession *session, size_t number, uint32_t index, PetriForc
     for (uint32_t k = 0; k < view.dimensions; k++)
         zero[k] = 0;
     *out = (PetriForce){
-        .kind = (PetriForceKind)force.kind,
+        .kind = schema_kinds[schema_kind_of_force(force.kind)].name,
         .strength = force.strength,
         .from = force.from,
         .to = force.to,
