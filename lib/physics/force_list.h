@@ -22,7 +22,6 @@
     AS_PAIR(GRAVITY, gravity, +1, MASS, FAR)                                                                           \
     AS_PAIR(ELECTROSTATIC, electrostatic, -1, CHARGE, FAR)                                                             \
     AS_PAIR(ADHESION, adhesion, +1, RADIUS, CONTACT)                                                                   \
-    AS_PAIR(SPRING, spring, +1, RADIUS, CONTACT)                                                                       \
     AS_LINK(DISTANCE, distance)                                                                                        \
     AS_SINGLE(CONSTANT, constant, 2, NOTHING)                                                                          \
     AS_SINGLE(RANDOM, random, 0, STREAM)                                                                               \

@@ -69,12 +69,6 @@ KERNEL Real pair_adhesion(const Pairs *pairs) {
     return real_mul(real_mul(real_set(pairs->term->strength), depth), real_sub(geometry->length, rest));
 }
 
-// K = S · (l − (r₁+r₂) / 2)
-KERNEL Real pair_spring(const Pairs *pairs) {
-    Real rest = real_mul(pairs->geometry->reach, real_set(0.5));
-    return real_mul(real_sub(pairs->geometry->length, rest), real_set(pairs->term->strength));
-}
-
 // K of a link. False: no force.
 //   l < min:       K = − ((min − l)^power · S)
 //   else l > max:  K = (l − max)^power · S

@@ -225,11 +225,6 @@ STRENGTH_ROW(ADHESION)
 EASE_ROW(ADHESION)
 REACH_ROW(ADHESION)
 
-FORCE(SPRING, "spring", "particles that touch are held where one's edge is in the middle of the other")
-STRENGTH_ROW(SPRING)
-EASE_ROW(SPRING)
-REACH_ROW(SPRING)
-
 FORCE(DRAG, "drag", "friction of a medium that may flow")
 ATTR(DRAG, FLOW, VECTOR, TO_FORCE(force.vector), IS(0), "", "velocity of the medium")
 STRENGTH_ROW(DRAG)
