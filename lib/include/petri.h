@@ -29,7 +29,7 @@ typedef enum PetriStatus {
     PETRI_OK,
     PETRI_INVALID,     // the script cannot be loaded, a definition cannot be read; diagnostics tell why
     PETRI_LIMIT,       // a limit was reached: the frame was given up and changed nothing
-    PETRI_MEMORY,      // memory is used up
+    PETRI_MEMORY,      // memory is used up: nothing has changed (but see petri_step)
     PETRI_MISSING,     // this libpetri was built without the library that it takes; a diagnostic tells which
     PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
 } PetriStatus;
@@ -65,8 +65,9 @@ typedef struct PetriOptions {
     size_t memory_bytes;        // for the values of one frame. Default 2 GiB
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
-    // Keep a copy of the state while a frame is made, so that petri_interrupt can give up a frame whose systems are
-    // being updated; a frame that is given up does not count then. Default false: only evaluation is interrupted.
+    // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
+    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
+    // only evaluation is interrupted.
     bool interruptible;
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
@@ -105,7 +106,9 @@ PetriStatus petri_check(PetriSession *session, const char *file);
 // The same for a text; `name` stands for the file.
 PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
-// Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
+// Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded. PETRI_MEMORY while
+// systems are updated changes nothing with PetriOptions.interruptible; without, the frame counts, and each system has
+// made it or stays as it was.
 PetriStatus petri_step(PetriSession *session);
 
 // In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
@@ -205,7 +208,7 @@ void petri_config_use(PetriSession *session, PetriConfig *config);
 // A number that is another whenever the configuration is; modules that changed on disk count as well.
 uint64_t petri_config_number(const PetriSession *session);
 
-// A copy of all that decides how a session goes on: state, systems, clock and configuration. Free it before the
+// A copy of all that decides how a session goes on: state, systems, input, clock and configuration. Free it before the
 // session.
 typedef struct PetriSnapshot PetriSnapshot;
 // NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
@@ -225,7 +228,8 @@ PetriStatus petri_save(PetriSession *session, const char *file);
 PetriStatus petri_restore(PetriSession *session, const char *file);
 
 // The particle systems of the last frame, for drawing and measuring. Numbers count from 0 in order of declaration; each
-// function is false beyond the last. Texts and vectors are valid until the next of these calls, steps or loads.
+// function is false beyond the last, and if memory is used up. Texts and vectors are valid until the next of these
+// calls, steps or loads; names of systems until the next step or load.
 typedef struct PetriSystem {
     const char *name; // its state prefix in printed form, such as ":cells"
     uint32_t dimensions;
@@ -390,16 +394,18 @@ typedef struct PetriPrompted {
     uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
                     // are added to those of the script; they are written, too, as they are now
     const char *hidden; // a name bound that the script's top level binds, too: the script goes on with its own; or
-                        // NULL. Valid until the next call
+                        // NULL. Valid as long as the session
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.
 PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
                          PetriPrompted *done);
-// Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were.
+// Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were; none if
+// memory is used up.
 uint32_t petri_drop(PetriSession *session, bool bindings);
-// A statement that the prompt has kept, by number from 0; NULL beyond the last. Valid until the next prompt or drop.
-const char *petri_kept(PetriSession *session, size_t number);
+// A statement that is evaluated in each frame, by number from 0; NULL beyond the last. Valid until the next call that
+// changes the configuration.
+const char *petri_prompt_statement(const PetriSession *session, size_t number);
 
 typedef struct PetriResult {
     bool is_true;
@@ -415,7 +421,8 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
 PetriStatus petri_preview(PetriSession *session);
 
 // A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
-const char *petri_name(PetriSession *session, size_t number);
+// Valid as long as the session.
+const char *petri_name(const PetriSession *session, size_t number);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code.

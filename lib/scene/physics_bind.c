@@ -100,7 +100,7 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
 
 bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFrame *frame) {
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
-    if (!system || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
+    if (!system || !system->engine || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
         return false;
     system->seen = scene->frame_number; // the next update is that of the frame after
     return true;
@@ -233,6 +233,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     }
     if (!faultless)
         system->mirror.state = MIRROR_STALE; // mistakes are reported in each frame
+    scene->exhausted |= tree.failed;
     physics_remember(&tree);
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
@@ -261,6 +262,7 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
     PhysicsSystem *system = find_system(scene, settings.state, frame);
     if (!system || !system->engine) {
         reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
+        scene->exhausted = true;
         return 0;
     }
     if (system->occurrence == 1)

@@ -6,17 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-Scene *scene_new(Schema *schema) {
+Scene *scene_new(Arena *arena, Schema *schema) {
     SymbolTable *symbols = schema->symbols;
-    Scene *scene = calloc(1, sizeof *scene);
-    if (!scene)
-        return NULL;
-    scene->schema = schema;
+    Scene *scene = arena_alloc(arena, sizeof *scene);
+    *scene = (Scene){.schema = schema};
     physics_take_defaults(scene);
-    if (!input_init(&scene->input, symbols)) {
-        scene_free(scene);
-        return NULL;
-    }
+    input_init(&scene->input, symbols);
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
@@ -42,25 +37,42 @@ static void free_system(PhysicsSystem *system) {
     free(system);
 }
 
-void scene_reset(Scene *scene, State *state) {
-    for (PhysicsSystem *system = scene->systems, *next; system; system = next) {
+void scene_free_systems(PhysicsSystem *systems) {
+    for (PhysicsSystem *system = systems, *next; system; system = next) {
         next = system->next;
-        if (state)
-            mirror_leave(&system->mirror, state);
         free_system(system);
     }
+}
+
+PhysicsSystem *scene_set_aside(Scene *scene) {
+    PhysicsSystem *systems = scene->systems;
     scene->systems = NULL;
     scene->marked = NULL;
+    return systems;
+}
+
+void scene_bring_back(Scene *scene, PhysicsSystem *systems) {
+    scene_reset(scene);
+    scene->systems = systems;
+}
+
+void scene_reset(Scene *scene) {
+    scene_free_systems(scene_set_aside(scene));
 }
 
 void scene_free(Scene *scene) {
-    if (scene) {
-        scene_reset(scene, NULL);
-        phys_threads_free(scene->physics.pool);
-        free(scene->bodies);
-        input_free(&scene->input);
-    }
-    free(scene);
+    if (!scene)
+        return;
+    scene_reset(scene);
+    phys_threads_free(scene->physics.pool);
+    free(scene->bodies);
+    input_free(&scene->input);
+}
+
+bool scene_take_exhausted(Scene *scene) {
+    bool was = scene->exhausted;
+    scene->exhausted = false;
+    return was;
 }
 
 Input *scene_input(Scene *scene) {

@@ -19,7 +19,6 @@ typedef struct Link {
 } Link;
 
 // What a system keeps from frame to frame. It is the same system as long as its prefix is the same.
-typedef struct PhysicsSystem PhysicsSystem;
 struct PhysicsSystem {
     PhysicsSystem *next;
     StateSlot start;     // slot of the prefix itself: what identifies the system
@@ -54,6 +53,7 @@ struct Scene {
     Schema *schema;
     BodyAttrs bodies_before[2]; // the defaults of a particle and of an anchor
     ForceAttrs forces_before[PHYS_FORCE_KINDS];
+    bool exhausted; // see scene_take_exhausted
     Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;

@@ -62,28 +62,41 @@ static void report_file(PetriPicture *picture, const char *file, const char *pro
     diag_report(&picture->faults, &(Diag){.level = DIAG_ERROR, .text = text, .code = "cannot-write"});
 }
 
-PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
-    CanvasFormat format = CANVAS_PNG;
-    if (!find_format(file, &format)) {
-        report_file(picture, file, "a picture's name ends in .png, .svg or .pdf");
-        return PETRI_INVALID;
-    }
+// A picture being written to a file.
+typedef struct Saving {
+    PetriPicture *picture;
+    PetriPainter *painter;
+    CanvasFormat format;
+    const char *file;
     Arena arena; // the file's bytes, apart from the picture's data and its faults
-    jmp_buf escape;
-    PetriStatus status = PETRI_MEMORY;
-    arena_init(&arena, "file", SIZE_MAX);
-    arena.escape = &escape;
-    if (setjmp(escape) == 0) {
-        Str bytes;
-        const char *problem;
-        CanvasResult result = canvas_encode(painter->painter, &picture->picture, format, picture->width,
-                                            picture->height, &arena, &bytes, &picture->faults);
-        status = status_of(result);
-        if (result == CANVAS_DONE && !file_replace(&arena, file, bytes, &problem)) {
-            report_file(picture, file, problem);
-            status = PETRI_INVALID;
-        }
+    PetriStatus status;
+} Saving;
+
+static void save(void *context) {
+    Saving *saving = context;
+    PetriPicture *picture = saving->picture;
+    Str bytes;
+    const char *problem;
+    CanvasResult result = canvas_encode(saving->painter->painter, &picture->picture, saving->format, picture->width,
+                                        picture->height, &saving->arena, &bytes, &picture->faults);
+    saving->status = status_of(result);
+    if (result == CANVAS_DONE && !file_replace(&saving->arena, saving->file, bytes, &problem)) {
+        report_file(picture, saving->file, problem);
+        saving->status = PETRI_INVALID;
     }
-    arena_free(&arena);
-    return status;
+}
+
+static void report_name(void *context) {
+    const Saving *saving = context;
+    report_file(saving->picture, saving->file, "a picture's name ends in .png, .svg or .pdf");
+}
+
+PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
+    Saving saving = {
+        .picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID};
+    Arena *arenas[] = {&saving.arena, &picture->arena};
+    arena_init(&saving.arena, "file", SIZE_MAX);
+    ArenaEnd end = arena_protect(arenas, 2, find_format(file, &saving.format) ? save : report_name, &saving);
+    arena_free(&saving.arena);
+    return end == ARENA_DONE ? saving.status : PETRI_MEMORY;
 }

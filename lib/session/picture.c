@@ -16,6 +16,7 @@ typedef struct Request {
     const PetriPictureOptions *options;
     PetriPicture *picture;
     const char *problem; // why there is no picture; may be NULL
+    PetriStatus status;
 } Request;
 
 static bool is_window(const PetriSession *session, const Item *item) {
@@ -35,8 +36,8 @@ static bool has_canvas(const PetriSession *session, const Node *window) {
 // The window of that number; of none in particular, the first with something to draw, or else the first.
 static const Node *find_window(const PetriSession *session, int number) {
     const Node *first = NULL;
-    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
-        const Item *item = &session->tree.as.items[i];
+    for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
+        const Item *item = &session->frame.tree.as.items[i];
         if (!is_window(session, item))
             continue;
         if (number < 0 ? has_canvas(session, item->as.node) : number-- == 0)
@@ -186,8 +187,8 @@ static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *
 }
 
 static void report_size(Request *request, double width, double height) {
-    request->problem = str_to_c(&request->session->scene_arena,
-                                str_format(&request->session->scene_arena,
+    request->problem = str_to_c(&request->session->frame.systems_arena,
+                                str_format(&request->session->frame.systems_arena,
                                            "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
                                            PETRI_MOST_PIXELS, width, height));
 }
@@ -225,7 +226,7 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
     const Node *window = find_window(session, options->window);
     bool own = window && has_canvas(session, window) && options->automatic != PETRI_AUTO_ALWAYS;
     SceneView view;
-    for (uint32_t i = 0; own && session->frame.number < LONGEST_START; i++) {
+    for (uint32_t i = 0; own && session->clock.number < LONGEST_START; i++) {
         if (!scene_view(session->scene, session->state, i, &view))
             break;
         if (!view.began)
@@ -235,8 +236,8 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
 }
 
 bool petri_records(const PetriSession *session) {
-    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
-        const Item *item = &session->tree.as.items[i];
+    for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
+        const Item *item = &session->frame.tree.as.items[i];
         const Node *window = is_window(session, item) ? item->as.node : NULL;
         for (uint32_t k = 0; window && k < window->child_count; k++)
             if (schema_window_kind(&session->schema, window->children[k]) == KIND_RECORD &&
@@ -255,9 +256,9 @@ static bool make_picture(Request *request) {
     uint32_t systems = options->automatic == PETRI_AUTO_NEVER ? 0 : count_systems(session);
     bool drawable = window && has_canvas(session, window);
     bool automatic = options->automatic == PETRI_AUTO_ALWAYS || (!drawable && systems > 0);
-    picture->frame = session->frame.number;
+    picture->frame = session->clock.number;
     picture->title = "";
-    picture->picture.directory = str_copy(&picture->arena, session->program->source->directory);
+    picture->picture.directory = str_copy(&picture->arena, session->config.program->source->directory);
     if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
         request->problem = "there is nothing to draw by itself: the frame has no !physics";
         return false;
@@ -282,14 +283,10 @@ static bool make_picture(Request *request) {
     return choose_pixels(request);
 }
 
-static PetriStatus make_guarded(Request *request) {
-    jmp_buf escape;
-    PetriStatus status = PETRI_MEMORY;
-    request->picture->arena.escape = request->session->scene_arena.escape = &escape;
-    if (setjmp(escape) == 0)
-        status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
-    request->picture->arena.escape = request->session->scene_arena.escape = NULL;
-    return status;
+static void make_protected(PetriSession *session, void *context) {
+    Request *request = context;
+    (void)session;
+    request->status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
@@ -298,10 +295,11 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     if (!picture)
         return PETRI_MEMORY;
     arena_init(&picture->arena, "picture", session->options.memory_bytes);
-    Request request = {.session = session, .options = options, .picture = picture};
+    Request request = {.session = session, .options = options, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_INVALID;
-    if (session->program && session->frame.number >= 0)
-        status = make_guarded(&request);
+    if (session->config.program && session->clock.number >= 0)
+        status = session_protect(session, &picture->arena, make_protected, &request) == PETRI_OK ? request.status
+                                                                                                 : PETRI_MEMORY;
     else
         request.problem = "there is nothing to draw: no frame has been made yet";
     if (status == PETRI_OK) {

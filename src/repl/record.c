@@ -65,7 +65,7 @@ static bool may_record(Repl *repl, const char *script) {
 
 // The script that the golden needs: the loaded one with what was typed.
 static bool write_script(Repl *repl, const char *path) {
-    const char *kept = petri_kept(repl->session, 0);
+    const char *kept = petri_prompt_statement(repl->session, 0);
     char resolved[2][PATH_MAX];
     if (kept == NULL && repl->loaded && realpath(repl->script, resolved[0]) != NULL &&
         realpath(path, resolved[1]) != NULL && strcmp(resolved[0], resolved[1]) == 0) {
@@ -80,7 +80,7 @@ static bool write_script(Repl *repl, const char *path) {
     if (text.length > 0 && text.data[text.length - 1] != '\n') {
         bytes_add(&text, "\n", 1);
     }
-    for (size_t i = 0; (kept = petri_kept(repl->session, i)) != NULL; i++) {
+    for (size_t i = 0; (kept = petri_prompt_statement(repl->session, i)) != NULL; i++) {
         bytes_add(&text, kept, strlen(kept));
         bytes_add(&text, "\n", 1);
     }

@@ -74,7 +74,7 @@ static bool has(const Stage *stage, const char *key) {
 static bool play(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
     *stage = (Stage){.world = world, .state = state_new()};
     schema_init(&stage->schema, &world->symbols, (SchemaHost){NULL, ignore});
-    stage->scene = scene_new(&stage->schema);
+    stage->scene = scene_new(&world->arena, &stage->schema);
     assert_true(update(stage, first, SIZE_MAX));
     assert_true(update(stage, first, SIZE_MAX));
     assert_true(has(stage, ":s;1") && has(stage, ":s;2") && has(stage, ":s;2;:velocity"));
