@@ -8,7 +8,7 @@
 
 typedef struct Picture Picture; // of an image file: images.c
 
-struct CanvasPainter {
+struct PetriPainter {
     Arena arena; // reset with each picture
     PangoFontMap *fonts;
     PangoContext *text_context;
@@ -20,7 +20,7 @@ struct CanvasPainter {
 
 // A picture being drawn.
 typedef struct Canvas {
-    CanvasPainter *painter;
+    PetriPainter *painter;
     const CanvasPicture *picture;
     cairo_t *cr;
     DiagSink *faults;
@@ -67,13 +67,13 @@ void draw_clip(Canvas *canvas, const Look *look);   // the path is kept
 void draw_paint(Canvas *canvas, int composite, double alpha);
 
 // text.c
-bool draw_text_open(CanvasPainter *painter);
-void draw_text_close(CanvasPainter *painter);
+bool draw_text_open(PetriPainter *painter);
+void draw_text_close(PetriPainter *painter);
 void draw_text(Canvas *canvas, const DrawNode *node, const Look *look);
 
 // images.c
 void draw_image(Canvas *canvas, const DrawNode *node, const Look *look);
-void draw_images_close(CanvasPainter *painter);
+void draw_images_close(PetriPainter *painter);
 // The pixels of a JPEG file; NULL with a reason.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
 

@@ -26,7 +26,7 @@ static void picture_free(Picture *picture) {
     free(picture);
 }
 
-void draw_images_close(CanvasPainter *painter) {
+void draw_images_close(PetriPainter *painter) {
     for (Picture *picture = painter->images, *next; picture; picture = next) {
         next = picture->next;
         picture_free(picture);
@@ -35,7 +35,7 @@ void draw_images_close(CanvasPainter *painter) {
 }
 
 // Forgets an image, and the oldest if there are many.
-static void forget(CanvasPainter *painter, const char *path) {
+static void forget(PetriPainter *painter, const char *path) {
     int count = 0;
     for (Picture **at = &painter->images; *at;) {
         Picture *picture = *at;
@@ -87,7 +87,7 @@ static cairo_surface_t *decode(Str bytes, const char **problem) {
     return NULL;
 }
 
-static Picture *load(CanvasPainter *painter, const char *path, Str version) {
+static Picture *load(PetriPainter *painter, const char *path, Str version) {
     Picture *picture = calloc(1, sizeof *picture);
     if (!picture)
         arena_exhausted(&painter->arena);
@@ -105,7 +105,7 @@ static Picture *load(CanvasPainter *painter, const char *path, Str version) {
     return picture;
 }
 
-static const Picture *find(CanvasPainter *painter, const char *path) {
+static const Picture *find(PetriPainter *painter, const char *path) {
     Str version = STR("");
     file_version(&painter->arena, path, &version);
     for (Picture *picture = painter->images; picture; picture = picture->next)

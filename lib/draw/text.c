@@ -10,7 +10,7 @@
 enum { LONGEST_TEXT = 10000 };           // bytes
 static const double LARGEST_FONT = 4000; // pixels
 
-bool draw_text_open(CanvasPainter *painter) {
+bool draw_text_open(PetriPainter *painter) {
     painter->fonts = pango_cairo_font_map_new();
     if (!painter->fonts)
         return false;
@@ -27,7 +27,7 @@ bool draw_text_open(CanvasPainter *painter) {
     return true;
 }
 
-void draw_text_close(CanvasPainter *painter) {
+void draw_text_close(PetriPainter *painter) {
     if (painter->layout)
         g_object_unref(painter->layout);
     if (painter->text_context)
@@ -46,7 +46,7 @@ static bool is_generic(const char *name) {
     return false;
 }
 
-static bool is_installed(CanvasPainter *painter, const char *name) {
+static bool is_installed(PetriPainter *painter, const char *name) {
     PangoFontFamily **families;
     int count;
     bool found = is_generic(name);
@@ -81,7 +81,7 @@ static void check_family(Canvas *canvas, const char *list) {
 
 static void set_font(Canvas *canvas, const Look *look) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
-    CanvasPainter *painter = canvas->painter;
+    PetriPainter *painter = canvas->painter;
     const Look *last = &painter->font;
     if (painter->family == look->family && last->font_size == look->font_size && last->weight == look->weight &&
         last->slant == look->slant)

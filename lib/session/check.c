@@ -45,13 +45,10 @@ void session_look_at_top(PetriSession *session) {
 
 // Reads all windows, as if they were to be drawn.
 static void look_at_windows(PetriSession *session, void *context) {
+    const Node *window;
     (void)context;
-    for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
-        const Item *item = &session->frame.tree.as.items[i];
-        NodeKind kind = item->type == ITEM_NODE ? schema_window_kind(&session->schema, item->as.node) : KIND_COUNT;
-        if (kind == KIND_WINDOW || kind == KIND_OFFSCREEN)
-            canvas_read(&session->schema, &session->frame.systems_arena, item->as.node);
-    }
+    for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at)) != NULL;)
+        canvas_read(&session->schema, &session->frame.systems_arena, window);
 }
 
 // What the scratch session has to say. Its stages each see the whole script; people read it from top to bottom.

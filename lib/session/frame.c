@@ -63,7 +63,8 @@ ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
 // Before frame 0 at the session's rates.
 static void rewind_clock(PetriSession *session) {
     clock_rewind(&session->clock);
-    memset(session->auto_frames, 0, sizeof session->auto_frames);
+    if (session->drawing)
+        memset(session->drawing, 0, session->drawing_size);
     session->frame.profiled_physics = 0;
     session->frame.profiled_frames = 0;
     session->frame.physics_steps = 0;

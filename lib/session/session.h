@@ -9,18 +9,15 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
-#include "canvas/read.h"
-#include "draw/automatic.h"
 #include "scene/scene.h"
 #include "session/checkpoint.h"
 #include "session/clock.h"
 #include "session/diagnostics.h"
 #include "session/frame.h"
 #include "session/prompt.h"
+#include "session/shown.h"
 #include "session/unit.h"
 #include "vm/vm.h"
-
-enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
 
 // The present configuration. Whoever changes it calls session_change_config.
 typedef struct Config {
@@ -55,7 +52,8 @@ struct PetriSession {
     FileCache *files;
     NoiseCache *noise;
     Schema schema;
-    AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
+    void *drawing; // what the room that draws keeps (shown.h)
+    size_t drawing_size;
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
     atomic_bool interrupt;
@@ -75,10 +73,6 @@ struct PetriSession {
     bool torn;       // that frame was given up, but there was no memory yet for going back
 };
 
-// Calls `call`. If an arena of the session or `extra` (or NULL) runs out meanwhile, what it was doing is given up:
-// PETRI_MEMORY, or PETRI_LIMIT if only a budget was used up. What it has begun must be reachable from `context`.
-typedef void SessionCall(PetriSession *session, void *context);
-PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
 // Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
 bool session_heal(PetriSession *session);
 

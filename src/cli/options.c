@@ -9,6 +9,7 @@
 #include "cli/args.h"
 #include "cli/bytes.h"
 #include "cli/script.h"
+#include "petri-draw.h"
 
 enum { DEFAULT_FRAMES = 600, MOST_THREADS = 1024, MOST_JOBS = 256 };
 

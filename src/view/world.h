@@ -8,7 +8,7 @@
 #include "cli/bytes.h"
 #include "cli/options.h"
 #include "cli/watch.h"
-#include "petri.h"
+#include "petri-draw.h"
 #include "view/warnings.h"
 
 typedef struct World {

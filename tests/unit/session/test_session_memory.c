@@ -2,6 +2,7 @@
 // see that), what returns a failure has changed nothing, and the same call then gives what it gives elsewhere.
 #include "folder.h"
 #include "heap.h"
+#include "petri-draw.h"
 #include "player.h"
 
 static const char *const SCRIPT = "%pragma tempo 60\n"

@@ -1,44 +1,13 @@
 // painter.c: pictures into pixels and files.
-#include "session/picture.h"
+#include "draw/picture.h"
 
 #include "base/file.h"
-
-#include <stdlib.h>
-
-struct PetriPainter {
-    CanvasPainter *painter;
-};
-
-PetriPainter *petri_painter_open(void) {
-    PetriPainter *painter = calloc(1, sizeof *painter);
-    if (painter)
-        painter->painter = canvas_painter_new();
-    if (painter && !painter->painter)
-        petri_painter_close(&painter);
-    return painter;
-}
-
-void petri_painter_close(PetriPainter **handle) {
-    PetriPainter *painter = *handle;
-    *handle = NULL;
-    if (painter)
-        canvas_painter_free(painter->painter);
-    free(painter);
-}
-
-static PetriStatus status_of(CanvasResult result) {
-    static const PetriStatus statuses[] = {[CANVAS_DONE] = PETRI_OK,
-                                           [CANVAS_FAILED] = PETRI_INVALID,
-                                           [CANVAS_MISSING] = PETRI_MISSING,
-                                           [CANVAS_MEMORY] = PETRI_MEMORY};
-    return statuses[result];
-}
 
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
                                size_t stride) {
     if (!picture_is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
         return PETRI_INVALID;
-    return status_of(canvas_draw(painter->painter, &picture->picture, pixels, width, height, stride, &picture->faults));
+    return draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->faults);
 }
 
 static bool find_format(const char *file, CanvasFormat *format) {
@@ -77,10 +46,9 @@ static void save(void *context) {
     PetriPicture *picture = saving->picture;
     Str bytes;
     const char *problem;
-    CanvasResult result = canvas_encode(saving->painter->painter, &picture->picture, saving->format, picture->width,
-                                        picture->height, &saving->arena, &bytes, &picture->faults);
-    saving->status = status_of(result);
-    if (result == CANVAS_DONE && !file_replace(&saving->arena, saving->file, bytes, &problem)) {
+    saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width, picture->height,
+                                 &saving->arena, &bytes, &picture->faults);
+    if (saving->status == PETRI_OK && !file_replace(&saving->arena, saving->file, bytes, &problem)) {
         report_file(picture, saving->file, problem);
         saving->status = PETRI_INVALID;
     }
