@@ -17,7 +17,7 @@ Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const 
     return expr;
 }
 
-static const Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
+Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value) {
     Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
     expr->as.value = value;
     return expr;
@@ -62,7 +62,8 @@ static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_range(Compiler *compiler, const Ast *ast) {
     const Expr *parts[3];
     for (int i = 0; i < 3; i++)
-        parts[i] = ast->children[i] ? compile_expr(compiler, ast->children[i]) : constant(compiler, ast, VALUE_NULL);
+        parts[i] =
+            ast->children[i] ? compile_expr(compiler, ast->children[i]) : compile_constant(compiler, ast, VALUE_NULL);
     return compile_expr_new(compiler, EXPR_RANGE, ast, parts, 3);
 }
 
@@ -221,7 +222,8 @@ const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     for (uint32_t i = 0; i < params->count; i++) {
         const Ast *param = params->children[i];
         names[i] = param->name;
-        defaults[i] = param->count ? compile_expr(compiler, param->children[0]) : constant(compiler, param, VALUE_NULL);
+        defaults[i] =
+            param->count ? compile_expr(compiler, param->children[0]) : compile_constant(compiler, param, VALUE_NULL);
     }
     FunctionScope function;
     compile_function_open(compiler, &function, ast->name);
@@ -312,7 +314,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     if (include.fault.len)
         compile_report(compiler, include.place, DIAG_WARNING, "cannot-include", include.fault, (Str){0});
     if (!include.ast)
-        return constant(compiler, ast, VALUE_NULL);
+        return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
     compiler->source = include.source;
     compiler->depth--; // its statements stand at the depth of the directive
@@ -325,7 +327,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     switch (ast->kind) {
     case AST_LITERAL:
-        return constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
+        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
     case AST_NODE:
         return compile_node(compiler, ast);
     case AST_NAME:
