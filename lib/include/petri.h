@@ -265,7 +265,7 @@ bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
 bool petri_particle(PetriSession *session, size_t system, uint32_t number, PetriParticle *particle);
 bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
-// Whether the last frame has anything to draw: a window with a canvas, or physics. What draws it is a library of its own
+// Whether the last frame has anything to draw: a window with a canvas, or physics. A library of its own draws it
 // (petri-draw.h).
 bool petri_drawable(PetriSession *session);
 
