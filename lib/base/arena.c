@@ -97,7 +97,7 @@ ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *c
     default:
         end = ARENA_BUDGET;
     }
-    for (size_t i = 0; i < count; i++)
+    for (size_t i = count; i-- > 0;) // backwards: one may be there twice
         if (arenas[i])
             arenas[i]->escape = outer[i];
     return end;
