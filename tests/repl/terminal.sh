@@ -105,7 +105,7 @@ fi
 type_keys '.run' Enter
 expect "frames are made" "^> 'four'"
 type_keys C-c
-expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames'
+expect "Ctrl-C stops .run" '^petri: interrupted after [0-9]* frames*'
 type_keys C-l '.goto 100000000' Enter
 expect ".goto shows how far it is" '/[0-9]* frames, .* left'
 type_keys C-c
@@ -157,7 +157,7 @@ type_keys '.run' Enter
 expect "a frame that takes long" '\.run$'
 sleep 1
 type_keys C-c
-expect "Ctrl-C stops it" '^petri: interrupted after [0-9]* frames'
+expect "Ctrl-C stops it" '^petri: interrupted after [0-9]* frames*'
 type_keys '.energy' Enter
 expect ".energy shows the system" '^:many: 400 particles'
 type_keys C-l '.particles 1' Enter

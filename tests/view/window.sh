@@ -88,7 +88,8 @@ press() {
     xdotool key "$@"
 }
 
-look() { import -silent -window "$window" seen.png 2>/dev/null; }
+# import may wait for ever for a window that changes under its hands.
+look() { timeout 10 import -silent -window "$window" seen.png 2>/dev/null; }
 # shows FILE: the window shows that picture, to the last bit.
 same_pixels() { look && [ "$(compare -metric AE seen.png "$1" null: 2>&1)" = 0 ]; }
 shows() { soon same_pixels "$1"; }
