@@ -1,0 +1,183 @@
+// lanes.h: the vocabulary of the fast paths: LANES doubles at a time, for the instruction set of the file.
+//
+// LANES (1, 2, 4 or 8) is set by the file that includes this. With one lane a Real is a double, so that the same source
+// gives the scalar functions. Arithmetic is written with operators; each is one IEEE operation per lane.
+#ifndef PETRI_MATHS_LANES_H
+#define PETRI_MATHS_LANES_H
+
+#include <stdint.h>
+#include <string.h>
+
+#if defined(__AVX2__) || defined(__FMA__)
+#include <immintrin.h>
+#endif
+#if defined(__aarch64__)
+#include <arm_neon.h>
+#endif
+
+#ifndef LANES
+#define LANES 1
+#endif
+
+#define KERNEL static inline __attribute__((always_inline))
+
+#if LANES == 1
+typedef double Real;
+typedef uint64_t Bits;
+#else
+typedef double Real __attribute__((vector_size(8 * LANES)));
+typedef uint64_t Bits __attribute__((vector_size(8 * LANES)));
+#endif
+
+// A set of lanes, the first in the lowest bit.
+typedef unsigned Lanes;
+#define ALL_LANES ((1u << LANES) - 1)
+
+// Has this instruction set a fused multiply-add? It only serves to find results, never to change them.
+#if defined(__FMA__) || defined(__aarch64__)
+#define HAS_FMA 1
+#else
+#define HAS_FMA 0
+#endif
+
+KERNEL Bits bits_of(Real a) {
+    Bits b;
+    memcpy(&b, &a, sizeof b);
+    return b;
+}
+
+KERNEL Real real_of(Bits a) {
+    Real b;
+    memcpy(&b, &a, sizeof b);
+    return b;
+}
+
+KERNEL Real real_set(double a) {
+#if LANES == 1
+    return a;
+#else
+    return a - (Real){0};
+#endif
+}
+
+KERNEL Bits bits_set(uint64_t a) {
+#if LANES == 1
+    return a;
+#else
+    return a - (Bits){0};
+#endif
+}
+
+KERNEL Real real_absolute(Real a) {
+    return real_of(bits_of(a) & bits_set(UINT64_MAX >> 1));
+}
+
+// a b + c with one rounding or with two: for sums whose error bound covers both.
+KERNEL Real real_muladd(Real a, Real b, Real c) {
+#if !HAS_FMA
+    return a * b + c;
+#elif LANES == 1
+    return __builtin_fma(a, b, c);
+#elif LANES == 2 && defined(__aarch64__)
+    return (Real)vfmaq_f64((float64x2_t)c, (float64x2_t)a, (float64x2_t)b);
+#elif LANES == 2
+    return _mm_fmadd_pd(a, b, c);
+#elif LANES == 4
+    return _mm256_fmadd_pd(a, b, c);
+#else
+    return _mm512_fmadd_pd(a, b, c);
+#endif
+}
+
+#if !HAS_FMA
+// Veltkamp: a is the sum of the result and a rest, 26 bits each. |a| < 2^996.
+KERNEL Real real_upper(Real a) {
+    Real c = a * real_set(134217729.0);
+    return c - (c - a);
+}
+#endif
+
+// a b - p, exactly, for p = a b rounded: by a fused operation or as Dekker (1971) does it. No exponent below -1022.
+KERNEL Real real_mul_low(Real a, Real b, Real p) {
+#if HAS_FMA
+    return real_muladd(a, b, -p);
+#else
+    Real ah = real_upper(a), bh = real_upper(b), al = a - ah, bl = b - bh;
+    return ((ah * bh - p) + ah * bl + al * bh) + al * bl;
+#endif
+}
+
+// The rounding error of s = a + b, exactly, where |a| ≥ |b| or a = 0 (Dekker).
+KERNEL Real real_add_low(Real a, Real b, Real s) {
+    return b - (s - a);
+}
+
+// The same for any a and b (Knuth).
+KERNEL Real real_add_rest(Real a, Real b, Real s) {
+    Real t = s - a;
+    return (a - (s - t)) + (b - t);
+}
+
+// table[index] per lane.
+KERNEL Real real_look_up(const double *table, Bits index) {
+#if LANES == 1
+    return table[index];
+#elif LANES == 4 && defined(__AVX2__)
+    return _mm256_i64gather_pd(table, (__m256i)index, 8);
+#elif LANES == 8 && defined(__AVX512F__)
+    return _mm512_i64gather_pd((__m512i)index, table, 8);
+#else
+    Real r;
+    for (int i = 0; i < LANES; i++)
+        r[i] = table[index[i]];
+    return r;
+#endif
+}
+
+// Comparisons; false for nan.
+KERNEL Lanes lanes_equal(Real a, Real b) {
+#if LANES == 1
+    return a == b;
+#elif LANES == 8 && defined(__AVX512F__)
+    return _mm512_cmp_pd_mask(a, b, _CMP_EQ_OQ);
+#elif LANES == 4 && defined(__AVX2__)
+    return (Lanes)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_EQ_OQ));
+#else
+    Lanes r = 0;
+    for (int i = 0; i < LANES; i++)
+        r |= (Lanes)(a[i] == b[i]) << i;
+    return r;
+#endif
+}
+
+KERNEL Lanes lanes_less(Real a, Real b) {
+#if LANES == 1
+    return a < b;
+#elif LANES == 8 && defined(__AVX512F__)
+    return _mm512_cmp_pd_mask(a, b, _CMP_LT_OQ);
+#elif LANES == 4 && defined(__AVX2__)
+    return (Lanes)_mm256_movemask_pd(_mm256_cmp_pd(a, b, _CMP_LT_OQ));
+#else
+    Lanes r = 0;
+    for (int i = 0; i < LANES; i++)
+        r |= (Lanes)(a[i] < b[i]) << i;
+    return r;
+#endif
+}
+
+// Ziv's rounding test (ACM TOMS 17, 1991): if the exact value is within `error` of high + low, *result is that value
+// rounded to nearest in the lanes that are returned.
+KERNEL Lanes lanes_decide(Real high, Real low, Real error, Real *result) {
+    *result = high + (low + error);
+    return lanes_equal(*result, high + (low - error));
+}
+
+// x to the nearest whole number, |x| < 2^51 (times `step` before): as a double, and in two's complement.
+#define REAL_ROUNDER 6755399441055744.0 // 1.5 2^52
+KERNEL Real real_steps(Real x, double step, Bits *number) {
+    Real shifted = x * real_set(step) + real_set(REAL_ROUNDER);
+    *number = bits_of(shifted) - bits_of(real_set(REAL_ROUNDER));
+    return shifted - real_set(REAL_ROUNDER);
+}
+
+#endif
