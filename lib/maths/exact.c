@@ -185,7 +185,9 @@ double exact_atan2(double y, double x) {
         return x + y;
     double angle;
     if ((double_absolute(x) == DOUBLE_INFINITY))
-        angle = (double_absolute(y) == DOUBLE_INFINITY) ? (x > 0 ? HALF_PI_HIGH / 2 : 3 * (PI_HIGH / 4)) : x > 0 ? 0 : PI_HIGH;
+        angle = (double_absolute(y) == DOUBLE_INFINITY) ? (x > 0 ? HALF_PI_HIGH / 2 : 3 * (PI_HIGH / 4))
+                : x > 0                                 ? 0
+                                                        : PI_HIGH;
     else if ((double_absolute(y) == DOUBLE_INFINITY) || (x == 0 && y != 0))
         angle = HALF_PI_HIGH;
     else if (y == 0)

@@ -25,10 +25,9 @@ void exact_turn(double x, uint64_t *n, double *high, double *low) {
         product[i] = (uint64_t)t;
         carry = (uint64_t)(t >> 64);
     }
-    // In units of pi/256: 7 bits of the fraction go to n, to the nearest.
-    uint64_t upper = product[2] << 7, rest = product[1] << 7 | product[0] >> 57;
-    upper |= product[1] >> 57;
-    *n = (product[3] << 7 | product[2] >> 57) + (upper >> 63);
+    // In units of pi/512: 8 bits of the fraction go to n, to the nearest.
+    uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;
+    *n = (product[3] << 8 | product[2] >> 56) + (upper >> 63);
     // 2^-64 steps, in [-1/2, 1/2): 53 bits, then the 11 that are left and the next 64.
     double first = (double)(int64_t)(upper & ~UINT64_C(2047));
     double second = (double)(upper & 2047) + (double)rest * 0x1p-64;
@@ -37,10 +36,10 @@ void exact_turn(double x, uint64_t *n, double *high, double *low) {
         first = -first;
         second = -second;
     }
-    // times pi/256 2^-64, once more as two doubles
+    // times pi/512 2^-64, once more as two doubles
     double a = first * HALF_PI_HIGH, b = real_mul_low(first, HALF_PI_HIGH, a);
     b += first * HALF_PI_LOW + second * HALF_PI_HIGH;
     double sum = a + b;
-    *low = real_add_rest(a, b, sum) * 0x1p-71;
-    *high = sum * 0x1p-71;
+    *low = real_add_rest(a, b, sum) * 0x1p-72;
+    *high = sum * 0x1p-72;
 }

@@ -1,4 +1,5 @@
-// fast.h: what the instances of the fast paths offer (instance.c, once per instruction set), and what stands behind them.
+// fast.h: what the instances of the fast paths offer (instance.c, once per instruction set), and what stands behind
+// them.
 //
 // A fast path either returns the correctly rounded result or leaves the case to the exact_ function, which decides all.
 #ifndef PETRI_MATHS_FAST_H
@@ -40,7 +41,7 @@ double exact_pow_sign(double x, double y);
 double fast_log_near(double m);
 double fast_atan_near(double q);
 
-// x = (n pi/256 mod 2 pi) + high + low for any finite x of at least 1; |high| ≤ pi/512, up to 2^-110.
+// x = (n pi/512 mod 2 pi) + high + low for any finite x of at least 1; |high| ≤ pi/1024, up to 2^-110.
 void exact_turn(double x, uint64_t *n, double *high, double *low);
 
 #endif

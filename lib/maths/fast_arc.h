@@ -1,26 +1,28 @@
 // fast_arc.h: asin, acos, atan2 and tan, one number at a time: they take branches.
 //
-// asin and atan: Taylor series around the nearest c = i/128, f(c + d) = a0 + a1 d + a2 d^2 + …, the first two
-// coefficients in two parts. |d| ≤ 2^-8. The error, with u = 2^-53:
-//   argument   high + low: a quotient or a root, corrected once, 2^-104 relatively; d = high - c is exact; low counts
-//              in a1 d and a2 d^2: what is left is below 3 |a3| d^2 |low| < 2^-70
-//   series     atan is cut after d^8: |a9| ≤ 1/9, 2^-75; asin, c ≤ 1/2, after d^9: |a10| < 24, 2^-75. In row 0 the
-//              terms left are below 2^-75 |d|, too
-//   a2 d^2     |a2| ≤ 0.39; |a2| ≤ c for c > 0, 0 for c = 0: four roundings of what is below 2^-15.9 f in each row, and
-//              four more in the sum: 8 u 2^-15.9 f < 2^-65.9 f
+// Taylor series around the nearest c = i/128, f(c + d) = a0 + a1 d + a2 d^2 + …, the first two coefficients in two
+// parts, |d| ≤ 2^-8, cut after d^8. The error, with u = 2^-53 (a rounding of x is at most u |x|):
+//   d          exact, for the upper part of an argument of two parts; the rest counts in a1 d + a2 d^2: what is left
+//              is below 3 |a3| d^2 u < 2^-68 f for atan, in the row 0 2^-69
 //   a0, a1 d   exact but for 2^-104
-// asin and acos of |x| > 1/2 use s = sqrt((1 - |x|) / 2) ≤ 1/2: acos |x| = 2 asin s, asin |x| = pi/2 - 2 asin s; the
-// differences from pi/2 and pi are at least half of what is taken away. ARC_ERROR covers all of them.
+//   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
+// atan (c ≤ 1) and asin (c ≤ 1/8): s is at most 2^-16 f: in row 0 it is d^3/6 or d^3/3, else |a2| ≤ c and f ≥ c - d;
+// cut off: |a9| ≤ 1/9, 2^-75; for asin |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f. acos x = sqrt(1 - x) P(x), where P
+// has no singularity near 0 ≤ x ≤ 1: s is at most 0.09 · 2^-16, P at least 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9;
+// the root in two parts (2^-104) and the product in two parts add 2^-72. The angle is then subtracted from pi/2 or pi,
+// exactly but for 2^-105.
 //
-// tan = sine / cosine, with the quotient corrected once: the sum of both relative errors, and 2^-100.
+// tan = sine / cosine, with the quotient corrected once: the sum of both relative errors, and 2^-100. Only one of the
+// two has n = 1 or 255 or less than 2^-12 in size: 2^-67.1 + 2^-67.8 + 2^-69 (the absolute error of the smaller one).
 #ifndef PETRI_MATHS_FAST_ARC_H
 #define PETRI_MATHS_FAST_ARC_H
 
 #include "maths/doubles.h"
 #include "maths/fast_turn.h"
 
-#define ARC_ERROR 0x1p-65
-#define TAN_ERROR 0x1p-63
+#define ARC_ERROR 0x1.2p-66
+#define ACOS_ERROR 0x1.8p-70
+#define TAN_ERROR 0x1.3p-66
 
 // a + b for |a| ≥ |b| or a = 0, with what is lower, as high + low.
 KERNEL void arc_sum(double a, double b, double lower, double *high, double *low) {
@@ -28,105 +30,116 @@ KERNEL void arc_sum(double a, double b, double lower, double *high, double *low)
     *low = real_add_low(a, b, *high) + lower;
 }
 
-// A row of atan_table (COUNT = 7) or asin_table (8) at c + d + rest.
-KERNEL void arc_series(const double *row, int count, double d, double rest, double *high, double *low) {
-    const double *a = row + 4;
-    double sum = a[count - 1];
-    for (int i = count - 2; i >= 0; i--)
-        sum = real_muladd(d, sum, a[i]);
-    double p = row[2] * d, pl = real_mul_low(row[2], d, p);
-    double slope = real_muladd(2 * a[0], d, row[2]);
-    double small = real_muladd(d * d, sum, real_muladd(slope, rest, real_muladd(row[3], d, row[1]) + pl));
-    arc_sum(row[0], p, small, high, low);
-}
+#define ARC_COLUMNS 11
 
-// asin of s + rest, 0 ≤ s ≤ 1/2
-KERNEL void asin_parts(double s, double rest, double *high, double *low) {
+// The row for x = i/128 + d; d is exact.
+KERNEL const double *arc_row(const double *table, double x, double *d) {
     Bits i;
-    double c = real_steps(s, 128, &i) * (1.0 / 128);
-    arc_series(asin_table[i], 8, s - c, rest, high, low);
+    *d = x - real_steps(x, 128, &i) * (1.0 / 128);
+    return table + ARC_COLUMNS * i;
 }
 
-// acos |x| / 2 for |x| > 1/2
-KERNEL void half_acos_parts(double x, double *high, double *low) {
-    double square = (1 - x) * 0.5, s = __builtin_sqrt(square), p = s * s; // 1 - x is exact
-    double rest = ((square - p) - real_mul_low(s, s, p)) / (s + s);
-    asin_parts(s, rest, high, low);
+// A row of a table at i/128 + d, and what a rest of the argument adds
+KERNEL void arc_series(const double *row, double d, double rest, double *high, double *low) {
+    const double *a = row + 4;
+    // In pairs and pairs of pairs (Estrin): a shorter way than Horner's.
+    double square = d * d, third = real_muladd(d, a[5], a[4]);
+    double sum = real_muladd(square, real_muladd(d, a[3], a[2]), real_muladd(d, a[1], a[0]));
+    sum = real_muladd(square * square, real_muladd(square, a[6], third), sum);
+    double p = row[2] * d, pl = real_mul_low(row[2], d, p);
+    double small = real_muladd(square, sum, real_muladd(row[3], d, row[1]) + pl);
+    arc_sum(row[0], p, small + rest, high, low);
+}
+
+// The slope of the series, for the rest of an argument
+KERNEL double arc_slope(const double *row, double d) {
+    return real_muladd(2 * row[4], d, row[2]);
+}
+
+// Adds first: high + low + first_high + first_low.
+KERNEL bool arc_decide(double first_high, double first_low, double high, double low, double error, double *result) {
+    arc_sum(first_high, high, low + first_low, &high, &low);
+    return lanes_decide(high, low, error, result);
+}
+
+// acos(a) for a in [0, 1). 1 - a is rounded for a < 1/2: what is cut off goes to the rest of the root. The rest is the
+// root's error over twice the root; it is divided by the square and multiplied by the root, to wait less for the root.
+KERNEL void acos_parts(double a, double *high, double *low) {
+    double square = 1 - a, cut = (1 - square) - a, root = __builtin_sqrt(square);
+    double d, h, l;
+    const double *row = arc_row(&acos_table[0][0], a, &d);
+    double rest = (real_residue(square, root, root) + cut) * (root * (0.5 / square));
+    arc_series(row, d, 0, &h, &l);
+    *high = root * h;
+    *low = real_mul_low(root, h, *high) + real_muladd(root, l, rest * h);
 }
 
 KERNEL bool asin_fast(double x, double *result) {
     double a = real_absolute(x), high, low;
-    if (!(a <= 1))
+    if (!(a < 1 && a > 0x1p-27))
         return false;
-    if (a <= 0.5)
-        asin_parts(a, 0, &high, &low);
-    else {
-        half_acos_parts(a, &high, &low);
-        arc_sum(HALF_PI_HIGH, -2 * high, HALF_PI_LOW - 2 * low, &high, &low);
+    bool good;
+    if (a >= 0.125) {
+        acos_parts(a, &high, &low);
+        good = arc_decide(HALF_PI_HIGH, HALF_PI_LOW, -high, -low, high * ACOS_ERROR, result);
+    } else {
+        double d;
+        const double *row = arc_row(&asin_table[0][0], a, &d);
+        arc_series(row, d, 0, &high, &low);
+        good = lanes_decide(high, low, high * ARC_ERROR, result);
     }
-    bool good = lanes_decide(high, low, high * ARC_ERROR, result) & (a > 0x1p-27);
     *result = double_with_sign(*result, x);
     return good;
 }
 
 KERNEL bool acos_fast(double x, double *result) {
+    static const double first[2][3] = {{0, 0, 1}, {PI_HIGH, PI_LOW, -1}};
     double a = real_absolute(x), high, low;
     if (!(a < 1))
         return false;
-    if (a <= 0.5) {
-        asin_parts(a, 0, &high, &low);
-        double sign = double_with_sign(1, -x);
-        arc_sum(HALF_PI_HIGH, sign * high, HALF_PI_LOW + sign * low, &high, &low);
-    } else {
-        half_acos_parts(a, &high, &low);
-        if (x < 0)
-            arc_sum(PI_HIGH, -2 * high, PI_LOW - 2 * low, &high, &low);
-        else {
-            high *= 2;
-            low *= 2;
-        }
-    }
-    return lanes_decide(high, low, high * ARC_ERROR, result);
+    const double *constant = first[double_is_negative(x)];
+    double sign = constant[2];
+    acos_parts(a, &high, &low);
+    return arc_decide(constant[0], constant[1], sign * high, sign * low, high * ACOS_ERROR, result);
 }
 
 // atan(b / a), 0 ≤ b ≤ a, both far from the ends of the range
 KERNEL void atan_parts(double b, double a, double *high, double *low) {
-    double q = b / a, p = q * a, rest = ((b - p) - real_mul_low(q, a, p)) / a;
-    Bits i;
-    double c = real_steps(q, 128, &i) * (1.0 / 128);
-    arc_series(atan_table[i], 7, q - c, rest, high, low);
+    double inverse = 1 / a, q = b * inverse, rest = real_residue(b, q, a) * inverse, d;
+    const double *row = arc_row(&atan_table[0][0], q, &d);
+    arc_series(row, d, arc_slope(row, d) * rest, high, low);
 }
 
 KERNEL bool atan2_fast(double y, double x, double *result) {
+    // An octant's angle and its sign, chosen by |y| > |x| and by x < 0
+    static const double plans[2][2][3] = {{{0, 0, 1}, {PI_HIGH, PI_LOW, -1}},
+                                          {{HALF_PI_HIGH, HALF_PI_LOW, -1}, {HALF_PI_HIGH, HALF_PI_LOW, 1}}};
     double a = real_absolute(x), b = real_absolute(y), high, low;
     double small = a < b ? a : b, large = a < b ? b : a;
-    // All steps are then far from under- and overflow; nan fails, too.
-    if (!(small > 0x1p-400 && large < 0x1p400 && small > 0x1p-50 * large))
+    // All steps are then far from under- and overflow, and the angle's error counts more than that of pi (2^-105); nan
+    // fails, too.
+    if (!(small > 0x1p-400 && large < 0x1p400 && small > 0x1p-36 * large))
         return false;
     atan_parts(small, large, &high, &low);
-    // The four octants of a half turn: a constant plus or minus the angle.
-    if (a < b) {
-        double sign = double_with_sign(1, -x);
-        arc_sum(HALF_PI_HIGH, sign * high, HALF_PI_LOW + sign * low, &high, &low);
-    } else if (x < 0)
-        arc_sum(PI_HIGH, -high, PI_LOW - low, &high, &low);
-    bool good = lanes_decide(high, low, high * ARC_ERROR, result);
+    const double *plan = plans[a < b][double_is_negative(x)];
+    bool good = arc_decide(plan[0], plan[1], plan[2] * high, plan[2] * low, high * ARC_ERROR, result);
     *result = double_with_sign(*result, y);
     return good;
 }
 
 KERNEL bool tan_fast(const Turn *turn, double *result) {
     Arc arc = turn_arc(turn);
+    Row row = turn_row(turn->n), next = turn_quarter(&row);
     double sh, sl, ch, cl;
-    turn_sine(turn, &arc, 0, &sh, &sl);
-    turn_sine(turn, &arc, 1, &ch, &cl);
+    turn_sine(&row, &arc, &sh, &sl);
+    turn_sine(&next, &arc, &ch, &cl);
     arc_sum(sh, sl, 0, &sh, &sl);
     arc_sum(ch, cl, 0, &ch, &cl);
-    double q = sh / ch, p = q * ch;
-    double rest = (((sh - p) - real_mul_low(q, ch, p)) + (sl - q * cl)) / ch;
+    double inverse = 1 / ch, q = sh * inverse;
+    double rest = (real_residue(sh, q, ch) + (sl - q * cl)) * inverse;
     // The reduction's absolute error counts where the sine or the cosine is small.
-    double least = real_absolute(sh) < real_absolute(ch) ? real_absolute(sh) : real_absolute(ch);
-    return lanes_decide(q, rest, real_absolute(q) * TAN_ERROR, result) & (least > 0x1p-28);
+    bool large = real_absolute(sh) > 0x1p-26 && real_absolute(ch) > 0x1p-26;
+    return lanes_decide(q, rest, real_absolute(q) * TAN_ERROR, result) && large;
 }
 
 #endif

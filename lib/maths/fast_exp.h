@@ -43,8 +43,8 @@ KERNEL Lanes exp_lanes(Real x, Real *result) {
     Bits exponent;
     Real high, low;
     exp_parts(x, real_set(0), &exponent, &high, &low);
-    Lanes good = lanes_decide(high, low, real_set(2 * EXP_ERROR), result) &
-                 lanes_less(real_absolute(x), real_set(EXP_LARGEST));
+    Lanes good = LANES_BOTH(lanes_decide(high, low, real_set(2 * EXP_ERROR), result),
+                            lanes_less(real_absolute(x), real_set(EXP_LARGEST)));
     *result = real_of(bits_of(*result) + exponent);
     return good;
 }

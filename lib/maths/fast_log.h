@@ -1,7 +1,8 @@
 // fast_log.h: logarithms and powers in lanes.
 //
-// Tang (ACM TOMS 16, 1990): x = 2^k m with m in [0.6875, 1.375), and from the table a short r near 1/m with -ln r in two
-// parts: ln x = k ln2 - ln r + ln(1 + z), z = r m - 1 exactly (the generator asserts that z is a double), |z| ≤ 2^-8.
+// Tang (ACM TOMS 16, 1990): x = 2^k m with m in [0.6875, 1.375), and from the table a short r near 1/m with -ln r in
+// two parts: ln x = k ln2 - ln r + ln(1 + z), z = r m - 1 exactly (the generator asserts that z is a double), |z| ≤
+// 2^-8.
 //
 // The error, with u = 2^-53 and c = z^3/3 - z^4/4 + … ≈ z^3/3:
 //   k ln2 - ln r   the upper parts are multiples of 2^-42 and their sum is exact; the lower parts are rounded and cut
@@ -11,8 +12,8 @@
 //                  (less than 2 u), the product: less than 5.1 u |c|
 //   low            its sum has c as the largest term or rests below u |high|: two roundings of the former, 2 u |c|, and
 //                  four of what is below 1.1 u |high| + 2^-34: 2^-104 |high|
-// together below 7.2 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row (|c| is at most 0.34
-// |z|^3), so this is less than 2^-67.6 |ln x|; LOG_ERROR covers it, and what log2 and log10 add (2^-104).
+// together below 7.2 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row (|c| is at most
+// 0.34 |z|^3), so this is less than 2^-67.6 |ln x|; LOG_ERROR covers it, and what log2 and log10 add (2^-104).
 #ifndef PETRI_MATHS_FAST_LOG_H
 #define PETRI_MATHS_FAST_LOG_H
 
@@ -27,9 +28,7 @@
 KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Bits from = bits_of(x) - bits_set(LOG_FIRST), row = from >> 44 & bits_set(255);
     Real m = real_of(bits_of(x) - (from & bits_set(UINT64_C(0xfff) << 52)));
-    // The exponent plus 1024 is positive; put behind the exponent of 2^52 it makes a double.
-    Bits above = (from + bits_set(UINT64_C(1024) << 52)) >> 52;
-    Real k = real_of(above | bits_set(UINT64_C(0x4330000000000000))) - real_set(4503599627370496.0 + 1024);
+    Real k = lanes_exponent(from);
     row = row + row + row;
     Real r = real_look_up(&log_table[0][0], row), lh = real_look_up(&log_table[0][1], row);
     Real ll = real_look_up(&log_table[0][2], row);
@@ -41,7 +40,7 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Real z = (r * upper - real_set(1)) + r * (m - upper);
 #endif
     Real a = k * real_set(LOG_2_HIGH) + lh, s = a + z;
-    Real square = z * z, half = square * real_set(0.5), t = s - half;
+    Real square = z * z, halved = z * real_set(0.5), half = z * halved, t = s - half;
     Real rests = real_add_low(a, z, s) + ((s - t) - half);
     Real p1 = real_muladd(z, real_set(-1.0 / 4), real_set(1.0 / 3));
     Real p2 = real_muladd(z, real_set(-1.0 / 6), real_set(1.0 / 5));
@@ -49,31 +48,30 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     p3 = real_muladd(square, real_set(1.0 / 9), p3);
     p1 = real_muladd(square, real_muladd(square, p3, p2), p1);
     *cube = z * square * p1;
-    Real tiny = real_muladd(k, real_set(LOG_2_LOW), ll) - real_mul_low(z, z, square) * real_set(0.5);
+    Real tiny = real_muladd(k, real_set(LOG_2_LOW), ll) - real_mul_low(z, halved, half);
     *high = t;
     *low = *cube + (rests + tiny);
 }
 
 KERNEL Lanes lanes_positive_normal(Real x) {
-    return lanes_less(x, real_set(__builtin_inf())) & ~lanes_less(x, real_set(0x1p-1022));
+    return LANES_BOTH(lanes_less(x, real_set(__builtin_inf())), lanes_less(real_set(0x1.fffffffffffffp-1023), x));
 }
 
 KERNEL Lanes log_lanes(Real x, Real *result) {
     Real high, low, cube;
     log_parts(x, &high, &low, &cube);
-    return lanes_decide(high, low, real_absolute(high) * real_set(LOG_ERROR), result) & lanes_positive_normal(x);
+    Real error = real_absolute(high) * real_set(LOG_ERROR);
+    return LANES_BOTH(lanes_decide(high, low, error, result), lanes_positive_normal(x));
 }
 
 // log2 and log10: the natural logarithm times a constant of two parts.
 KERNEL Lanes log_lanes_scaled(Real x, double scale_high, double scale_low, Real *result) {
     Real high, low, cube;
     log_parts(x, &high, &low, &cube);
-    Real sum = high + low;
-    low = real_add_low(high, low, sum);
-    Real product = sum * real_set(scale_high), rest = real_mul_low(sum, real_set(scale_high), product);
-    rest = rest + real_muladd(sum, real_set(scale_low), low * real_set(scale_high));
+    Real product = high * real_set(scale_high), rest = real_mul_low(high, real_set(scale_high), product);
+    rest = rest + real_muladd(high, real_set(scale_low), low * real_set(scale_high));
     Real error = real_absolute(product) * real_set(LOG_ERROR);
-    return lanes_decide(product, rest, error, result) & lanes_positive_normal(x);
+    return LANES_BOTH(lanes_decide(product, rest, error, result), lanes_positive_normal(x));
 }
 
 // x^y = e^(y ln x). With ln x = high + low, t = y (high + low) is again two parts, wrong by at most |y| times the error
@@ -88,8 +86,9 @@ KERNEL Lanes pow_lanes(Real x, Real y, Real *result) {
     Bits exponent;
     Real mantissa, rest;
     exp_parts(t, tail, &exponent, &mantissa, &rest);
-    Lanes good = lanes_decide(mantissa, rest, error, result) & lanes_less(real_absolute(t), real_set(EXP_LARGEST)) &
-                 lanes_positive_normal(x);
+    Lanes good =
+        LANES_BOTH(lanes_decide(mantissa, rest, error, result), lanes_less(real_absolute(t), real_set(EXP_LARGEST)));
+    good = LANES_BOTH(good, lanes_positive_normal(x));
     *result = real_of(bits_of(*result) + exponent);
     return good;
 }

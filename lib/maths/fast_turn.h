@@ -1,30 +1,30 @@
 // fast_turn.h: sine and cosine in lanes.
 //
-// Cody and Waite's reduction (1980) with three parts of pi/256: x = n pi/256 + r, and the addition theorems with sine and
-// cosine of n pi/256 from a table (Gal's method with exact rows in place of accurate ones):
-//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)],   cos x = C - S r + [C (cos r - 1) - S (sin r - r)].
+// Cody and Waite's reduction (1980) with three parts of pi/512: x = n pi/512 + r, and the addition theorems with sine
+// and cosine of n pi/512 from a table (Tang, 1991):
+//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)]; the cosine is the sine a quarter further.
 //
-// The error, with u = 2^-53, |r| ≤ pi/512 (1 + 2^-20) < 2^-7.34, |n| < 2^24:
-//   reduction   n P1 and n P2 are exact (29 + 24 bits), x - n P1 is exact, n P3 < 2^-42.3 is rounded, P1 + P2 + P3 is
-//               pi/256 up to 2^-121: less than 2^-94 absolutely, 0 for n = 0
-//   cos r - 1   cut after r^6/720: 2^-74; three roundings of something below 2^-15.7
-//   sin r - r   cut after r^7/5040: 2^-84; roundings of something below 2^-24.6: 2^-75
-//   S (cos r-1) its product and the four sums behind it: roundings of something below 2^-15.6 S
-//   C r         exact as two doubles
-// together below 8 u 2^-15.6 S + 2^-73 (S + r) + 2^-94 < 2^-65.5 |sin x| + 2^-94: S ≤ 2 |sin x| / (1 + 2^-8) in the row 1
-// (n pi/256 is at most twice |x|), where S (cos r - 1) is 2^-6.3 times smaller than the result's bound assumes, and S is
-// at most 1.34 |sin x| from row 2 on; 8 u covers it, as S r^2/2 / |sin x| is below 2^-15.7 · 1.34 only there.
+// The error, with u = 2^-53 (a rounding of x is at most u |x|), |r| ≤ pi/1024 (1 + 2^-20) < 2^-8.34, |n| < 2^24:
+//   reduction    n P1 and n P2 are exact (29 + 24 bits), x - n P1 is exact, n P3 < 2^-43.3 is rounded, P1 + P2 + P3 is
+//                pi/512 up to 2^-122: less than 2^-95 absolutely, 0 for n = 0
+//   cos r - 1    at most 2^-17.69. Cut after r^6/720: 2^-82. The square: u, times a sum near 1/2: u/2, which is added
+//                to r low: 2^-71 and with an unfused product as much again: 1.93 · 2^-70
+//   S times it   its product, and two sums behind it that are not larger: at most 3 · 2^-71 S
+//   sin r - r    at most 2^-27.6: cut after r^7/5040: 2^-85 |r|; all of its roundings are below 2^-77 |C r|
+//   C r, S       exact but for 2^-104
+// together below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S is at most 2 |sin x| (n = 1, r = -pi/1024), and less from n =
+// 2 on: 2^-67.1 |sin x| + 2^-95.
 #ifndef PETRI_MATHS_FAST_TURN_H
 #define PETRI_MATHS_FAST_TURN_H
 
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
 
-#define TURN_ERROR 0x1p-65
-#define TURN_REDUCTION_ERROR 0x1p-92
-#define TURN_LARGEST 131072.0 // |n| < 2^24
+#define TURN_ERROR 0x1.2p-67
+#define TURN_REDUCTION_ERROR 0x1p-94
+#define TURN_LARGEST 65536.0 // |n| < 2^24
 
-// x = n pi/256 + high + low for |x| < TURN_LARGEST
+// x = n pi/512 + high + low for |x| < TURN_LARGEST
 typedef struct Turn {
     Bits n;
     Real high, low;
@@ -56,17 +56,38 @@ KERNEL Arc turn_arc(const Turn *turn) {
     return (Arc){r, versed, bent};
 }
 
-// The sine of what a turn stands for, plus `quarter` (0 or 1) right angles, as high + low.
-KERNEL void turn_sine(const Turn *turn, const Arc *arc, unsigned quarter, Real *high, Real *low) {
-    Bits row = ((turn->n + bits_set(128 * quarter)) & bits_set(511)) << 2;
-    Real sh = real_look_up(&turn_table[0][0], row), sl = real_look_up(&turn_table[0][1], row);
-    Real ch = real_look_up(&turn_table[0][2], row), cl = real_look_up(&turn_table[0][3], row);
-    Real p = ch * arc->high, pl = real_mul_low(ch, arc->high, p);
-    Real small = real_muladd(cl, arc->high, sl) + pl;
-    small = real_muladd(ch, arc->bent, small);
-    small = real_muladd(sh, arc->versed, small);
-    *high = sh + p;
-    *low = real_add_low(sh, p, *high) + small;
+// Sine and cosine of n pi/512, in two parts each.
+typedef struct Row {
+    Real sh, sl, ch, cl;
+} Row;
+
+KERNEL Real turn_part(const double *table, Bits place, Bits sign) {
+    return real_of(bits_of(real_look_up(table, place + place)) ^ sign);
+}
+
+// In the odd quadrants the table is read backwards: place becomes 256 - place.
+KERNEL Row turn_row(Bits n) {
+    Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), place = n & bits_set(255);
+    place = (place ^ backwards) + (backwards & bits_set(257));
+    Bits other = bits_set(256) - place;
+    Bits sine_sign = (n & bits_set(512)) << 54, cosine_sign = ((n + bits_set(256)) & bits_set(512)) << 54;
+    const double *high = &turn_table[0][0], *low = &turn_table[0][1];
+    return (Row){turn_part(high, place, sine_sign), turn_part(low, place, sine_sign),
+                 turn_part(high, other, cosine_sign), turn_part(low, other, cosine_sign)};
+}
+
+// The same a quarter turn further.
+KERNEL Row turn_quarter(const Row *row) {
+    return (Row){row->ch, row->cl, -row->sh, -row->sl};
+}
+
+KERNEL void turn_sine(const Row *row, const Arc *arc, Real *high, Real *low) {
+    Real p = row->ch * arc->high, pl = real_mul_low(row->ch, arc->high, p);
+    Real small = real_muladd(row->cl, arc->high, row->sl) + pl;
+    small = real_muladd(row->ch, arc->bent, small);
+    *high = row->sh + p;
+    small = real_muladd(row->sh, arc->versed, small);
+    *low = real_add_low(row->sh, p, *high) + small;
 }
 
 KERNEL Lanes turn_decide(Real high, Real low, Real *result) {
@@ -74,22 +95,26 @@ KERNEL Lanes turn_decide(Real high, Real low, Real *result) {
     return lanes_decide(high, low, error, result);
 }
 
+// The sine of x plus `quarter` (0 or 1) right angles
 KERNEL Lanes sin_lanes(Real x, unsigned quarter, Real *result) {
     Turn turn = turn_reduce(x);
     Arc arc = turn_arc(&turn);
+    Row row = turn_row(turn.n + bits_set(256 * quarter));
     Real high, low;
-    turn_sine(&turn, &arc, quarter, &high, &low);
-    return turn_decide(high, low, result) & lanes_less(real_absolute(x), real_set(TURN_LARGEST));
+    turn_sine(&row, &arc, &high, &low);
+    return LANES_BOTH(turn_decide(high, low, result), lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
 }
 
 KERNEL Lanes sin_cos_lanes(Real x, Real *sine, Real *cosine) {
     Turn turn = turn_reduce(x);
     Arc arc = turn_arc(&turn);
+    Row row = turn_row(turn.n), next = turn_quarter(&row);
     Real high, low;
-    turn_sine(&turn, &arc, 0, &high, &low);
+    turn_sine(&row, &arc, &high, &low);
     Lanes good = turn_decide(high, low, sine);
-    turn_sine(&turn, &arc, 1, &high, &low);
-    return good & turn_decide(high, low, cosine) & lanes_less(real_absolute(x), real_set(TURN_LARGEST));
+    turn_sine(&next, &arc, &high, &low);
+    good = LANES_BOTH(good, turn_decide(high, low, cosine));
+    return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
 }
 
 #endif

@@ -121,7 +121,7 @@ def show_wide(name, value, limbs, comment):
 
 
 WIDE = 12  # WIDE_MAX of wide.h
-FACTORIALS = 72
+FACTORIALS = 80  # more than the series of wide_functions.c need: wide_series asserts it
 print('// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; not for the hand.')
 print('//')
 print('// clang-format off')
@@ -138,13 +138,13 @@ show_number('LOG_2_LOW', [parts(LN2, 42)[1]])
 for name, value in (('LOG_2E', ONE * ONE // LN2), ('LOG_10E', ONE * ONE // LN10)):
     show_number(name + '_HIGH', [parts(value)[0]])
     show_number(name + '_LOW', [parts(value)[1]])
-# --- turns: pi / 256 in three parts (k of 24 bits times either of the first two is exact)
-first = nearest(PI // 256, 35)
-second = nearest(PI // 256 - fixed(first), 64)
-third = nearest(PI // 256 - fixed(first) - fixed(second))
-for part, unit in ((first, 35), (second, 64)):
+# --- turns: pi / 512 in three parts (k of 24 bits times either of the first two is exact)
+first = nearest(PI // 512, 36)
+second = nearest(PI // 512 - fixed(first), 65)
+third = nearest(PI // 512 - fixed(first) - fixed(second))
+for part, unit in ((first, 36), (second, 65)):
     assert abs(part * 2**unit).numerator.bit_length() <= 29
-show_number('TURN_STEPS_PER_ONE', [nearest(256 * ONE * ONE // PI)])
+show_number('TURN_STEPS_PER_ONE', [nearest(512 * ONE * ONE // PI)])
 show_number('TURN_STEP_1', [first])
 show_number('TURN_STEP_2', [second])
 show_number('TURN_STEP_3', [third])
@@ -170,32 +170,16 @@ for i in range(256):
     assert largest <= Fraction(1, 2**8), (i, float(largest))
     assert largest <= Fraction(2**53, 2**((53 if below else 52) + unit)), i  # r m - 1 is a double
     log = -logarithm(r)
-    assert r == 1 or abs(log) > fixed(largest)  # s = log + z does not need the exact order of a sum
+    assert r == 1 or abs(log) > fixed(largest)  # the order that the sum log + z needs
+    # |z|^3 against the least |ln x| of the row: here, k = 0
+    ends = [low, low + width]
+    least = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
+    assert r == 1 or largest**3 <= least * Fraction(1, 2**16), i
     rows.append([r] + parts(log, 42))
 show('double', 'log_table', '[256][3]', rows, 'r, -ln r as high + low; r m - 1 is exact for the m of the row')
 
-rows = []
-for i in range(129):
-    sine, cosine = sine_cosine(PI * i // 256)
-    if i == 0:
-        sine, cosine = 0, ONE
-    if i == 128:
-        sine, cosine = ONE, 0
-    rows.append(parts(sine) + parts(cosine))
-
-
-def signed(row, negative):
-    return [-v if negative else v for v in row]
-
-
-full = []  # one full turn: 512 rows, so that the quadrant needs no code
-for i in range(512):
-    quadrant, j = i // 128, i % 128
-    sine, cosine = rows[j][:2], rows[j][2:]
-    if quadrant % 2:
-        sine, cosine = cosine, [-v for v in sine]
-    full.append(signed(sine, quadrant >= 2) + signed(cosine, quadrant >= 2))
-show('double', 'turn_table', '[512][4]', full, 'sin and cos of i pi/256, each as high + low')
+rows = [parts(sine_cosine(PI * i // 512)[0] if i % 256 else ONE * (i // 256)) for i in range(257)]
+show('double', 'turn_table', '[257][2]', rows, 'sin(i pi/512) as high + low; read backwards, the cosine')
 
 
 def taylor_atan(c, degree):
@@ -241,14 +225,33 @@ for i in range(129):
 show('double', 'atan_table', '[129][11]', rows, 'Taylor coefficients of atan at i/128: two as high + low, seven more')
 
 rows = []
-for i in range(65):
+for i in range(17):
     c = Fraction(i, 128)
     cosine = root(1 - c * c)
-    a = [times(fixed(v), cosine) for v in taylor_asin(c, 9)]
+    a = [times(fixed(v), cosine) for v in taylor_asin(c, 8)]
     angle = arctangent(Fraction((i << BITS) // 128, cosine)) if i else 0
     rows.append(parts(angle) + parts(a[1] if i else ONE) + [nearest(v if i or k % 2 else 0) for k, v in enumerate(a[2:])])
-rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 9)[2:]]
-show('double', 'asin_table', '[65][12]', rows, 'Taylor coefficients of asin at i/128: two as high + low, eight more')
+rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
+show('double', 'asin_table', '[17][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
+
+# acos x / sqrt(1 - x) has no singularity at 1: with t = 1 - x it is sqrt 2 times the sum of binomial(2 k, k) / (2 k + 1)
+# (t/8)^k. Around c = i/128, t = 1 - c - d. The coefficients fall as 4^-k.. 2^-k: 400 terms for 300 bits.
+from math import comb
+
+UNIT = 300
+series = [(comb(2 * k, k) << UNIT) // ((2 * k + 1) * 8**k) for k in range(400)]
+root_two = root(Fraction(2))
+rows = []
+for i in range(129):
+    t, row = Fraction(128 - i, 128), []
+    powers = [1 << UNIT]
+    for k in range(1, 400):
+        powers.append(powers[-1] * (128 - i) // 128)
+    for n in range(9):
+        total = sum(comb(k, n) * (series[k] * powers[k - n] >> UNIT) for k in range(n, 400))
+        row.append(times((-1)**n * total << (BITS - UNIT), root_two))
+    rows.append(parts(row[0]) + parts(row[1]) + [nearest(v) for v in row[2:]])
+show('double', 'acos_table', '[129][11]', rows, 'Taylor coefficients of acos x / sqrt(1 - x) at i/128')
 
 show_wide('wide_half_pi', PI // 2, WIDE, 'pi/2, lowest limb first; the last is the whole part')
 show_wide('wide_log_2', LN2, WIDE, 'ln 2')

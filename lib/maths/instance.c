@@ -60,8 +60,9 @@ static inline bool is_large(double x) {
 static bool large_sine(double x, unsigned quarter, double *result) {
     Turn turn = large_turn(x);
     Arc arc = turn_arc(&turn);
+    Row row = turn_row(turn.n + 256 * quarter);
     double high, low;
-    turn_sine(&turn, &arc, quarter, &high, &low);
+    turn_sine(&row, &arc, &high, &low);
     return turn_decide(high, low, result);
 }
 

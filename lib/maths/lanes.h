@@ -19,6 +19,11 @@
 #define LANES 1
 #endif
 
+// A test may look at what is decided.
+#ifndef LANES_WATCH
+#define LANES_WATCH(high, low, error) (void)0
+#endif
+
 #define KERNEL static inline __attribute__((always_inline))
 
 #if LANES == 1
@@ -32,6 +37,13 @@ typedef uint64_t Bits __attribute__((vector_size(8 * LANES)));
 // A set of lanes, the first in the lowest bit.
 typedef unsigned Lanes;
 #define ALL_LANES ((1u << LANES) - 1)
+
+// The lanes in both sets. A single lane takes a branch, which is foreseen well.
+#if LANES == 1
+#define LANES_BOTH(a, b) ((a) && (b))
+#else
+#define LANES_BOTH(a, b) ((a) & (b))
+#endif
 
 // Has this instruction set a fused multiply-add? It only serves to find results, never to change them.
 #if defined(__FMA__) || defined(__aarch64__)
@@ -69,7 +81,11 @@ KERNEL Bits bits_set(uint64_t a) {
 }
 
 KERNEL Real real_absolute(Real a) {
+#if LANES == 1
+    return __builtin_fabs(a);
+#else
     return real_of(bits_of(a) & bits_set(UINT64_MAX >> 1));
+#endif
 }
 
 // a b + c with one rounding or with two: for sums whose error bound covers both.
@@ -107,6 +123,16 @@ KERNEL Real real_mul_low(Real a, Real b, Real p) {
 #endif
 }
 
+// c - a b, exactly if that is a double and a b is near c: the rest of a quotient or of a root.
+KERNEL Real real_residue(Real c, Real a, Real b) {
+#if HAS_FMA
+    return real_muladd(-a, b, c);
+#else
+    Real p = a * b;
+    return (c - p) - real_mul_low(a, b, p);
+#endif
+}
+
 // The rounding error of s = a + b, exactly, where |a| ≥ |b| or a = 0 (Dekker).
 KERNEL Real real_add_low(Real a, Real b, Real s) {
     return b - (s - a);
@@ -131,6 +157,17 @@ KERNEL Real real_look_up(const double *table, Bits index) {
     for (int i = 0; i < LANES; i++)
         r[i] = table[index[i]];
     return r;
+#endif
+}
+
+// The upper 12 bits, as signed numbers.
+KERNEL Real lanes_exponent(Bits a) {
+#if LANES == 1
+    return (double)((int64_t)a >> 52);
+#else
+    // Plus 2048 they are positive; put behind the exponent of 2^52 they make a double.
+    Bits above = (a ^ bits_set(UINT64_C(1) << 63)) >> 52;
+    return real_of(above | bits_set(UINT64_C(0x4330000000000000))) - real_set(4503599627370496.0 + 2048);
 #endif
 }
 
@@ -168,6 +205,7 @@ KERNEL Lanes lanes_less(Real a, Real b) {
 // Ziv's rounding test (ACM TOMS 17, 1991): if the exact value is within `error` of high + low, *result is that value
 // rounded to nearest in the lanes that are returned.
 KERNEL Lanes lanes_decide(Real high, Real low, Real error, Real *result) {
+    LANES_WATCH(high, low, error);
     *result = high + (low + error);
     return lanes_equal(*result, high + (low - error));
 }

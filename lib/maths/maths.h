@@ -1,10 +1,10 @@
 // maths.h: elementary functions whose bits mathematics defines.
 //
-// Each result is the double nearest to the exact value, ties to even: the same with every compiler, C library, processor
-// and instruction set. Special cases are those of C17 Annex F. What is not a number comes out as a nan; no exception
-// flag and no errno means anything. The processor must round to nearest.
+// Each result is the double nearest to the exact value, ties to even: the same with every compiler, C library,
+// processor and instruction set. Special cases are those of C17 Annex F. What is not a number comes out as a nan; no
+// exception flag and no errno means anything. The processor must round to nearest.
 //
-// How it is done: lib/maths/README.md.
+// How it is done: fast.h (Ziv's two steps), fast_exp.h, fast_log.h, fast_turn.h, fast_arc.h, wide.h.
 #ifndef PETRI_MATHS_H
 #define PETRI_MATHS_H
 

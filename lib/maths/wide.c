@@ -2,6 +2,10 @@
 #include "maths/wide.h"
 
 #include "maths/doubles.h"
+#include "maths/maths_tables.h"
+
+#include <assert.h>
+#include <stddef.h>
 
 __extension__ typedef unsigned __int128 Product;
 
@@ -28,21 +32,36 @@ Wide wide_negate(const Wide *a) {
     return r;
 }
 
+static inline __attribute__((always_inline)) void add_limbs(const uint64_t *a, const uint64_t *b, uint64_t *r, int n) {
+    Product sum = 0;
+    for (int i = 0; i < n; i++) {
+        sum += (Product)a[i] + b[i];
+        r[i] = (uint64_t)sum;
+        sum >>= 64;
+    }
+}
+
+static inline __attribute__((always_inline)) void sub_limbs(const uint64_t *a, const uint64_t *b, uint64_t *r, int n) {
+    uint64_t borrow = 0;
+    for (int i = 0; i < n; i++) {
+        Product difference = (Product)a[i] - b[i] - borrow;
+        r[i] = (uint64_t)difference;
+        borrow = (uint64_t)(difference >> 64) & 1;
+    }
+}
+
 Wide wide_add(const Wide *a, const Wide *b) {
     Wide r;
     r.size = a->size;
-    Product sum = 0;
-    for (int i = 0; i <= a->size; i++) {
-        sum += (Product)a->limb[i] + b->limb[i];
-        r.limb[i] = (uint64_t)sum;
-        sum >>= 64;
-    }
+    add_limbs(a->limb, b->limb, r.limb, a->size + 1);
     return r;
 }
 
 Wide wide_sub(const Wide *a, const Wide *b) {
-    Wide minus = wide_negate(b);
-    return wide_add(a, &minus);
+    Wide r;
+    r.size = a->size;
+    sub_limbs(a->limb, b->limb, r.limb, a->size + 1);
+    return r;
 }
 
 static Wide absolute(const Wide *a) {
@@ -108,16 +127,6 @@ static inline __attribute__((always_inline)) void multiply(const uint64_t *a, co
     }
 }
 
-// Takes b from the n limbs of a.
-static void take_away(uint64_t *a, const uint64_t *b, int n) {
-    bool borrow = false;
-    for (int i = 0; i < n; i++) {
-        uint64_t d = a[i] - b[i], e = d - borrow;
-        borrow = a[i] < b[i] || d < borrow;
-        a[i] = e;
-    }
-}
-
 // The school's way, as if both had no sign, and all of the product before its lower limbs are dropped. The limbs of a
 // negative a stand for 2^(64 n) more than a: b 2^(64 n) too much.
 Wide wide_mul(const Wide *a, const Wide *b) {
@@ -130,11 +139,34 @@ Wide wide_mul(const Wide *a, const Wide *b) {
     else
         multiply(a->limb, b->limb, all, n);
     if (wide_is_negative(a))
-        take_away(all + n, b->limb, n);
+        sub_limbs(all + n, b->limb, all + n, n);
     if (wide_is_negative(b))
-        take_away(all + n, a->limb, n);
+        sub_limbs(all + n, a->limb, all + n, n);
     memcpy(r.limb, all + a->size, sizeof *all * (size_t)n);
     return r;
+}
+
+// One step of Horner's rule after the other, on bare limbs: this is where the time goes.
+static inline __attribute__((always_inline)) void sum_series(const Wide *x, Series series, uint64_t *sum, int n) {
+    uint64_t all[2 * WIDE_MAX + 4];
+    for (int k = series.last - series.stride; k >= series.first; k -= series.stride) {
+        const uint64_t *term = wide_inverse_factorial[k] + (WIDE_MAX - (n - 1));
+        multiply(x->limb, sum, all, n);
+        if (series.alternating)
+            sub_limbs(term, all + n - 1, sum, n);
+        else
+            add_limbs(term, all + n - 1, sum, n);
+    }
+}
+
+Wide wide_series(const Wide *x, Series series) {
+    assert((size_t)series.last < sizeof wide_inverse_factorial / sizeof *wide_inverse_factorial);
+    Wide sum = wide_constant(wide_inverse_factorial[series.last], WIDE_MAX, x->size);
+    if (x->size == 3)
+        sum_series(x, series, sum.limb, 4);
+    else
+        sum_series(x, series, sum.limb, x->size + 1);
+    return sum;
 }
 
 // Two halves of a limb at a time, so that 64-bit divisions do.

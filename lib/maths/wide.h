@@ -1,8 +1,8 @@
 // wide.h: fixed-point numbers of many bits, for the cases that doubles cannot decide.
 //
-// A Wide is a whole number in two's complement, in units ("ulps" here) of 2^-(64 size): `size` limbs of fraction, lowest
-// first, and one limb of whole part with the sign. All numbers of one computation have one size. Nothing is allocated;
-// results may be the same object as arguments.
+// A Wide is a whole number in two's complement, in units ("ulps" here) of 2^-(64 size): `size` limbs of fraction,
+// lowest first, and one limb of whole part with the sign. All numbers of one computation have one size. Nothing is
+// allocated; results may be the same object as arguments.
 #ifndef PETRI_MATHS_WIDE_H
 #define PETRI_MATHS_WIDE_H
 
@@ -19,7 +19,8 @@ typedef struct Wide {
 // Exact conversions; bits of x below one ulp are cut off (towards zero). |x| < 2^63.
 Wide wide_from_double(double x, int size);
 Wide wide_from_int(int64_t x, int size);
-// The first `size` limbs of a constant of maths_tables.h, which has `limbs` limbs of fraction: less than an ulp too small.
+// The first `size` limbs of a constant of maths_tables.h, which has `limbs` limbs of fraction: less than an ulp too
+// small.
 Wide wide_constant(const uint64_t *constant, int limbs, int size);
 
 bool wide_is_negative(const Wide *a);
@@ -36,6 +37,13 @@ Wide wide_mul_small(const Wide *a, uint64_t by);
 // 1 / a and 1 / sqrt(a) for a in [1/2, 2), within 16 ulps.
 Wide wide_inverse(const Wide *a);
 Wide wide_inverse_root(const Wide *a);
+
+// 1/first! ± x/(first + stride)! + x^2/(first + 2 stride)! ± … up to 1/last!, for 0 ≤ x < 2^-6: within 3 ulps.
+typedef struct Series {
+    int first, last, stride; // last - first is a multiple of the stride
+    bool alternating;
+} Series;
+Wide wide_series(const Wide *x, Series series);
 
 // A double near a: its error is below 2^-50 |a| + 1 ulp.
 double wide_near(const Wide *a);

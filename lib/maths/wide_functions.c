@@ -13,10 +13,6 @@
 #define EXP_HALVINGS 8
 #define TURN_HALVINGS 6
 
-static Wide inverse_factorial(int n, int size) {
-    return wide_constant(wide_inverse_factorial[n], WIDE_MAX, size);
-}
-
 // The last term of e^x, |x| < 2^-bits, for `size` limbs: the n-th is below 2^-(bits n) / n!, the next ones even less.
 static int last_term(int bits, int size) {
     int left = 64 * size, n = 0;
@@ -26,28 +22,15 @@ static int last_term(int bits, int size) {
 }
 
 Wide wide_exp(const Wide *r) {
+    bool negative = wide_is_negative(r);
     Wide x = wide_scale(r, -EXP_HALVINGS);
-    int n = last_term(EXP_HALVINGS, r->size);
-    Wide sum = inverse_factorial(n, r->size);
-    while (n-- > 0) {
-        Wide term = inverse_factorial(n, r->size);
-        sum = wide_mul(&x, &sum);
-        sum = wide_add(&term, &sum);
-    }
+    if (negative)
+        x = wide_negate(&x);
+    Series powers = {0, last_term(EXP_HALVINGS, r->size), 1, negative};
+    Wide sum = wide_series(&x, powers);
     // Each squaring doubles the relative error (4 ulps) and adds an ulp: 2^12 ulps after eight, with e < 4.
     for (int i = 0; i < EXP_HALVINGS; i++)
         sum = wide_mul(&sum, &sum);
-    return sum;
-}
-
-// x^n / n! - x^(n + 2) / (n + 2)! + …, from a given power on; without the factor x^n.
-static Wide alternating(const Wide *square, int first, int last) {
-    Wide sum = inverse_factorial(last, square->size);
-    for (int n = last - 2; n >= first; n -= 2) {
-        Wide term = inverse_factorial(n, square->size);
-        sum = wide_mul(square, &sum);
-        sum = wide_sub(&term, &sum);
-    }
     return sum;
 }
 
@@ -56,7 +39,8 @@ static Wide alternating(const Wide *square, int first, int last) {
 void wide_sin_cos(const Wide *r, Wide *sine, Wide *cosine) {
     Wide x = wide_scale(r, -TURN_HALVINGS), one = wide_from_int(1, r->size), square = wide_mul(&x, &x);
     int last = last_term(TURN_HALVINGS, r->size) | 1; // of both series: an odd number and the even one above it
-    Wide s = alternating(&square, 1, last), v = alternating(&square, 2, last + 1);
+    Series odd = {1, last, 2, true}, even = {2, last + 1, 2, true};
+    Wide s = wide_series(&square, odd), v = wide_series(&square, even);
     s = wide_mul(&x, &s);
     v = wide_mul(&square, &v);
     for (int i = 0; i < TURN_HALVINGS; i++) {
@@ -90,8 +74,8 @@ Wide wide_log(double m, int exponent, int size) {
     return exponent < 0 ? wide_sub(&sum, &log_2) : wide_add(&sum, &log_2);
 }
 
-// From the double h near the angle: turning (a, b) back by h leaves the small angle d = atan(t), t = (b cos h - a sin h)
-// / (a cos h + b sin h) with |t| < 2^-40. The divisor is the length of (a, b), in [1/2, 1.42]; sine and cosine are
+// From the double h near the angle: turning (a, b) back by h leaves the small angle d = atan(t), t = (b cos h - a sin
+// h) / (a cos h + b sin h) with |t| < 2^-40. The divisor is the length of (a, b), in [1/2, 1.42]; sine and cosine are
 // within 2^12 ulps, the numerator within 2^13, the quotient within 2^14.
 Wide wide_atan(const Wide *b, const Wide *a) {
     double h = fast_atan_near(wide_near(b) / wide_near(a));
