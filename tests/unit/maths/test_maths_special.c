@@ -205,7 +205,7 @@ static const RowTwo two_rows[] = {
     TWO_ROW(pow, HUGE, 1.0, HUGE),
     TWO_ROW(pow, TINY, 1.0, TINY),
     TWO_ROW(pow, TINY, -1.0, INF),
-    TWO_ROW(pow, HUGE, -1.0, 0x0.4000000000001p-1022),
+    TWO_ROW(pow, HUGE, -1.0, 0x1p-1024),
     TWO_ROW(pow, HUGE, HUGE, INF),
     TWO_ROW(pow, HUGE, -HUGE, 0.0),
     TWO_ROW(pow, TINY, HUGE, 0.0),
