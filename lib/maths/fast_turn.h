@@ -95,11 +95,11 @@ KERNEL Lanes turn_decide(Real high, Real low, Real *result) {
     return lanes_decide(high, low, error, result);
 }
 
-// The sine of x plus `quarter` (0 or 1) right angles
-KERNEL Lanes sin_lanes(Real x, unsigned quarter, Real *result) {
+// The sine of x plus so many right angles
+KERNEL Lanes sin_lanes(Real x, Bits quarters, Real *result) {
     Turn turn = turn_reduce(x);
     Arc arc = turn_arc(&turn);
-    Row row = turn_row(turn.n + bits_set(256 * quarter));
+    Row row = turn_row(turn.n + (quarters << 8));
     Real high, low;
     turn_sine(&row, &arc, &high, &low);
     return LANES_BOTH(turn_decide(high, low, result), lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
@@ -113,7 +113,7 @@ KERNEL Lanes sin_cos_lanes(Real x, Real *sine, Real *cosine) {
     turn_sine(&row, &arc, &high, &low);
     Lanes good = turn_decide(high, low, sine);
     turn_sine(&next, &arc, &high, &low);
-    good = LANES_BOTH(good, turn_decide(high, low, cosine));
+    good &= turn_decide(high, low, cosine);
     return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
 }
 

@@ -1,6 +1,7 @@
 // maths.c: the public functions: each calls the instance for this processor. All instances give the same bits.
 #include "maths/maths.h"
 
+#include "maths/doubles.h"
 #include "maths/fast.h"
 
 #if defined(__x86_64__) && !defined(__FMA__)
@@ -18,3 +19,16 @@
         return PICK(name)(x, y);                                                                                       \
     }
 MATHS_FUNCTIONS(DEFINE_ONE, DEFINE_TWO)
+
+double maths_hypot(double x, double y) {
+    double a = double_absolute(x), b = double_absolute(y), scale = 1;
+    if (a == DOUBLE_INFINITY || b == DOUBLE_INFINITY)
+        return DOUBLE_INFINITY;
+    if (a > 0x1p500 || b > 0x1p500)
+        scale = 0x1p-600;
+    else if (a < 0x1p-400 && b < 0x1p-400)
+        scale = 0x1p600;
+    a *= scale;
+    b *= scale;
+    return __builtin_sqrt(a * a + b * b) / scale;
+}

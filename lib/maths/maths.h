@@ -20,4 +20,7 @@ double maths_log2(double x);
 double maths_log10(double x);
 double maths_pow(double x, double y);
 
+// sqrt(x^2 + y^2) without overflow in between: the same everywhere, but with more than one rounding.
+double maths_hypot(double x, double y);
+
 #endif

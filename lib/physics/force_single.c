@@ -1,5 +1,5 @@
 // force_single.c: forces on one particle at a time (4.2). v velocity, r radius, m mass, q charge, S strength.
-#include "base/random.h"
+#include "maths/random.h"
 #include "physics/internal.h"
 
 // (force_k + acceleration_k · m) · S

@@ -14,6 +14,7 @@
 #define PETRI_PHYSICS_INTERNAL_H
 
 #include "base/arena.h"
+#include "maths/maths.h"
 #include "physics/system.h"
 
 #include <math.h>
@@ -194,7 +195,7 @@ static inline double phys_power(double displacement, double power) {
         return displacement;
     if (power == 2)
         return displacement * displacement;
-    return pow(displacement, power < 0 ? 0.0 : power);
+    return maths_pow(displacement, power < 0 ? 0.0 : power);
 }
 
 // Forces that `group` declares for a stage.

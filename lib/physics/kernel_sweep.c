@@ -1,5 +1,6 @@
 // kernel_sweep.c: forces on single particles, barriers and motion for LANES particles at once; the formulas are those
 // of force_single.c, barrier.c and integrate.c.
+#include "maths/random.h"
 #include "physics/kernels.h"
 #include "physics/simd.h"
 #include "physics/sweep.h"
@@ -33,7 +34,7 @@ KERNEL void add_constant(const Force *force, size_t n, Block *block) {
 // S · normal(seed)[index]; anchors take no items.
 KERNEL void add_random(const Force *force, size_t n, Block *block, uint64_t *item) {
     double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
-    phys_normals(force->given.key, *item, n * block->active, normals);
+    random_normals(LANES_LEVEL, force->given.key, *item, n * block->active, normals);
     *item += n * block->active;
     unsigned bits = mask_bits(block->live);
     const double *next = normals;

@@ -13,6 +13,7 @@
 #ifndef PETRI_PHYSICS_PAIR_TERMS_H
 #define PETRI_PHYSICS_PAIR_TERMS_H
 
+#include "maths/many.h"
 #include "physics/kernels.h"
 #include "physics/simd.h"
 
@@ -122,14 +123,11 @@ KERNEL Mask pair_touch(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }
 
-// C pow, lane by lane.
+// base^power in the lanes of the mask; 1 elsewhere.
 static __attribute__((noinline)) Real real_power(Mask mask, Real base, double power) {
     double lanes[LANES];
-    real_store(lanes, base);
-    unsigned bits = mask_bits(mask);
-    for (unsigned lane = 0; lane < LANES; lane++)
-        if (bits >> lane & 1)
-            lanes[lane] = pow(lanes[lane], power);
+    real_store(lanes, real_select(mask, base, real_set(1)));
+    maths_power_many(LANES_LEVEL, lanes, power, LANES, lanes);
     return real_load(lanes);
 }
 

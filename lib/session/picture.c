@@ -1,5 +1,6 @@
 // picture.c: what the last frame shows, copied so that it can be drawn later and elsewhere (painter.c).
 #include "session/picture.h"
+#include "maths/maths.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -88,7 +89,7 @@ static void shade_by_speed(const SceneView *view, AutoSystem *system, const uint
         if (numbers[i] == UINT32_MAX || !phys_get_particle(view->engine, i, &particle) || !particle.velocity)
             continue;
         take_three(v, particle.velocity, view->dimensions);
-        double speed = hypot(hypot(v[0], v[1]), v[2]);
+        double speed = maths_hypot(maths_hypot(v[0], v[1]), v[2]);
         system->bodies[numbers[i]].shade = isfinite(speed) ? speed / (speed + system->frame.half) : 1;
     }
 }
