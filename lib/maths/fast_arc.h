@@ -6,7 +6,7 @@
 //              is below 3 |a3| d^2 u < 2^-68 f for atan, in the row 0 2^-69
 //   a0, a1 d   exact but for 2^-104
 //   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
-// atan (c ≤ 1) and asin (c ≤ 1/8): s is at most 2^-16 f: in row 0 it is d^3/6 or d^3/3, else |a2| ≤ c and f ≥ c - d;
+// atan (c ≤ 1) and asin (c ≤ 1/16): s is at most 2^-16 f: in row 0 it is d^3/6 or d^3/3, else |a2| ≤ c and f ≥ c - d;
 // cut off: |a9| ≤ 1/9, 2^-75; for asin |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f. acos x = sqrt(1 - x) P(x), where P
 // has no singularity near 0 ≤ x ≤ 1: s is at most 0.09 · 2^-16, P at least 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9;
 // the root in two parts (2^-104) and the product in two parts add 2^-72. The angle is then subtracted from pi/2 or pi,
@@ -39,8 +39,8 @@ KERNEL const double *arc_row(const double *table, double x, double *d) {
     return table + ARC_COLUMNS * i;
 }
 
-// A row of a table at i/128 + d, and what a rest of the argument adds
-KERNEL void arc_series(const double *row, double d, double rest, double *high, double *low) {
+// A row of a table at i/128 + d
+KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     const double *a = row + 4;
     // In pairs and pairs of pairs (Estrin): a shorter way than Horner's.
     double square = d * d, third = real_muladd(d, a[5], a[4]);
@@ -48,12 +48,7 @@ KERNEL void arc_series(const double *row, double d, double rest, double *high, d
     sum = real_muladd(square * square, real_muladd(square, a[6], third), sum);
     double p = row[2] * d, pl = real_mul_low(row[2], d, p);
     double small = real_muladd(square, sum, real_muladd(row[3], d, row[1]) + pl);
-    arc_sum(row[0], p, small + rest, high, low);
-}
-
-// The slope of the series, for the rest of an argument
-KERNEL double arc_slope(const double *row, double d) {
-    return real_muladd(2 * row[4], d, row[2]);
+    arc_sum(row[0], p, small, high, low);
 }
 
 // Adds first: high + low + first_high + first_low.
@@ -69,7 +64,7 @@ KERNEL void acos_parts(double a, double *high, double *low) {
     double d, h, l;
     const double *row = arc_row(&acos_table[0][0], a, &d);
     double rest = (real_residue(square, root, root) + cut) * (root * (0.5 / square));
-    arc_series(row, d, 0, &h, &l);
+    arc_series(row, d, &h, &l);
     *high = root * h;
     *low = real_mul_low(root, h, *high) + real_muladd(root, l, rest * h);
 }
@@ -79,13 +74,13 @@ KERNEL bool asin_fast(double x, double *result) {
     if (!(a < 1 && a > 0x1p-27))
         return false;
     bool good;
-    if (a >= 0.125) {
+    if (a >= 0.0625) {
         acos_parts(a, &high, &low);
         good = arc_decide(HALF_PI_HIGH, HALF_PI_LOW, -high, -low, high * ACOS_ERROR, result);
     } else {
         double d;
         const double *row = arc_row(&asin_table[0][0], a, &d);
-        arc_series(row, d, 0, &high, &low);
+        arc_series(row, d, &high, &low);
         good = lanes_decide(high, low, high * ARC_ERROR, result);
     }
     *result = double_with_sign(*result, x);
@@ -107,7 +102,8 @@ KERNEL bool acos_fast(double x, double *result) {
 KERNEL void atan_parts(double b, double a, double *high, double *low) {
     double inverse = 1 / a, q = b * inverse, rest = real_residue(b, q, a) * inverse, d;
     const double *row = arc_row(&atan_table[0][0], q, &d);
-    arc_series(row, d, arc_slope(row, d) * rest, high, low);
+    arc_series(row, d, high, low);
+    *low += real_muladd(2 * row[4], d, row[2]) * rest; // the slope
 }
 
 KERNEL bool atan2_fast(double y, double x, double *result) {

@@ -29,9 +29,8 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Bits from = bits_of(x) - bits_set(LOG_FIRST), row = from >> 44 & bits_set(255);
     Real m = real_of(bits_of(x) - (from & bits_set(UINT64_C(0xfff) << 52)));
     Real k = lanes_exponent(from);
-    row = row + row + row;
-    Real r = real_look_up(&log_table[0][0], row), lh = real_look_up(&log_table[0][1], row);
-    Real ll = real_look_up(&log_table[0][2], row);
+    Four entry = real_look_up_four(log_table, row);
+    Real r = entry.a, lh = entry.b, ll = entry.c;
 #if HAS_FMA
     Real z = real_muladd(r, m, real_set(-1));
 #else

@@ -61,19 +61,18 @@ typedef struct Row {
     Real sh, sl, ch, cl;
 } Row;
 
-KERNEL Real turn_part(const double *table, Bits place, Bits sign) {
-    return real_of(bits_of(real_look_up(table, place + place)) ^ sign);
+KERNEL Real real_flip(Real a, Bits sign) {
+    return real_of(bits_of(a) ^ sign);
 }
 
 // In the odd quadrants the table is read backwards: place becomes 256 - place.
 KERNEL Row turn_row(Bits n) {
     Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), place = n & bits_set(255);
     place = (place ^ backwards) + (backwards & bits_set(257));
-    Bits other = bits_set(256) - place;
     Bits sine_sign = (n & bits_set(512)) << 54, cosine_sign = ((n + bits_set(256)) & bits_set(512)) << 54;
-    const double *high = &turn_table[0][0], *low = &turn_table[0][1];
-    return (Row){turn_part(high, place, sine_sign), turn_part(low, place, sine_sign),
-                 turn_part(high, other, cosine_sign), turn_part(low, other, cosine_sign)};
+    Four row = real_look_up_four(turn_table, place);
+    return (Row){real_flip(row.a, sine_sign), real_flip(row.b, sine_sign), real_flip(row.c, cosine_sign),
+                 real_flip(row.d, cosine_sign)};
 }
 
 // The same a quarter turn further.

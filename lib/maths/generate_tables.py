@@ -175,11 +175,12 @@ for i in range(256):
     ends = [low, low + width]
     least = min(abs(1 - m) for m in ends if m != 1) if r != 1 else 0
     assert r == 1 or largest**3 <= least * Fraction(1, 2**16), i
-    rows.append([r] + parts(log, 42))
-show('double', 'log_table', '[256][3]', rows, 'r, -ln r as high + low; r m - 1 is exact for the m of the row')
+    rows.append([r] + parts(log, 42) + [Fraction(0)])
+show('double', 'log_table', '[256][4]', rows, 'r, -ln r as high + low; r m - 1 is exact for the m of the row')
 
-rows = [parts(sine_cosine(PI * i // 512)[0] if i % 256 else ONE * (i // 256)) for i in range(257)]
-show('double', 'turn_table', '[257][2]', rows, 'sin(i pi/512) as high + low; read backwards, the cosine')
+sines = [parts(sine_cosine(PI * i // 512)[0] if i % 256 else ONE * (i // 256)) for i in range(257)]
+rows = [sines[i] + sines[256 - i] for i in range(257)]
+show('double', 'turn_table', '[257][4]', rows, 'sine and cosine of i pi/512, each as high + low')
 
 
 def taylor_atan(c, degree):
@@ -225,14 +226,14 @@ for i in range(129):
 show('double', 'atan_table', '[129][11]', rows, 'Taylor coefficients of atan at i/128: two as high + low, seven more')
 
 rows = []
-for i in range(17):
+for i in range(9):
     c = Fraction(i, 128)
     cosine = root(1 - c * c)
     a = [times(fixed(v), cosine) for v in taylor_asin(c, 8)]
     angle = arctangent(Fraction((i << BITS) // 128, cosine)) if i else 0
     rows.append(parts(angle) + parts(a[1] if i else ONE) + [nearest(v if i or k % 2 else 0) for k, v in enumerate(a[2:])])
 rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
-show('double', 'asin_table', '[17][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
+show('double', 'asin_table', '[9][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
 
 # acos x / sqrt(1 - x) has no singularity at 1: with t = 1 - x it is sqrt 2 times the sum of binomial(2 k, k) / (2 k + 1)
 # (t/8)^k. Around c = i/128, t = 1 - c - d. The coefficients fall as 4^-k.. 2^-k: 400 terms for 300 bits.
