@@ -243,12 +243,7 @@ KERNEL Lanes lanes_less(Real a, Real b) {
 KERNEL Lanes lanes_decide(Real high, Real low, Real error, Real *result) {
     LANES_WATCH(high, low, error);
     *result = high + (low + error);
-#if LANES == 1
-    // One comparison; the lower one is never above the other. A nan passes: callers test the range, too.
-    return !(high + (low - error) < *result);
-#else
     return lanes_equal(*result, high + (low - error));
-#endif
 }
 
 // x to the nearest whole number, |x| < 2^51 (times `step` before): as a double, and in two's complement.

@@ -39,3 +39,7 @@ void maths_power_many(CpuLevel level, const double *x, double power, size_t coun
 void maths_turns_sin_many(CpuLevel level, const double *t, size_t count, double *to) {
     instance(level)->turns_sin(t, count, to);
 }
+
+void maths_uniform_many(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to) {
+    instance(level)->uniform(key, first, count, to);
+}

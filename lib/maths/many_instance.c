@@ -112,4 +112,36 @@ static void turns_sin_many(const double *t, size_t count, double *to) {
     }
 }
 
-const ManyInstance NAMED(maths_many_, INSTANCE) = {exp_many, log_many, sin_cos_many, pow_many, turns_sin_many};
+KERNEL Bits swap_halves(Bits x) {
+    return x << 32 | x >> 32;
+}
+
+// random_raw (random.c) for LANES items
+KERNEL Bits raw_lanes(Bits key, Bits item) {
+    Bits y = item * key, z = y + key, x = y;
+    x = swap_halves(x * x + y);
+    x = swap_halves(x * x + z);
+    x = swap_halves(x * x + y);
+    Bits t = x * x + z;
+    x = swap_halves(t);
+    return t ^ ((x * x + y) >> 32);
+}
+
+// A whole number to the nearest double: the upper half behind the exponent of 2^84, the lower one behind that of 2^52.
+// The only rounding is that of their sum.
+KERNEL Real lanes_to_real(Bits x) {
+    Real upper = real_of(x >> 32 | bits_of(real_set(0x1p84))) - real_set(0x1p84 + 0x1p52);
+    return upper + real_of((x & bits_set(UINT32_MAX)) | bits_of(real_set(0x1p52)));
+}
+
+static void uniform_many(uint64_t key, uint64_t first, size_t count, double *to) {
+    static const uint64_t numbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
+    Bits item;
+    memcpy(&item, numbers, sizeof item);
+    item += bits_set(first);
+    for (size_t i = 0; i < count; i += LANES, item += bits_set(LANES))
+        store(to + i, count - i, lanes_to_real(raw_lanes(bits_set(key), item)) * real_set(0x1p-64));
+}
+
+const ManyInstance NAMED(maths_many_, INSTANCE) = {exp_many, log_many,       sin_cos_many,
+                                                   pow_many, turns_sin_many, uniform_many};

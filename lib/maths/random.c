@@ -94,8 +94,9 @@ enum { PAIRS_AT_ONCE = 64 };
 // The pairs with items 2 `pair` and 2 `pair` + 1 and so on.
 static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t count, double *to) {
     double radius[PAIRS_AT_ONCE], turns[2 * PAIRS_AT_ONCE];
+    maths_uniform_many(level, key, 2 * pair, 2 * count, turns);
     for (size_t i = 0; i < count; i++) {
-        double u1 = random_uniform(key, 2 * (pair + i)), u2 = random_uniform(key, 2 * (pair + i) + 1);
+        double u1 = turns[2 * i], u2 = turns[2 * i + 1];
         radius[i] = u1 == 0 ? u2 : u1;
         u2 = u1 == 0 ? 0 : u2;
         turns[2 * i] = u2 + 0.25;

@@ -107,6 +107,19 @@ static void test_in_place(void **state) {
         }
 }
 
+static void test_uniform(void **state) {
+    (void)state;
+    Lanes lanes[4];
+    size_t count = find_instances(lanes);
+    for (size_t k = 0; k < count; k++)
+        for (uint64_t key = 1; key; key *= UINT64_C(0x9e3779b97f4a7c16)) {
+            uint64_t first = key >> 7;
+            lanes[k].instance->uniform(key, first, 37, out);
+            for (uint64_t i = 0; i < 37; i++)
+                assert_number(lanes[k].name, out[i], random_uniform(key, first + i));
+        }
+}
+
 static void test_normals(void **state) {
     (void)state;
     uint64_t key = UINT64_C(0x03953eea0e693074);
@@ -138,6 +151,7 @@ static void test_turns(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_same_as_one), cmocka_unit_test(test_in_place),
-                                       cmocka_unit_test(test_normals), cmocka_unit_test(test_turns)};
+                                       cmocka_unit_test(test_uniform), cmocka_unit_test(test_normals),
+                                       cmocka_unit_test(test_turns)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

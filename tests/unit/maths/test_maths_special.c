@@ -211,6 +211,7 @@ static const RowTwo two_rows[] = {
     TWO_ROW(pow, TINY, HUGE, 0.0),
     TWO_ROW(pow, HUGE, TINY, 1.0),
     TWO_ROW(pow, TINY, TINY, 1.0),
+    TWO_ROW(pow, 1.0, HUGE, 1.0),
     TWO_ROW(pow, 0x1.0000000000001p+0, HUGE, INF),
     TWO_ROW(pow, 0x1.fffffffffffffp-1, HUGE, 0.0),
     TWO_ROW(pow, 0x1.0000000000001p+0, 1.0, 0x1.0000000000001p+0),
