@@ -7,7 +7,10 @@
 //   a0, a1 d   exact but for 2^-104
 //   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
 // atan (c ≤ 1) and asin (c ≤ 1/16): s is at most 2^-16 f: in row 0 it is d^3/6 or d^3/3, else |a2| ≤ c and f ≥ c - d;
-// cut off: |a9| ≤ 1/9, 2^-75; for asin |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f. acos x = sqrt(1 - x) P(x), where P
+// cut off: |a9| ≤ 1/9, 2^-75; for asin |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f.
+// asin (1/16 ≤ x ≤ 15/16), |d| ≤ 2^-7 (1 - c), cut after d^9: |a10 d^10| ≤ 0.013 · 2^-70; s is below 2^-16 f (asserted by
+// the generator): the same bound. d is exact, as c has 11 bits and a - c no bit below those of a.
+// acos x = sqrt(1 - x) P(x), where P
 // has no singularity near 0 ≤ x ≤ 1: s is at most 0.09 · 2^-16, P at least 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9;
 // the root in two parts (2^-104) and the product in two parts add 2^-72. The angle is then subtracted from pi/2 or pi,
 // exactly but for 2^-105.
@@ -22,6 +25,7 @@
 
 #define ARC_ERROR 0x1.2p-66
 #define ACOS_ERROR 0x1.8p-70
+#define HALF_PI_ERROR 0x1p-102 // of its two parts, and of the sum with what is lower
 #define TAN_ERROR 0x1.3p-66
 
 // a + b for |a| ≥ |b| or a = 0, with what is lower, as high + low.
@@ -32,11 +36,11 @@ KERNEL void arc_sum(double a, double b, double lower, double *high, double *low)
 
 #define ARC_COLUMNS 11
 
-// The row for x = i/128 + d; d is exact.
-KERNEL const double *arc_row(const double *table, double x, double *d) {
+// The row for x = i/128 + d of a table that begins with i = first; d is exact.
+KERNEL const double *arc_row(const double (*table)[ARC_COLUMNS], unsigned first, double x, double *d) {
     Bits i;
     *d = x - real_steps(x, 128, &i) * (1.0 / 128);
-    return table + ARC_COLUMNS * i;
+    return table[i - first];
 }
 
 // A row of a table at i/128 + d
@@ -57,16 +61,38 @@ KERNEL bool arc_decide(double first_high, double first_low, double high, double 
     return lanes_decide(high, low, error, result);
 }
 
-// acos(a) for a in [0, 1). 1 - a is rounded for a < 1/2: what is cut off goes to the rest of the root. The rest is the
-// root's error over twice the root; it is divided by the square and multiplied by the root, to wait less for the root.
+// acos(a) for a in [15/16, 1); 1 - a is exact. The root's rest is its error over twice the root, here divided by the
+// square and multiplied by the root, to wait less for the root.
 KERNEL void acos_parts(double a, double *high, double *low) {
-    double square = 1 - a, cut = (1 - square) - a, root = __builtin_sqrt(square);
+    double square = 1 - a, root = __builtin_sqrt(square);
     double d, h, l;
-    const double *row = arc_row(&acos_table[0][0], a, &d);
-    double rest = (real_residue(square, root, root) + cut) * (root * (0.5 / square));
+    const double *row = arc_row(acos_table, 120, a, &d);
+    double rest = real_residue(square, root, root) * (root * (0.5 / square));
     arc_series(row, d, &h, &l);
     *high = root * h;
     *low = real_mul_low(root, h, *high) + real_muladd(root, l, rest * h);
+}
+
+// asin(a) for a in [1/16, 15/16], in rows of 1/128 of 1 - a
+KERNEL void steep_asin_parts(double a, double *high, double *low) {
+    const double *row = steep_asin_table[(double_bits(1 - a) >> 46) - (UINT64_C(0x3fb0) << 2)], *t = row + 5;
+    double d = a - row[0], square = d * d;
+    double third = real_muladd(d, t[5], t[4]), last = real_muladd(d, t[7], t[6]);
+    double sum = real_muladd(square, real_muladd(d, t[3], t[2]), real_muladd(d, t[1], t[0]));
+    sum = real_muladd(square * square, real_muladd(square, last, third), sum);
+    double p = row[3] * d, pl = real_mul_low(row[3], d, p);
+    arc_sum(row[1], p, real_muladd(square, sum, real_muladd(row[4], d, row[2]) + pl), high, low);
+}
+
+// asin(a) for a in [0, 15/16]
+KERNEL void asin_parts(double a, double *high, double *low) {
+    if (a >= 0.0625)
+        steep_asin_parts(a, high, low);
+    else {
+        double d;
+        const double *row = arc_row(asin_table, 0, a, &d);
+        arc_series(row, d, high, low);
+    }
 }
 
 KERNEL bool asin_fast(double x, double *result) {
@@ -74,14 +100,12 @@ KERNEL bool asin_fast(double x, double *result) {
     if (!(a < 1 && a > 0x1p-27))
         return false;
     bool good;
-    if (a >= 0.0625) {
+    if (a <= 0.9375) {
+        asin_parts(a, &high, &low);
+        good = lanes_decide(high, low, high * ARC_ERROR, result);
+    } else {
         acos_parts(a, &high, &low);
         good = arc_decide(HALF_PI_HIGH, HALF_PI_LOW, -high, -low, high * ACOS_ERROR, result);
-    } else {
-        double d;
-        const double *row = arc_row(&asin_table[0][0], a, &d);
-        arc_series(row, d, &high, &low);
-        good = lanes_decide(high, low, high * ARC_ERROR, result);
     }
     *result = double_with_sign(*result, x);
     return good;
@@ -92,6 +116,13 @@ KERNEL bool acos_fast(double x, double *result) {
     double a = real_absolute(x), high, low;
     if (!(a < 1))
         return false;
+    if (a <= 0.9375) {
+        asin_parts(a, &high, &low);
+        double error = real_muladd(high, ARC_ERROR, HALF_PI_ERROR);
+        high = double_of(double_bits(high) ^ (~double_bits(x) & DOUBLE_SIGN));
+        low = double_of(double_bits(low) ^ (~double_bits(x) & DOUBLE_SIGN));
+        return arc_decide(HALF_PI_HIGH, HALF_PI_LOW, high, low, error, result);
+    }
     const double *constant = first[double_is_negative(x)];
     double sign = constant[2];
     acos_parts(a, &high, &low);
@@ -101,7 +132,7 @@ KERNEL bool acos_fast(double x, double *result) {
 // atan(b / a), 0 ≤ b ≤ a, both far from the ends of the range
 KERNEL void atan_parts(double b, double a, double *high, double *low) {
     double inverse = 1 / a, q = b * inverse, rest = real_residue(b, q, a) * inverse, d;
-    const double *row = arc_row(&atan_table[0][0], q, &d);
+    const double *row = arc_row(atan_table, 0, q, &d);
     arc_series(row, d, high, low);
     *low += real_muladd(2 * row[4], d, row[2]) * rest; // the slope
 }

@@ -235,6 +235,19 @@ for i in range(9):
 rows[0] = parts(0) + parts(ONE) + [nearest(fixed(v)) for v in taylor_asin(Fraction(0), 8)[2:]]
 show('double', 'asin_table', '[9][11]', rows, 'Taylor coefficients of asin at i/128: two as high + low, seven more')
 
+# For larger x the rows become shorter with 1 - x: row i is the next 6 bits of the mantissa of 1 - x, from 1/16 on.
+rows = []
+for i in range(256):
+    unit = Fraction(1, 16) * 2**(i // 64)
+    c = 1 - unit * Fraction(2 * (64 + i % 64) + 1, 128)
+    cosine = root(1 - c * c)
+    a = [times(fixed(v), cosine) for v in taylor_asin(c, 9)]
+    angle = arctangent(Fraction(c.numerator * ONE, c.denominator * cosine)) if c < Fraction(7, 10) else \
+        PI // 2 - arctangent(Fraction(c.denominator * cosine, c.numerator * ONE))
+    assert abs(a[2]) * (unit / 128)**2 < angle * Fraction(1, 2**16), i
+    rows.append([c] + parts(angle) + parts(a[1]) + [nearest(v) for v in a[2:]])
+show('double', 'steep_asin_table', '[256][13]', rows, 'c, and Taylor coefficients of asin at c, for 1 - c from 1/16 to 1')
+
 # acos x / sqrt(1 - x) has no singularity at 1: with t = 1 - x it is sqrt 2 times the sum of binomial(2 k, k) / (2 k + 1)
 # (t/8)^k. Around c = i/128, t = 1 - c - d. The coefficients fall as 4^-k.. 2^-k: 400 terms for 300 bits.
 from math import comb
@@ -243,7 +256,7 @@ UNIT = 300
 series = [(comb(2 * k, k) << UNIT) // ((2 * k + 1) * 8**k) for k in range(400)]
 root_two = root(Fraction(2))
 rows = []
-for i in range(129):
+for i in range(120, 129):
     t, row = Fraction(128 - i, 128), []
     powers = [1 << UNIT]
     for k in range(1, 400):
@@ -252,7 +265,7 @@ for i in range(129):
         total = sum(comb(k, n) * (series[k] * powers[k - n] >> UNIT) for k in range(n, 400))
         row.append(times((-1)**n * total << (BITS - UNIT), root_two))
     rows.append(parts(row[0]) + parts(row[1]) + [nearest(v) for v in row[2:]])
-show('double', 'acos_table', '[129][11]', rows, 'Taylor coefficients of acos x / sqrt(1 - x) at i/128')
+show('double', 'acos_table', '[9][11]', rows, 'Taylor coefficients of acos x / sqrt(1 - x) at i/128, from 15/16 on')
 
 show_wide('wide_half_pi', PI // 2, WIDE, 'pi/2, lowest limb first; the last is the whole part')
 show_wide('wide_log_2', LN2, WIDE, 'ln 2')
