@@ -20,7 +20,8 @@ void exact_turn(double x, uint64_t *n, double *high, double *low) {
     const uint64_t *table = wide_two_over_pi + from / 64;
     int shift = from % 64;
     for (int i = 0; i <= FRACTION; i++) {
-        uint64_t window = shift ? table[i] >> shift | table[i + 1] << (64 - shift) : table[i];
+        uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // nothing above the whole part
+        uint64_t window = shift ? table[i] >> shift | above << (64 - shift) : table[i];
         Product t = (Product)m * window + carry;
         product[i] = (uint64_t)t;
         carry = (uint64_t)(t >> 64);

@@ -8,12 +8,13 @@
 //   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
 // atan (c ≤ 1) and asin (c ≤ 1/16): s is at most 2^-16 f: in row 0 it is d^3/6 or d^3/3, else |a2| ≤ c and f ≥ c - d;
 // cut off: |a9| ≤ 1/9, 2^-75; for asin |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f.
-// asin (1/16 ≤ x ≤ 15/16), |d| ≤ 2^-7 (1 - c), cut after d^9: |a10 d^10| ≤ 0.013 · 2^-70; s is below 2^-16 f (asserted by
-// the generator): the same bound. d is exact, as c has 11 bits and a - c no bit below those of a.
-// acos x = sqrt(1 - x) P(x), where P
-// has no singularity near 0 ≤ x ≤ 1: s is at most 0.09 · 2^-16, P at least 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9;
-// the root in two parts (2^-104) and the product in two parts add 2^-72. The angle is then subtracted from pi/2 or pi,
-// exactly but for 2^-105.
+//
+// asin (1/16 ≤ x ≤ 15/16), |d| ≤ 2^-7 (1 - c), cut after d^9: |a10 d^10| ≤ 0.013 · 2^-70; s is below 2^-16 f (asserted
+// by the generator): the same bound. d is exact, as c has 11 bits and a - c no bit below those of a.
+//
+// acos x = sqrt(1 - x) P(x) for x > 15/16, where P has no singularity near 1: s is at most 0.09 · 2^-16, P at least
+// 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9; the root in two parts (2^-104) and the product in two parts add 2^-72.
+// What is then subtracted from pi/2 or pi is so exactly but for 2^-105.
 //
 // tan = sine / cosine, with the quotient corrected once: the sum of both relative errors, and 2^-100. Only one of the
 // two has n = 1 or 255 or less than 2^-12 in size: 2^-67.1 + 2^-67.8 + 2^-69 (the absolute error of the smaller one).

@@ -11,14 +11,14 @@
 //   sums         rest + series, high q, its sum with three smaller ones:
 //                at most six roundings of something below 2^-17.8              2^-68.2
 //   table        both parts together                                           2^-107
-// together below 2^-67.0; the value itself is at least 0.994 times 2^(k/128). EXP_ERROR covers it twofold.
+// together below 2^-67.2, which EXP_ERROR covers; 2^(i/128) is below 2.
 #ifndef PETRI_MATHS_FAST_EXP_H
 #define PETRI_MATHS_FAST_EXP_H
 
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
 
-#define EXP_ERROR 0x1p-66
+#define EXP_ERROR 0x1p-67
 #define EXP_LARGEST 708.0 // no overflow and no result below the normal range
 
 // 2^(exponent / 2^52) (high + low) for |x| < EXP_LARGEST; high is in [0.99, 2), |low| < 2^-16.

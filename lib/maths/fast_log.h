@@ -8,12 +8,13 @@
 //   k ln2 - ln r   the upper parts are multiples of 2^-42 and their sum is exact; the lower parts are rounded and cut
 //                  off by at most (|k| + 3) 2^-97
 //   z - z^2/2      three doubles, exactly: sums with their rests, the square with its low half
-//   c              cut after z^8, with z^6 / 9 in z^9 / 9 replaced by the nearest parabola in z^2 (Chebyshev): 2^-48 / 288
-//                  for |z| ≤ 2^-8; both are below 2^-54.3 |c|; the rounded square, z times it, times a sum of seven terms
-//                  (less than 2 u), the product: less than 5.1 u |c|
+//   c              its last terms, z^9 / 9 and later: z^10 / 10 < 2^-57 |c| is cut off, and the factor z^6 / 9 is
+//                  replaced by the nearest parabola in z^2 (Chebyshev), 2^-48 / 288 < 2^-54.5 / 3 away for |z| ≤ 2^-8.
+//                  The rounded square, z times it, times a sum of six terms (less than 2 u), the product: all of it
+//                  less than 5.1 u |c|
 //   low            its sum has c as the largest term or rests below u |high|: two roundings of the former, 2 u |c|, and
 //                  four of what is below 1.1 u |high| + 2^-34: 2^-104 |high|
-// together below 7.2 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row (|c| is at most
+// together below 7.5 u |c| + 2^-96 |high|. The generator asserts |z|^3 ≤ 2^-15.9 |ln x| in each row (|c| is at most
 // 0.34 |z|^3), so this is less than 2^-67.6 |ln x|; LOG_ERROR covers it, and what log2 and log10 add (2^-104).
 #ifndef PETRI_MATHS_FAST_LOG_H
 #define PETRI_MATHS_FAST_LOG_H
@@ -21,7 +22,7 @@
 #include "maths/fast_exp.h"
 
 #define LOG_ERROR 0x1.4p-67
-#define LOG_CUBE_ERROR 0x1p-50 // 7.2 u, and more
+#define LOG_CUBE_ERROR 0x1p-50 // 7.5 u, and more
 
 #define LOG_REACH 0x1p-16 // |z|^2 is not larger
 
