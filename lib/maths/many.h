@@ -15,7 +15,7 @@ void maths_sin_cos_many(CpuLevel level, const double *x, size_t count, double *s
 // x[i]^y[i], and x[i]^power
 void maths_pow_many(CpuLevel level, const double *x, const double *y, size_t count, double *to);
 void maths_power_many(CpuLevel level, const double *x, double power, size_t count, double *to);
-// The sine of t full turns, 0 ≤ t < 2^49, as turns_sin (random.h) defines it.
+// The sine of t full turns, as turns_sin (random.h) defines it.
 void maths_turns_sin_many(CpuLevel level, const double *t, size_t count, double *to);
 // Items first, first + 1, … of a stream: random_uniform.
 void maths_uniform_many(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);

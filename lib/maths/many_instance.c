@@ -102,7 +102,8 @@ static void turns_sin_many(const double *t, size_t count, double *to) {
         Real in = load(t + i, count - i), quarters = in * real_set(4), out;
         Bits quadrant;
         Real angle = (quarters - real_steps(quarters, 1, &quadrant)) * real_set(1.5707963267948966);
-        Lanes left = lanes_left(sin_lanes(angle, quadrant, &out), count - i);
+        Lanes good = sin_lanes(angle, quadrant, &out) & lanes_less(real_absolute(quarters), real_set(0x1p50));
+        Lanes left = lanes_left(good, count - i);
         store(to + i, count - i, out);
         if (left) {
             double again[LANES];
