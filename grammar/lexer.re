@@ -2,7 +2,7 @@
 //
 // The scanner knows no context. Where context matters the parser's driver (lib/syntax/parse.c) decides: whether a word
 // is a keyword, whether %pragma and %include stand where they may, and what a newline means.
-#include "syntax/token.h"
+#include "ast/token.h"
 
 #include "base/unicode.h"
 #include "parser.h"

@@ -6,8 +6,8 @@
 //
 // Parse stacks hold only pointers into the program's arena: nothing needs a destructor.
 %code requires {
-#include "syntax/ast.h"
-#include "syntax/parse_context.h"
+#include "ast/ast.h"
+#include "ast/parse_context.h"
 }
 
 %define api.pure full
@@ -46,29 +46,37 @@ bool gr_accepts(const gr_pstate *parser, int token);
 
 static void gr_error(const Span *span, ParseContext *context, const char *text);
 
+// The node itself, unless the tree has become too high.
+static Ast *checked(ParseContext *context, Ast *ast) {
+    if (ast->height <= AST_MAX_HEIGHT)
+        return ast;
+    gr_error(&ast->span, context, NULL);
+    return ast_literal(context->arena, ast->span, VALUE_NULL); // any shallow tree: the program has failed
+}
+
 static Ast *make(ParseContext *context, AstKind kind, Span span, Ast *a, Ast *b, Ast *c, uint32_t count) {
     Ast *children[] = {a, b, c};
-    return parse_checked(context, ast_new(context->arena, kind, span, NULL, children, count));
+    return checked(context, ast_new(context->arena, kind, span, NULL, children, count));
 }
 
 #define UNARY(kind, span, a) make(context, kind, span, a, NULL, NULL, 1)
 #define BINARY(kind, span, a, b) make(context, kind, span, a, b, NULL, 2)
 #define TERNARY(kind, span, a, b, c) make(context, kind, span, a, b, c, 3)
-#define NODE_OF(kind, span, name, list) parse_checked(context, ast_from_list(context->arena, kind, span, name, list))
+#define NODE_OF(kind, span, name, list) checked(context, ast_from_list(context->arena, kind, span, name, list))
 #define LIST() ast_list_new(context->arena)
 #define LIST1(item) ast_list_add(LIST(), item)
 
 // A named node with up to one child.
 static Ast *named(ParseContext *context, AstKind kind, Span span, const Ast *name, Ast *child) {
     Ast *children[] = {child};
-    return parse_checked(context,
+    return checked(context,
                          ast_new(context->arena, kind, span, name ? name->name : NULL, children, child ? 1 : 0));
 }
 
 // FUNC with its parameters and body.
 static Ast *function(ParseContext *context, Span span, const Ast *name, AstList *params, Span params_span, Ast *body) {
     Ast *children[] = {NODE_OF(AST_PARAMS, params_span, NULL, params), body};
-    return parse_checked(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
+    return checked(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
 }
 
 // A list with one item stands for itself.
@@ -354,21 +362,22 @@ bool gr_accepts(const gr_pstate *parser, int token) {
 }
 
 static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) {
-    enum { MOST = 4 };
-    yysymbol_kind_t expected[MOST];
-    int count = yypcontext_expected_tokens(at, expected, MOST);
-    const char *names[MOST];
+    yysymbol_kind_t expected[PARSE_ALTERNATIVES], found = yypcontext_token(at);
+    int count = yypcontext_expected_tokens(at, expected, PARSE_ALTERNATIVES);
+    Unexpected *unexpected = &context->unexpected;
+    *unexpected = (Unexpected){.found = found == YYSYMBOL_YYEMPTY ? "nothing" : yysymbol_name(found),
+                               .span = *yypcontext_location(at),
+                               .expected_count = count > 0 ? count : 0,
+                               .wants_value = gr_accepts(at->yyps, NUMBER)};
     for (int i = 0; i < count; i++)
-        names[i] = yysymbol_name(expected[i]);
-    yysymbol_kind_t found = yypcontext_token(at);
-    parse_syntax_error(context, *yypcontext_location(at), found == YYSYMBOL_YYEMPTY ? "nothing" : yysymbol_name(found),
-                       names, count > 0 ? count : 0,
-                       gr_accepts(at->yyps, NUMBER));
+        unexpected->expected[i] = yysymbol_name(expected[i]);
     return 0;
 }
 
-// bison calls this only when its stack is full.
+// Notes where the program is nested too deeply. bison calls this only when its stack is full.
 static void gr_error(const Span *span, ParseContext *context, const char *text) {
     (void)text;
-    parse_too_deep(context, *span);
+    if (!context->overflow)
+        context->overflow_at = *span;
+    context->overflow = true;
 }

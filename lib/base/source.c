@@ -3,8 +3,10 @@
 
 #include <string.h>
 
-// CR LF and lone CR become LF; a missing last LF and a NUL sentinel are added.
+// A byte-order mark is left out, CR LF and lone CR become LF; a missing last LF and a NUL sentinel are added.
 static Str normalise_lines(Arena *arena, Str text) {
+    if (str_starts_with(text, STR("\xef\xbb\xbf")))
+        text = (Str){text.bytes + 3, text.len - 3};
     char *bytes = arena_alloc(arena, text.len + 2);
     size_t len = 0;
     for (size_t i = 0; i < text.len; i++) {

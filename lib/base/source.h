@@ -33,7 +33,8 @@ typedef struct SourcePlace {
     Str text;        // the line without its LF
 } SourcePlace;
 
-// Copies everything into the arena, turns CR LF and CR into LF and ends the last line. Text must be below 4 GiB.
+// Copies everything into the arena, leaves a byte-order mark out, turns CR LF and CR into LF and ends the last line.
+// Text must be below 4 GiB.
 const Source *source_new(Arena *arena, Str name, Str path, Str text);
 SourcePlace source_locate(const Source *source, uint32_t offset);
 // The part of a path up to and including the last slash.

@@ -139,6 +139,42 @@ Str text_str(const Text *text) {
     return (Str){text->bytes, text->len};
 }
 
+static int hex_digit(char c) {
+    return c >= '0' && c <= '9'   ? c - '0'
+           : c >= 'a' && c <= 'f' ? c - 'a' + 10
+           : c >= 'A' && c <= 'F' ? c - 'A' + 10
+                                  : -1;
+}
+
+// A part of a colour from 0 to 255 as a number from 0 to 1, to three places.
+static void add_part(Text *text, unsigned part) {
+    char digits[8];
+    int len = snprintf(digits, sizeof digits, "%u.%03u", part / 255, (part % 255 * 1000 + 127) / 255);
+    while (digits[len - 1] == '0')
+        len--;
+    len -= digits[len - 1] == '.';
+    text_add(text, (Str){digits, (size_t)len});
+}
+
+bool text_add_hex_colour(Text *text, Str hex) {
+    size_t skip = str_starts_with(hex, STR("#")) ? 1 : str_starts_with(hex, STR("0x")) ? 2 : 0, count = 0;
+    unsigned digits[8];
+    for (; skip + count < hex.len && hex_digit(hex.bytes[skip + count]) >= 0; count++)
+        if (count < 8)
+            digits[count] = (unsigned)hex_digit(hex.bytes[skip + count]);
+    char next = skip + count < hex.len ? hex.bytes[skip + count] : ' ';
+    bool ends = !(next == '_' || (next >= '0' && next <= '9') || ((next | 32) >= 'a' && (next | 32) <= 'z'));
+    if (!skip || !ends || !(count == 3 || count == 4 || count == 6 || count == 8))
+        return false;
+    size_t each = count > 4 ? 2 : 1;
+    for (size_t i = 0; i < count; i += each) {
+        if (i > 0)
+            text_add_c(text, ";");
+        add_part(text, each == 2 ? digits[i] * 16 + digits[i + 1] : digits[i] * 17);
+    }
+    return true;
+}
+
 Str str_format(Arena *arena, const char *format, ...) {
     Text text = text_new(arena);
     va_list args;

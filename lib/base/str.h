@@ -49,6 +49,10 @@ void text_add_format(Text *text, const char *format, ...) __attribute__((format(
 void text_add_va(Text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 Str text_str(const Text *text);
 
+// Appends the colour that a text such as #f80, #ff8800 or 0xff8800 begins with (alpha may follow) as r;g;b of numbers
+// from 0 to 1; false, with nothing appended, if it begins with none.
+bool text_add_hex_colour(Text *text, Str hex);
+
 // Formatted text in an arena.
 Str str_format(Arena *arena, const char *format, ...) __attribute__((format(printf, 2, 3)));
 

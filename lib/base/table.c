@@ -89,18 +89,10 @@ bool index_add(Index *index, uint64_t hash, uint32_t entry) {
     return true;
 }
 
-static IndexSlot *index_slot(Index *index, uint64_t hash, uint32_t entry) {
+void index_remove(Index *index, uint64_t hash, uint32_t entry) {
     uint32_t at = probe_start((uint32_t)(hash >> 32), index->mask);
     while (index->slots[at].entry != entry + 1)
         at = (at + 1) & index->mask;
-    return &index->slots[at];
-}
-
-void index_remove(Index *index, uint64_t hash, uint32_t entry) {
-    index_slot(index, hash, entry)->entry = DELETED;
+    index->slots[at].entry = DELETED;
     index->live--;
-}
-
-void index_move(Index *index, uint64_t hash, uint32_t from, uint32_t to) {
-    index_slot(index, hash, from)->entry = to + 1;
 }

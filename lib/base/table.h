@@ -34,8 +34,6 @@ uint32_t index_find(const Index *index, uint64_t hash, IndexMatch *match, const 
 bool index_add(Index *index, uint64_t hash, uint32_t entry);
 // Removes the entry at a position.
 void index_remove(Index *index, uint64_t hash, uint32_t entry);
-// The entry now at position `from` has moved to `to`.
-void index_move(Index *index, uint64_t hash, uint32_t from, uint32_t to);
 
 // A well-mixed 64-bit hash of bytes (FNV-1a finished by the SplitMix64 mixer).
 uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len);

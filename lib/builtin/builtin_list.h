@@ -48,7 +48,7 @@ BUILTIN("maxindex", builtin_maxindex, "xs, ...", 1, 1, true, true, true,
         "Position of the greatest element, or of the greatest argument.")
 BUILTIN("mean", builtin_mean, "xs, zs=1", 1, 2, false, true, true, "Means of zs interleaved series.")
 BUILTIN("measure_text", builtin_measure_text, "text, family, size, weight, width, slant", 1, 6, false, true, true,
-        "Not available: petri has no fonts.")
+        "Null: text is measured only where it is drawn, by !text.")
 BUILTIN("min", builtin_min, "xs, ...", 1, 1, true, true, true, "Least element, or least of several vectors.")
 BUILTIN("minindex", builtin_minindex, "xs, ...", 1, 1, true, true, true,
         "Position of the least element, or of the least argument.")

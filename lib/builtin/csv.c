@@ -123,6 +123,10 @@ static bool read_number(Arena *arena, Str field, double *x) {
 static const void *parse_csv(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
+    if (str_starts_with((Str){bytes, len}, STR("\xef\xbb\xbf"))) { // as spreadsheets write it
+        bytes += 3;
+        len -= 3;
+    }
     CsvFile *file = arena_alloc(arena, sizeof *file);
     *file = (CsvFile){.contents = {bytes, len}};
     for (size_t at = 0; at < len; file->row_count++)

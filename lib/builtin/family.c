@@ -36,23 +36,23 @@ Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany 
 
 Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f)(const double *x, uint32_t count)) {
     // Nearly every call has two or three arguments: those need no memory beyond their result.
-    enum { FEW = 8 };
-    double few_parts[FEW];
+    enum { MAX_ON_STACK = 8 };
+    double stack_parts[MAX_ON_STACK];
     uint32_t len = 0;
     for (uint32_t k = 0; k < count; k++) {
         if (!value_is_numeric(args[k]))
             return VALUE_NULL;
         len = args[k].len > len ? args[k].len : len;
-        few_parts[k % FEW] = args[k].as.number;
+        stack_parts[k % MAX_ON_STACK] = args[k].as.number;
     }
     if (len == 0)
         return VALUE_NULL;
-    if (len == 1 && count <= FEW)
-        return value_number(f(few_parts, count));
-    uint32_t few_at[FEW] = {0};
+    if (len == 1 && count <= MAX_ON_STACK)
+        return value_number(f(stack_parts, count));
+    uint32_t stack_at[MAX_ON_STACK] = {0};
     double *result = len > 1 ? arena_alloc_array(arena, len, sizeof *result) : NULL, single = 0;
-    double *parts = count <= FEW ? few_parts : arena_alloc_array(arena, count, sizeof *parts);
-    uint32_t *at = count <= FEW ? few_at : arena_alloc_array(arena, count, sizeof *at);
+    double *parts = count <= MAX_ON_STACK ? stack_parts : arena_alloc_array(arena, count, sizeof *parts);
+    uint32_t *at = count <= MAX_ON_STACK ? stack_at : arena_alloc_array(arena, count, sizeof *at);
     for (uint32_t k = 0; k < count; k++)
         at[k] = 0;
     for (uint32_t i = 0; i < len; i++) {

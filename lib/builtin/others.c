@@ -20,6 +20,6 @@ Value builtin_sample(BuiltinContext *context, const Value *args, uint32_t count)
 
 Value builtin_measure_text(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)args, (void)count;
-    builtin_fault(context, "measure_text", "there are no fonts to measure with");
+    builtin_fault(context, "measure_text", "text is measured only where it is drawn");
     return VALUE_NULL;
 }

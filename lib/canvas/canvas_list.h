@@ -4,6 +4,7 @@
 // NODE(ID, "node kind", PLACE, CHILDREN, "help"), and after it, for each of its attributes,
 // ATTR(KIND, NAME, TYPE, "default in words", "help"). PLACE tells where a node may stand and CHILDREN which may stand
 // in it (PlaceKind of drawing.h), TYPE how the attribute is read (DrawType).
+// UNDRAWN("node kind"): what Flitter shows in a window and petri does not (yet).
 // clang-format off
 #ifndef NAME
 #define NAME(id, text)
@@ -13,6 +14,9 @@
 #endif
 #ifndef ATTR
 #define ATTR(kind, name, type, fallback, help)
+#endif
+#ifndef UNDRAWN
+#define UNDRAWN(text)
 #endif
 
 NAME(TRANSLATE, "translate")
@@ -195,11 +199,27 @@ ATTR(STOP, COLOR, COLOR, "1", "")
 
 NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for the node that it stands in and what is inside")
 ATTR(COLOR, COLOR, COLOR, "1", "")
+
+UNDRAWN("canvas3d")
+UNDRAWN("reference")
+UNDRAWN("video")
+UNDRAWN("shader")
+UNDRAWN("adjust")
+UNDRAWN("blur")
+UNDRAWN("bloom")
+UNDRAWN("edges")
+UNDRAWN("chromakey")
+UNDRAWN("feedback")
+UNDRAWN("vignette")
+UNDRAWN("noise")
+UNDRAWN("flare")
+UNDRAWN("kaleid")
 // clang-format on
 
 #undef NAME
 #undef NODE
 #undef ATTR
+#undef UNDRAWN
 #undef TRANSFORM_ROWS
 #undef PAINT_ROWS
 #undef SHAPE_ROWS

@@ -20,6 +20,11 @@ static const char *const names[] = {
 #include "canvas/canvas_list.h"
 };
 
+static const char *const undrawn[] = {
+#define UNDRAWN(text) text,
+#include "canvas/canvas_list.h"
+};
+
 static const struct {
     DrawType type;
     int value;
@@ -93,10 +98,21 @@ typedef struct Reader {
     const Node *node;
 } Reader;
 
-static void report(const Reader *reader, const char *code, Str key, Str text) {
+// Reports something that stands at `place` in the node that is read.
+static void report(const Reader *reader, Origin place, const char *code, Str key, Str text) {
     Str kind = reader->node->kind->name;
     Str node = str_format(reader->arena, "!%.*s", (int)kind.len, kind.bytes);
-    reader->schema->host.report(reader->schema->host.host, DIAG_WARNING, code, reader->node->origin, node, key, text);
+    reader->schema->host.report(reader->schema->host.host, DIAG_WARNING, code, &place, node, key, text);
+}
+
+static void report_attr(const Reader *reader, const char *code, const Symbol *attr, Str text) {
+    report(reader, node_place(reader->node, attr), code, attr->name, text);
+}
+
+static void add_hex(Text *out, Str text) {
+    Text colour = text_new(out->arena);
+    if (text_add_hex_colour(&colour, text))
+        text_add_format(out, ", did you mean %.*s?", (int)colour.len, colour.bytes);
 }
 
 // "attribute should be …, not …".
@@ -107,7 +123,9 @@ static void report_shape(const Reader *reader, const Row *row, Value found) {
         format_value(&out, reader->schema->symbols, found);
     else
         text_add_format(&out, "%u elements", found.len);
-    report(reader, "bad-attribute", str_from(names[row->name]), text_str(&out));
+    if (row->type == TYPE_COLOR && found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING)
+        add_hex(&out, found.as.items[0].as.string->text);
+    report_attr(reader, "bad-attribute", reader->schema->names[row->name], text_str(&out));
 }
 
 // A number that a symbol stands for is no number here; symbols are beyond all coordinates.
@@ -168,9 +186,27 @@ static bool read_word(const Reader *reader, Value v, DrawType type, int *word) {
     return false;
 }
 
+// Colours of bytes: whole numbers, of which one is far beyond white.
+static void lint_colour(const Reader *reader, const Row *row, Value v) {
+    const double *numbers = value_numbers(&v);
+    double most = 0;
+    for (uint32_t i = 0; i < v.len && i < 3; i++) {
+        if (numbers[i] != floor(numbers[i]))
+            return;
+        most = fmax(most, numbers[i]);
+    }
+    if (most < 2)
+        return;
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s=", names[row->name]);
+    format_value(&out, reader->schema->symbols, v);
+    text_add_c(&out, " is beyond white, which is 1;1;1: parts that go up to 255 are written (r;g;b)/255");
+    report_attr(reader, "colour-range", reader->schema->names[row->name], text_str(&out));
+}
+
 static void report_composite(const Reader *reader) {
-    report(reader, "bad-attribute", STR("composite"),
-           STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
+    report_attr(reader, "bad-attribute", reader->schema->names[NAME_COMPOSITE],
+                STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
 }
 
 // False if the value cannot be used.
@@ -199,7 +235,11 @@ static bool read_value(const Reader *reader, const Row *row, Value v, DrawAttr *
     case TYPE_ANY:
         return true;
     default:
-        return read_numbers(v, row->type, attr);
+        if (!read_numbers(v, row->type, attr))
+            return false;
+        if (row->type == TYPE_COLOR && reader->schema->lint)
+            lint_colour(reader, row, v);
+        return true;
     }
 }
 
@@ -234,11 +274,18 @@ static void report_unknown_attribute(const Reader *reader, DrawKind kind, const 
     Text out = text_new(reader->arena);
     text_add_format(&out, "unknown attribute '%.*s'", (int)name->name.len, name->name.bytes);
     add_nearest(&out, name->name, candidates, count, "");
-    report(reader, "unknown-attribute", name->name, text_str(&out));
+    report_attr(reader, "unknown-attribute", name, text_str(&out));
 }
 
 static bool may_stand(PlaceKind place, PlaceKind children) {
     return place == children || (place == PLACE_SOURCE && children == PLACE_DRAWING);
+}
+
+static bool is_undrawn(Str name) {
+    for (size_t i = 0; i < sizeof undrawn / sizeof undrawn[0]; i++)
+        if (str_equal(name, str_from(undrawn[i])))
+            return true;
+    return false;
 }
 
 static void report_misplaced(const Reader *reader, const Node *child, bool known) {
@@ -246,13 +293,18 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
     Str name = child->kind->name;
     text_add_format(&out, "'!%.*s' ", (int)name.len, name.bytes);
     text_add_c(&out, known ? "has no effect here; it is left out" : "is not drawn; it is left out");
-    if (!known) {
+    bool exists = !known && is_undrawn(name);
+    if (!known && !exists) {
         const char *candidates[DRAW_KIND_COUNT];
         for (int i = 0; i < DRAW_KIND_COUNT; i++)
             candidates[i] = kinds[i].name;
         add_nearest(&out, name, candidates, DRAW_KIND_COUNT, "!");
     }
-    report(reader, known ? "misplaced-node" : "unknown-node", name, text_str(&out));
+    report(reader, node_place(child, NULL),
+           known    ? "misplaced-node"
+           : exists ? "undrawn-node"
+                    : "unknown-node",
+           name, text_str(&out));
 }
 
 // Reads the attributes; false if one is malformed without which the node cannot be drawn as it is meant.

@@ -28,6 +28,7 @@ typedef struct CanvasSchema {
     const Symbol *names[DRAW_NAME_COUNT];
     double words[WORD_COUNT];           // their values as symbols
     int first_row[DRAW_KIND_COUNT + 1]; // of the list of attributes, by kind
+    bool lint;                          // report what is hardly meant, too
 } CanvasSchema;
 
 void canvas_schema_init(CanvasSchema *schema, SymbolTable *symbols, CanvasHost host);

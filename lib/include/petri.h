@@ -51,8 +51,10 @@ typedef struct PetriDiagnostic {
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
 typedef struct PetriOptions {
-    double fps;      // target frame rate; a script's `%pragma fps` wins. Default 60
-    bool realtime;   // follow the wall clock: petri_step waits until the frame is due. Default false: lockstep
+    double fps; // target frame rate; a script's `%pragma fps` wins. Default 60
+    // Follow the wall clock: petri_step waits until the frame is due, and `time` is what has passed since frame 0.
+    // Default false: lockstep, where `time` is frame/fps.
+    bool realtime;
     double run_time; // the script's `run_time` in seconds; NaN (the default): unlimited
     bool simplify;   // evaluate static parts once, when loading; results never depend on it. Default true
     bool colour;     // colour `rendered` with ANSI escapes
@@ -80,22 +82,28 @@ PetriSession *petri_open(const PetriOptions *options);
 void petri_close(PetriSession **session);
 
 // Defines a name for the scripts loaded from now on (`-D`): "name=value", where value is `;`-separated numbers with
-// suffixes, time codes, `:symbols` or strings. PETRI_INVALID without a name or an equals sign.
+// suffixes, time codes, `:symbols` or strings. PETRI_INVALID without an equals sign, or if that which is before it is
+// no name. Loading a script tells of definitions that it does not take.
 PetriStatus petri_define(PetriSession *session, const char *definition);
 
 // Loads a script from a file; frames count from 0 again, the state dictionary is kept. `file` is also what messages
 // call it and what relative file names in it start from.
 PetriStatus petri_load(PetriSession *session, const char *file);
-// The same from text; `name` stands for the file.
+// The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
 // The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
-// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed.
+// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
+// told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
 const char *petri_source(PetriSession *session, size_t number);
-// Parses and compiles a file for its diagnostics only.
+// Compiles a file and makes its first frame for the diagnostics only, with the names that are defined: what would be
+// told when it is loaded, run and drawn, and what is hardly meant. No system goes on, nothing is drawn or written, and
+// the loaded script runs on as if nothing had happened.
 PetriStatus petri_check(PetriSession *session, const char *file);
+// The same for a text; `name` stands for the file.
+PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
 PetriStatus petri_step(PetriSession *session);
@@ -107,10 +115,38 @@ double petri_due(const PetriSession *session);
 // nothing had happened in between. For hosts that pause, or take long over something.
 void petri_hold(PetriSession *session);
 
+// A parameter of the loaded script: `let NAME=NAME or DEFAULT -- 1..500 what it is` at its top level, which takes the
+// value that a definition of NAME gives it, if that is true, else its default. A range at the start of the comment
+// (`1..500`, `0..1|0.05` with a step, `0..` with one end) is for people and hosts: what is outside is a warning.
+typedef struct PetriParameter {
+    const char *name;
+    const char *fallback;   // the default as the script has it
+    const char *value;      // the present value in printed form; `fallback` if only a frame can tell
+    const char *comment;    // behind it in its line, without the range; "" for none
+    double number;          // the present value; NaN unless it is known to be one number
+    double fallback_number; // the default; likewise
+    double least;           // the comment's range; infinite where it has no end
+    double most;
+    double step;      // 0: the comment has none
+    bool defined;     // a definition gives the present value
+    bool settable;    // false: of a module, which sees no definitions
+    const char *file; // where it stands
+    uint32_t line;    // from 1
+    uint32_t column;  // in characters, from 1
+} PetriParameter;
+// By number from 0, the script's own and those of what it includes first, then those of the modules that it imports at
+// its top level; false beyond the last. Texts are valid until the next call that may change or show anything.
+bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
+// Gives a parameter of the script another value, as petri_define reads it, or its default if `value` is NULL. The next
+// frame has it, while state, frame numbers, time and beat go on. PETRI_INVALID, and nothing is changed, if the script
+// has no such parameter, if the default is a number and the value is none, or if included files cannot be read any
+// more.
+PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
+
 // The frame that petri_step made last.
 typedef struct PetriFrame {
     int64_t number; // -1 before the first
-    double time;
+    double time;    // 0 in frame 0; after petri_restore frame/fps, in real time as well
     double beat;
     double fps;
     double tempo;
@@ -158,23 +194,24 @@ double petri_resolution(const PetriSession *session);
 // Forgets the state dictionary and goes to before frame 0.
 void petri_clear(PetriSession *session);
 
-// What a session computes with, as opposed to what it has computed: script, definitions, statements of the prompt,
-// clock rates, resolution. It is shared, not copied, and must be freed before the session is closed.
-typedef struct PetriSetup PetriSetup;
-// The present one, or NULL if memory is used up. Free with petri_setup_free, which takes NULL, too.
-PetriSetup *petri_setup(PetriSession *session);
-void petri_setup_free(PetriSetup *setup);
-// Goes back to a setup of this session; state, frame, time and beat stay.
-void petri_setup_use(PetriSession *session, PetriSetup *setup);
-// A number that is another whenever the setup is; modules that changed on disk count as well.
-uint64_t petri_setup_number(const PetriSession *session);
+// A session's configuration: script, definitions, statements of the prompt, clock rates, resolution. It is shared, not
+// copied, and must be freed before the session is closed.
+typedef struct PetriConfig PetriConfig;
+// The present one, or NULL if memory is used up. Free with petri_config_free, which takes NULL, too.
+PetriConfig *petri_config(PetriSession *session);
+void petri_config_free(PetriConfig *config);
+// Goes back to a configuration of this session; state, frame, time and beat stay.
+void petri_config_use(PetriSession *session, PetriConfig *config);
+// A number that is another whenever the configuration is; modules that changed on disk count as well.
+uint64_t petri_config_number(const PetriSession *session);
 
-// A copy of all that decides how a session goes on: state, systems, clock and setup. Free it before the session.
+// A copy of all that decides how a session goes on: state, systems, clock and configuration. Free it before the
+// session.
 typedef struct PetriSnapshot PetriSnapshot;
 // NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
 PetriSnapshot *petri_snapshot(PetriSession *session);
 void petri_snapshot_free(PetriSnapshot *snapshot);
-size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a setup is shared
+size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a configuration is shared
 // Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as
 // long as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
@@ -265,6 +302,11 @@ enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
 
 // Whether the last frame has anything to draw: a window with a canvas, or physics.
 bool petri_drawable(PetriSession *session);
+// Whether the picture of the last frame shows particles where they are. A system stores nothing in frame 0, and what it
+// stores is seen by the frame after; so a script that draws what its systems have stored finds nothing in frames 0 and
+// 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
+// a state that was restored, and in each frame from 2 on, whatever systems do then.
+bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
 // Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
 bool petri_records(const PetriSession *session);
 
@@ -294,8 +336,9 @@ PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uin
                                size_t stride);
 // Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
 bool petri_picture_format(const char *file);
-// Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the same PNG
-// with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
+// Writes a file as a whole: the old bytes or the new ones are there, never a part; they grow in FILE.PID.tmp. The same
+// picture gives the same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be
+// written.
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
 // Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
 // called by the thread that uses the session, when no other uses the picture.
@@ -359,6 +402,8 @@ typedef struct PetriPrompted {
     uint32_t bindings; // `let`, `func`, `import`: kept and evaluated in each frame, after the script
     uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
                     // are added to those of the script; they are written, too, as they are now
+    const char *hidden; // a name bound that the script's top level binds, too: the script goes on with its own; or
+                        // NULL. Valid until the next call
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.

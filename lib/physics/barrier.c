@@ -1,13 +1,10 @@
-// barrier.c: soft and hard boundaries (4.4).
-#include "physics/internal.h"
+// barrier.c: bounces off hard boundaries (4.4). Soft ones, and the formulas used here, are in single_formulas.h.
+#define PETRI_LANES 1
+#include "physics/single_formulas.h"
 
-// start + Σ (p_k − position_k) · normal_k
-static double height_above(const Columns *columns, size_t i, const PhysForce *barrier, double start) {
-    size_t n = columns->dimensions, stride = columns->stride;
-    double sum = start;
-    for (size_t k = 0; k < n; k++)
-        sum += (columns->position[k * stride + i] - phys_at(barrier->vector, k)) * phys_at(barrier->vector2, k);
-    return sum;
+static double particle_height(const Columns *columns, size_t i, const PhysForce *barrier, double start) {
+    Block block = block_at(columns, i);
+    return height_above(barrier, columns->dimensions, &block, start);
 }
 
 // Σ v_k · normal_k
@@ -17,33 +14,6 @@ static double velocity_along(const Columns *columns, size_t i, const PhysForce *
     for (size_t k = 0; k < n; k++)
         sum += columns->velocity[k * stride + i] * phys_at(barrier->vector2, k);
     return sum;
-}
-
-// With s = Σ (p_k − position_k) · normal_k:
-//   min > 0 and 0 ≤ s < min:  + normal_k · ((min − s)^power · strength)
-//   else s > max:             − normal_k · ((s − max)^power · strength)
-static void constrain(const Columns *columns, size_t i, const Force *force) {
-    const PhysForce *barrier = &force->given;
-    double s = height_above(columns, i, barrier, 0), coefficient;
-    if (barrier->has_minimum && barrier->minimum > 0 && 0 <= s && s < barrier->minimum)
-        coefficient = phys_power(barrier->minimum - s, barrier->power) * force->strength;
-    else if (barrier->has_maximum && s > barrier->maximum)
-        coefficient = -(phys_power(s - barrier->maximum, barrier->power) * force->strength);
-    else
-        return;
-    size_t n = columns->dimensions, stride = columns->stride;
-    for (size_t k = 0; k < n; k++)
-        columns->force[k * stride + i] += phys_at(barrier->vector2, k) * coefficient;
-}
-
-void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces) {
-    for (const Force *force = forces.begin; force < forces.end; force++) {
-        if (!force->given.has_minimum && !force->given.has_maximum)
-            continue;
-        for (size_t i = group->first, end = i + group->count; i < end; i++)
-            if (!columns->anchor[i])
-                constrain(columns, i, force);
-    }
 }
 
 // p_k = p_k − x · normal_k
@@ -80,6 +50,18 @@ static double acceleration_along(const Columns *columns, const PhysForce *barrie
     return sum;
 }
 
+// Motion once more; a_k = (v_k − v_k before) / delta.
+static void move_again(const Columns *columns, size_t i, double delta, double speed_of_light) {
+    size_t n = columns->dimensions;
+    Block block = block_at(columns, i);
+    double *acceleration = phys_acceleration(columns), *before = acceleration + n;
+    for (size_t k = 0; k < n; k++)
+        before[k] = velocity_part(&block, k);
+    move(n, &block, delta, speed_of_light);
+    for (size_t k = 0; k < n; k++)
+        acceleration[k] = (velocity_part(&block, k) - before[k]) / delta;
+}
+
 //   x = Σ (p_k − position_k)·normal_k accumulated from −r;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
 //   if x ≥ 0: done
 //   if not w < 0: put on the surface; done                     already leaving
@@ -92,7 +74,7 @@ static double acceleration_along(const Columns *columns, const PhysForce *barrie
 //   if τ > 0: motion again with τ for delta and the same force; else a = 0
 void phys_bounce(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
-    double x = height_above(columns, i, barrier, -columns->radius[i]);
+    double x = particle_height(columns, i, barrier, -columns->radius[i]);
     if (x >= 0)
         return;
     double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
@@ -107,7 +89,7 @@ void phys_bounce(const Columns *columns, size_t i, const Force *force, double de
     back_to_contact(columns, i, tau, barrier->restitution);
     w = velocity_along(columns, i, barrier);
     if (outside) {
-        x = height_above(columns, i, barrier, -columns->radius[i]);
+        x = particle_height(columns, i, barrier, -columns->radius[i]);
         if (x < 0)
             put_on_surface(columns, i, barrier, x);
     }
@@ -116,7 +98,7 @@ void phys_bounce(const Columns *columns, size_t i, const Force *force, double de
     if (b < 0 && w / b < tau)
         tau = w / b > 0 ? w / b : 0;
     if (tau > 0) {
-        phys_move(columns, i, tau, speed_of_light);
+        move_again(columns, i, tau, speed_of_light);
         return;
     }
     double *acceleration = phys_acceleration(columns);

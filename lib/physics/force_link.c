@@ -1,11 +1,8 @@
 // force_link.c: forces between two given particles (4.1, `!distance`).
-//
-//   d_k = to_k − from_k;  l = sqrt(d_0² + d_1² + …);  inv = 1 / l;  u_k = d_k · inv
-//   l < min:       f_k = u_k · ((min − l)^power · strength),  from − f,  to + f
-//   else l > max:  f_k = u_k · ((l − max)^power · strength),  from + f,  to − f
+// The formulas are in pair_formulas.h; a link has one lane.
+#define PETRI_LANES 1
 #include "physics/internal.h"
-
-#include <float.h>
+#include "physics/pair_formulas.h"
 
 static double link_length(const Columns *columns, size_t from, size_t to) {
     size_t n = columns->dimensions, stride = columns->stride;
@@ -17,6 +14,22 @@ static double link_length(const Columns *columns, size_t from, size_t to) {
     return sqrt(square);
 }
 
+static bool link_coefficient(const Force *force, double length, double *coefficient) {
+    switch (force->given.kind) {
+#define LINK(KIND, name)                                                                                               \
+    case PHYS_##KIND:                                                                                                  \
+        return link_##name(&force->given, force->strength, length, coefficient);
+#define OTHER(KIND, ...) case PHYS_##KIND:
+        PHYS_FORCES(PHYS_NO_ROW, LINK, PHYS_NO_ROW, PHYS_NO_ROW)
+        PHYS_FORCES(OTHER, PHYS_NO_ROW, OTHER, OTHER)
+#undef LINK
+#undef OTHER
+    case PHYS_FORCE_KINDS:
+        break;
+    }
+    __builtin_unreachable(); // the stage has links only
+}
+
 static void apply_link(const Columns *columns, const Force *force) {
     const PhysForce *link = &force->given;
     if (link->from == link->to)
@@ -24,12 +37,8 @@ static void apply_link(const Columns *columns, const Force *force) {
     double length = link_length(columns, link->from, link->to);
     if (!(length > 0 && length <= DBL_MAX))
         return;
-    double coefficient; // positive pulls the two together
-    if (link->has_minimum && length < link->minimum)
-        coefficient = -(phys_power(link->minimum - length, link->power) * force->strength);
-    else if (link->has_maximum && length > link->maximum)
-        coefficient = phys_power(length - link->maximum, link->power) * force->strength;
-    else
+    double coefficient;
+    if (!link_coefficient(force, length, &coefficient))
         return;
     double inverse = 1 / length;
     size_t n = columns->dimensions, stride = columns->stride;

@@ -149,8 +149,8 @@ static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
     search->padded = padded;
     uint64_t first = (uint64_t)ENTRIES_FIRST * list->total + NEAR_MOST * PHYS_MOST_LANES;
     uint64_t most = (uint64_t)ENTRIES_MOST * list->total + NEAR_MOST * PHYS_MOST_LANES;
-    if (system->options.neighbours == PHYS_NEIGHBOURS_AUTO && most > phys_entries_that_pay(list))
-        most = phys_entries_that_pay(list);
+    if (system->options.neighbours == PHYS_NEIGHBOURS_AUTO && most > phys_max_useful_entries(list))
+        most = phys_max_useful_entries(list);
     uint64_t room = list->entries.capacity / sizeof(uint32_t);
     search->capacity = room > first ? room : first;
     search->capacity = search->capacity < most ? search->capacity : most;
@@ -158,7 +158,7 @@ static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
         if (!phys_buffer_reserve(system, &list->entries, 0, search->capacity, sizeof(uint32_t)))
             return false;
         list->view.entries = list->entries.bytes;
-        phys_parallel(system, phys_shares(system, list->total, PHYS_FEW_PARTICLES), find_blocks, search);
+        phys_parallel(system, phys_shares(system, list->total, PHYS_MIN_FOR_THREADS), find_blocks, search);
         bool too_full = false;
         list->scanned = list->padded = 0;
         for (int w = 0; w < PHYS_MOST_SHARES; w++) {

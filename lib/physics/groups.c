@@ -1,24 +1,9 @@
 // groups.c: brings particles and forces into the order in which a step walks through them.
 #include "physics/internal.h"
-
-static Stage stage_of(PhysForceKind kind) {
-    switch (kind) {
-    case PHYS_COLLISION:
-    case PHYS_GRAVITY:
-    case PHYS_ELECTROSTATIC:
-    case PHYS_ADHESION:
-        return STAGE_PAIR;
-    case PHYS_DISTANCE:
-        return STAGE_LINK;
-    case PHYS_BARRIER:
-        return STAGE_BARRIER;
-    default:
-        return STAGE_SINGLE;
-    }
-}
+#include "physics/kernels.h"
 
 static size_t slot_of(const ForceRecord *record) {
-    return (size_t)record->group * STAGE_COUNT + stage_of(record->given.kind);
+    return (size_t)record->group * STAGE_COUNT + phys_force_row(record->given.kind).stage;
 }
 
 // A stable counting sort by group. Group numbers ascend in pre-order, so this is the storage order. `first` counts down
@@ -52,7 +37,7 @@ static Force arranged_force(const PhysSystem *system, const ForceRecord *record)
     Force force = {.given = record->given};
     force.given.vector = record->vector ? vectors + record->vector - 1 : NULL;
     force.given.vector2 = record->vector2 ? vectors + record->vector2 - 1 : NULL;
-    if (force.given.kind != PHYS_DISTANCE)
+    if (phys_force_row(force.given.kind).stage != STAGE_LINK)
         return force;
     bool valid = force.given.from < system->particle_count && force.given.to < system->particle_count;
     // A particle linked with itself has the distance 0: the kernel skips it without a look at the columns.
@@ -104,7 +89,9 @@ bool phys_arrange(PhysSystem *system) {
 }
 
 bool phys_arrange_forces(PhysSystem *system) {
-    if (!phys_buffer_reserve(system, &system->forces, 0, system->force_count, sizeof(Force)))
+    if (!phys_buffer_reserve(system, &system->forces, 0, system->force_count, sizeof(Force)) ||
+        !phys_buffer_reserve(system, &system->terms, 0, system->force_count, sizeof(PairTerm)) ||
+        !phys_buffer_reserve(system, &system->chain, 0, system->force_count, sizeof(Force *)))
         return false;
     arrange_forces(system);
     link_groups(system);

@@ -9,13 +9,12 @@
 //   - what a particle sees in a pass over pairs is its own range and one range for each enclosing group;
 //   - all forces that one stage applies for one group are contiguous.
 //
-// Columns, not rows, since later kernels give each lane a particle of its own.
+// Columns, not rows, because kernels give each lane a particle of its own.
 #ifndef PETRI_PHYSICS_INTERNAL_H
 #define PETRI_PHYSICS_INTERNAL_H
 
 #include "base/arena.h"
-#include "maths/maths.h"
-#include "physics/system.h"
+#include "physics/forces.h"
 
 #include <math.h>
 
@@ -27,15 +26,12 @@ typedef struct Buffer {
     uint64_t capacity; // in bytes
 } Buffer;
 
-// The stages of a step in which forces act.
-typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_COUNT } Stage;
-
 #define NO_GROUP UINT32_MAX
 
 enum {
-    PHYS_MOST_LISTS = 8,       // passes that have neighbour lists
-    PHYS_MOST_RANGES = 8,      // groups whose particles take part in such a pass
-    PHYS_FEW_PARTICLES = 1500, // that one thread has done when another is ready, if the work for each is small
+    PHYS_MOST_LISTS = 8,         // passes that have neighbour lists
+    PHYS_MOST_RANGES = 8,        // groups whose particles take part in such a pass
+    PHYS_MIN_FOR_THREADS = 1500, // particles, where the work for each is small (threads.h)
 };
 
 typedef struct Group {
@@ -53,8 +49,8 @@ typedef struct ParticleRecord {
     double charge;
     uint32_t group;
     bool anchor;
-    bool fresh_position; // see PhysParticle
-    bool fresh_velocity;
+    bool position_from_attribute; // see PhysParticle
+    bool velocity_from_attribute;
 } ParticleRecord;
 
 typedef struct ForceRecord {
@@ -78,8 +74,8 @@ typedef struct Columns {
     size_t stride; // >= count
     double *position;
     double *velocity;
-    double *thrust; // the particle's own force; valid, as `ease` is, if there are any
-    double *force;  // sum of all forces of the step
+    double *own_force; // the particle's own force; valid, as `ease` is, if there are any
+    double *force;     // sum of all forces of the step
     double *ease;
     double *radius;
     double *mass;
@@ -96,9 +92,9 @@ struct PhysSystem {
     bool failed;    // memory was used up since phys_begin
     bool arranged;  // particles and forces are arranged as described
     bool forces_arranged;
-    bool radii_raised; // radius powers are those of the columns' radii and of the forces
-    bool lost;         // `unfinished` has a mark
-    bool fresh;        // some particle's position or velocity is
+    bool radii_raised;       // radius powers are those of the columns' radii and of the forces
+    bool any_not_finite;     // `not_finite` has a mark
+    bool any_from_attribute; // some particle's position or velocity is
     PhysOptions options;
     PhysThreads *threads; // those of the options, or its own; NULL: none
     bool owns_threads;
@@ -108,20 +104,22 @@ struct PhysSystem {
     uint32_t particle_count;
     uint32_t force_count;
     bool stepped;            // simulated since phys_begin or phys_rest: the force columns hold the last step's sums
-    bool pushed;             // some particle has a force of its own
-    bool eased;              // … or one that is eased in; then `pushed` is set too
+    bool has_own_forces;     // some particle has a force of its own
+    bool has_eased_forces;   // … or one that is eased in; then `has_own_forces` is set too
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     Buffer particles;        // ParticleRecord by handle
     Buffer rows;             // 2 n doubles by handle
-    Buffer thrusts;          // n doubles by handle, the particles' own forces, if they have any
+    Buffer own_forces;       // n doubles by handle, the particles' own forces, if they have any
     Buffer last_rows;        // those of the description before
-    Buffer unfinished;       // uint8_t by handle: what was not finite when it should have settled
-    Buffer force_records;    // ForceRecord in order of the calls
-    Buffer vectors;          // double
+    Buffer not_finite;    // uint8_t by handle: results of the last frame that were not, see PhysTime.keep_last_finite
+    Buffer force_records; // ForceRecord in order of the calls
+    Buffer vectors;       // double
     // arranged for simulation
     Buffer indices;     // uint32_t: `order`, `place`, `starts`
     Buffer forces;      // Force, by group, then stage, then declaration
+    Buffer terms;       // PairTerm: those of the pass that is running
+    Buffer chain;       // Force *: those that act on the group whose turn it is
     Buffer column_data; // what `columns` points to
     uint32_t *order;    // column -> handle
     uint32_t *place;    // handle -> column
@@ -155,12 +153,12 @@ void phys_buffer_free(Buffer *buffer);
 bool phys_arrange(PhysSystem *system);
 bool phys_arrange_forces(PhysSystem *system);
 
-// particles.c: rows into columns and back. phys_load and phys_clear_marks are false if memory is used up.
-enum { PHYS_LOST_POSITION = 1, PHYS_LOST_VELOCITY = 2 }; // marks of `unfinished`
-bool phys_clear_marks(PhysSystem *system);
+// particles.c: rows into columns and back. phys_load and phys_clear_not_finite are false if memory is used up.
+enum { PHYS_NOT_FINITE_POSITION = 1, PHYS_NOT_FINITE_VELOCITY = 2 }; // marks of `not_finite`
+bool phys_clear_not_finite(PhysSystem *system);
 bool phys_load(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);
-void phys_store(PhysSystem *system, bool settle);
+void phys_store(PhysSystem *system, bool keep_last_finite);
 
 // step.c: one step of `delta` at `clock`.
 void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
@@ -168,10 +166,6 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);
 void phys_apply_pairs(PhysSystem *system, const Group *group);
-void phys_apply_singles(const Columns *columns, const Group *group, ForceRange forces, double delta);
-void phys_apply_barriers(const Columns *columns, const Group *group, ForceRange forces);
-// integrate.c: moves particle i (4.3) and leaves its acceleration in phys_acceleration().
-void phys_move(const Columns *columns, size_t i, double delta, double speed_of_light);
 // barrier.c: after a move of `delta`, lets particle i bounce off one barrier (4.4).
 void phys_bounce(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
@@ -186,16 +180,6 @@ static inline double phys_at(PhysVector vector, size_t k) {
 // `factor` of a strength (or of a particle's own force) while it is eased in.
 static inline double phys_ramp(double ease, double clock) {
     return ease > 0 && clock < ease ? clock / ease : 1.0;
-}
-
-// displacement^power as section 4.1 defines it. The exponent must not be a constant at the place of the call:
-// compilers replace pow by other operations then.
-static inline double phys_power(double displacement, double power) {
-    if (power == 1)
-        return displacement;
-    if (power == 2)
-        return displacement * displacement;
-    return maths_pow(displacement, power < 0 ? 0.0 : power);
 }
 
 // Forces that `group` declares for a stage.

@@ -167,13 +167,3 @@ void PER_ISA(list_crowd)(const PairPass *pass, const uint32_t *targets, size_t c
     else
         crowd(pass, (PairShape){3, LEAD_NONE, REST_ANY}, targets, count, first, end);
 }
-
-#ifdef PETRI_PLAIN
-const Kernels phys_kernels_plain = {
-    .lanes = LANES,
-    .list_refresh = list_refresh_plain,
-    .list_near = list_near_plain,
-    .list_forces = list_forces_plain,
-    .list_crowd = list_crowd_plain,
-};
-#endif

@@ -3,7 +3,7 @@
 // A tile has LANES targets in the lanes (its rows) and takes LANES partners (its columns) one after the other. The
 // terms are added to the rows' sums as they come: ascending partner. Then the tile is transposed, and the terms are
 // subtracted from the columns' sums: ascending row. Tiles go row by row, so every particle still sums its partners in
-// ascending order, as force_pair.c does.
+// ascending order, as pair_rows.c does.
 #include "physics/pair_sum.h"
 
 // The rows of a tile.
@@ -23,11 +23,11 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
     if (!pair_geometry(shape, target, &partner, live, &pair))
         return;
     if (shape.lead != LEAD_NONE) {
-        Real a = lead_source(shape, target), b = lead_source(shape, &partner);
+        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid};
         Mask applies = mask_and(pair.valid, rows->lead);
         if (!whole)
-            applies = real_differs_where(applies, b, real_zero());
-        Real coefficient = inverse_square(&pass->terms[0], &pair, a, b);
+            applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
+        Real coefficient = lead_coefficient(shape, &pairs);
         add_term(shape, &pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
     }
     if (shape.rest != REST_NONE)
@@ -74,9 +74,11 @@ KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_
 
 // Does the leading force act on all of LANES columns?
 KERNEL bool all_led(const PairPass *pass, PairShape shape, size_t j) {
-    if (shape.lead == LEAD_NONE)
+    ForceNeed need = lead_need(shape);
+    if (need == NEED_NOTHING)
         return true;
-    Real source = real_load((shape.lead == LEAD_GRAVITY ? pass->mass : pass->charge) + j);
+    const double *sources = need == NEED_MASS ? pass->mass : need == NEED_CHARGE ? pass->charge : pass->radius;
+    Real source = real_load(sources + j);
     return mask_bits(real_differs_where(mask_first(LANES), source, real_zero())) == (1u << LANES) - 1;
 }
 
@@ -112,7 +114,7 @@ KERNEL void diagonal_tile(const PairPass *pass, PairShape shape, Rows *rows, siz
 KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t count, size_t column, size_t column_end,
                      bool triangle) {
     Rows rows = {.target = pair_targets(pass, shape, i), .live = mask_first(count)};
-    rows.lead = real_differs_where(rows.live, lead_source(shape, &rows.target), real_zero());
+    rows.lead = real_differs_where(rows.live, pair_source(lead_need(shape), &rows.target), real_zero());
     for (size_t m = 0; m < shape.dimensions; m++)
         rows.sum[m] = real_load(pass->force + m * pass->stride + i);
     if (triangle)
@@ -135,45 +137,50 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
 }
 
 // The kernels themselves. dimensions, lead and rest are constants in each.
-#define PAIR_KERNEL(n, lead, rest)                                                                                     \
-    static void triangle_##n##lead##rest(const PairPass *pass, size_t first, size_t end) {                             \
+#define PAIR_KERNEL(n, name, lead, rest)                                                                               \
+    static void triangle_##n##name##rest(const PairPass *pass, size_t first, size_t end) {                             \
         tile_rows(pass, (PairShape){n, lead, rest}, first, end, 0, end, true);                                         \
     }                                                                                                                  \
-    static void tiles_##n##lead##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                 \
+    static void tiles_##n##name##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                 \
                                       size_t column_end) {                                                             \
         tile_rows(pass, (PairShape){n, lead, rest}, row, row_end, column, column_end, false);                          \
     }
-#define PAIR_KERNELS(n)                                                                                                \
-    PAIR_KERNEL(n, LEAD_GRAVITY, REST_NONE)                                                                            \
-    PAIR_KERNEL(n, LEAD_GRAVITY, REST_TOUCH)                                                                           \
-    PAIR_KERNEL(n, LEAD_ELECTROSTATIC, REST_NONE)                                                                      \
-    PAIR_KERNEL(n, LEAD_ELECTROSTATIC, REST_TOUCH)                                                                     \
-    PAIR_KERNEL(n, LEAD_NONE, REST_TOUCH)                                                                              \
-    PAIR_KERNEL(n, LEAD_NONE, REST_ANY)
-PAIR_KERNELS(1)
-PAIR_KERNELS(2)
-PAIR_KERNELS(3)
+#define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
 
-#define PAIR_ENTRY(n, lead, rest) [n - 1][lead][rest] = {triangle_##n##lead##rest, tiles_##n##lead##rest}
-#define PAIR_ENTRIES(n)                                                                                                \
-    PAIR_ENTRY(n, LEAD_GRAVITY, REST_NONE), PAIR_ENTRY(n, LEAD_GRAVITY, REST_TOUCH),                                   \
-        PAIR_ENTRY(n, LEAD_ELECTROSTATIC, REST_NONE), PAIR_ENTRY(n, LEAD_ELECTROSTATIC, REST_TOUCH),                   \
-        PAIR_ENTRY(n, LEAD_NONE, REST_TOUCH), PAIR_ENTRY(n, LEAD_NONE, REST_ANY)
-static const PairKernel pair_kernels[PHYS_VECTOR_DIMENSIONS][LEAD_ELECTROSTATIC + 1][REST_ANY + 1] = {
-    PAIR_ENTRIES(1),
-    PAIR_ENTRIES(2),
-    PAIR_ENTRIES(3),
-};
+// Every force that may be without bound has kernels in which it leads, in 1, 2 and 3 dimensions.
+#define LEAD_CONTACT(MAKE, KIND)
+#define LEAD_FAR(MAKE, KIND)                                                                                           \
+    MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \
+    MAKE(1, KIND, PHYS_##KIND, REST_TOUCH)                                                                             \
+    MAKE(2, KIND, PHYS_##KIND, REST_NONE)                                                                              \
+    MAKE(2, KIND, PHYS_##KIND, REST_TOUCH)                                                                             \
+    MAKE(3, KIND, PHYS_##KIND, REST_NONE)                                                                              \
+    MAKE(3, KIND, PHYS_##KIND, REST_TOUCH)
+#define LEADERLESS(MAKE)                                                                                               \
+    MAKE(1, NONE, LEAD_NONE, REST_TOUCH)                                                                               \
+    MAKE(1, NONE, LEAD_NONE, REST_ANY)                                                                                 \
+    MAKE(2, NONE, LEAD_NONE, REST_TOUCH)                                                                               \
+    MAKE(2, NONE, LEAD_NONE, REST_ANY)                                                                                 \
+    MAKE(3, NONE, LEAD_NONE, REST_TOUCH)                                                                               \
+    MAKE(3, NONE, LEAD_NONE, REST_ANY)
+
+#define PAIR(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_KERNEL, KIND)
+PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
+LEADERLESS(PAIR_KERNEL)
+#undef PAIR
+
+#define PAIR(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_ENTRY, KIND)
+static const PairKernel pair_kernels[PHYS_VECTOR_DIMENSIONS][LEAD_NONE + 1][REST_ANY + 1] = {
+    PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW) LEADERLESS(PAIR_ENTRY)};
+#undef PAIR
 
 static bool needs_contact(const PairTerm *term) {
-    return term->kind == TERM_COLLISION || term->kind == TERM_ADHESION;
+    return phys_force_row(term->kind).reach == REACH_CONTACT;
 }
 
 static const PairKernel *pair_kernel(const PairPass *pass) {
     const PairTerm *first = pass->terms;
-    PairLead lead = LEAD_NONE;
-    if (!needs_contact(first) && !(first->bound < INFINITY))
-        lead = first->kind == TERM_GRAVITY ? LEAD_GRAVITY : LEAD_ELECTROSTATIC;
+    int lead = needs_contact(first) || first->bound < INFINITY ? (int)LEAD_NONE : (int)first->kind;
     size_t others = lead != LEAD_NONE;
     PairRest rest = pass->term_count == others ? REST_NONE : REST_TOUCH;
     for (size_t t = others; t < pass->term_count; t++)

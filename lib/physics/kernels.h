@@ -1,9 +1,9 @@
 // kernels.h: what the vector kernels are given, and the table through which they are called.
 //
-// The kernels are written once (kernel_*.c over simd.h) and compiled once per instruction set, into one table each.
-// Where there is no table, for more dimensions, and for what is too small, the scalar code of the other files runs. It
-// is the truth: every kernel gives its bits. Plain C has neighbour lists in common with the others, and nothing else.
-// That rests on three rules:
+// The kernels are written once (kernel_*.c over lanes.h) and compiled once per instruction set, into one table each;
+// the formulas are those of pair_formulas.h and single_formulas.h. For more dimensions, for more forces and for a few
+// particles the same formulas run with one lane (pair_rows.c, and kernel_sweep.c once more). All of them give the same
+// bits. That rests on three rules:
 //
 //   - a lane is a target, or a pair whose term goes to two targets one after the other in the right order;
 //   - a term that does not apply leaves its sum alone. Adding +0.0 would not (-0.0 + +0.0 is +0.0), so lanes are
@@ -12,20 +12,20 @@
 #ifndef PETRI_PHYSICS_KERNELS_H
 #define PETRI_PHYSICS_KERNELS_H
 
+#include "physics/system.h"
+
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
 enum {
     PHYS_VECTOR_DIMENSIONS = 3, // most dimensions that kernels exist for
-    PHYS_MOST_TERMS = 8,        // most forces of a pass that they take
+    PHYS_MOST_TERMS = 8,        // most pair forces of a pass that they take
 };
-
-typedef enum TermKind { TERM_GRAVITY, TERM_ELECTROSTATIC, TERM_COLLISION, TERM_ADHESION } TermKind;
 
 // One force of a pass, with the sign turned so that a positive coefficient attracts.
 typedef struct PairTerm {
-    TermKind kind;
+    PhysForceKind kind;
     double strength;
     double power;
     double bound; // the force applies only where l < bound; infinite: no bound
@@ -42,7 +42,7 @@ typedef struct PairPass {
     const double *mass;
     const double *charge;
     size_t term_count;
-    PairTerm terms[PHYS_MOST_TERMS];
+    const PairTerm *terms;
 } PairPass;
 
 // All pairs inside one range, or between a range of rows and one of columns that do not overlap.
@@ -80,6 +80,7 @@ typedef struct NearQuery {
 } NearQuery;
 
 struct SweepPass; // sweep.h
+typedef void SweepKernel(struct SweepPass *pass, size_t first, size_t end);
 
 typedef struct Kernels {
     size_t lanes;
@@ -95,7 +96,7 @@ typedef struct Kernels {
     // Forces on at most LANES particles from all of one range. `targets` holds LANES columns.
     void (*list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
     // Single-particle forces, barriers and motion of some particles.
-    void (*sweep)(struct SweepPass *pass, size_t first, size_t end);
+    SweepKernel *sweep;
 } Kernels;
 
 // kernel_list.c, kernel_sweep.c and kernel_pair.c, once for each instruction set.
@@ -106,11 +107,14 @@ typedef struct Kernels {
     void list_forces_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                      \
     void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);      \
     void sweep_all_##isa(struct SweepPass *pass, size_t first, size_t end);
-ISA_KERNELS(plain)
+ISA_KERNELS(two)
 ISA_KERNELS(avx2)
 ISA_KERNELS(avx512)
-extern const Kernels phys_kernels_plain; // NULL for `pair` and `sweep`
+extern const Kernels phys_kernels_two;
 extern const Kernels phys_kernels_avx2;
 extern const Kernels phys_kernels_avx512;
+
+// kernel_sweep.c with one lane: any number of dimensions.
+void sweep_all_one(struct SweepPass *pass, size_t first, size_t end);
 
 #endif

@@ -5,8 +5,8 @@
 #include <string.h>
 
 enum {
-    FEW = 160,       // particles for which lists never pay
-    REST_FIRST = 64, // steps without lists after they did not pay; doubled each time
+    MIN_FOR_LISTS = 160, // particles of a pass
+    REST_FIRST = 64,     // steps without lists after they did not pay; doubled each time
     REST_LONGEST = 1024,
     LIFE_FIRST = 8, // steps that a list is expected to serve at first
 };
@@ -23,7 +23,7 @@ static bool bounded(const PairPass *pass, double *bound, bool *touch_only) {
     *touch_only = true;
     for (size_t t = 0; t < pass->term_count; t++) {
         const PairTerm *term = &pass->terms[t];
-        if (term->kind == TERM_COLLISION || term->kind == TERM_ADHESION)
+        if (phys_force_row(term->kind).reach == REACH_CONTACT)
             continue;
         *touch_only = false;
         *bound = fmax(*bound, term->bound);
@@ -70,52 +70,53 @@ static bool still_idle(const PairPass *pass, const Neighbours *list) {
     return true;
 }
 
-typedef struct Sweep {
+// A pass with a list, as the threads see it.
+typedef struct ListPass {
     const Kernels *kernels;
     const PairPass *pass;
     const Neighbours *list;
-    bool held[PHYS_MOST_SHARES];
-} Sweep;
+    bool held[PHYS_MOST_SHARES]; // by share: nothing has left its skin
+} ListPass;
 
 // Whole blocks for each worker.
-static size_t sweep_share(const Sweep *sweep, size_t places, int worker, int workers) {
-    size_t lanes = sweep->list->lanes, blocks = (places + lanes - 1) / lanes;
+static size_t share_begin(const ListPass *work, size_t places, int worker, int workers) {
+    size_t lanes = work->list->lanes, blocks = (places + lanes - 1) / lanes;
     return phys_share(blocks, worker, workers);
 }
 
 static void refresh_share(void *context, int worker, int workers) {
-    Sweep *sweep = context;
-    const ListView *view = &sweep->list->view;
-    size_t lanes = sweep->list->lanes, first = sweep_share(sweep, view->listed, worker, workers) * lanes;
-    size_t end = sweep_share(sweep, view->listed, worker + 1, workers) * lanes;
+    ListPass *work = context;
+    const ListView *view = &work->list->view;
+    size_t lanes = work->list->lanes, first = share_begin(work, view->listed, worker, workers) * lanes;
+    size_t end = share_begin(work, view->listed, worker + 1, workers) * lanes;
     end = end < view->listed ? end : view->listed;
-    sweep->held[worker] = sweep->kernels->list_refresh(sweep->pass, view, first, end);
+    work->held[worker] = work->kernels->list_refresh(work->pass, view, first, end);
 }
 
 static void force_share(void *context, int worker, int workers) {
-    Sweep *sweep = context;
-    const ListView *view = &sweep->list->view;
-    size_t first = sweep_share(sweep, view->regular, worker, workers);
-    sweep->kernels->list_forces(sweep->pass, view, first, sweep_share(sweep, view->regular, worker + 1, workers));
+    ListPass *work = context;
+    const ListView *view = &work->list->view;
+    size_t first = share_begin(work, view->regular, worker, workers);
+    work->kernels->list_forces(work->pass, view, first, share_begin(work, view->regular, worker + 1, workers));
 }
 
 static int shares_for(const PhysSystem *system, const Neighbours *list) {
-    return phys_shares(system, list->total, PHYS_FEW_PARTICLES);
+    return phys_shares(system, list->total, PHYS_MIN_FOR_THREADS);
 }
 
 // Brings the list's copy of the particles up to date. False if something has left its skin.
-static bool refresh(const PhysSystem *system, Sweep *sweep) {
-    memset(sweep->held, true, sizeof sweep->held);
-    phys_parallel(system, shares_for(system, sweep->list), refresh_share, sweep);
-    bool held = still_idle(sweep->pass, sweep->list);
+static bool refresh(const PhysSystem *system, ListPass *work) {
+    memset(work->held, true, sizeof work->held);
+    phys_parallel(system, shares_for(system, work->list), refresh_share, work);
+    bool held = still_idle(work->pass, work->list);
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
-        held &= sweep->held[w];
+        held &= work->held[w];
     return held;
 }
 
 // The few large particles: each takes everyone.
-static void large_forces(const Sweep *sweep) {
-    const Neighbours *list = sweep->list;
+static void large_forces(const ListPass *work) {
+    const Neighbours *list = work->list;
     const PassRanges *ranges = &list->ranges;
     uint32_t end = list->view.listed, own = list->ranges.at[0].count;
     for (uint32_t place = list->view.regular; place < end;) {
@@ -125,8 +126,8 @@ static void large_forces(const Sweep *sweep) {
         for (; place < end && count < list->lanes && (list->key[place] < own) == inner; place++)
             targets[count++] = list->view.column[place];
         for (uint32_t r = 0; r < (inner ? ranges->count : 1); r++)
-            sweep->kernels->list_crowd(sweep->pass, targets, count, ranges->at[r].first,
-                                       (size_t)ranges->at[r].first + ranges->at[r].count);
+            work->kernels->list_crowd(work->pass, targets, count, ranges->at[r].first,
+                                      (size_t)ranges->at[r].first + ranges->at[r].count);
     }
 }
 
@@ -139,26 +140,29 @@ static void adapt_skin(Neighbours *list) {
         list->skin = fmax(list->skin / 1.15, 0.05 * list->base);
 }
 
-// Nanoseconds, roughly, of an entry and of a pair, with eight lanes: where only contact counts, few pairs get as far as
-// a square root.
-#define ENTRY_COST 0.9
-#define PAIR_COST(touch_only) ((touch_only) ? 0.15 : 0.9)
+// Costs relative to that of a list entry, with eight lanes; only ratios count, so the unit is left open. Where a force
+// needs contact, few pairs get as far as a square root. Wrong costs cost time and change no result.
+#define PAIR_COST(touch_only) ((touch_only) ? 1.0 / 6 : 1.0)
+#define SCAN_COST (1.0 / 3)  // of a candidate, when a list is built
+#define LARGE_COST (1.0 / 3) // of a pair with a large particle
+#define BUILD_COST 44.0      // of a particle, when a list is built
+#define REFRESH_COST 5.5     // of a particle, in every step
 
 static double all_pairs_cost(const Neighbours *list) {
     double n = (double)phys_ranges_total(&list->ranges), own = list->ranges.at[0].count;
     return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->touch_only);
 }
 
-uint64_t phys_entries_that_pay(const Neighbours *list) {
-    return (uint64_t)(all_pairs_cost(list) / ENTRY_COST) + 1;
+uint64_t phys_max_useful_entries(const Neighbours *list) {
+    return (uint64_t)all_pairs_cost(list) + 1;
 }
 
 // Is a step with lists cheaper than one with all pairs?
 static bool pays(const Neighbours *list) {
     double life = list->life ? list->life : LIFE_FIRST, n = list->total, width = (double)list->lanes / 8;
-    double each = n * (40 / life + 5), scan = (double)list->scanned * 0.3 / life;
-    double large = (double)(list->view.listed - list->view.regular) * n * 0.3;
-    return each + (scan + large + (double)list->padded * ENTRY_COST) / width < all_pairs_cost(list) / width;
+    double each = n * (BUILD_COST / life + REFRESH_COST), scan = (double)list->scanned * SCAN_COST / life;
+    double large = (double)(list->view.listed - list->view.regular) * n * LARGE_COST;
+    return each + (scan + large + (double)list->padded) / width < all_pairs_cost(list) / width;
 }
 
 static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
@@ -187,7 +191,7 @@ static Neighbours *list_for(PhysSystem *system, const Kernels *kernels, const Pa
     uint64_t total = phys_ranges_total(&ranges);
     bool always = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
     if (system->options.neighbours == PHYS_NEIGHBOURS_NEVER ||
-        (!always && (total < FEW || ranges.at[0].count < FEW / 4)))
+        (!always && (total < MIN_FOR_LISTS || ranges.at[0].count < MIN_FOR_LISTS / 4)))
         return NULL;
     Neighbours *list = find_list(system, group, level);
     if (!list)
@@ -220,18 +224,18 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
         list->resting--;
         return false;
     }
-    Sweep sweep = {.kernels = kernels, .pass = pass, .list = list};
-    if (list->built && !refresh(system, &sweep)) {
+    ListPass work = {.kernels = kernels, .pass = pass, .list = list};
+    if (list->built && !refresh(system, &work)) {
         list->built = false;
         adapt_skin(list);
     }
     if (!list->built) {
         if (!build(system, kernels, pass, list))
             return false;
-        refresh(system, &sweep);
+        refresh(system, &work);
     }
     list->age++;
-    phys_parallel(system, shares_for(system, list), force_share, &sweep);
-    large_forces(&sweep);
+    phys_parallel(system, shares_for(system, list), force_share, &work);
+    large_forces(&work);
     return true;
 }

@@ -39,7 +39,7 @@ typedef struct Neighbours {
     ListView view;
     uint32_t *key;  // by place: position in the order of the pass
     uint32_t *cell; // by position in the order of the pass
-    uint32_t total; // places; those after view.listed are idle: lost in space, or without the size for a contact
+    uint32_t total; // places; those after view.listed are idle: not finite, or without the size for a contact
     double base;    // length that the skin is measured by: the usual distance of contact
     double skin;
     uint64_t scanned; // candidates that the last construction looked at
@@ -63,8 +63,8 @@ void phys_neighbours_free(Neighbours *list);
 // the particles do not lie in a way that a grid can sort.
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list);
 
-// neighbours.c: the number of entries with which lists cost as much as all pairs.
-uint64_t phys_entries_that_pay(const Neighbours *list);
+// neighbours.c: with more entries than this a list costs more than all pairs.
+uint64_t phys_max_useful_entries(const Neighbours *list);
 
 static inline uint64_t phys_ranges_total(const PassRanges *ranges) {
     uint64_t total = 0;

@@ -2,7 +2,7 @@
 #ifndef PETRI_PHYSICS_PAIR_SUM_H
 #define PETRI_PHYSICS_PAIR_SUM_H
 
-#include "physics/pair_terms.h"
+#include "physics/pair_geometry.h"
 
 // Terms of one tile on their way to its columns, by component and column.
 typedef struct Tile {
@@ -38,7 +38,8 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
         return;
     for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
         Real coefficient;
-        Mask applies = pair_term(&pass->terms[t], pair, target, partner, shape, touch, &coefficient);
+        Pairs pairs = {&pass->terms[t], pair, target, partner, touch};
+        Mask applies = pair_apply(&pairs, shape.rest == REST_TOUCH, &coefficient);
         if (!mask_any(applies))
             continue;
         if (tile && !(tile->hits >> t & 1)) {

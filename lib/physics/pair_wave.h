@@ -1,4 +1,4 @@
-// pair_wave.h: all pairs of a pass on several threads.
+// pair_wave.h: all pairs of a pass on several threads, or one row at a time.
 #ifndef PETRI_PHYSICS_PAIR_WAVE_H
 #define PETRI_PHYSICS_PAIR_WAVE_H
 
@@ -13,6 +13,9 @@ typedef struct PairWave {
     size_t row, row_end;
     size_t column, column_end;
 } PairWave;
+
+// pair_rows.c: the pairs of particle i with the particles first … end - 1, in ascending order.
+void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end);
 
 void phys_pair_wave(const PhysSystem *system, const PairWave *pairs);
 

@@ -1,5 +1,6 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
 #include "maths/many.h"
+#include "base/number.h"
 #include "physics/internal.h"
 #include "physics/kernels.h"
 #include "physics/threads.h"
@@ -10,7 +11,7 @@
 static bool reserve_columns(PhysSystem *system) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
-    double **vectors[] = {&columns->position, &columns->velocity, &columns->thrust, &columns->force};
+    double **vectors[] = {&columns->position, &columns->velocity, &columns->own_force, &columns->force};
     double **scalars[] = {&columns->ease,   &columns->radius,  &columns->mass,
                           &columns->charge, &columns->section, &columns->volume};
     enum { VECTORS = sizeof vectors / sizeof *vectors, SCALARS = sizeof scalars / sizeof *scalars, SCRATCH = 3 };
@@ -52,15 +53,16 @@ static void raise_radii(const PhysSystem *system, double power, double *to) {
 void phys_raise_radii(PhysSystem *system) {
     const Columns *columns = &system->columns;
     const Force *forces = system->forces.bytes;
-    bool drag = false, buoyancy = false;
+    bool section = false, volume = false;
     for (uint32_t i = 0; i < system->force_count; i++) {
-        drag |= forces[i].given.kind == PHYS_DRAG;
-        buoyancy |= forces[i].given.kind == PHYS_BUOYANCY;
+        ForceNeed need = phys_force_row(forces[i].given.kind).need;
+        section |= need == NEED_SECTION;
+        volume |= need == NEED_VOLUME;
     }
     double n = (double)columns->dimensions;
-    if (drag)
+    if (section)
         raise_radii(system, n - 1, columns->section);
-    if (buoyancy)
+    if (volume)
         raise_radii(system, n, columns->volume);
     system->radii_raised = true;
 }
@@ -82,31 +84,29 @@ static void load_share(void *context, int worker, int workers) {
             columns->position[k * stride + i] = row[k];
             columns->velocity[k * stride + i] = row[n + k];
         }
-        if (!system->pushed)
+        if (!system->has_own_forces)
             continue;
-        const double *thrust = (const double *)system->thrusts.bytes + n * handle;
+        const double *own_force = (const double *)system->own_forces.bytes + n * handle;
         columns->ease[i] = particle->ease;
         for (size_t k = 0; k < n; k++)
-            columns->thrust[k * stride + i] = thrust[k];
+            columns->own_force[k * stride + i] = own_force[k];
     }
 }
 
 typedef struct Storing {
     PhysSystem *system;
-    bool settle;
-    bool lost[PHYS_MOST_SHARES]; // something was not finite
+    bool keep_last_finite;
+    bool any_not_finite[PHYS_MOST_SHARES]; // something was not finite
 } Storing;
 
-// A vector that is finite, and differs from what it was unless that was fresh, replaces that in the row, else the row's
-// replaces it. False if it was not finite.
-static inline bool settle(double *column, size_t stride, double *row, size_t n, bool fresh) {
-    bool finite = true, equal = true;
-    for (size_t k = 0; k < n; k++) {
-        double x = column[k * stride];
-        finite &= x - x == 0;
-        equal &= x == row[k];
-    }
-    if (finite && (fresh || !equal))
+// PhysTime.keep_last_finite for one vector: the column's replaces the row's, or the row's is put back into the column.
+// False if the column's was not finite. No other function keeps inf and nan of `!physics` out of the state: its entries
+// borrow the rows (scene/mirror.h).
+static inline bool keep_last_finite(double *column, size_t stride, double *row, size_t n, bool from_attribute) {
+    bool finite = numbers_finite(column, n, stride), equal = true;
+    for (size_t k = 0; k < n; k++)
+        equal &= column[k * stride] == row[k];
+    if (finite && (from_attribute || !equal))
         for (size_t k = 0; k < n; k++)
             row[k] = column[k * stride];
     else
@@ -115,24 +115,27 @@ static inline bool settle(double *column, size_t stride, double *row, size_t n, 
     return finite;
 }
 
-static inline void settle_range(Storing *storing, size_t n, size_t i, size_t end, int worker) {
+static inline void keep_range(Storing *storing, size_t n, size_t i, size_t end, int worker) {
     PhysSystem *system = storing->system;
     const Columns *columns = &system->columns;
     size_t stride = columns->stride;
     for (; i < end; i++) {
         double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
-        ParticleRecord *record = system->fresh ? (ParticleRecord *)system->particles.bytes + system->order[i] : NULL;
-        bool position = settle(columns->position + i, stride, row, n, record && record->fresh_position);
-        bool velocity = settle(columns->velocity + i, stride, row + n, n, record && record->fresh_velocity);
+        ParticleRecord *record =
+            system->any_from_attribute ? (ParticleRecord *)system->particles.bytes + system->order[i] : NULL;
+        bool position =
+            keep_last_finite(columns->position + i, stride, row, n, record && record->position_from_attribute);
+        bool velocity =
+            keep_last_finite(columns->velocity + i, stride, row + n, n, record && record->velocity_from_attribute);
         if (record) {
-            record->fresh_position &= !position;
-            record->fresh_velocity &= !velocity;
+            record->position_from_attribute &= !position;
+            record->velocity_from_attribute &= !velocity;
         }
         if (position && velocity)
             continue;
-        ((uint8_t *)system->unfinished.bytes)[system->order[i]] =
-            (uint8_t)((position ? 0 : PHYS_LOST_POSITION) | (velocity ? 0 : PHYS_LOST_VELOCITY));
-        storing->lost[worker] = true;
+        ((uint8_t *)system->not_finite.bytes)[system->order[i]] =
+            (uint8_t)((position ? 0 : PHYS_NOT_FINITE_POSITION) | (velocity ? 0 : PHYS_NOT_FINITE_VELOCITY));
+        storing->any_not_finite[worker] = true;
     }
 }
 
@@ -142,13 +145,13 @@ static void store_share(void *context, int worker, int workers) {
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
     size_t first = phys_share(columns->count, worker, workers);
-    if (storing->settle) {
+    if (storing->keep_last_finite) {
         if (n == 2)
-            settle_range(storing, 2, first, end, worker);
+            keep_range(storing, 2, first, end, worker);
         else if (n == 3)
-            settle_range(storing, 3, first, end, worker);
+            keep_range(storing, 3, first, end, worker);
         else
-            settle_range(storing, n, first, end, worker);
+            keep_range(storing, n, first, end, worker);
         return;
     }
     for (size_t i = first; i < end; i++) {
@@ -160,19 +163,19 @@ static void store_share(void *context, int worker, int workers) {
     }
 }
 
-bool phys_clear_marks(PhysSystem *system) {
-    uint64_t before = system->unfinished.capacity;
-    if (!phys_buffer_reserve(system, &system->unfinished, 0, system->particle_count, 1))
+bool phys_clear_not_finite(PhysSystem *system) {
+    uint64_t before = system->not_finite.capacity;
+    if (!phys_buffer_reserve(system, &system->not_finite, 0, system->particle_count, 1))
         return false;
-    if ((system->lost || system->unfinished.capacity != before) && system->unfinished.capacity)
-        memset(system->unfinished.bytes, 0, system->unfinished.capacity);
-    system->lost = false;
+    if ((system->any_not_finite || system->not_finite.capacity != before) && system->not_finite.capacity)
+        memset(system->not_finite.bytes, 0, system->not_finite.capacity);
+    system->any_not_finite = false;
     return true;
 }
 
 static int shares_for(const PhysSystem *system) {
-    enum { FEW = 10000 }; // that are copied before a second thread is ready
-    return phys_shares(system, system->particle_count, FEW);
+    enum { MIN_FOR_THREADS = 10000 }; // particles
+    return phys_shares(system, system->particle_count, MIN_FOR_THREADS);
 }
 
 bool phys_load(PhysSystem *system) {
@@ -182,10 +185,10 @@ bool phys_load(PhysSystem *system) {
     return true;
 }
 
-void phys_store(PhysSystem *system, bool settle_them) {
-    Storing storing = {.system = system, .settle = settle_them};
+void phys_store(PhysSystem *system, bool keep) {
+    Storing storing = {.system = system, .keep_last_finite = keep};
     phys_parallel(system, shares_for(system), store_share, &storing);
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
-        system->lost |= storing.lost[w];
-    system->fresh &= !settle_them || system->lost;
+        system->any_not_finite |= storing.any_not_finite[w];
+    system->any_from_attribute &= !keep || system->any_not_finite;
 }

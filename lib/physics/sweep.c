@@ -3,21 +3,18 @@
 #include "physics/kernels.h"
 #include "physics/threads.h"
 
-enum { FEW = 4 }; // particles that are not worth a vector
-
-// The forces of a stage for a group: own ones, then those of the groups around it. False if there are too many.
-static bool collect(const PhysSystem *system, uint32_t group, Stage stage, const Force **list, uint32_t *count) {
+// The forces of a stage for a group, behind those that are in the chain already: own ones, then those of the groups
+// around it. Returns how many there are.
+static uint32_t collect(const PhysSystem *system, uint32_t group, Stage stage, uint32_t already) {
     const Group *groups = system->groups.bytes;
-    *count = 0;
+    const Force **chain = (const Force **)system->chain.bytes + already;
+    uint32_t count = 0;
     for (uint32_t g = groups[group].nearest[stage]; g != NO_GROUP; g = phys_next_above(groups, g, stage)) {
         ForceRange range = phys_forces(system, g, stage);
-        for (const Force *force = range.begin; force < range.end; force++) {
-            if (*count == PHYS_SWEEP_FORCES)
-                return false;
-            list[(*count)++] = force;
-        }
+        for (const Force *force = range.begin; force < range.end; force++)
+            chain[count++] = force;
     }
-    return true;
+    return count;
 }
 
 void phys_sweep_bounce(const SweepPass *pass, size_t i, const double *before) {
@@ -26,11 +23,12 @@ void phys_sweep_bounce(const SweepPass *pass, size_t i, const double *before) {
     for (size_t k = 0; k < columns->dimensions; k++)
         acceleration[k] = (columns->velocity[k * columns->stride + i] - before[k]) / pass->delta;
     for (uint32_t b = 0; b < pass->barrier_count; b++)
-        phys_bounce(columns, i, pass->barriers[b], pass->delta, pass->speed_of_light);
+        phys_bounce(columns, i, phys_barriers(pass)[b], pass->delta, pass->speed_of_light);
 }
 
 typedef struct Share {
-    const Kernels *kernels;
+    SweepKernel *kernel;
+    size_t lanes;
     const SweepPass *pass;
     const Group *group;
     bool random; // one of the forces is
@@ -48,42 +46,53 @@ static void sweep_share(void *context, int worker, int workers) {
     double scratch[3 * PHYS_VECTOR_DIMENSIONS];
     Columns columns = *share->pass->columns;
     SweepPass pass = *share->pass;
-    columns.scratch = scratch;
+    if (columns.dimensions <= PHYS_VECTOR_DIMENSIONS)
+        columns.scratch = scratch; // else there is one share only
     pass.columns = &columns;
-    size_t lanes = share->kernels->lanes, blocks = (share->group->count + lanes - 1) / lanes;
+    size_t lanes = share->lanes, blocks = (share->group->count + lanes - 1) / lanes;
     size_t start = share->group->first, stop = start + share->group->count;
     size_t first = start + phys_share(blocks, worker, workers) * lanes;
     size_t end = start + phys_share(blocks, worker + 1, workers) * lanes;
-    if (share->random && first > start) {
-        uint64_t before = columns.dimensions * moving_between(&columns, start, first);
-        for (uint32_t f = 0; f < pass.single_count; f++)
-            pass.items[f] += before;
-    }
-    share->kernels->sweep(&pass, first, end < stop ? end : stop);
+    if (share->random && first > start)
+        pass.taken = columns.dimensions * moving_between(&columns, start, first);
+    share->kernel(&pass, first, end < stop ? end : stop);
 }
 
-bool phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_of_light) {
-    const Kernels *kernels = phys_kernels(system);
+// Does one of the forces draw from a stream?
+static bool draws(const SweepPass *pass) {
+    for (uint32_t f = 0; f < pass->force_count; f++)
+        if (phys_force_row(pass->forces[f]->given.kind).need == NEED_STREAM)
+            return true;
+    return false;
+}
+
+// The streams go on behind what the particles of a group have taken.
+static void advance_streams(const SweepPass *pass, const Group *group) {
+    uint64_t taken =
+        pass->columns->dimensions * moving_between(pass->columns, group->first, (size_t)group->first + group->count);
+    for (uint32_t f = 0; f < pass->force_count; f++)
+        ((Force *)pass->forces[f])->item += taken;
+}
+
+void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_of_light) {
+    enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
     const Group *group = (const Group *)system->groups.bytes + number;
-    Columns *columns = &system->columns;
+    const Columns *columns = &system->columns;
     SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light};
-    if (!kernels->sweep || columns->dimensions > PHYS_VECTOR_DIMENSIONS || group->count < FEW ||
-        !collect(system, number, STAGE_SINGLE, pass.singles, &pass.single_count) ||
-        !collect(system, number, STAGE_BARRIER, pass.barriers, &pass.barrier_count))
-        return false;
+    uint32_t singles = collect(system, number, STAGE_SINGLE, 0);
+    pass.barrier_count = collect(system, number, STAGE_BARRIER, singles);
+    pass.force_count = singles + pass.barrier_count;
+    pass.forces = system->chain.bytes;
     pass.keep_force = pass.barrier_count > 0 || system->options.keep_forces;
-    Share share = {.kernels = kernels, .pass = &pass, .group = group};
-    for (uint32_t f = 0; f < pass.single_count; f++) {
-        pass.items[f] = pass.singles[f]->item;
-        share.random |= pass.singles[f]->given.kind == PHYS_RANDOM;
+    bool wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;
+    const Kernels *kernels = phys_kernels(system);
+    Share share = {.kernel = sweep_all_one, .lanes = 1, .pass = &pass, .group = group, .random = draws(&pass)};
+    if (wide) {
+        share.kernel = kernels->sweep;
+        share.lanes = kernels->lanes;
     }
-    uint32_t few = share.random ? PHYS_FEW_PARTICLES / 4 : PHYS_FEW_PARTICLES;
-    phys_parallel(system, phys_shares(system, group->count, few), sweep_share, &share);
-    if (share.random) {
-        uint64_t taken =
-            columns->dimensions * moving_between(columns, group->first, (size_t)group->first + group->count);
-        for (uint32_t f = 0; f < pass.single_count; f++)
-            ((Force *)pass.singles[f])->item += taken;
-    }
-    return true;
+    size_t least = share.random ? PHYS_MIN_FOR_THREADS / 4 : PHYS_MIN_FOR_THREADS;
+    phys_parallel(system, wide ? phys_shares(system, group->count, least) : 1, sweep_share, &share);
+    if (share.random)
+        advance_streams(&pass, group);
 }

@@ -38,9 +38,10 @@ PhysSystem *phys_new(void) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,   &system->force_records,
-                         &system->vectors,   &system->indices,    &system->forces, &system->column_data,
-                         &system->last_rows, &system->unfinished, &system->thrusts};
+    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,       &system->force_records,
+                         &system->vectors,   &system->indices,    &system->forces,     &system->column_data,
+                         &system->last_rows, &system->not_finite, &system->own_forces, &system->terms,
+                         &system->chain};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
@@ -68,7 +69,7 @@ void phys_set_options(PhysSystem *system, const PhysOptions *options) {
 
 const Kernels *phys_kernels(const PhysSystem *system) {
     static const Kernels *const levels[CPU_LEVELS] = {
-        [CPU_SCALAR] = &phys_kernels_plain,
+        [CPU_SCALAR] = &phys_kernels_two,
 #ifdef PETRI_X86
         [CPU_AVX2] = &phys_kernels_avx2,
         [CPU_AVX512] = &phys_kernels_avx512,
@@ -86,7 +87,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->group_count = 0;
     system->particle_count = 0;
     system->force_count = 0;
-    system->eased = system->pushed = system->fresh = false;
+    system->has_eased_forces = system->has_own_forces = system->any_from_attribute = false;
     system->stepped = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
@@ -114,23 +115,23 @@ static void copy_vector(double *to, PhysVector from, size_t dimensions) {
 }
 
 // Keeps a particle's own force. There is no room for such forces until the first one comes.
-static void keep_thrust(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
-    size_t n = system->dimensions, first = system->pushed ? handle : 0;
-    if (!force && !(ease > 0) && !system->pushed)
+static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force, double ease) {
+    size_t n = system->dimensions, first = system->has_own_forces ? handle : 0;
+    if (!force && !(ease > 0) && !system->has_own_forces)
         return;
-    if (!phys_buffer_reserve(system, &system->thrusts, first * n * sizeof(double), system->particle_count,
+    if (!phys_buffer_reserve(system, &system->own_forces, first * n * sizeof(double), system->particle_count,
                              n * sizeof(double)))
         return;
-    double *thrusts = system->thrusts.bytes;
-    if (!system->pushed) {
-        memset(thrusts, 0, system->particle_count * n * sizeof *thrusts);
+    double *own_forces = system->own_forces.bytes;
+    if (!system->has_own_forces) {
+        memset(own_forces, 0, system->particle_count * n * sizeof *own_forces);
         system->arranged = false; // the columns have none
     }
-    if (ease > 0 && !system->eased)
+    if (ease > 0 && !system->has_eased_forces)
         system->arranged = false;
-    copy_vector(thrusts + n * handle, force, n);
-    system->pushed = true;
-    system->eased |= ease > 0;
+    copy_vector(own_forces + n * handle, force, n);
+    system->has_own_forces = true;
+    system->has_eased_forces |= ease > 0;
 }
 
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle) {
@@ -147,15 +148,15 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
         .charge = particle->charge,
         .group = group,
         .anchor = particle->anchor,
-        .fresh_position = particle->fresh_position,
-        .fresh_velocity = particle->fresh_velocity,
+        .position_from_attribute = particle->position_from_attribute,
+        .velocity_from_attribute = particle->velocity_from_attribute,
     };
-    system->fresh |= particle->fresh_position || particle->fresh_velocity;
+    system->any_from_attribute |= particle->position_from_attribute || particle->velocity_from_attribute;
     double *row = phys_row(system, handle);
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
     system->particle_count++;
-    keep_thrust(system, handle, particle->anchor ? NULL : particle->force, particle->anchor ? 0 : particle->ease);
+    set_own_force(system, handle, particle->anchor ? NULL : particle->force, particle->anchor ? 0 : particle->ease);
     return handle;
 }
 
@@ -174,14 +175,14 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
         columns->position[k * stride + i] = row[k];
         columns->velocity[k * stride + i] = row[n + k];
     }
-    if (!system->pushed)
+    if (!system->has_own_forces)
         return;
     columns->ease[i] = record->ease;
     for (size_t k = 0; k < n; k++)
-        columns->thrust[k * stride + i] = ((const double *)system->thrusts.bytes)[n * handle + k];
+        columns->own_force[k * stride + i] = ((const double *)system->own_forces.bytes)[n * handle + k];
 }
 
-void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysKeep keep) {
+void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve) {
     size_t n = system->dimensions;
     ParticleRecord *record = (ParticleRecord *)system->particles.bytes + particle;
     double *row = phys_row(system, particle);
@@ -189,16 +190,16 @@ void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParti
     record->radius = numbers->radius;
     record->mass = numbers->mass;
     record->charge = numbers->charge;
-    if (!keep.position) {
+    if (!preserve.position) {
         copy_vector(row, numbers->position, n);
-        record->fresh_position = numbers->fresh_position;
+        record->position_from_attribute = numbers->position_from_attribute;
     }
-    if (!keep.velocity) {
+    if (!preserve.velocity) {
         copy_vector(row + n, record->anchor ? NULL : numbers->velocity, n);
-        record->fresh_velocity = numbers->fresh_velocity;
+        record->velocity_from_attribute = numbers->velocity_from_attribute;
     }
-    system->fresh |= record->fresh_position || record->fresh_velocity;
-    keep_thrust(system, particle, record->anchor ? NULL : numbers->force, record->anchor ? 0 : numbers->ease);
+    system->any_from_attribute |= record->position_from_attribute || record->velocity_from_attribute;
+    set_own_force(system, particle, record->anchor ? NULL : numbers->force, record->anchor ? 0 : numbers->ease);
     update_columns(system, particle, record, row);
 }
 
@@ -212,26 +213,11 @@ static uint64_t keep_vector(PhysSystem *system, PhysVector vector) {
     return begin + 1;
 }
 
-// Which of its two vectors a force reads; the others may be garbage.
-static int vectors_of(PhysForceKind kind) {
-    switch (kind) {
-    case PHYS_CONSTANT:
-    case PHYS_BARRIER:
-        return 2;
-    case PHYS_FIELD:
-    case PHYS_DRAG:
-    case PHYS_BUOYANCY:
-        return 1;
-    default:
-        return 0;
-    }
-}
-
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force) {
     if (!reserve_one(system, &system->force_records, system->force_count, sizeof(ForceRecord)))
         return 0;
     assert(group < system->group_count);
-    int vectors = vectors_of(force->kind);
+    int vectors = phys_force_row(force->kind).vectors; // the others may be garbage
     ForceRecord record = {.given = *force, .group = group};
     record.vector = vectors > 0 ? keep_vector(system, force->vector) : 0;
     record.vector2 = vectors > 1 ? keep_vector(system, force->vector2) : 0;
@@ -258,6 +244,10 @@ void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
 
 uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle) {
     return ((const ParticleRecord *)system->particles.bytes)[particle].group;
+}
+
+bool phys_is_anchor(const PhysSystem *system, uint32_t particle) {
+    return ((const ParticleRecord *)system->particles.bytes)[particle].anchor;
 }
 
 uint32_t phys_group_count(const PhysSystem *system) {
@@ -288,15 +278,15 @@ const double *phys_velocity(const PhysSystem *system, uint32_t particle) {
 }
 
 static bool has_mark(const PhysSystem *system, uint32_t particle, uint8_t mark) {
-    return system->lost && (((const uint8_t *)system->unfinished.bytes)[particle] & mark);
+    return system->any_not_finite && (((const uint8_t *)system->not_finite.bytes)[particle] & mark);
 }
 
 bool phys_position_finite(const PhysSystem *system, uint32_t particle) {
-    return !has_mark(system, particle, PHYS_LOST_POSITION);
+    return !has_mark(system, particle, PHYS_NOT_FINITE_POSITION);
 }
 
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle) {
-    return !has_mark(system, particle, PHYS_LOST_VELOCITY);
+    return !has_mark(system, particle, PHYS_NOT_FINITE_VELOCITY);
 }
 
 bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description) {
@@ -308,7 +298,7 @@ bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle
     *description = (PhysParticle){
         .position = row,
         .velocity = row + n,
-        .force = system->pushed ? (const double *)system->thrusts.bytes + n * particle : NULL,
+        .force = system->has_own_forces ? (const double *)system->own_forces.bytes + n * particle : NULL,
         .ease = record->ease,
         .radius = record->radius,
         .mass = record->mass,

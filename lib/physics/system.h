@@ -9,6 +9,7 @@
 #define PETRI_PHYSICS_SYSTEM_H
 
 #include "base/cpu.h"
+#include "physics/force_list.h"
 
 #include <stdatomic.h>
 #include <stdbool.h>
@@ -29,26 +30,15 @@ typedef struct PhysParticle {
     double mass;         // >= 0; 0 is never accelerated
     double charge;
     bool anchor;
-    bool fresh_position; // not what a frame before left: PhysTime.settle takes any finite result for it, equal or not
-    bool fresh_velocity;
+    bool position_from_attribute; // not from the state: no frame has stored it yet (PhysTime.keep_last_finite)
+    bool velocity_from_attribute;
 } PhysParticle;
 
 typedef enum PhysForceKind {
-    // pair forces (4.1)
-    PHYS_COLLISION,
-    PHYS_GRAVITY,
-    PHYS_ELECTROSTATIC,
-    PHYS_ADHESION,
-    // between two given particles (4.1)
-    PHYS_DISTANCE,
-    // single-particle forces (4.2)
-    PHYS_CONSTANT,
-    PHYS_RANDOM,
-    PHYS_FIELD,
-    PHYS_DRAG,
-    PHYS_BUOYANCY,
-    // barriers (4.4)
-    PHYS_BARRIER,
+#define PHYS_KIND(KIND, ...) PHYS_##KIND,
+    PHYS_FORCES(PHYS_KIND, PHYS_KIND, PHYS_KIND, PHYS_KIND)
+#undef PHYS_KIND
+        PHYS_FORCE_KINDS,
 } PhysForceKind;
 
 // One force applier or barrier. Fields that its kind does not name are ignored. Vectors are copied by phys_add_force.
@@ -114,14 +104,15 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
 
 // Changes of a description. What a call leaves out stays as it is after the last frame.
-// Gives a particle new numbers. Its group stays, and so does whether it is an anchor; so do, if they are to be kept,
-// its position and velocity.
-typedef struct PhysKeep {
+// Gives a particle new numbers. Its group stays, and so does whether it is an anchor; so do those of
+// its position and velocity that are preserved.
+typedef struct PhysPreserve {
     bool position;
     bool velocity;
-} PhysKeep;
-void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysKeep keep);
+} PhysPreserve;
+void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve);
 uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle);
+bool phys_is_anchor(const PhysSystem *system, uint32_t particle);
 uint32_t phys_group_count(const PhysSystem *system);
 uint32_t phys_group_parent(const PhysSystem *system, uint32_t group);
 // Drops all forces; phys_add_force gives new ones.
@@ -138,8 +129,9 @@ typedef struct PhysTime {
     double performance;           // engine performance, decides about the one extra step in real time
     double speed_of_light;        // <= 0: no limit
     const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
-    bool settle; // a position or velocity that is not finite afterwards, or equal to what it was (unless that was
-                 // fresh), stays what it was before the frame: to the last bit, and for the frames to come
+    bool keep_last_finite; // a position or velocity that is not finite afterwards is put back to what it was before
+                           // the frame, and so is one that equals it (0 does not become -0), unless that came from an
+                           // attribute: then any finite result counts
 } PhysTime;
 
 typedef enum PhysStatus {
@@ -169,7 +161,7 @@ uint32_t phys_particle_count(const PhysSystem *system);
 // given.
 const double *phys_position(const PhysSystem *system, uint32_t particle);
 const double *phys_velocity(const PhysSystem *system, uint32_t particle);
-// Were they finite after the last phys_simulate, if that settled them?
+// Was the result of the last phys_simulate finite? (Always true without keep_last_finite.)
 bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 

@@ -182,9 +182,9 @@ void phys_parallel_in_order(const PhysSystem *system, int shares, PhysWork *work
     parallel(system, true, shares, work, context);
 }
 
-int phys_shares(const PhysSystem *system, size_t count, size_t few) {
+int phys_shares(const PhysSystem *system, size_t count, size_t least) {
     int threads = system->options.threads;
-    if (threads < 2 || count < few)
+    if (threads < 2 || count < least)
         return 1;
     int shares = threads * PHYS_SHARES_EACH;
     return shares < PHYS_MOST_SHARES ? shares : PHYS_MOST_SHARES;

@@ -21,8 +21,8 @@ void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *c
 // The same for shares that wait for those before them: they begin in ascending order.
 void phys_parallel_in_order(const PhysSystem *system, int shares, PhysWork *work, void *context);
 
-// Shares for `count` things of which one thread does `few` in the time in which another would get ready.
-int phys_shares(const PhysSystem *system, size_t count, size_t few);
+// The number of shares for `count` things: 1 if fewer than `least`, which are not worth waking a thread.
+int phys_shares(const PhysSystem *system, size_t count, size_t least);
 
 // Where share number `share` of so many begins, if `count` things are dealt out in equal runs.
 static inline size_t phys_share(size_t count, int share, int shares) {

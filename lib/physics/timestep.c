@@ -37,7 +37,7 @@ static bool arrange(PhysSystem *system) {
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
-    if (!arrange(system) || (time->settle && !phys_clear_marks(system))) {
+    if (!arrange(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
@@ -62,6 +62,6 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
-    phys_store(system, time->settle);
+    phys_store(system, time->keep_last_finite);
     return result;
 }

@@ -3,8 +3,8 @@
 // Each function, the main program and each module is one Code. Its registers are the function's slots followed by
 // temporaries. An operand is the number of a register, or a negative one: the constants are put just before the first
 // register when the code is entered, so that both are read in the same way. Instructions that take several operands
-// find their numbers in a list. Every instruction knows the expression that it came from, for diagnostics and for what
-// does not fit into it.
+// find their numbers in a list. Every instruction knows its place in the source, for diagnostics. Code refers to
+// nothing that was only needed to make it.
 //
 //   !particle id=i position=2*i;0       mul      r3 = 2 r0
 //                                       compose  r3 = (r3, 0)
@@ -16,6 +16,7 @@
 
 #include "builtin/builtin.h"
 #include "program/program.h"
+#include "value/node.h"
 
 typedef enum Opcode {
 #define OPCODE(id, name, operands) OP_##id,
@@ -30,9 +31,42 @@ typedef enum Opcode {
 typedef struct NodeCode {
     const Node *base;           // kind and tags
     const Symbol *const *names; // of the attributes, each once
-    const Expr *decorate;       // what the attributes came from, or NULL
+    const Origin *decorated;    // where they were added, or NULL
     const NodeList *kept;       // constant children, or NULL
 } NodeCode;
+
+// What a closure takes along when it is made.
+typedef enum CaptureKind {
+    CAPTURE_SLOT,  // of the enclosing function
+    CAPTURE_AGAIN, // what the enclosing closure has captured
+    CAPTURE_SELF,  // the enclosing closure
+} CaptureKind;
+
+typedef struct Capture {
+    CaptureKind kind;
+    uint32_t slot;
+} Capture;
+
+typedef struct FunctionCode {
+    Str name;                    // "<anon>" without one
+    const Symbol *const *params; // they have the first slots
+    uint32_t param_count;
+    uint32_t capture_count;
+    const Capture *captures;
+    const Code *code; // of the body
+} FunctionCode;
+
+typedef struct CallCode {
+    uint32_t arg_count;         // positional
+    const Symbol *const *names; // of the named ones
+    uint32_t named_count;
+} CallCode;
+
+typedef struct DecorateCode {
+    const Symbol *const *tags;
+    uint32_t tag_count;
+    const Symbol *const *names; // of the attributes
+} DecorateCode;
 
 typedef struct Instr {
     uint16_t op;
@@ -48,14 +82,22 @@ typedef struct Instr {
         uint32_t count; // of the list, or of the registers bound
     };
     uint32_t target; // instruction to jump to; number of a capture or a place
-    const Expr *at;
+    const Origin *at;
     union {
         const NodeCode *node;
+        const NodeList *kept; // APPEND: constant children, or NULL
+        const DecorateCode *decorate;
+        const FunctionCode *function; // CLOSURE
+        const CallCode *call;
         const Builtin *builtin;
+        const Symbol *name;         // UNBOUND
+        const Symbol *const *names; // IMPORT
+        const Origin *inner;        // SLICE: the place of the range; LOOKUP: that of the key
     } as;
 } Instr;
 
 struct Code {
+    const Source *source; // in which it begins
     const Instr *instrs;
     uint32_t count;
     uint32_t register_count;
@@ -66,16 +108,5 @@ struct Code {
     uint32_t constant_count;
     const uint32_t *lines; // of each instruction the line of the source, from 1; NULL unless asked for
 };
-
-// How an expression is to be lowered.
-typedef struct LowerOptions {
-    Arena *arena;     // the code goes here
-    Arena *values;    // parts of values that the code makes, which may outlive it
-    uint32_t *places; // counts the look-ups of a program: raised by those in the expression; NULL: none is numbered
-    bool lines;       // note the lines of instructions
-} LowerOptions;
-
-// The code of an expression that is evaluated in a frame of `slot_count` slots.
-const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_t slot_count);
 
 #endif

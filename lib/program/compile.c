@@ -3,15 +3,14 @@
 // One pass, in the order of evaluation: a binding becomes visible just after its value has been compiled, which is
 // exactly its scope (spec language.md L8.2).
 #include "program/compile.h"
-#include "program/code.h"
+#include "program/lower.h"
 
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count) {
-    Expr *expr = arena_alloc(compiler->arena, sizeof *expr);
+    Expr *expr = arena_alloc(compiler->scratch, sizeof *expr);
     *expr = (Expr){.kind = kind,
                    .count = count,
-                   .source = compiler->source,
-                   .span = ast->span,
-                   .children = arena_copy(compiler->arena, children, count * sizeof *children)};
+                   .place = {compiler->source, ast->span},
+                   .children = arena_copy(compiler->scratch, children, count * sizeof *children)};
     for (uint32_t i = 0; kind == EXPR_COMPOSE && i < count; i++)
         expr->slot += !expr_only_binds(children[i]);
     fold_describe(expr);
@@ -30,7 +29,7 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
 
 // All children in order, as one expression.
 static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast) {
-    const Expr **children = arena_alloc_array(compiler->arena, ast->count, sizeof *children);
+    const Expr **children = arena_alloc_array(compiler->scratch, ast->count, sizeof *children);
     for (uint32_t i = 0; i < ast->count; i++)
         children[i] = compile_expr(compiler, ast->children[i]);
     return compile_expr_new(compiler, kind, ast, children, ast->count);
@@ -79,6 +78,7 @@ static ExprKind plain_kind(AstKind kind) {
 static const Expr *compile_arith(Compiler *compiler, const Ast *ast, ArithOp op) {
     Expr *expr = compile_children(compiler, EXPR_ARITH, ast);
     expr->slot = op;
+    lint_arith(compiler, ast, expr);
     return expr;
 }
 
@@ -127,15 +127,17 @@ static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
 }
 
 static const Expr *compile_let(Compiler *compiler, const Ast *ast) {
-    const Expr **binds = arena_alloc_array(compiler->arena, ast->count, sizeof *binds);
-    for (uint32_t i = 0; i < ast->count; i++)
+    const Expr **binds = arena_alloc_array(compiler->scratch, ast->count, sizeof *binds);
+    for (uint32_t i = 0; i < ast->count; i++) {
+        compile_note_parameter(compiler, ast->children[i]);
         binds[i] = compile_binding(compiler, ast->children[i]);
+    }
     return ast->count == 1 ? binds[0] : compile_expr_new(compiler, EXPR_LET, ast, binds, ast->count);
 }
 
 static const Expr *compile_where(Compiler *compiler, const Ast *ast) {
     ScopeMark mark = compile_scope_open(compiler);
-    const Expr **parts = arena_alloc_array(compiler->arena, ast->count, sizeof *parts);
+    const Expr **parts = arena_alloc_array(compiler->scratch, ast->count, sizeof *parts);
     for (uint32_t i = 1; i < ast->count; i++)
         parts[i - 1] = compile_binding(compiler, ast->children[i]);
     parts[ast->count - 1] = compile_expr(compiler, ast->children[0]);
@@ -165,17 +167,21 @@ static const Expr *compile_suite(Compiler *compiler, const Ast *ast) {
 }
 
 static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
-    DecorateCode *code = arena_alloc(compiler->arena, sizeof *code);
-    const Symbol **tags = arena_alloc_array(compiler->arena, ast->count, sizeof *tags);
-    const Symbol **names = arena_alloc_array(compiler->arena, ast->count, sizeof *names);
-    const Expr **children = arena_alloc_array(compiler->arena, ast->count, sizeof *children);
-    *code = (DecorateCode){.tags = tags, .names = names};
+    Decoration *code = arena_alloc(compiler->scratch, sizeof *code);
+    const Symbol **tags = arena_alloc_array(compiler->scratch, ast->count, sizeof *tags);
+    const Symbol **names = arena_alloc_array(compiler->scratch, ast->count, sizeof *names);
+    Span *spans = arena_alloc_array(compiler->scratch, ast->count, sizeof *spans);
+    const Expr **children = arena_alloc_array(compiler->scratch, ast->count, sizeof *children);
+    *code = (Decoration){.code = {.tags = tags, .names = names}, .spans = spans};
+    compiler->subject = ast->children[0];
     children[0] = compile_expr(compiler, ast->children[0]);
     for (uint32_t i = 1; i < ast->count; i++) {
         const Ast *decoration = ast->children[i];
         if (decoration->kind == AST_TAG) {
-            tags[code->tag_count++] = decoration->name;
+            tags[code->code.tag_count++] = decoration->name;
         } else {
+            lint_negation(compiler, decoration->children[0]);
+            spans[code->attr_count] = decoration->span;
             names[code->attr_count++] = decoration->name;
             children[code->attr_count] = compile_expr(compiler, decoration->children[0]);
         }
@@ -187,9 +193,9 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
 
 // CALL and TEMPLATE alike: callee, positional and named arguments.
 static const Expr *make_call(Compiler *compiler, const Ast *ast, const Ast *const *args, uint32_t count) {
-    CallCode *code = arena_alloc(compiler->arena, sizeof *code);
-    const Symbol **names = arena_alloc_array(compiler->arena, count, sizeof *names);
-    const Expr **children = arena_alloc_array(compiler->arena, count + 1, sizeof *children);
+    CallCode *code = arena_alloc(compiler->scratch, sizeof *code);
+    const Symbol **names = arena_alloc_array(compiler->scratch, count, sizeof *names);
+    const Expr **children = arena_alloc_array(compiler->scratch, count + 1, sizeof *children);
     *code = (CallCode){.names = names};
     children[0] = compile_expr(compiler, ast->children[0]);
     for (uint32_t i = 0; i < count; i++) {
@@ -209,7 +215,7 @@ static const Expr *make_call(Compiler *compiler, const Ast *ast, const Ast *cons
 // The suite under a template call is its first positional argument.
 static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     uint32_t count = ast->count - 1;
-    const Ast **args = arena_alloc_array(compiler->arena, ast->count, sizeof *args);
+    const Ast **args = arena_alloc_array(compiler->scratch, ast->count, sizeof *args);
     bool suite = count > 0 && ast->children[count]->kind == AST_SUITE;
     if (suite)
         args[0] = ast->children[count];
@@ -218,19 +224,22 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
     return make_call(compiler, ast, args, count);
 }
 
-// A closure depends on what it captures and on its defaults; its body is another matter.
+// A closure depends on its defaults, which are its children, and on what it captures; its body is another matter.
 static void describe_closure(Expr *expr) {
     const FunctionCode *code = expr->as.function;
-    for (uint32_t i = 0; i < code->capture_count; i++)
-        fold_depend(expr, code->captures[i]);
-    for (uint32_t i = 0; i < code->param_count; i++)
-        if (code->defaults[i])
-            fold_depend(expr, code->defaults[i]);
+    for (uint32_t i = 0; i < code->capture_count; i++) {
+        const Capture *capture = &code->captures[i];
+        if (capture->kind != CAPTURE_SLOT)
+            expr->enclosed = true;
+        else if (capture->slot < expr->lowest)
+            expr->lowest = capture->slot;
+    }
 }
 
 const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_count) {
     LowerOptions options = {.arena = compiler->arena,
                             .values = compiler->arena,
+                            .scratch = compiler->scratch,
                             .places = &compiler->places,
                             .lines = compiler->options->lines};
     return program_lower(&options, expr, slot_count);
@@ -238,28 +247,30 @@ const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_cou
 
 const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     const Ast *params = ast->children[0];
-    FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
     const Symbol **names = arena_alloc_array(compiler->arena, params->count, sizeof *names);
-    const Expr **defaults = arena_alloc_array(compiler->arena, params->count, sizeof *defaults);
+    const Expr **defaults = arena_alloc_array(compiler->scratch, params->count, sizeof *defaults);
     for (uint32_t i = 0; i < params->count; i++) {
         const Ast *param = params->children[i];
         names[i] = param->name;
-        defaults[i] = param->count ? compile_expr(compiler, param->children[0]) : NULL;
+        defaults[i] = param->count ? compile_expr(compiler, param->children[0]) : constant(compiler, param, VALUE_NULL);
     }
-    *code = (FunctionCode){.name = ast->name ? ast->name->name : STR("<anon>"),
-                           .param_count = params->count,
-                           .params = names,
-                           .defaults = defaults};
     FunctionScope function;
     compile_function_open(compiler, &function, ast->name);
     for (uint32_t i = 0; i < params->count; i++)
         compile_bind(compiler, BINDING_PARAM, names[i], params->children[i]->span, NULL);
     compiler->repeats++;
-    code->body = compile_expr(compiler, ast->children[1]);
+    const Expr *body = compile_expr(compiler, ast->children[1]);
     compiler->repeats--;
-    compile_function_close(compiler, &function, code);
-    code->code = compile_code(compiler, code->body, code->frame_size);
-    Expr *expr = compile_expr_new(compiler, EXPR_FUNC, ast, NULL, 0);
+    compile_function_close(compiler, &function);
+    FunctionCode *code = arena_alloc(compiler->arena, sizeof *code);
+    *code = (FunctionCode){.name = ast->name ? ast->name->name : STR("<anon>"),
+                           .params = names,
+                           .param_count = params->count,
+                           .capture_count = function.capture_count,
+                           .captures =
+                               arena_copy(compiler->arena, function.captures, function.capture_count * sizeof(Capture)),
+                           .code = compile_code(compiler, body, function.frame_size)};
+    Expr *expr = compile_expr_new(compiler, EXPR_FUNC, ast, defaults, params->count);
     expr->as.function = code;
     describe_closure(expr);
     return fold_expr(compiler, expr, compiler->function->next_slot);
@@ -278,43 +289,66 @@ static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
     return bind;
 }
 
+static void note_import(Compiler *compiler, const Expr *file) {
+    if (compiler->depth != 1 || file->kind != EXPR_CONST)
+        return;
+    size_t size = compiler->import_count * sizeof(Str);
+    compiler->imports = arena_grow(compiler->arena, compiler->imports, size, size + sizeof(Str));
+    Str name = value_text(compiler->arena, compiler->symbols, file->as.value);
+    compiler->imports[compiler->import_count++] = path_join(compiler->arena, compiler->source->directory, name);
+}
+
 static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
     const Ast *names = ast->children[0];
     const Expr *file = compile_expr(compiler, ast->children[1]);
-    const Symbol **symbols = arena_alloc_array(compiler->arena, names->count, sizeof *symbols);
+    note_import(compiler, file);
+    lint_import(compiler, ast, file);
+    const Symbol **symbols = arena_alloc_array(compiler->scratch, names->count, sizeof *symbols);
     for (uint32_t i = 0; i < names->count; i++)
         symbols[i] = names->children[i]->name;
-    ImportCode *code = arena_alloc(compiler->arena, sizeof *code);
-    *code = (ImportCode){symbols, names->count};
     Expr *expr = compile_expr_new(compiler, EXPR_IMPORT, ast, &file, 1);
     expr->slot = compile_bind_names(compiler, BINDING_IMPORT, names, NULL);
     expr->slot_count = names->count;
-    expr->as.import = code;
+    expr->as.names = symbols;
     return expr;
 }
 
+static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file) {
+    if (file->kind != EXPR_CONST)
+        return (Include){.place = file->place.span,
+                         .fault = STR("the file of an %include must be known when the program is loaded")};
+    Include include = {.place = ast->span};
+    if (file->as.value.len == 0)
+        return include;
+    Str name = value_text(compiler->arena, compiler->symbols, file->as.value), why = {0};
+    Str path = path_join(compiler->arena, compiler->source->directory, name);
+    const CompileHost *host = &compiler->options->host;
+    include.ast = host->include(host->host, path, &include.source, &why);
+    if (!include.ast)
+        include.fault = str_format(compiler->arena, "cannot include '%.*s': %.*s", (int)path.len, path.bytes,
+                                   (int)why.len, why.bytes);
+    return include;
+}
+
+// Puts the statements of another file in the place of the directive.
 static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
-    const Expr *null = constant(compiler, ast, VALUE_NULL);
-    Str path;
-    if (compiler->ahead) { // the directive belongs to the place where it is really compiled
-        compiler->function->dynamic = true;
-        return null;
-    }
-    if (!compile_include_path(compiler, ast->children[0], &path))
-        return null;
-    const Source *source;
-    Str why = {0};
-    const Ast *included = compiler->options->host.include(compiler->options->host.host, path, &source, &why);
-    if (!included) {
-        compile_report(compiler, ast->span, DIAG_WARNING, "cannot-include",
-                       str_format(compiler->arena, "cannot include '%.*s': %.*s", (int)path.len, path.bytes,
-                                  (int)why.len, why.bytes),
-                       (Str){0});
-        return null;
-    }
+    compiler->fixed = true;
+    const Expr *file = compile_expr(compiler, ast->children[0]);
+    compiler->fixed = false;
+    Include include = compiler->rehearsal ? compiler->rehearsal->includes[compiler->include_count]
+                                          : find_include(compiler, ast, file);
+    size_t size = compiler->include_count++ * sizeof include;
+    compiler->includes = arena_grow(compiler->scratch, compiler->includes, size, size + sizeof include);
+    compiler->includes[compiler->include_count - 1] = include;
+    if (include.fault.len)
+        compile_report(compiler, include.place, DIAG_WARNING, "cannot-include", include.fault, (Str){0});
+    if (!include.ast)
+        return constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
-    compiler->source = source;
-    const Expr *expr = compile_suite(compiler, included);
+    compiler->source = include.source;
+    compiler->depth--; // its statements stand at the depth of the directive
+    const Expr *expr = compile_suite(compiler, include.ast);
+    compiler->depth++;
     compiler->source = outer;
     return expr;
 }
@@ -322,7 +356,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     switch (ast->kind) {
     case AST_LITERAL:
-        return constant(compiler, ast, ast->value);
+        return constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
     case AST_NODE:
         return compile_node(compiler, ast);
     case AST_NAME:
@@ -366,14 +400,24 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
         return compile_arith(compiler, ast, ARITH_MOD);
     case AST_POW:
         return compile_arith(compiler, ast, ARITH_POW);
+    case AST_APPEND:
+        compiler->subject = ast->children[0];
+        return compile_children(compiler, EXPR_APPEND, ast);
     case AST_LOOKUP:
-        compiler->function->dynamic = true;
+        compiler->key = ast->children[0];
         return compile_children(compiler, EXPR_LOOKUP, ast);
     case AST_IF: {
         const Expr *expr = compile_children(compiler, EXPR_IF, ast);
         lint_branches(compiler, expr);
         return expr;
     }
+    case AST_AND:
+    case AST_OR:
+    case AST_XOR:
+    case AST_NOT:
+        for (uint32_t i = 0; i < ast->count; i++)
+            lint_negation(compiler, ast->children[i]);
+        return compile_children(compiler, plain_kind(ast->kind), ast);
     case AST_LT:
     case AST_GT:
     case AST_LE:
@@ -386,7 +430,12 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
 
 const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     uint32_t mark = compiler->function->next_slot;
-    return fold_expr(compiler, (Expr *)compile_kind(compiler, ast), mark);
+    compiler->depth++;
+    const Expr *expr = fold_expr(compiler, (Expr *)compile_kind(compiler, ast), mark);
+    compiler->depth--;
+    if (ast == compiler->fallback)
+        compile_note_fallback(compiler, expr);
+    return expr;
 }
 
 static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program) {
@@ -394,8 +443,8 @@ static void collect_pragmas(Compiler *compiler, const Ast *ast, Program *program
     for (uint32_t i = 0; i < ast->count && ast->children[i]->kind == AST_PRAGMA; i++) {
         const Ast *pragma = ast->children[i];
         lint_pragma(compiler, pragma);
-        pragmas[program->pragma_count++] =
-            (Pragma){pragma->name, pragma->children[0]->value, compiler->source, pragma->span};
+        pragmas[program->pragma_count++] = (Pragma){
+            pragma->name, value_copy(compiler->arena, pragma->children[0]->value), compiler->source, pragma->span};
     }
     program->pragmas = pragmas;
 }
@@ -424,32 +473,56 @@ static bool binds_only(const Ast *ast) {
     return true;
 }
 
-const Program *program_compile(Arena *arena, SymbolTable *symbols, const Source *source, const Ast *ast,
+static const Program *compile_file(Compiler *compiler, const Ast *ast) {
+    const CompileOptions *options = compiler->options;
+    compiler->define_uses = arena_alloc_array(compiler->arena, options->define_count, sizeof *compiler->define_uses);
+    for (uint32_t i = 0; i < options->define_count; i++)
+        compiler->define_uses[i] = (DefineUse){0};
+    FunctionScope function;
+    compile_function_open(compiler, &function, NULL);
+    compiler->repeats = options->module; // a module may be imported at several places
+    for (uint32_t i = 0; i < options->param_count; i++)
+        compile_bind(compiler, BINDING_PARAM, options->params[i], (Span){0}, NULL);
+    const Binding *params = function.scope;
+    Program *program = arena_alloc(compiler->arena, sizeof *program);
+    *program = (Program){.source = compiler->source, .param_count = options->param_count};
+    collect_pragmas(compiler, ast, program);
+    uint32_t skip = program->pragma_count;
+    Ast *body = ast_new(compiler->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
+    const Expr *expr = compile_children(compiler, EXPR_COMPOSE, body);
+    collect_exports(compiler, program, params);
+    lint_unused(compiler, compiler->function->scope, params);
+    program->code = compile_code(compiler, expr, function.frame_size);
+    program->place_count = compiler->places;
+    program->parameters = compiler->parameters;
+    program->parameter_count = compiler->parameter_count;
+    program->define_uses = compiler->define_uses;
+    program->imports = compiler->imports;
+    program->import_count = compiler->import_count;
+    return program;
+}
+
+const Program *program_compile(Arena *arena, Arena *scratch, SymbolTable *symbols, const Source *source, const Ast *ast,
                                const CompileOptions *options, DiagSink *diags) {
     Compiler compiler = {.arena = arena,
+                         .scratch = scratch,
                          .symbols = symbols,
                          .source = source,
                          .options = options,
                          .diags = diags,
                          .is_module = binds_only(ast)};
-    FunctionScope function;
-    compile_function_open(&compiler, &function, NULL);
-    compiler.repeats = options->module; // a module may be imported at several places
-    for (uint32_t i = 0; i < options->param_count; i++)
-        compile_bind(&compiler, BINDING_PARAM, options->params[i], (Span){0}, NULL);
-    const Binding *params = function.scope;
-    Program *program = arena_alloc(arena, sizeof *program);
-    *program = (Program){.source = source, .param_count = options->param_count};
-    collect_pragmas(&compiler, ast, program);
-    uint32_t skip = program->pragma_count;
-    Ast *body = ast_new(arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
-    program->body = compile_children(&compiler, EXPR_COMPOSE, body);
-    collect_exports(&compiler, program, params);
-    lint_unused(&compiler, compiler.function->scope, params);
-    program->frame_size = function.frame_size;
-    program->code = compile_code(&compiler, program->body, program->frame_size);
-    program->place_count = compiler.places;
-    return program;
+    if (options->simplify)
+        return compile_file(&compiler, ast);
+    CompileOptions simplifying = *options;
+    simplifying.simplify = true;
+    simplifying.lint = simplifying.lines = false;
+    DiagSink unheard = diag_sink_new(scratch, 0);
+    Compiler rehearsal = compiler;
+    rehearsal.options = &simplifying;
+    rehearsal.diags = &unheard;
+    compile_file(&rehearsal, ast);
+    compiler.rehearsal = &rehearsal;
+    return compile_file(&compiler, ast);
 }
 
 const Export *program_find_export(const Program *program, const Symbol *name) {

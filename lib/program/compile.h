@@ -1,8 +1,8 @@
-// compile.h: what the compiler's two files share: expressions (compile.c) and names (scope.c).
+// compile.h: what the compiler's files share: expressions (compile.c), names (scope.c) and what else they know.
 #ifndef PETRI_PROGRAM_COMPILE_H
 #define PETRI_PROGRAM_COMPILE_H
 
-#include "program/program.h"
+#include "program/expr.h"
 
 // What bound a name; decides what a lint says of it.
 typedef enum BindingKind { BINDING_LET, BINDING_FUNC, BINDING_PARAM, BINDING_LOOP, BINDING_IMPORT } BindingKind;
@@ -18,10 +18,7 @@ struct Binding {
     bool used;  // some name has been resolved to it
     bool known; // its value is `constant`, whatever the frame
     Value constant;
-    // For %include: the syntax tree of the value and which of its unpacked elements this is. NULL: not static.
-    const Ast *value;
-    uint32_t element;
-    uint32_t element_count;
+    const Ast *value; // all of it is bound to this name; NULL: only a part, or something that is no value of a `let`
 };
 
 // The function whose body is being compiled.
@@ -32,28 +29,48 @@ struct FunctionScope {
     Binding *scope;
     uint32_t next_slot;
     uint32_t frame_size;
-    const Expr **captures; // in the enclosing function
+    Capture *captures;
     const Symbol **capture_names;
     uint32_t capture_count;
     uint32_t capture_capacity;
-    bool dynamic; // uses something that is not static (L17.2)
-    // A scratch function that evaluates a static expression: outer names are found from here and become constants.
-    FunctionScope *static_outer;
-    Binding *static_scope;
 };
 
-typedef struct Compiler {
-    Arena *arena;
+// What an %include comes to.
+typedef struct Include {
+    const Ast *ast; // NULL: nothing
+    const Source *source;
+    Span place; // of the fault
+    Str fault;
+} Include;
+
+typedef struct Compiler Compiler;
+struct Compiler {
+    Arena *arena;   // the program's
+    Arena *scratch; // for what is dropped when it is compiled
     SymbolTable *symbols;
     const Source *source; // changes inside an included file
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
-    bool ahead;       // compiling a syntax tree once more, for its static value
+    bool fixed;       // compiling the file of an %include, where a test is meant to be known
     uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
     uint32_t places;  // look-ups so far
     bool is_module;   // the file only binds names: they are for others, so none is unused
-} Compiler;
+    uint32_t depth;   // expressions around this place; 1: a statement of the top level
+    DefineUse *define_uses;
+    Parameter *parameters;
+    uint32_t parameter_count;
+    uint32_t parameter_capacity;
+    Str *imports;
+    uint32_t import_count;
+    const Ast *subject;       // to which attributes or children are being added
+    const Ast *key;           // that is being looked up in the state
+    const Ast *parameter_use; // the name on the right of the last parameter's binding: unbound, but meant so
+    const Ast *fallback;      // … and its default, if that is all there is on the right of an `or`
+    Include *includes;        // in order
+    uint32_t include_count;
+    const Compiler *rehearsal; // without the simplifier: a compilation with it, for what has to be known beforehand
+};
 
 typedef struct ScopeMark {
     Binding *scope;
@@ -70,7 +87,7 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
 
 ScopeMark compile_scope_open(Compiler *compiler);
 void compile_scope_close(Compiler *compiler, ScopeMark mark);
-// Makes one name visible; returns its slot. `value` is its static syntax tree or NULL.
+// Makes one name visible; returns its slot. `value` is the syntax tree of its value or NULL.
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value);
 // Makes a NAMES node visible in consecutive slots; returns the first.
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value);
@@ -82,10 +99,17 @@ void compile_set_known(Compiler *compiler, uint32_t count, Value value);
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
-// Fills frame size and captures of `code` and returns to the enclosing function.
-void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code);
-// The resolved path of an %include; false (after a diagnostic, or silently for null) if there is none.
-bool compile_include_path(Compiler *compiler, const Ast *file, Str *path);
+// Returns to the enclosing function.
+void compile_function_close(Compiler *compiler, FunctionScope *function);
+// Whether nothing but -D can give a name of the top level a value here.
+bool compile_is_free(const Compiler *compiler, const Symbol *name);
+
+// Parameters (parameters.c). Notes a binding of a `let` that is one; to be called before its value is compiled.
+void compile_note_parameter(Compiler *compiler, const Ast *binding);
+// Notes what the default of the last parameter has been compiled to.
+void compile_note_fallback(Compiler *compiler, const Expr *fallback);
+// Notes where a program binds a name that -D defines.
+void compile_note_define(Compiler *compiler, const Binding *binding);
 
 // The simplifier (fold.c). `mark` is the function's next slot before the expression was compiled: slots from there on
 // are its own. Returns the expression, or what is left of it after static parts have been evaluated.
@@ -101,6 +125,9 @@ void lint_bind(Compiler *compiler, const Binding *binding);
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end);
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code);
 void lint_branches(Compiler *compiler, const Expr *expr);
+void lint_negation(Compiler *compiler, const Ast *ast);
+void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr);
+void lint_import(Compiler *compiler, const Ast *ast, const Expr *file);
 void lint_pragma(Compiler *compiler, const Ast *pragma);
 
 #endif

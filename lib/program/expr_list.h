@@ -12,8 +12,8 @@ EXPR(UNBOUND)  // name: reported when reached; null
 EXPR(COMPOSE)  // part or binding…; slot: number of parts
 EXPR(BIND)     // value; unpacked into slot_count slots from slot; null itself
 EXPR(LET)      // BIND…; null itself
-EXPR(FUNC)     // function: makes a closure
-EXPR(IMPORT)   // file; import: names to bind from slot on; null itself
+EXPR(FUNC)     // default… (CONST null where there is none); function: makes a closure
+EXPR(IMPORT)   // file; names to bind from slot on; null itself
 EXPR(FOR)      // source, body; names in slot_count slots from slot
 EXPR(IF)       // test, value, [test, value]…, [else value]
 EXPR(APPEND)   // parent, children

@@ -9,6 +9,7 @@
 // A name bound to a constant is that constant from then on, which is how constants spread through a program, and how a
 // static particle tree comes to be one constant vector of nodes that all frames share.
 #include "program/compile.h"
+#include "program/lower.h"
 
 #include "value/seed.h"
 
@@ -97,7 +98,7 @@ static bool may_keep(const Compiler *compiler, Value value) {
 
 // A constant in the place of an expression. What the expression depended on, it is still taken to depend on.
 static const Expr *replace_by(Compiler *compiler, const Expr *expr, Value value) {
-    Expr *folded = arena_copy(compiler->arena, expr, sizeof *expr);
+    Expr *folded = arena_copy(compiler->scratch, expr, sizeof *expr);
     folded->kind = EXPR_CONST;
     folded->count = 0;
     folded->as.value = value;
@@ -112,7 +113,7 @@ static void keep_children(Compiler *compiler, Expr *expr) {
         return;
     NodeList *list = arena_alloc(compiler->arena, sizeof *list);
     *list = node_list(compiler->arena, expr->children[1]->as.value);
-    list->kept = true;
+    list->program_lifetime = true;
     expr->as.kept = list;
 }
 
@@ -130,11 +131,25 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
         return replace_by(compiler, expr, VALUE_NULL);
     if (skip + 1 == expr->count)
         return expr->children[skip];
-    Expr *rest = arena_copy(compiler->arena, expr, sizeof *expr);
+    Expr *rest = arena_copy(compiler->scratch, expr, sizeof *expr);
     rest->children += skip;
     rest->count -= skip;
     fold_describe(rest);
     return rest;
+}
+
+// The value of an expression that reads no slot from outside; false, with nothing left of it, if it is not known yet or
+// must not be kept.
+static bool evaluate(Compiler *compiler, const Expr *expr, Value *value) {
+    const CompileHost *host = &compiler->options->host;
+    ArenaMark before = arena_mark(compiler->arena), scratch = arena_mark(compiler->scratch);
+    LowerOptions options = {.arena = compiler->scratch, .values = compiler->arena, .scratch = compiler->scratch};
+    const Code *code = program_lower(&options, expr, compiler->function->frame_size);
+    bool known = host->evaluate(host->host, code, value) && may_keep(compiler, *value);
+    arena_rewind(compiler->scratch, scratch);
+    if (!known)
+        arena_rewind(compiler->arena, before);
+    return known;
 }
 
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
@@ -146,9 +161,8 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
     keep_children(compiler, expr);
     if (expr->dynamic || expr->enclosed || expr->lowest < mark || !is_candidate(compiler, expr))
         return expr;
-    const CompileHost *host = &compiler->options->host;
     Value value;
-    if (!host->evaluate(host->host, expr, compiler->function->frame_size, &value) || !may_keep(compiler, value)) {
+    if (!evaluate(compiler, expr, &value)) {
         expr->dynamic = true; // what encloses it need not try
         return expr;
     }

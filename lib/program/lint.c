@@ -1,14 +1,20 @@
 // lint.c: what `petri check` says beyond faults; see compile.h.
 #include "program/compile.h"
 
+#include "base/file.h"
 #include "builtin/builtin.h"
+#include "value/format.h"
 
 static bool wanted(const Compiler *compiler) {
-    return compiler->options->lint;
+    return compiler->options->lint && !compiler->fixed;
 }
 
 static void warn(Compiler *compiler, Span span, const char *code, Str text) {
     compile_report(compiler, span, DIAG_WARNING, code, text, (Str){0});
+}
+
+static void warn_hint(Compiler *compiler, Span span, const char *code, Str text, Str hint) {
+    compile_report(compiler, span, DIAG_WARNING, code, text, hint);
 }
 
 static bool is_builtin(Str name) {
@@ -42,12 +48,14 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
                             binding->name->name.bytes));
 }
 
+// In the words of the call itself (lib/builtin), so that it is told once if the first frame gets there.
 static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin *builtin, const CallCode *code) {
     uint32_t count = code->arg_count + code->named_count;
-    if (count < builtin->required || (!builtin->variadic && count > builtin->fixed))
-        warn(compiler, ast->span, "wrong-arguments",
-             str_format(compiler->arena, "%u argument%s for %s(%s)", count, count == 1 ? "" : "s", builtin->name,
-                        builtin->parameters));
+    bool few = count < builtin->required;
+    if (few || (!builtin->variadic && count > builtin->fixed))
+        warn(compiler, ast->span, "bad-call",
+             str_format(compiler->arena, "%s: too %s arguments: %u given to %s(%s)", builtin->name,
+                        few ? "few" : "many", count, builtin->name, builtin->parameters));
 }
 
 static const Ast *find_param(const Ast *params, const Symbol *name) {
@@ -91,7 +99,7 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
         return;
     const Binding *binding =
         ast->children[0]->kind == AST_NAME ? compile_find_binding(compiler, ast->children[0]->name) : NULL;
-    if (binding && binding->value && binding->value->kind == AST_FUNC && binding->element_count == 1)
+    if (binding && binding->value && binding->value->kind == AST_FUNC)
         lint_user_call(compiler, ast, binding->value, code);
     if (callee->kind != EXPR_CONST || callee->as.value.kind != VALUE_MIXED || callee->as.value.len != 1)
         return;
@@ -100,16 +108,77 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
         lint_builtin_call(compiler, ast, item.as.function->builtin, code);
 }
 
+static void warn_negation(Compiler *compiler, Span span, Str name) {
+    warn_hint(compiler, span, "node-as-test",
+              str_format(compiler->arena, "'!%.*s' is a node, which is always true", (int)name.len, name.bytes),
+              str_format(compiler->arena, "to negate write not %.*s", (int)name.len, name.bytes));
+}
+
+static const Node *constant_node(const Expr *expr) {
+    bool node = expr->kind == EXPR_CONST && expr->as.value.kind == VALUE_MIXED && expr->as.value.len == 1 &&
+                expr->as.value.as.items[0].type == ITEM_NODE;
+    return node ? expr->as.value.as.items[0].as.node : NULL;
+}
+
 // An `if` whose test is a true constant never gets to what follows.
 void lint_branches(Compiler *compiler, const Expr *expr) {
     if (!wanted(compiler))
         return;
+    for (uint32_t i = 0; i + 1 < expr->count; i += 2) {
+        const Node *node = constant_node(expr->children[i]);
+        if (node) {
+            warn_negation(compiler, expr->children[i]->place.span, node->kind->name);
+            return;
+        }
+    }
     for (uint32_t i = 0; i + 2 < expr->count; i += 2)
         if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
-            warn(compiler, expr->children[i]->span, "unreachable",
+            warn(compiler, expr->children[i]->place.span, "unreachable",
                  STR("always true: what follows under else is never reached"));
             return;
         }
+}
+
+static bool is_engine_name(Str name) {
+    for (int i = 0; i < ENGINE_NAME_COUNT; i++)
+        if (str_equal(name, str_from(engine_name_text((EngineName)i))))
+            return true;
+    return false;
+}
+
+// `!x` where x is a name: negated, as they say elsewhere?
+void lint_negation(Compiler *compiler, const Ast *ast) {
+    if (wanted(compiler) && ast->kind == AST_NODE &&
+        (compile_find_binding(compiler, ast->name) || is_engine_name(ast->name->name)))
+        warn_negation(compiler, ast->span, ast->name->name);
+}
+
+static bool has_text(Value v) {
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
+        if (v.as.items[i].type == ITEM_STRING)
+            return true;
+    return false;
+}
+
+void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
+    for (uint32_t i = 0; wanted(compiler) && i < expr->count; i++)
+        if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
+            warn_hint(compiler, ast->span, "text-arithmetic", STR("arithmetic on a text is null"),
+                      STR("a text of several parts is written with semicolons: 'x=';x"));
+            return;
+        }
+}
+
+// The machine says the same when it gets there, which may be late.
+void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
+    if (!wanted(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
+        return;
+    Arena *arena = compiler->arena;
+    Str name = value_text(arena, compiler->symbols, file->as.value);
+    Str path = path_join(arena, compiler->source->directory, name), version;
+    if (name.len && !file_version(arena, str_to_c(arena, path), &version))
+        warn(compiler, ast->span, "cannot-import",
+             str_format(arena, "cannot import '%.*s': there is no such file", (int)path.len, path.bytes));
 }
 
 void lint_pragma(Compiler *compiler, const Ast *pragma) {

@@ -13,16 +13,27 @@ static void *grown(Lowering *lowering, void *items, uint32_t count, uint32_t *ca
         return items;
     uint32_t old = *capacity;
     *capacity = old ? old * 2 : 8;
-    return arena_grow(lowering->options->arena, items, old * size, *capacity * size);
+    return arena_grow(lowering->options->scratch, items, old * size, *capacity * size);
 }
 
 // The line of an instruction for the profile. What ends an expression of several lines belongs to the last of them.
 static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t last = lowering->instr_count;
     bool ends = op == OP_COMPOSE || op == OP_JUMP || op == OP_RETURN;
-    if (ends && last > 0 && lowering->instrs[last - 1].at->source == at->source)
+    if (ends && last > 0 && lowering->instrs[last - 1].at->source == at->place.source)
         return lowering->lines[last - 1];
-    return source_locate(at->source, at->span.start).line;
+    return source_locate(at->place.source, at->place.span.start).line;
+}
+
+const Origin *lower_place(Lowering *lowering, const Expr *expr) {
+    if (lowering->placed != expr)
+        lowering->place = arena_copy(lowering->options->arena, &expr->place, sizeof expr->place);
+    lowering->placed = expr;
+    return lowering->place;
+}
+
+const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count) {
+    return count ? arena_copy(lowering->options->arena, names, count * sizeof *names) : NULL;
 }
 
 Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at) {
@@ -35,7 +46,7 @@ Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at) {
     }
     lowering->instr_capacity = capacity;
     Instr *instr = &lowering->instrs[lowering->instr_count++];
-    *instr = (Instr){.op = (uint16_t)op, .at = at};
+    *instr = (Instr){.op = (uint16_t)op, .at = lower_place(lowering, at)};
     return instr;
 }
 
@@ -75,7 +86,7 @@ uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count)
 }
 
 uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t count) {
-    int32_t *operands = arena_alloc_array(lowering->options->arena, count, sizeof *operands);
+    int32_t *operands = arena_alloc_array(lowering->options->scratch, count, sizeof *operands);
     for (uint32_t i = 0; i < count; i++)
         operands[i] = lower_operand(lowering, exprs[i]);
     return lower_list(lowering, operands, count);
@@ -121,6 +132,9 @@ static void emit_load(Lowering *lowering, Opcode op, const Expr *expr, int32_t d
     Instr *instr = lower_emit(lowering, op, expr);
     instr->d = d;
     instr->target = expr->slot;
+    instr->a = expr->dynamic;
+    if (op == OP_UNBOUND)
+        instr->as.name = expr->as.name;
 }
 
 // --- statements: what binds names and has no value
@@ -144,6 +158,7 @@ static void import(Lowering *lowering, const Expr *expr) {
     instr->d = (int32_t)expr->slot;
     instr->count = expr->slot_count;
     instr->a = a;
+    instr->as.names = lower_names(lowering, expr->as.names, expr->slot_count);
 }
 
 void lower_statement(Lowering *lowering, const Expr *expr) {
@@ -167,7 +182,7 @@ static void compose(Lowering *lowering, const Expr *expr, int32_t d) {
         lower_into(lowering, expr->children[expr->count - 1], d);
         return;
     }
-    int32_t *parts = arena_alloc_array(lowering->options->arena, expr->slot, sizeof *parts);
+    int32_t *parts = arena_alloc_array(lowering->options->scratch, expr->slot, sizeof *parts);
     uint32_t count = 0;
     for (uint32_t i = 0; i < expr->count; i++)
         if (expr_only_binds(expr->children[i]))
@@ -207,7 +222,7 @@ static void branch(Lowering *lowering, const Expr *expr, const Target *target) {
 }
 
 void lower_if(Lowering *lowering, const Expr *expr, const Target *target) {
-    uint32_t *ends = arena_alloc_array(lowering->options->arena, expr->count, sizeof *ends), end_count = 0, i = 0;
+    uint32_t *ends = arena_alloc_array(lowering->options->scratch, expr->count, sizeof *ends), end_count = 0, i = 0;
     for (; i + 1 < expr->count; i += 2) {
         int32_t mark = lowering->next_register;
         int32_t test = lower_operand(lowering, expr->children[i]);
@@ -228,16 +243,12 @@ void lower_if(Lowering *lowering, const Expr *expr, const Target *target) {
 }
 
 static void closure(Lowering *lowering, const Expr *expr, int32_t d) {
-    const FunctionCode *code = expr->as.function;
-    int32_t *defaults = arena_alloc_array(lowering->options->arena, code->param_count, sizeof *defaults);
-    for (uint32_t i = 0; i < code->param_count; i++)
-        defaults[i] =
-            code->defaults[i] ? lower_operand(lowering, code->defaults[i]) : lower_constant(lowering, VALUE_NULL);
-    uint32_t list = lower_list(lowering, defaults, code->param_count);
+    uint32_t list = lower_operands(lowering, expr->children, expr->count);
     Instr *instr = lower_emit(lowering, OP_CLOSURE, expr);
     instr->d = d;
     instr->list = list;
-    instr->count = code->param_count;
+    instr->count = expr->count;
+    instr->as.function = expr->as.function;
 }
 
 // A call with no more and no fewer arguments than a built-in takes needs no matching.
@@ -260,7 +271,13 @@ static void call(Lowering *lowering, const Expr *expr, int32_t d) {
     instr->b = callee;
     instr->list = list;
     instr->count = expr->count - 1;
-    instr->as.builtin = builtin;
+    if (builtin) {
+        instr->as.builtin = builtin;
+        return;
+    }
+    CallCode code = *expr->as.call;
+    code.names = lower_names(lowering, code.names, code.named_count);
+    instr->as.call = arena_copy(lowering->options->arena, &code, sizeof code);
 }
 
 // A key that is composed on the spot is looked up by its parts.
@@ -271,7 +288,9 @@ static void lookup(Lowering *lowering, const Expr *expr, int32_t d) {
         parts = !expr_only_binds(key->children[i]);
     uint32_t count = parts ? key->count : 1;
     uint32_t list = lower_operands(lowering, parts ? key->children : expr->children, count);
+    const Origin *inner = lower_place(lowering, key);
     Instr *instr = lower_emit(lowering, OP_LOOKUP, expr);
+    instr->as.inner = inner;
     instr->d = d;
     instr->list = list;
     instr->count = count;
@@ -290,7 +309,9 @@ static void subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = lower_operand(lowering, range->children[0]);
     int32_t c = lower_operand(lowering, range->children[1]);
+    const Origin *inner = lower_place(lowering, range);
     Instr *instr = lower_emit(lowering, OP_SLICE, expr);
+    instr->as.inner = inner;
     instr->d = d;
     instr->a = a;
     instr->b = b;
@@ -423,15 +444,18 @@ const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_
         .options = options, .next_register = (int32_t)slot_count, .register_count = (int32_t)slot_count};
     int32_t result = lower_operand(&lowering, expr);
     lower_emit(&lowering, OP_RETURN, expr)->a = result;
-    Code *code = arena_alloc(options->arena, sizeof *code);
-    *code = (Code){.instrs = lowering.instrs,
+    Arena *arena = options->arena;
+    Code *code = arena_alloc(arena, sizeof *code);
+    *code = (Code){.source = expr->place.source,
+                   .instrs = arena_copy(arena, lowering.instrs, lowering.instr_count * sizeof(Instr)),
                    .count = lowering.instr_count,
                    .register_count = (uint32_t)lowering.register_count,
                    .slot_count = slot_count,
                    .loop_count = lowering.loop_count,
-                   .operands = lowering.operands,
+                   .operands = arena_copy(arena, lowering.operands, lowering.operand_count * sizeof(int32_t)),
                    .constants = reversed(&lowering),
                    .constant_count = lowering.constant_count,
-                   .lines = lowering.lines};
+                   .lines = options->lines ? arena_copy(arena, lowering.lines, lowering.instr_count * sizeof(uint32_t))
+                                           : NULL};
     return code;
 }

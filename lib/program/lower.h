@@ -1,12 +1,26 @@
-// lower.h: what the files that lower expressions share: lower.c, and lower_node.c for loops and nodes.
+// lower.h: expressions to code; and what the files that do it share: lower.c, and lower_node.c for loops and nodes.
 #ifndef PETRI_PROGRAM_LOWER_H
 #define PETRI_PROGRAM_LOWER_H
 
-#include "program/code.h"
+#include "program/expr.h"
+
+// How an expression is to be lowered.
+typedef struct LowerOptions {
+    Arena *arena;     // the code goes here
+    Arena *values;    // parts of values that the code makes, which may outlive it
+    Arena *scratch;   // what is dropped afterwards
+    uint32_t *places; // counts the look-ups of a program: raised by those in the expression; NULL: none is numbered
+    bool lines;       // note the lines of instructions
+} LowerOptions;
+
+// The code of an expression that is evaluated in a frame of `slot_count` slots.
+const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_t slot_count);
 
 // The code under construction.
 typedef struct Lowering {
     const LowerOptions *options;
+    const Expr *placed;  // the expression whose place was put down last,
+    const Origin *place; // … which is here
     Instr *instrs;
     uint32_t *lines; // as many as instructions, if wanted
     uint32_t instr_count;
@@ -32,6 +46,10 @@ typedef struct Target {
 
 // A new instruction; the pointer is valid until the next.
 Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at);
+// The place of an expression, in the code.
+const Origin *lower_place(Lowering *lowering, const Expr *expr);
+// A copy of names, in the code.
+const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
 // A register of its own until next_register is set back.
 int32_t lower_temporary(Lowering *lowering);
 int32_t lower_constant(Lowering *lowering, Value value);

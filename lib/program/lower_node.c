@@ -85,7 +85,7 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
 // The node that an expression is before anything has been added to it, or NULL if it is something else.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
     if (expr->kind == EXPR_NODE) {
-        Origin origin = {expr->source, expr->span};
+        NodeOrigin origin = {.place = expr->place};
         Node *node = node_new(arena, expr->as.name);
         node->origin = arena_copy(arena, &origin, sizeof origin);
         return node;
@@ -97,12 +97,27 @@ static const Node *bare_node(const Expr *expr, Arena *arena) {
     return node->attr_count == 0 && node->child_count == 0 ? node : NULL;
 }
 
-static bool names_differ(const DecorateCode *code) {
+static bool names_differ(const Decoration *code) {
     for (uint32_t i = 0; i < code->attr_count; i++)
         for (uint32_t k = 0; k < i; k++)
-            if (code->names[i] == code->names[k])
+            if (code->code.names[i] == code->code.names[k])
                 return false;
     return true;
+}
+
+// The node with the places of the attributes that are written with it, for messages.
+static const Node *with_places(Arena *arena, const Node *node, const Expr *decorate) {
+    const Decoration *code = decorate->as.decorate;
+    if (!node->origin || node->origin->place.source != decorate->place.source)
+        return node;
+    struct AttrOrigin *attrs = arena_alloc_array(arena, code->attr_count, sizeof *attrs);
+    for (uint32_t i = 0; i < code->attr_count; i++)
+        attrs[i] = (struct AttrOrigin){code->code.names[i], code->spans[i]};
+    NodeOrigin origin = {node->origin->place, attrs, code->attr_count};
+    Node *placed = arena_copy(arena, node, sizeof *node);
+    placed->program_lifetime = false;
+    placed->origin = arena_copy(arena, &origin, sizeof origin);
+    return placed;
 }
 
 enum { MOST_DISTINCT = 64 }; // attributes that are compared with each other
@@ -114,17 +129,19 @@ static bool whole_node(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *inner = append ? append->children[0] : expr;
     const Expr *decorate = inner->kind == EXPR_DECORATE ? inner : NULL;
     const Node *base = bare_node(decorate ? decorate->children[0] : inner, values);
-    const DecorateCode *code = decorate ? decorate->as.decorate : NULL;
+    const Decoration *code = decorate ? decorate->as.decorate : NULL;
     if (!base || (code && (code->attr_count > MOST_DISTINCT || !names_differ(code))))
         return false;
-    for (uint32_t i = 0; code && i < code->tag_count; i++)
-        base = node_add_tag(values, base, code->tags[i]);
+    if (decorate)
+        base = with_places(values, base, decorate);
+    for (uint32_t i = 0; code && i < code->code.tag_count; i++)
+        base = node_add_tag(values, base, code->code.tags[i]);
     NodeCode *node = arena_alloc(lowering->options->arena, sizeof *node);
-    *node = (NodeCode){.base = base,
-                       .names = code ? code->names : NULL,
-                       .decorate = decorate,
-                       .kept = append ? append->as.kept : NULL};
     uint32_t count = code ? code->attr_count : 0;
+    *node = (NodeCode){.base = base,
+                       .names = code ? lower_names(lowering, code->code.names, count) : NULL,
+                       .decorated = decorate ? lower_place(lowering, decorate) : NULL,
+                       .kept = append ? append->as.kept : NULL};
     uint32_t list = code ? lower_operands(lowering, decorate->children + 1, count) : 0;
     int32_t children = CODE_NO_OPERAND;
     if (append && !node->kept)
@@ -148,13 +165,18 @@ void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
         append->d = d;
         append->a = subject;
         append->b = children;
+        append->as.kept = expr->as.kept;
         return;
     }
+    DecorateCode code = expr->as.decorate->code;
     uint32_t count = expr->as.decorate->attr_count;
+    code.tags = lower_names(lowering, code.tags, code.tag_count);
+    code.names = lower_names(lowering, code.names, count);
     uint32_t list = lower_operands(lowering, expr->children + 1, count);
     Instr *decorate = lower_emit(lowering, OP_DECORATE, expr);
     decorate->d = d;
     decorate->b = subject;
     decorate->list = list;
     decorate->count = count;
+    decorate->as.decorate = arena_copy(lowering->options->arena, &code, sizeof code);
 }

@@ -1,8 +1,8 @@
 // opcode_list.h: the instructions of the machine, one row each; see code.h for what the letters mean.
 //
 // OPCODE(ID, "name in --dump=code", "operands"). Operands that --dump=code shows, in order: d register written;
-// a b c operand read; l the list of operands; j target of the jump; s registers bound; o loop; i number; x what the
-// expression holds.
+// a b c operand read; l the list of operands; j target of the jump; s registers bound; o loop; i number; x what was
+// prepared.
 // clang-format off
 OPCODE(MOVE,       "move",       "da")   // d = a
 OPCODE(CAPTURE,    "capture",    "di")   // d = what the running closure captured as number i

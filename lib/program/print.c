@@ -48,7 +48,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     text_add_char(out, ')');
 }
 
-// What only the expression, or what was prepared for the instruction, tells.
+// What was prepared for the instruction.
 static void print_extra(Text *out, const Instr *instr) {
     Str name = {0};
     switch ((Opcode)instr->op) {
@@ -56,10 +56,10 @@ static void print_extra(Text *out, const Instr *instr) {
         name = str_from(engine_name_text((EngineName)instr->target));
         break;
     case OP_UNBOUND:
-        name = instr->at->as.name->name;
+        name = instr->as.name->name;
         break;
     case OP_CLOSURE:
-        name = instr->at->as.function->name;
+        name = instr->as.function->name;
         break;
     case OP_NODE:
         name = instr->as.node->base->kind->name;
@@ -68,8 +68,8 @@ static void print_extra(Text *out, const Instr *instr) {
         name = str_from(instr->as.builtin->name);
         break;
     case OP_DECORATE:
-        for (uint32_t i = 0; i < instr->at->as.decorate->attr_count; i++) {
-            Str attr = instr->at->as.decorate->names[i]->name;
+        for (uint32_t i = 0; i < instr->count; i++) {
+            Str attr = instr->as.decorate->names[i]->name;
             text_add_format(out, "%s%.*s", i ? " " : "", (int)attr.len, attr.bytes);
         }
         break;
@@ -130,7 +130,7 @@ static void print_code(Text *out, const SymbolTable *symbols, const Code *code) 
     for (uint32_t i = 0; i < code->count; i++) {
         if (code->instrs[i].op != OP_CLOSURE)
             continue;
-        const FunctionCode *function = code->instrs[i].at->as.function;
+        const FunctionCode *function = code->instrs[i].as.function;
         text_add_format(out, "\n%.*s: parameters=%u captures=%u registers=%u\n", (int)function->name.len,
                         function->name.bytes, function->param_count, function->capture_count,
                         function->code->register_count);

@@ -16,11 +16,12 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark) {
 
 static Binding *bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span) {
     FunctionScope *function = compiler->function;
-    Binding *binding = arena_alloc(compiler->arena, sizeof *binding);
+    Binding *binding = arena_alloc(compiler->scratch, sizeof *binding);
     *binding =
         (Binding){.outer = function->scope, .name = name, .slot = function->next_slot++, .span = span, .kind = kind};
     function->scope = binding;
     lint_bind(compiler, binding);
+    compile_note_define(compiler, binding);
     if (function->next_slot > function->frame_size)
         function->frame_size = function->next_slot;
     return binding;
@@ -29,7 +30,6 @@ static Binding *bind(Compiler *compiler, BindingKind kind, const Symbol *name, S
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value) {
     Binding *binding = bind(compiler, kind, name, span);
     binding->value = value;
-    binding->element_count = 1;
     return binding->slot;
 }
 
@@ -37,9 +37,7 @@ uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *nam
     uint32_t slot = compiler->function->next_slot;
     for (uint32_t i = 0; i < names->count; i++) {
         Binding *binding = bind(compiler, kind, names->children[i]->name, names->children[i]->span);
-        binding->value = value;
-        binding->element = i;
-        binding->element_count = names->count;
+        binding->value = names->count == 1 ? value : NULL;
     }
     return slot;
 }
@@ -49,14 +47,9 @@ void compile_function_open(Compiler *compiler, FunctionScope *function, const Sy
     compiler->function = function;
 }
 
-void compile_function_close(Compiler *compiler, FunctionScope *function, FunctionCode *code) {
+void compile_function_close(Compiler *compiler, FunctionScope *function) {
     lint_unused(compiler, function->scope, NULL);
-    code->frame_size = function->frame_size;
-    code->captures = function->captures;
-    code->capture_count = function->capture_count;
     compiler->function = function->outer;
-    if (function->outer)
-        function->outer->dynamic |= function->dynamic;
 }
 
 static Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
@@ -87,24 +80,26 @@ const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name
     return NULL;
 }
 
-static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *binding, bool *dynamic);
-
 // A name of the program that is not bound in the function itself: captured by value, once per function.
 static const Expr *capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
+    Capture wanted = {outer->kind == EXPR_SLOT      ? CAPTURE_SLOT
+                      : outer->kind == EXPR_CAPTURE ? CAPTURE_AGAIN
+                                                    : CAPTURE_SELF,
+                      outer->slot};
     for (uint32_t i = 0; i < function->capture_count; i++)
-        if (function->capture_names[i] == ast->name && function->captures[i]->kind == outer->kind &&
-            function->captures[i]->slot == outer->slot)
+        if (function->capture_names[i] == ast->name && function->captures[i].kind == wanted.kind &&
+            function->captures[i].slot == wanted.slot)
             return slot_expr(compiler, EXPR_CAPTURE, ast, i);
     if (function->capture_count == function->capture_capacity) {
         uint32_t old = function->capture_capacity, capacity = old ? old * 2 : 4;
-        function->captures = arena_grow(compiler->arena, function->captures, old * sizeof *function->captures,
+        function->captures = arena_grow(compiler->scratch, function->captures, old * sizeof *function->captures,
                                         capacity * sizeof *function->captures);
         function->capture_names =
-            arena_grow(compiler->arena, function->capture_names, old * sizeof *function->capture_names,
+            arena_grow(compiler->scratch, function->capture_names, old * sizeof *function->capture_names,
                        capacity * sizeof *function->capture_names);
         function->capture_capacity = capacity;
     }
-    function->captures[function->capture_count] = outer;
+    function->captures[function->capture_count] = wanted;
     function->capture_names[function->capture_count] = ast->name;
     return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
 }
@@ -121,20 +116,6 @@ static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, 
     }
     if (function->self == ast->name)
         return slot_expr(compiler, EXPR_SELF, ast, 0);
-    if (function->static_outer) {
-        // Inside a static expression: names of the program are replaced by their values.
-        Binding *scope = function->static_scope;
-        for (FunctionScope *at = function->static_outer; at; at = at->outer, scope = at ? at->scope : NULL) {
-            binding = find_binding(scope, ast->name);
-            if (binding) {
-                binding->used = true;
-                return constant(compiler, ast, static_value(compiler, at, binding, &function->dynamic));
-            }
-            if (at->self == ast->name)
-                function->dynamic = true;
-        }
-        return NULL;
-    }
     const Expr *outer = find_in_program(compiler, function->outer, ast);
     if (!outer || outer->kind == EXPR_CONST)
         return outer;
@@ -154,27 +135,40 @@ const char *engine_name_text(EngineName name) {
     return engine_names[name].name;
 }
 
+bool engine_name_exists(Str name) {
+    for (uint32_t i = 0; i < ENGINE_NAME_COUNT; i++)
+        if (str_equal(name, str_from(engine_names[i].name)))
+            return true;
+    return false;
+}
+
+bool compile_is_free(const Compiler *compiler, const Symbol *name) {
+    Value value;
+    return !compile_find_binding(compiler, name) && !builtin_find(name->name) &&
+           !builtin_constant(name->name, &value) && (compiler->options->module || !engine_name_exists(name->name));
+}
+
 // Engine names, then -D names, then built-ins (L8.1); NULL if none has it.
 static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     const CompileOptions *options = compiler->options;
     for (uint32_t i = 0; !options->module && i < ENGINE_NAME_COUNT; i++)
         if (str_equal(name, str_from(engine_names[i].name))) {
-            compiler->function->dynamic |= !engine_names[i].is_static;
             Expr *expr = slot_expr(compiler, EXPR_GLOBAL, ast, i);
             expr->dynamic = !engine_names[i].is_static;
             return expr;
         }
     for (uint32_t i = options->module ? 0 : options->define_count; i > 0; i--)
-        if (options->defines[i - 1].name == ast->name)
+        if (options->defines[i - 1].name == ast->name) {
+            compiler->define_uses[i - 1].read = true;
             return constant(compiler, ast, options->defines[i - 1].value);
+        }
     Value value;
     if (builtin_constant(name, &value))
         return constant(compiler, ast, value);
     const Builtin *builtin = builtin_find(name);
     if (!builtin)
         return NULL;
-    compiler->function->dynamic |= !builtin->pure;
     Function *function = arena_alloc(compiler->arena, sizeof *function);
     *function = (Function){.name = str_from(builtin->name), .builtin = builtin};
     Expr *expr = constant(compiler, ast, value_function(compiler->arena, function));
@@ -196,6 +190,23 @@ static void consider(Nearest *nearest, Str name) {
     }
 }
 
+static const struct {
+    Str name;
+    Str hint;
+} habits[] = {
+#define HABIT(name, hint) {{name, sizeof name - 1}, {hint, sizeof hint - 1}},
+#include "program/habit_list.h"
+};
+
+// Does a name stand behind `//`? There it is read as a divisor.
+static bool follows_slashes(const Compiler *compiler, Span span) {
+    const char *text = compiler->source->text.bytes;
+    uint32_t at = span.start;
+    while (at > 0 && (text[at - 1] == ' ' || text[at - 1] == '\t'))
+        at--;
+    return at > 1 && text[at - 1] == '/' && text[at - 2] == '/';
+}
+
 // "did you mean …", if some visible name is close.
 static Str nearest_name(Compiler *compiler, Str wanted) {
     Nearest nearest = {.wanted = wanted, .distance = wanted.len < 4 ? 2 : 3};
@@ -214,8 +225,25 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
     return str_format(compiler->arena, "did you mean '%.*s'?", (int)nearest.name.len, nearest.name.bytes);
 }
 
+// What the author of an unbound name may have meant; empty if nothing comes to mind.
+static Str unbound_hint(Compiler *compiler, const Ast *ast) {
+    Str name = ast->name->name;
+    for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
+        if (str_equal(name, habits[i].name))
+            return habits[i].hint;
+    if (compiler->subject == ast)
+        return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
+    if (compiler->key == ast)
+        return str_format(compiler->arena, "$ looks a key of the state up, such as $:%.*s; a name stands without it",
+                          (int)name.len, name.bytes);
+    Str nearest = nearest_name(compiler, name);
+    return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
+}
+
 static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
+    if (ast == compiler->parameter_use)
+        return constant(compiler, ast, VALUE_NULL);
     if (compiler->options->module) {
         Expr *expr = compile_expr_new(compiler, EXPR_UNBOUND, ast, NULL, 0);
         expr->as.name = ast->name;
@@ -223,7 +251,7 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     }
     compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
                    str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
-                   nearest_name(compiler, name));
+                   unbound_hint(compiler, ast));
     return constant(compiler, ast, VALUE_NULL);
 }
 
@@ -232,58 +260,4 @@ const Expr *compile_name(Compiler *compiler, const Ast *ast) {
     if (!expr)
         expr = find_outside(compiler, ast);
     return expr ? expr : unbound(compiler, ast);
-}
-
-// Compiles and evaluates a syntax tree as it stands in `scope` of function `at`; sets *dynamic if it is not static.
-static Value evaluate_static(Compiler *compiler, FunctionScope *at, Binding *scope, const Ast *ast, bool *dynamic) {
-    FunctionScope scratch, *outer = compiler->function;
-    compile_function_open(compiler, &scratch, NULL);
-    scratch.outer = NULL;
-    scratch.static_outer = at;
-    scratch.static_scope = scope;
-    DiagSink *diags = compiler->diags;
-    DiagSink discarded =
-        diag_sink_new(compiler->arena, 0); // what is wrong here is reported where it is really compiled
-    compiler->diags = &discarded;
-    CompileOptions plain = *compiler->options; // simplifying comes to nothing here: it is evaluated as a whole
-    const CompileOptions *options = compiler->options;
-    plain.simplify = plain.lint = false;
-    bool ahead = compiler->ahead;
-    compiler->options = &plain;
-    compiler->ahead = true;
-    const Expr *expr = ast->kind == AST_FUNC ? compile_closure(compiler, ast) : compile_expr(compiler, ast);
-    compiler->options = options;
-    compiler->ahead = ahead;
-    compiler->diags = diags;
-    compiler->function = outer;
-    Value value = VALUE_NULL;
-    if (scratch.dynamic)
-        *dynamic = true;
-    else
-        compiler->options->host.evaluate(compiler->options->host.host, expr, scratch.frame_size, &value);
-    return value;
-}
-
-static Value static_value(Compiler *compiler, FunctionScope *at, const Binding *binding, bool *dynamic) {
-    if (!binding->value) {
-        *dynamic = true;
-        return VALUE_NULL;
-    }
-    Value value = evaluate_static(compiler, at, binding->outer, binding->value, dynamic);
-    return compile_unpack(compiler, value, binding->element, binding->element_count);
-}
-
-bool compile_include_path(Compiler *compiler, const Ast *file, Str *path) {
-    bool dynamic = false;
-    Value value = evaluate_static(compiler, compiler->function, compiler->function->scope, file, &dynamic);
-    if (dynamic) {
-        compile_report(compiler, file->span, DIAG_WARNING, "cannot-include",
-                       STR("the file of an %include must be known when the program is loaded"), (Str){0});
-        return false;
-    }
-    if (value.len == 0)
-        return false;
-    Str name = value_text(compiler->arena, compiler->symbols, value);
-    *path = path_join(compiler->arena, compiler->source->directory, name);
-    return true;
 }

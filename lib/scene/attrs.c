@@ -38,7 +38,7 @@ SceneKind schema_kind(const Schema *schema, const Node *node) {
     return (SceneKind)kind;
 }
 
-void reader_report(const Reader *reader, const char *code, const char *key, Str text) {
+static void report_at(const Reader *reader, const char *code, const Symbol *attr, Str key, Str text) {
     const Schema *schema = reader->schema;
     Text out = text_new(reader->arena);
     text_add_format(&out, "!%.*s", (int)reader->node->kind->name.len, reader->node->kind->name.bytes);
@@ -53,8 +53,16 @@ void reader_report(const Reader *reader, const char *code, const char *key, Str 
         text_add_c(&out, " state=");
         format_value(&out, schema->symbols, state);
     }
-    schema->host.report(schema->host.host, DIAG_WARNING, code, reader->node->origin, text_str(&out), str_from(key),
-                        text);
+    Origin place = node_place(reader->node, attr);
+    schema->host.report(schema->host.host, DIAG_WARNING, code, &place, text_str(&out), key, text);
+}
+
+void reader_report(const Reader *reader, const char *code, const char *key, Str text) {
+    report_at(reader, code, NULL, str_from(key), text);
+}
+
+void reader_report_attr(const Reader *reader, const char *code, const Symbol *attr, Str text) {
+    report_at(reader, code, attr, attr->name, text);
 }
 
 static bool has_attr(const Schema *schema, SceneKind kind, const Symbol *name) {
@@ -79,13 +87,27 @@ static void report_unknown(const Reader *reader, SceneKind kind, const Symbol *n
     text_add_format(&out, "unknown attribute '%.*s'", (int)name->name.len, name->name.bytes);
     if (nearest)
         text_add_format(&out, ", did you mean '%.*s'?", (int)nearest->name.len, nearest->name.bytes);
-    reader_report(reader, "unknown-attribute", str_to_c(reader->arena, name->name), text_str(&out));
+    reader_report_attr(reader, "unknown-attribute", name, text_str(&out));
 }
 
 void reader_check_names(const Reader *reader, SceneKind kind) {
     for (uint32_t i = 0; i < reader->node->attr_count; i++)
         if (!has_attr(reader->schema, kind, reader->node->attrs[i].name))
             report_unknown(reader, kind, reader->node->attrs[i].name);
+}
+
+void reader_lint(const Reader *reader, SceneKind kind) {
+    static const AttrRow from_zero[] = {ROW_PARTICLE_RADIUS, ROW_PARTICLE_MASS, ROW_ANCHOR_RADIUS, ROW_ANCHOR_MASS};
+    for (size_t i = 0; reader->schema->lint && i < sizeof from_zero / sizeof from_zero[0]; i++) {
+        Value v = rows[from_zero[i]].kind == kind ? attr_value(reader, from_zero[i]) : VALUE_NULL;
+        if (v.kind != VALUE_NUMBERS || v.len != 1 || !(v.as.number < 0))
+            continue;
+        Text out = text_new(reader->arena);
+        text_add_format(&out, "%s=", rows[from_zero[i]].name);
+        format_value(&out, reader->schema->symbols, v);
+        text_add_c(&out, " is below 0 and counts as 0");
+        reader_report_attr(reader, "below-zero", reader->schema->attrs[from_zero[i]], text_str(&out));
+    }
 }
 
 Value attr_value(const Reader *reader, AttrRow row) {
@@ -100,7 +122,7 @@ static void report_shape(const Reader *reader, AttrRow row, const char *wanted, 
         format_value(&out, reader->schema->symbols, found);
     else
         text_add_format(&out, "%u elements", found.len);
-    reader_report(reader, "bad-attribute", rows[row].name, text_str(&out));
+    reader_report_attr(reader, "bad-attribute", reader->schema->attrs[row], text_str(&out));
 }
 
 static bool is_number(Value v) {

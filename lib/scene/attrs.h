@@ -33,6 +33,7 @@ typedef struct Schema {
     const Symbol *attrs[ROW_COUNT];
     int first_row[KIND_COUNT_OF]; // the rows of a kind follow each other
     int row_count[KIND_COUNT_OF];
+    bool lint; // report what is hardly meant, too
 } Schema;
 
 void schema_init(Schema *schema, SymbolTable *symbols, SceneHost host);
@@ -59,6 +60,10 @@ typedef struct Reader {
 
 // Reports "!kind id=…: text", a warning, once for each code and key.
 void reader_report(const Reader *reader, const char *code, const char *key, Str text);
+// The same about one of its attributes, which is the key.
+void reader_report_attr(const Reader *reader, const char *code, const Symbol *attr, Str text);
+// Reports numbers below 0 where they count as 0, if the schema lints.
+void reader_lint(const Reader *reader, SceneKind kind);
 // Reports attributes that the node's kind does not have.
 void reader_check_names(const Reader *reader, SceneKind kind);
 

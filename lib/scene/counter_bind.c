@@ -2,6 +2,7 @@
 //
 // The value is a vector, element by element: it starts at clamp(initial) and each frame becomes
 // clamp(value + (time − last time)·rate). It is as long as the longest of its attributes; shorter ones repeat.
+#include "base/number.h"
 #include "scene/systems.h"
 
 // A numeric attribute of any length, or the fallback.
@@ -59,7 +60,6 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Value parts[] = {initial, rate, low, high, time, start ? VALUE_NULL : stored};
     uint32_t len = longest(parts, sizeof parts / sizeof parts[0]);
     double *values = arena_alloc_array(frame->arena, len, sizeof *values);
-    bool finite = true;
     for (uint32_t i = 0; i < len; i++) {
         double x =
             start ? element(initial, i) : element(stored, i) + (element(time, i) - element(last, i)) * element(rate, i);
@@ -68,9 +68,8 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
         if (high.len && x > element(high, i))
             x = element(high, i);
         values[i] = x;
-        finite = finite && x - x == 0;
     }
-    if (!finite) {
+    if (!numbers_finite(values, len, 1)) {
         reader_report(&reader, "not-finite", "", STR("the value is not finite; the counter keeps its last one"));
         return;
     }

@@ -3,7 +3,6 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
     Vector key = vector_new(arena);
@@ -60,8 +59,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
 static void note_absence(const Scene *scene, PhysicsSystem *system, State *state) {
     if (system->seen + 1 == scene->frame_number)
         return;
-    physics_store_settle(system, state);
-    system->slot_count = 0;
+    mirror_leave(&system->mirror, state);
 }
 
 // The record of the system with this prefix, made if it is new; NULL if memory is used up.
@@ -89,29 +87,20 @@ bool scene_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size
     return true;
 }
 
-// Keeps a copy of the slots of a tree's particles.
-static bool keep_slots(PhysicsSystem *system, const StateSlot *slots, uint32_t count) {
-    if (!scene_reserve((void **)&system->slots, &system->slot_capacity, count, sizeof *slots))
-        return false;
-    if (count)
-        memcpy(system->slots, slots, count * sizeof *slots);
-    system->slot_count = count;
-    return true;
-}
-
 bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *saved) {
     const PhysicsSystem *system = *cursor ? ((const PhysicsSystem *)*cursor)->next : scene->systems;
     if (!system)
         return false;
     *cursor = system;
     bool absent = system->seen != scene->frame_number; // then it has no last tree
-    *saved = (SceneSystem){system->start, system->occurrence, system->slots, absent ? 0 : system->slot_count};
+    *saved =
+        (SceneSystem){system->start, system->occurrence, system->mirror.slots, absent ? 0 : system->mirror.slot_count};
     return true;
 }
 
 bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFrame *frame) {
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
-    if (!system || !keep_slots(system, saved->slots, saved->slot_count))
+    if (!system || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
         return false;
     system->seen = scene->frame_number; // the next update is that of the frame after
     return true;
@@ -119,14 +108,6 @@ bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFra
 
 static void set_number(const SceneFrame *frame, StateSlot slot, double x) {
     state_slot_set(frame->state, slot, value_number(x));
-}
-
-// Removes the position and velocity keys of the last frame's particles.
-static void forget_particles(PhysicsSystem *system, const SceneFrame *frame) {
-    for (uint32_t i = 0; i < system->slot_count; i++)
-        state_slot_set(frame->state, system->slots[i], VALUE_NULL);
-    system->slot_count = 0;
-    system->described = false;
 }
 
 // The system's own attributes.
@@ -178,8 +159,8 @@ static uint64_t count_nodes(const Node *node) {
 }
 
 static bool fits_in_memory(const Reader *reader, const Settings *settings) {
-    enum { FEW = 64, COPIES = 16 };
-    if (settings->dimensions <= FEW)
+    enum { MAX_UNCOUNTED = 64, COPIES = 16 };
+    if (settings->dimensions <= MAX_UNCOUNTED)
         return true;
     double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
@@ -199,7 +180,7 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const Settings *
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
                      .speed_of_light = settings->speed_of_light,
-                     .settle = physics_can_show(tree),
+                     .keep_last_finite = mirror_can_lend(tree),
                      .interrupt = tree->frame->interrupt};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
@@ -210,29 +191,29 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const Settings *
         reader_report(reader, "dropped-time", "",
                       STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
     tree->failed |= result.status == PHYS_NO_MEMORY;
-    tree->system->described &= !tree->failed;
-    physics_store(tree, result.status != PHYS_NO_MEMORY);
+    mirror_store(tree, result.status != PHYS_NO_MEMORY);
     return result.status == PHYS_NO_MEMORY ? clock : result.clock;
 }
 
 // Reads a tree from scratch.
 static void describe(PhysicsTree *tree) {
-    tree->body_count = tree->next_anchor = 0;
-    physics_store_begin(tree);
+    tree->body_count = 0;
+    mirror_open(tree);
     physics_read_bodies(tree);
     physics_read_forces(tree);
-    physics_store_remove_vanished(tree);
+    mirror_remove_vanished(tree);
 }
 
 static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader, const Settings *settings,
                        const SceneFrame *frame) {
     State *state = frame->state;
     double clock = scene_number(state, system->clock, 0);
+    system->began = clock > 0;
     double last = scene_number(state, system->last, settings->time);
     double iteration = floor(scene_number(state, system->iteration, -1)) + 1;
     Value stored_run = state_slot_get(state, system->run);
     if (stored_run.len > 0 && !value_equal(stored_run, value_number(settings->run))) {
-        forget_particles(system, frame);
+        mirror_remove(&system->mirror, state);
         set_number(frame, system->start, settings->time);
         clock = 0;
         iteration = 0;
@@ -255,15 +236,17 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     uint64_t reports = scene->reports;
     if (!physics_reuse(&tree))
         describe(&tree);
-    bool faultless = scene->reports == reports; // what is wrong with a tree is said in each frame
+    bool faultless = scene->reports == reports;
     uint64_t steps = 0;
     if (settings->time > last) {
         clock = simulate(&tree, reader, settings, last, clock, &steps);
     } else {
         phys_rest(tree.engine);
-        physics_store(&tree, false);
+        mirror_store(&tree, false);
     }
-    system->described &= faultless;
+    if (!faultless)
+        system->mirror.state = MIRROR_STALE; // mistakes are reported in each frame
+    physics_remember(&tree);
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     return steps;
@@ -294,7 +277,7 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
         reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
         return 0;
     }
-    if (system->occurrence > 0)
+    if (system->occurrence == 1)
         reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
     system->seen = scene->frame_number;
     return system->steps = update(scene, system, &reader, &settings, frame);

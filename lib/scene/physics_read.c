@@ -28,16 +28,9 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
         }
 }
 
-// Makes room for one more body in the system's lists.
-static bool reserve_body(PhysicsSystem *system, uint32_t count) {
-    return scene_reserve((void **)&system->slots, &system->slot_capacity, 2 * count + 1, sizeof *system->slots) &&
-           scene_reserve((void **)&system->anchors, &system->anchor_capacity, system->anchor_count,
-                         sizeof *system->anchors);
-}
-
 void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node) {
     PhysicsSystem *system = tree->system;
-    if (tree->root->kept_children || !node->kept)
+    if (tree->root->program_lifetime_children || !node->program_lifetime)
         return; // the whole tree is known by its address, or the node does not last
     if (!scene_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
@@ -48,17 +41,13 @@ void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node)
 
 // Remembers a body under its slots. False if memory is used up.
 static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, StateSlot position, StateSlot velocity) {
-    PhysicsSystem *system = tree->system;
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
-    if (velocity == STATE_NO_SLOT || !reserve_body(system, body) || !physics_set_mark(tree, position, mark) ||
+    if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
+        !physics_set_mark(tree, position, mark) ||
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
         return false;
     tree->shared |= physics_mark(tree, velocity) != mark + 1;
-    system->slots[2 * (size_t)body] = position;
-    system->slots[2 * (size_t)body + 1] = velocity;
     physics_keep_node(tree, body, node);
-    if (anchor)
-        system->anchors[system->anchor_count++] = body;
     tree->body_count++;
     return true;
 }
@@ -86,17 +75,6 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
     return false;
 }
 
-// The state's vector, if the run goes on and it has one of n numbers; else the attribute's, which is fresh. One number
-// is copied to *single.
-static PhysVector stored_or(const PhysicsTree *tree, StateSlot slot, PhysVector given, double *single, bool *fresh) {
-    Value stored = tree->from_state ? state_slot_get(tree->frame->state, slot) : VALUE_NULL;
-    *fresh = stored.kind != VALUE_NUMBERS || stored.len != tree->dimensions;
-    if (*fresh)
-        return given;
-    *single = stored.as.number;
-    return stored.len == 1 ? single : stored.as.numbers;
-}
-
 __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, bool anchor, uint32_t group) {
     Value id;
     PhysParticle numbers;
@@ -104,10 +82,12 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
     physics_read_particle(tree, node, anchor, &id, &numbers);
     if (!add_body(tree, node, id, anchor))
         return;
+    Reader reader = reader_of(tree, node);
+    reader_lint(&reader, anchor ? KIND_ANCHOR : KIND_PARTICLE);
     if (!anchor) {
-        const StateSlot *slots = tree->system->slots + 2 * (size_t)(tree->body_count - 1);
-        numbers.position = stored_or(tree, slots[0], numbers.position, &position, &numbers.fresh_position);
-        numbers.velocity = stored_or(tree, slots[1], numbers.velocity, &velocity, &numbers.fresh_velocity);
+        const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)(tree->body_count - 1);
+        numbers.position = mirror_start(tree, slots[0], numbers.position, &position, &numbers.position_from_attribute);
+        numbers.velocity = mirror_start(tree, slots[1], numbers.velocity, &velocity, &numbers.velocity_from_attribute);
     }
     phys_add_particle(tree->engine, group, &numbers);
 }
@@ -133,12 +113,11 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 
 void physics_read_bodies(PhysicsTree *tree) {
     physics_clear_marks(tree);
-    tree->system->anchor_count = 0;
     tree->system->node_count = 0;
     read_group_bodies(tree, tree->root, 0);
     tree->scene->body_count = tree->body_count;
     tree->scene->marked = tree->system;
-    tree->system->slot_count = 2 * tree->body_count;
+    tree->system->mirror.slot_count = 2 * tree->body_count;
 }
 
 static PhysForce pair_force(const Reader *reader, PhysForceKind kind, AttrRow strength, AttrRow ease,
@@ -190,7 +169,8 @@ static bool read_distance(PhysicsTree *tree, const Reader *reader, PhysForce *fo
         text_add_format(&text, "%s=", first ? "to" : "from");
         format_value(&text, reader->schema->symbols, first ? to : from);
         text_add_c(&text, " names no particle; ignored");
-        reader_report(reader, "no-such-particle", str_to_c(reader->arena, text_str(&text)), text_str(&text));
+        reader_report_attr(reader, "no-such-particle",
+                           reader->schema->attrs[first ? ROW_DISTANCE_TO : ROW_DISTANCE_FROM], text_str(&text));
         return false;
     }
     *force = (PhysForce){.kind = PHYS_DISTANCE,
@@ -211,7 +191,8 @@ static const double *unit_normal(const Reader *reader) {
         sum += normal[k] * normal[k];
     double length = sqrt(sum);
     if (!(length > 0) || !isfinite(length)) {
-        reader_report(reader, "bad-normal", "", STR("normal is no direction; the barrier is ignored"));
+        reader_report_attr(reader, "bad-normal", reader->schema->attrs[ROW_BARRIER_NORMAL],
+                           STR("normal is no direction; the barrier is ignored"));
         return NULL;
     }
     double *unit = arena_alloc_array(reader->arena, reader->dimensions, sizeof *unit);

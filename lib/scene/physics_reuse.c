@@ -1,75 +1,32 @@
 // physics_reuse.c: the next frame of a system whose tree is the last frame's, or has the same particles with other
 // numbers.
 //
-// What the engine holds need not be read again as long as the state shows it (systems.h). Children that are kept are
-// the same if their address is. Others are gone through: a kept particle is the same if its address is; any other is
-// the same particle if its id and group are those of the particle that stood here in the last frame.
+// What the engine holds need not be read again as long as the state has the same (mirror.h). Nodes that live as
+// long as their program (value/node.h) are the same if their address is. Others are gone through: one is the same
+// particle if its id and group are those of the particle that stood here in the last frame.
 #include "scene/systems.h"
-
-#include <string.h>
-
-// Does the state have a position or velocity of the particle? *same: what it has is what the engine has.
-static bool stored(const PhysicsTree *tree, StateSlot slot, const double *numbers, bool *same) {
-    const State *state = tree->frame->state;
-    Value v = state_slot_get(state, slot);
-    if (v.len == 0)
-        return false;
-    if (tree->dimensions > 1)
-        *same = *same && state_slot_viewed(state, slot, tree->system->viewer);
-    else
-        *same = *same && v.len == 1 && v.kind == VALUE_NUMBERS && !memcmp(&v.as.number, numbers, sizeof *numbers);
-    return true;
-}
-
-// Entries that are not there yet, and single numbers, which the state holds itself, may have been written by others.
-static bool entries_agree(const PhysicsTree *tree) {
-    const PhysicsSystem *system = tree->system;
-    if (tree->dimensions > 1 && system->absent == 0)
-        return true;
-    uint32_t absent = 0, anchor = 0;
-    bool same = true;
-    for (uint32_t i = 0; same && i < system->slot_count / 2; i++) {
-        if (anchor < system->anchor_count && system->anchors[anchor] == i) {
-            anchor++;
-            continue;
-        }
-        const StateSlot *slots = system->slots + 2 * (size_t)i;
-        absent += !stored(tree, slots[0], phys_position(tree->engine, i), &same);
-        absent += !stored(tree, slots[1], phys_velocity(tree->engine, i), &same);
-    }
-    return same && absent == system->absent;
-}
-
-static bool is_anchor(PhysicsTree *tree, uint32_t body) {
-    const PhysicsSystem *system = tree->system;
-    bool anchor = tree->next_anchor < system->anchor_count && system->anchors[tree->next_anchor] == body;
-    tree->next_anchor += anchor;
-    return anchor;
-}
 
 // Takes the numbers of the next particle. False if it is not the one that was here in the last frame.
 __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, bool anchor, uint32_t group) {
     PhysicsSystem *system = tree->system;
     uint32_t body = tree->body_count++;
-    if (2 * (uint64_t)body >= system->slot_count || is_anchor(tree, body) != anchor ||
+    if (2 * (uint64_t)body >= system->mirror.slot_count || phys_is_anchor(tree->engine, body) != anchor ||
         phys_particle_group(tree->engine, body) != group)
         return false;
-    bool kept = node->kept && system->generation == tree->frame->generation;
-    if (kept && body < system->node_count && system->nodes[body] == node)
+    bool comparable = node->program_lifetime && system->generation == tree->frame->generation;
+    if (comparable && body < system->node_count && system->nodes[body] == node)
         return true;
     Value id;
     PhysParticle numbers;
     physics_read_particle(tree, node, anchor, &id, &numbers);
     if (!physics_has_id(tree, body, id))
         return false;
-    PhysKeep keep = {false, false};
+    PhysPreserve preserve = {false, false};
     if (!anchor) {
-        const StateSlot *slots = system->slots + 2 * (size_t)body;
-        keep.position = state_slot_get(tree->frame->state, slots[0]).len > 0;
-        keep.velocity = state_slot_get(tree->frame->state, slots[1]).len > 0;
-        numbers.fresh_position = numbers.fresh_velocity = true; // if they are not kept
+        preserve = mirror_preserve(tree, body);
+        numbers.position_from_attribute = numbers.velocity_from_attribute = true; // if not preserved
     }
-    phys_update_particle(tree->engine, body, &numbers, keep);
+    phys_update_particle(tree->engine, body, &numbers, preserve);
     if (body < system->node_count)
         system->nodes[body] = NULL;
     physics_keep_node(tree, body, node);
@@ -96,27 +53,33 @@ static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
 static bool same_children(const PhysicsTree *tree) {
     const PhysicsSystem *system = tree->system;
     const Node *root = tree->root;
-    return root->kept_children && root->children == system->children && root->child_count == system->child_count &&
-           system->generation == tree->frame->generation;
+    return root->program_lifetime_children && root->children == system->children &&
+           root->child_count == system->child_count && system->generation == tree->frame->generation;
 }
 
 bool physics_reuse(PhysicsTree *tree) {
     PhysicsSystem *system = tree->system;
-    bool disturbed = system->viewer && state_take_disturbed(tree->frame->state, system->viewer);
-    if (!system->described || disturbed || !tree->from_state || system->dimensions != tree->dimensions ||
-        !entries_agree(tree))
+    if (!mirror_reuse(tree))
         return false;
     if (same_children(tree)) {
         for (uint32_t i = 0; i < system->random_count; i++)
             phys_set_key(tree->engine, system->randoms[i].force, physics_random_key(tree, system->randoms[i].randoms));
-        tree->body_count = system->slot_count / 2;
+        tree->body_count = system->mirror.slot_count / 2;
         return true;
     }
     tree->next_group = 1;
-    if (!reuse_group(tree, tree->root, 0) || 2 * (uint64_t)tree->body_count != system->slot_count ||
+    if (!reuse_group(tree, tree->root, 0) || 2 * (uint64_t)tree->body_count != system->mirror.slot_count ||
         tree->next_group != phys_group_count(tree->engine))
         return false;
     phys_begin_forces(tree->engine);
     physics_read_forces(tree);
     return !tree->failed;
+}
+
+void physics_remember(const PhysicsTree *tree) {
+    PhysicsSystem *system = tree->system;
+    system->dimensions = tree->dimensions;
+    system->generation = tree->frame->generation;
+    system->children = tree->root->program_lifetime_children ? tree->root->children : NULL;
+    system->child_count = tree->root->child_count;
 }

@@ -25,7 +25,7 @@ Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbe
 bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id) {
     double numbers[PHYSICS_KEY_NUMBERS];
     const State *state = tree->frame->state;
-    StateSlot slot = tree->system->slots[2 * (size_t)body];
+    StateSlot slot = tree->system->mirror.slots[2 * (size_t)body];
     Value key = state_slot_key(state, slot);
     if (id.len == 0)
         return false;
@@ -85,7 +85,7 @@ bool physics_has_position(const PhysicsTree *tree, StateSlot slot) {
 void physics_forget_slots(const PhysicsTree *tree) {
     enum { MANY = 1 << 16 }; // that are worth their memory
     Scene *scene = tree->scene;
-    if (!tree->root->kept_children || scene->body_capacity < MANY)
+    if (!tree->root->program_lifetime_children || scene->body_capacity < MANY)
         return;
     physics_clear_marks(tree);
     free(scene->bodies);
@@ -99,8 +99,8 @@ static void mark_again(PhysicsTree *tree) {
     if (tree->scene->marked == system)
         return;
     physics_clear_marks(tree);
-    for (uint32_t i = 0; i < system->slot_count; i++)
-        if (!physics_set_mark(tree, system->slots[i], 2 * (tree->scene->body_base + i / 2) + i % 2))
+    for (uint32_t i = 0; i < system->mirror.slot_count; i++)
+        if (!physics_set_mark(tree, system->mirror.slots[i], 2 * (tree->scene->body_base + i / 2) + i % 2))
             tree->failed = true;
     tree->scene->body_count = tree->body_count;
     tree->scene->marked = system;

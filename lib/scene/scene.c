@@ -38,12 +38,14 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
+void scene_lint(Scene *scene) {
+    scene->schema.lint = true;
+}
+
 static void free_system(PhysicsSystem *system) {
     phys_free(system->engine);
-    free(system->slots);
-    free(system->old_slots);
+    mirror_free(&system->mirror);
     free(system->nodes);
-    free(system->anchors);
     free(system->randoms);
     free(system->links);
     free(system);
@@ -53,7 +55,7 @@ void scene_reset(Scene *scene, State *state) {
     for (PhysicsSystem *system = scene->systems, *next; system; system = next) {
         next = system->next;
         if (state)
-            physics_store_settle(system, state);
+            mirror_leave(&system->mirror, state);
         free_system(system);
     }
     scene->systems = NULL;
@@ -88,7 +90,7 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     if (count < MANY || count / 2 < state_count(frame->state))
         return;
     for (PhysicsSystem *system = scene->systems; system; system = system->next)
-        if (system->open)
+        if (system->mirror.state == MIRROR_OPEN)
             return; // an update broke off: its lists are not in order
     uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
     StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
@@ -97,8 +99,8 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
         own_slots(system, own);
         for (int i = 0; i < OWN_SLOTS; i++)
             used[*own[i]] = 1;
-        for (uint32_t i = 0; i < system->slot_count; i++)
-            used[system->slots[i]] = 1;
+        for (uint32_t i = 0; i < system->mirror.slot_count; i++)
+            used[system->mirror.slots[i]] = 1;
     }
     if (!state_compact(frame->state, used, moved))
         return;
@@ -107,8 +109,8 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
         own_slots(system, own);
         for (int i = 0; i < OWN_SLOTS; i++)
             *own[i] = moved[*own[i]];
-        for (uint32_t i = 0; i < system->slot_count; i++)
-            system->slots[i] = moved[system->slots[i]];
+        for (uint32_t i = 0; i < system->mirror.slot_count; i++)
+            system->mirror.slots[i] = moved[system->mirror.slots[i]];
     }
 }
 
@@ -150,13 +152,14 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
     for (const PhysicsSystem *system = scene->systems; system; system = system->next) {
         if (system->seen != scene->frame_number || !system->engine || !system->dimensions || number-- > 0)
             continue;
-        uint32_t count = phys_particle_count(system->engine), listed = system->slot_count / 2;
+        uint32_t count = phys_particle_count(system->engine), listed = system->mirror.slot_count / 2;
         *view = (SceneView){.engine = system->engine,
                             .prefix = state_slot_key(state, system->start),
                             .dimensions = system->dimensions,
                             .particle_count = count < listed ? count : listed,
                             .steps = system->steps,
-                            .slots = system->slots};
+                            .began = system->began,
+                            .slots = system->mirror.slots};
         return true;
     }
     return false;

@@ -18,7 +18,7 @@ typedef struct SceneFrame {
     double fps;
     double performance;
     bool lockstep;
-    uint64_t generation;          // another one: programs have been dropped, and what was kept (value/node.h) with them
+    uint64_t generation;          // another one: programs have been dropped, and nodes of their lifetime with them
     double resolution;            // of all systems, whatever they say themselves; 0: as they say
     const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
@@ -28,6 +28,8 @@ Scene *scene_new(SymbolTable *symbols, SceneHost host);
 void scene_free(Scene *scene);
 // How the physics of new systems is computed (not what: results do not depend on it).
 void scene_set_physics(Scene *scene, const PhysOptions *options);
+// Reports what is hardly meant from now on, too.
+void scene_lint(Scene *scene);
 // Forgets what was in the last frame's tree (for when the state dictionary is replaced). `state` is the dictionary that
 // was used so far, which keeps its entries; NULL: it is not needed any more, or gone already.
 void scene_reset(Scene *scene, State *state);
@@ -50,6 +52,7 @@ typedef struct SceneView {
     uint32_t dimensions;
     uint32_t particle_count;
     uint64_t steps; // made in the last update
+    bool began;     // it had simulated before that
     const StateSlot *slots;
 } SceneView;
 bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view);

@@ -2,8 +2,8 @@
 #ifndef PETRI_SCENE_SYSTEMS_H
 #define PETRI_SCENE_SYSTEMS_H
 
-#include "physics/system.h"
 #include "scene/input_bind.h"
+#include "scene/mirror.h"
 #include "scene/scene.h"
 
 // A force whose key changes from frame to frame.
@@ -19,11 +19,6 @@ typedef struct Link {
 } Link;
 
 // What a system keeps from frame to frame. It is the same system as long as its prefix is the same.
-//
-// The engine keeps the description of the last frame's tree, and the state's entries show the positions and velocities
-// where the engine has them (state.h, views). So a tree that is the same in the next frame costs nothing, and one with
-// the same particles costs what has changed: `described` says that this is possible. Anything out of the ordinary
-// clears it, and the next frame's tree is read from scratch, with positions and velocities from the state.
 typedef struct PhysicsSystem PhysicsSystem;
 struct PhysicsSystem {
     PhysicsSystem *next;
@@ -34,29 +29,19 @@ struct PhysicsSystem {
     StateSlot clock;
     StateSlot last;
     PhysSystem *engine;
-    StateSlot *slots; // positions and velocities, in pairs, of the particles in the last frame's tree, by handle
-    uint32_t slot_count;
-    uint32_t slot_capacity;
+    Mirror mirror;
     uint64_t steps; // of the last update
+    bool began;     // it had simulated before the last update, so the script could see its particles
     uint64_t seen;  // number of the scene's frame in which it was updated last
 
-    StateViewer viewer;
-    bool described;
-    bool open;            // a description was begun and not finished
-    StateSlot *old_slots; // of the description before, whose rows entries may still show
-    uint32_t old_count;
-    uint32_t old_capacity;
+    // The last frame's tree: what the next one is compared with.
     uint32_t dimensions;         // in the last update
     uint64_t generation;         // of the nodes below
-    const Node *const *children; // of the tree, if they are kept, else NULL
+    const Node *const *children; // of the tree, if they have program lifetime, else NULL
     uint32_t child_count;
-    const Node **nodes; // by handle: the particle's node if that is kept, else NULL; not for kept children
+    const Node **nodes; // by handle: the particle's node, likewise; unused with `children`
     uint32_t node_count;
     uint32_t node_capacity;
-    uint32_t *anchors; // handles
-    uint32_t anchor_count;
-    uint32_t anchor_capacity;
-    uint32_t absent; // positions and velocities of particles that the state does not have yet
     RandomForce *randoms;
     uint32_t random_count;
     uint32_t random_capacity;
@@ -88,7 +73,7 @@ struct Scene {
 };
 
 // A `!physics` tree being read.
-typedef struct PhysicsTree {
+struct PhysicsTree {
     Scene *scene;
     PhysicsSystem *system;
     const SceneFrame *frame;
@@ -104,8 +89,7 @@ typedef struct PhysicsTree {
     double iteration;
     uint32_t next_group;
     uint32_t next_link;
-    uint32_t next_anchor;
-} PhysicsTree;
+};
 
 // prefix;id or prefix;id;symbol as a key.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
@@ -146,18 +130,8 @@ void physics_forget_slots(const PhysicsTree *tree);
 // physics_reuse.c: brings the engine's description up to date with the tree. False if that is not possible: then it
 // must be read from scratch.
 bool physics_reuse(PhysicsTree *tree);
-
-// physics_store.c: the system's entries in the state.
-// Begins a new description: what the entries show stays readable.
-void physics_store_begin(PhysicsTree *tree);
-// Removes the keys of particles that were in the last frame's tree and are in this one's no longer.
-void physics_store_remove_vanished(const PhysicsTree *tree);
-// Can the entries of this tree show the engine's numbers? If not, results are copied.
-bool physics_can_show(const PhysicsTree *tree);
-// Puts the frame's results into the state; `simulated`: there are some.
-void physics_store(PhysicsTree *tree, bool simulated);
-// Lets the entries keep copies of what they show, since the engine goes away or forgets it.
-void physics_store_settle(PhysicsSystem *system, State *state);
+// After a frame: what the next one's tree is compared with.
+void physics_remember(const PhysicsTree *tree);
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame);
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame);

@@ -68,9 +68,7 @@ static void rewind_clock(PetriSession *session) {
     session->base = (ClockBase){0};
     memset(session->auto_frames, 0, sizeof session->auto_frames);
     session->delta = 0;
-    session->start = 0;
-    session->performance = session->options.realtime ? 1 : 2;
-    session->slow_frame = false;
+    session->wall = (WallClock){.performance = session->options.realtime ? 1 : 2};
     session->profiled_physics = 0;
     session->profiled_frames = 0;
     if (session->vm.profile)
@@ -83,20 +81,18 @@ void session_start(PetriSession *session, const Program *program) {
     session->frame.tempo = session->said.tempo;
     session->quantum = session->said.quantum;
     rewind_clock(session);
-    session_change_setup(session, false);
+    session_change_config(session, false);
 }
 
 // What is due and what the beat is stay as they are; what comes is counted from here.
 static void rebase_clock(PetriSession *session) {
     const PetriFrame *frame = &session->frame;
     if (frame->number >= 0)
-        session->base = (ClockBase){true, frame->number, frame->time, frame->beat};
+        session->base = (ClockBase){frame->number, frame->time, frame->beat};
 }
 
 static void set_fps(PetriSession *session, double fps) {
     rebase_clock(session);
-    if (session->start != 0) // of real time: such that the present frame was due when it was
-        session->start += (double)session->frame.number / session->frame.fps - (double)session->frame.number / fps;
     session->frame.fps = fps;
 }
 
@@ -131,7 +127,7 @@ PetriStatus petri_set_tempo(PetriSession *session, double tempo) {
     if (!is_rate(tempo))
         return PETRI_INVALID;
     set_tempo(session, tempo);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -139,7 +135,7 @@ PetriStatus petri_set_fps(PetriSession *session, double fps) {
     if (!is_rate(fps))
         return PETRI_INVALID;
     set_fps(session, fps);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -147,7 +143,7 @@ PetriStatus petri_set_resolution(PetriSession *session, double resolution) {
     if (!(resolution >= 0) || !isfinite(resolution))
         return PETRI_INVALID;
     session->resolution = resolution;
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -160,57 +156,80 @@ void petri_clear(PetriSession *session) {
     scene_reset(session->scene, NULL);
     session_clear_frame(session);
     rewind_clock(session);
-    session_change_setup(session, false);
+    session_change_config(session, false);
 }
 
 void session_resume(PetriSession *session, int64_t number) {
     PetriFrame *frame = &session->frame;
     session->base = (ClockBase){0};
-    session_change_setup(session, false);
+    session->wall.running = false;
+    session_change_config(session, false);
     frame->number = number;
     frame->time = (double)number / frame->fps;
     frame->beat = frame->time / (60 / frame->tempo);
 }
 
-// The clock of a session in real time: the monotonic one without the time that the host has held it.
-static double session_clock(const PetriSession *session) {
-    return now(CLOCK_MONOTONIC) - session->held;
+static double wall_time(const PetriSession *session) {
+    return now(CLOCK_MONOTONIC) - session->wall.origin;
 }
 
 // A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
 static const double LATEST = 0.1;
 
-// In real time: sleeps until frame `number` is due and returns the time.
-static double wait_for_frame(PetriSession *session, int64_t number) {
-    double at = session_clock(session);
-    if (session->start == 0) { // the first frame, or the first after a restored state
-        session->start = at - (double)number / session->frame.fps;
-        session->due = at + 1 / session->frame.fps;
-        return at;
-    }
-    double spare = session->due - at;
-    session->slow_frame = spare < 0;
-    session->performance += spare > 0.001 ? 0.001 : -0.01;
-    session->performance = fmin(2, fmax(0.5, session->performance));
+static double lockstep_time(const PetriSession *session) {
+    return session->base.time + (double)(session->frame.number - session->base.frame) / session->frame.fps;
+}
+
+// The first frame has the time that it has in lockstep: 0, or where a restored state goes on.
+static double start_wall_clock(PetriSession *session) {
+    double time = lockstep_time(session);
+    session->wall.running = true;
+    session->wall.origin = now(CLOCK_MONOTONIC) - time;
+    session->wall.due = time + 1 / session->frame.fps;
+    return time;
+}
+
+// In real time: sleeps until the frame is due and returns the time.
+static double wait_for_frame(PetriSession *session) {
+    WallClock *wall = &session->wall;
+    if (!wall->running)
+        return start_wall_clock(session);
+    double at = wall_time(session), spare = wall->due - at;
+    wall->slow_frame = spare < 0;
+    wall->performance += spare > 0.001 ? 0.001 : -0.01;
+    wall->performance = fmin(2, fmax(0.5, wall->performance));
     if (spare > 0) {
         struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
         nanosleep(&pause, NULL);
     }
-    session->due = fmax(session->due, at - LATEST) + 1 / session->frame.fps;
-    return session_clock(session);
+    wall->due = fmax(wall->due, at - LATEST) + 1 / session->frame.fps;
+    return wall_time(session);
 }
 
 double petri_due(const PetriSession *session) {
-    return session->options.realtime && session->start != 0 ? fmax(0, session->due - session_clock(session)) : 0;
+    bool waits = session->options.realtime && session->wall.running;
+    return waits ? fmax(0, session->wall.due - wall_time(session)) : 0;
+}
+
+// The clock is put to where the next frame is due.
+static void follow_frame(PetriSession *session) {
+    session->wall.due = session->frame.time + 1 / session->frame.fps;
+    session->wall.origin = now(CLOCK_MONOTONIC) - session->wall.due;
 }
 
 void petri_hold(PetriSession *session) {
-    if (!session->options.realtime || session->start == 0)
+    if (!session->options.realtime || !session->wall.running)
         return;
-    double late = session_clock(session) - (session->frame.time + 1 / session->frame.fps);
-    if (late > 0)
-        session->held += late;
-    session->due = session->frame.time + 1 / session->frame.fps;
+    double due = session->frame.time + 1 / session->frame.fps;
+    if (wall_time(session) > due)
+        follow_frame(session);
+    session->wall.due = due;
+}
+
+void session_rewind_wall_clock(PetriSession *session) {
+    session->wall.running = session->wall.running && session->frame.number >= 0;
+    if (session->wall.running)
+        follow_frame(session);
 }
 
 static void advance_clocks(PetriSession *session) {
@@ -218,13 +237,8 @@ static void advance_clocks(PetriSession *session) {
     const ClockBase *base = &session->base;
     double last_beat = frame->beat, beat_length = 60 / frame->tempo;
     frame->number++;
-    if (session->options.realtime) {
-        frame->time = wait_for_frame(session, frame->number);
-        frame->beat = base->beat + (frame->time - (base->set ? base->time : session->start)) / beat_length;
-    } else {
-        frame->time = base->time + (double)(frame->number - base->frame) / frame->fps;
-        frame->beat = base->beat + (frame->time - base->time) / beat_length;
-    }
+    frame->time = session->options.realtime ? wait_for_frame(session) : lockstep_time(session);
+    frame->beat = base->beat + (frame->time - base->time) / beat_length;
     session->delta = frame->number == 0 ? 0 : frame->beat - last_beat;
 }
 
@@ -239,8 +253,8 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         [ENGINE_DELTA] = session->delta,
         [ENGINE_TEMPO] = frame->tempo,
         [ENGINE_QUANTUM] = session->quantum,
-        [ENGINE_PERFORMANCE] = session->performance,
-        [ENGINE_SLOW_FRAME] = session->slow_frame,
+        [ENGINE_PERFORMANCE] = session->wall.performance,
+        [ENGINE_SLOW_FRAME] = session->wall.slow_frame,
         [ENGINE_CLOCK] = realtime ? now(CLOCK_REALTIME) : 0,
         [ENGINE_REALTIME] = realtime,
         [ENGINE_OFFSCREEN] = 1,
@@ -303,11 +317,14 @@ static void evaluate(PetriSession *session) {
 }
 
 static void update_systems(PetriSession *session) {
+    if (session->unseen)
+        session_look_at_top(session);
+    session->unseen = false;
     SceneFrame frame = {.state = session->state,
                         .arena = &session->scene_arena,
                         .time = session->frame.time,
                         .fps = session->frame.fps,
-                        .performance = session->performance,
+                        .performance = session->wall.performance,
                         .lockstep = !session->options.realtime,
                         .generation = session->generation,
                         .resolution = session->resolution,
@@ -373,16 +390,14 @@ PetriStatus petri_step(PetriSession *session) {
     if (session->options.interruptible && !session_take(session, &session->undo))
         return PETRI_MEMORY;
     PetriFrame frame = session->frame;
-    double delta = session->delta, start = session->start, performance = session->performance;
-    bool slow_frame = session->slow_frame;
+    double delta = session->delta;
+    WallClock wall = session->wall;
     PetriStatus status = make_frame(session);
     if (status == PETRI_INTERRUPTED || (status == PETRI_LIMIT && session->options.interruptible)) {
         session_clear_frame(session);
         session->frame = frame;
         session->delta = delta;
-        session->start = start;
-        session->performance = performance;
-        session->slow_frame = slow_frame;
+        session->wall = wall;
     }
     return status;
 }

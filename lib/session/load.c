@@ -16,7 +16,8 @@ static Unit *unit_new(PetriSession *session) {
         return NULL;
     unit->references = 1;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
-    unit->arena.escape = session->frame_arena.escape;
+    arena_init(&unit->scratch, "compiler", UNIT_BUDGET);
+    unit->arena.escape = unit->scratch.escape = session->frame_arena.escape;
     return unit;
 }
 
@@ -24,6 +25,7 @@ void unit_free(Unit *unit) {
     if (!unit || --unit->references > 0)
         return;
     diag_sink_free(&unit->sink);
+    arena_free(&unit->scratch);
     arena_free(&unit->arena);
     free(unit);
 }
@@ -44,10 +46,10 @@ static bool take_include(Unit *unit, Str path) {
     return true;
 }
 
-static const Ast *parse(PetriSession *session, Unit *unit, const Source *source) {
+static const Ast *parse(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
     DiagSink outer = unit->sink; // an included file is parsed while its includer is compiled
     unit->sink = diag_sink_new(&unit->arena, MOST_ERRORS);
-    const Ast *ast = parse_program(&unit->arena, &session->symbols, source, &unit->sink);
+    const Ast *ast = parse_program(arena, &session->symbols, source, &unit->sink);
     unit_tell(session, unit);
     unit->sink = outer;
     return ast;
@@ -68,7 +70,7 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
         return NULL;
     }
     *source = source_new(&unit->arena, path, canonical, text);
-    const Ast *ast = parse(session, unit, *source);
+    const Ast *ast = parse(session, unit, &unit->scratch, *source);
     if (!ast) {
         *why = STR("it does not parse");
         return NULL;
@@ -77,37 +79,34 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     uint32_t skip = 0;
     while (skip < ast->count && ast->children[skip]->kind == AST_PRAGMA)
         skip++;
-    return ast_new(&unit->arena, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
+    return ast_new(&unit->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
 // Memory that evaluating one expression ahead may take.
 #define STATIC_BUDGET ((size_t)1 << 29)
 
 // The escape of the unit's arena leads here: what does not fit is left for the frames.
-static bool evaluate_ahead(PetriSession *session, const Expr *expr, uint32_t frame_size, Value *value) {
+static bool evaluate_ahead(PetriSession *session, const Code *code, Value *value) {
     jmp_buf escape;
     Arena *arena = &session->loading->arena;
     arena->escape = &escape;
     if (setjmp(escape) != 0)
         return false;
-    return vm_run_static(&session->static_vm, arena, expr, frame_size, value);
+    return vm_run_static(&session->static_vm, arena, code, value);
 }
 
-static bool host_evaluate(void *host, const Expr *expr, uint32_t frame_size, Value *value) {
+static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loading->arena;
     jmp_buf *escape = arena->escape;
     size_t budget = arena->budget;
-    ArenaMark mark = arena_mark(arena);
     if (arena->budget - arena->used > STATIC_BUDGET)
         arena->budget = arena->used + STATIC_BUDGET;
-    bool done = evaluate_ahead(session, expr, frame_size, value);
+    bool done = evaluate_ahead(session, code, value);
     arena->escape = escape;
     arena->budget = budget;
-    if (!done) {
+    if (!done)
         *value = VALUE_NULL;
-        arena_rewind(arena, mark);
-    }
     return done;
 }
 
@@ -136,7 +135,9 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loading;
     session->loading = unit;
-    const Program *program = program_compile(&unit->arena, &session->symbols, unit->source, ast, &options, &unit->sink);
+    unit->scratch.escape = unit->arena.escape;
+    const Program *program =
+        program_compile(&unit->arena, &unit->scratch, &session->symbols, unit->source, ast, &options, &unit->sink);
     session->loading = outer;
     sort_by_place(&unit->sink);
     unit_tell(session, unit);
@@ -145,11 +146,15 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
     unit->source = source_new(&unit->arena, name, unit->path, text);
-    unit->ast = parse(session, unit, unit->source);
-    if (unit->ast)
-        unit->program = unit_compile(session, unit, unit->ast, module, 0);
+    const Ast *ast = parse(session, unit, &unit->scratch, unit->source);
+    unit->empty = ast && ast->count == 0;
+    if (ast)
+        unit->program = unit_compile(session, unit, ast, module, 0);
     else
         unit->why = STR("it does not parse");
+    arena_free(&unit->scratch);
+    if (unit->program && !module && !session_check_definitions(session, unit))
+        unit->program = NULL;
 }
 
 Unit *unit_parse(PetriSession *session, Str name, Str text) {
@@ -157,7 +162,7 @@ Unit *unit_parse(PetriSession *session, Str name, Str text) {
     if (unit) {
         unit->path = name;
         unit->source = source_new(&unit->arena, name, name, text);
-        unit->ast = parse(session, unit, unit->source);
+        unit->ast = parse(session, unit, &unit->arena, unit->source);
     }
     return unit;
 }
@@ -200,7 +205,7 @@ static Unit *cached_module(PetriSession *session, Str path, Str version) {
         if (str_equal(unit->version, version))
             return unit;
         unit->retired = true;
-        session_change_setup(session, true);
+        session_change_config(session, true);
     }
     return NULL;
 }

@@ -219,6 +219,22 @@ bool petri_drawable(PetriSession *session) {
     return (window && has_canvas(session, window)) || count_systems(session) > 0;
 }
 
+// A system whose time stands still never stores anything: it is not waited for.
+enum { LONGEST_START = 2 };
+
+bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
+    const Node *window = find_window(session, options->window);
+    bool own = window && has_canvas(session, window) && options->automatic != PETRI_AUTO_ALWAYS;
+    SceneView view;
+    for (uint32_t i = 0; own && session->frame.number < LONGEST_START; i++) {
+        if (!scene_view(session->scene, session->state, i, &view))
+            break;
+        if (!view.began)
+            return false;
+    }
+    return true;
+}
+
 bool petri_records(const PetriSession *session) {
     for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
         const Item *item = &session->tree.as.items[i];

@@ -5,7 +5,7 @@
 
 #include "session/session.h"
 
-#include "canvas/canvas.h"
+#include "draw/paint.h"
 
 struct PetriPicture {
     Arena arena; // all that follows

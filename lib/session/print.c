@@ -2,6 +2,7 @@
 #include "session/session.h"
 
 #include "base/number.h"
+#include "syntax/parse.h"
 #include "value/format.h"
 
 #include <string.h>
@@ -132,9 +133,14 @@ PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write,
     if (!session->program)
         return PETRI_INVALID;
     Output out = output_new(session, write, host);
-    if (what == PETRI_DUMP_AST)
-        ast_print(&out.text, &session->symbols, session->program->source, session->program->ast);
-    else
-        program_print(&out.text, &session->symbols, session->program->program);
+    const Unit *unit = session->program;
+    if (what == PETRI_DUMP_CODE) {
+        program_print(&out.text, &session->symbols, unit->program);
+    } else { // the tree was dropped when the program was compiled
+        DiagSink nowhere = diag_sink_new(out.text.arena, 0);
+        const Ast *ast = parse_program(out.text.arena, &session->symbols, unit->source, &nowhere);
+        ast_print(&out.text, &session->symbols, unit->source, ast);
+        diag_sink_free(&nowhere);
+    }
     return output_finish(&out);
 }

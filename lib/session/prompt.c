@@ -28,7 +28,8 @@ typedef struct Job {
     bool stopped;
     DiagSink log; // what debug() said
     struct Writing *out;
-    bool shown; // the value is written, too
+    bool shown;           // the value is written, too
+    const Symbol *hidden; // bound by the script as well
 } Job;
 
 // Text on its way to the host.
@@ -90,6 +91,7 @@ void session_collect_names(PetriSession *session) {
 
 static void compile(PetriSession *session, Job *job) {
     job->program = unit_compile(session, job->unit, job->ast, false, session->name_count);
+    arena_free(&job->unit->scratch);
 }
 
 // A statement that does not fit in memory any more is dropped.
@@ -283,7 +285,7 @@ static bool keep(PetriSession *session, const Job *job, bool adds) {
     prompts[session->prompt_count++] = (Prompt){session_put(session, job->unit), job->ast, job->program, adds};
     job->unit->references++;
     add_names(session, job->program);
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return true;
 }
 
@@ -306,6 +308,13 @@ static void show_in_frame(PetriSession *session, Job *job) {
     }
 }
 
+static void note_hidden(const PetriSession *session, Job *job) {
+    const Program *script = session->program->program;
+    for (uint32_t i = 0; i < job->program->export_count; i++)
+        if (program_find_export(script, job->program->exports[i].name))
+            job->hidden = job->program->exports[i].name;
+}
+
 static PetriStatus prompt_statement(PetriSession *session, Job *job, Writing *out, PetriPrompted *done) {
     bool is_binding = binds(job->ast->children[0]), adds = !is_binding && makes_nodes(job->ast->children[0]);
     bool is_kept = is_binding || adds;
@@ -325,6 +334,7 @@ static PetriStatus prompt_statement(PetriSession *session, Job *job, Writing *ou
         return status;
     if (is_kept && (!keep(session, job, adds) || !guarded(session, show_in_frame, job)))
         return memory_status(session);
+    note_hidden(session, job);
     done->bindings += is_binding;
     done->nodes += adds;
     done->values += !is_kept;
@@ -359,6 +369,10 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
         status = prompt_statement(session, &job, &out, done);
     }
     session->tell_again = false;
+    if (job.hidden) {
+        arena_reset(&session->text_arena);
+        done->hidden = str_to_c(&session->text_arena, job.hidden->name);
+    }
     unit_free(job.unit);
     return status;
 }
@@ -427,7 +441,7 @@ uint32_t petri_drop(PetriSession *session, bool bindings) {
     session->prompt_count = kept;
     if (kept == count)
         return 0;
-    session_change_setup(session, false);
+    session_change_config(session, false);
     session_compile_prompts(session);
     return count - kept;
 }

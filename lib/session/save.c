@@ -15,7 +15,7 @@
 
 #include "base/file.h"
 #include "base/number.h"
-#include "syntax/literal.h"
+#include "ast/literal.h"
 #include "value/format.h"
 
 #include <inttypes.h>

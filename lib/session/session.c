@@ -1,7 +1,8 @@
 // session.c: opening, loading, diagnostics; see petri.h.
 #include "session/session.h"
 
-#include "syntax/literal.h"
+#include "base/unicode.h"
+#include "ast/literal.h"
 
 #include <math.h>
 #include <stdio.h>
@@ -33,8 +34,12 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
         diag.span = origin->span;
     }
     diag_report(&session->errors, &diag);
+    // A loop may make a thousand nodes at one place: that is one thing to say.
+    Str where = diag.source
+                    ? str_format(arena, "%.*s %u", (int)diag.source->path.len, diag.source->path.bytes, diag.span.start)
+                    : node;
     tell_once(session, &diag,
-              str_format(arena, "%s %.*s %.*s", code, (int)node.len, node.bytes, (int)key.len, key.bytes));
+              str_format(arena, "%s %.*s %.*s", code, (int)where.len, where.bytes, (int)key.len, key.bytes));
 }
 
 static void tell_machine(void *host, const Diag *diag) {
@@ -111,7 +116,7 @@ void petri_close(PetriSession **handle) {
     if (!session)
         return;
     session_free_prompts(session);
-    petri_setup_free(session->setup);
+    petri_config_free(session->config);
     free(session->undo.bytes);
     free(session->names);
     unit_free(session->program);
@@ -244,20 +249,39 @@ static Value define_value(PetriSession *session, Str text) {
     }
 }
 
+// Is a text a name of the language (L2.4)?
+static bool is_name(Str text) {
+    while (text.len > 1 && text.bytes[text.len - 1] == '\'')
+        text.len--;
+    for (size_t at = 0, next = 0; at < text.len; at = next) {
+        int32_t c = utf8_next(text, &next);
+        if (c < 0 || !(at == 0 ? unicode_starts_name((uint32_t)c) : unicode_continues_name((uint32_t)c)))
+            return false;
+    }
+    return text.len > 0;
+}
+
 PetriStatus petri_define(PetriSession *session, const char *definition) {
     const char *equals = strchr(definition, '=');
-    if (!equals || equals == definition || utf8_find_error(str_from(definition)) != strlen(definition))
+    if (!equals)
+        return PETRI_INVALID;
+    return session_define(session, (Str){definition, (size_t)(equals - definition)}, str_from(equals + 1));
+}
+
+PetriStatus session_define(PetriSession *session, Str name, Str value) {
+    if (!is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
     uint32_t count = session->define_count;
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
     if (count)
         memcpy(defines, session->defines, count * sizeof *defines);
-    Str name = {definition, (size_t)(equals - definition)};
-    defines[count] = (Define){symbol_intern(&session->symbols, name),
-                              define_value(session, str_copy(&session->arena, str_from(equals + 1)))};
+    Str text = str_format(&session->arena, "%.*s=%.*s", (int)name.len, name.bytes, (int)value.len, value.bytes);
+    value = (Str){text.bytes + name.len + 1, value.len};
+    defines[count] =
+        (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
     session->defines = defines;
     session->define_count = count + 1;
-    session_change_setup(session, true);
+    session_change_config(session, true);
     return PETRI_OK;
 }
 
@@ -287,7 +311,7 @@ static void report_too_large(PetriSession *session) {
     session_tell_text(session, DIAG_ERROR, "memory-limit", STR("the script is too large: the limit is 4 GiB"));
 }
 
-typedef enum LoadPurpose { LOAD_TO_CHECK, LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
+typedef enum LoadPurpose { LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
 
 // Puts a unit in the place of the loaded script.
 static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
@@ -298,15 +322,18 @@ static void adopt(PetriSession *session, Unit *unit, LoadPurpose purpose) {
         session_start(session, unit->program);
     else
         session_take_rates(session, unit->program);
-    session_change_setup(session, false);
+    session_change_config(session, false);
     session_compile_prompts(session);
+    session->unseen = true;
 }
 
 static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadPurpose purpose) {
     Unit *unit = NULL;
     PetriStatus status = PETRI_OK;
-    session->told_count = 0; // each thing once per load
-    index_clear(&session->told_index);
+    if (!session->again) { // each thing once per load
+        session->told_count = 0;
+        index_clear(&session->told_index);
+    }
     session->fresh = NULL;
     if (!load_guarded(session, request, &unit) || !unit) {
         unit_free(session->fresh);
@@ -320,7 +347,7 @@ static PetriStatus load(PetriSession *session, const LoadRequest *request, LoadP
                                      request->name.bytes, (int)unit->why.len, unit->why.bytes));
     if (!unit->program)
         status = PETRI_INVALID;
-    if (status == PETRI_OK && purpose != LOAD_TO_CHECK)
+    if (status == PETRI_OK)
         adopt(session, unit, session->program ? purpose : LOAD_AFRESH);
     else
         unit_free(unit);
@@ -336,22 +363,23 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
     return load(session, &(LoadRequest){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
 }
 
-PetriStatus petri_reload(PetriSession *session, const char *file) {
-    if (file)
-        return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
+// The text is the same, so what was told of it stays told.
+static PetriStatus load_again(PetriSession *session) {
     if (!session->program)
         return PETRI_INVALID;
     const Unit *unit = session->program;
     LoadRequest request = {
         .name = unit->source->name, .text = unit->source->text, .path = unit->path, .version = unit->version};
-    return load(session, &request, LOAD_TO_GO_ON);
+    session->again = true;
+    PetriStatus status = load(session, &request, LOAD_TO_GO_ON);
+    session->again = false;
+    return status;
 }
 
-PetriStatus petri_check(PetriSession *session, const char *file) {
-    session->lint = true;
-    PetriStatus status = load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_CHECK);
-    session->lint = false;
-    return status;
+PetriStatus petri_reload(PetriSession *session, const char *file) {
+    if (!file)
+        return load_again(session);
+    return load(session, &(LoadRequest){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {

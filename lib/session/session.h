@@ -6,7 +6,7 @@
 
 #include "builtin/files.h"
 #include "builtin/noise.h"
-#include "canvas/automatic.h"
+#include "draw/automatic.h"
 #include "canvas/read.h"
 #include "scene/scene.h"
 #include "vm/vm.h"
@@ -16,10 +16,12 @@ typedef struct Unit Unit;
 struct Unit {
     Unit *next;
     Arena arena;
+    Arena scratch; // while it is compiled: syntax tree, expressions
     Str path;    // canonical
     Str version; // changes when the file does: modification time, size, inode
     const Source *source;
-    const Ast *ast;
+    const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
+    bool empty;             // there is no statement in it
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
     uint32_t references;    // freed with the last
@@ -40,13 +42,22 @@ typedef struct Prompt {
     bool adds; // its value is nodes for the tree
 } Prompt;
 
-// From where on the clock runs at its present rates.
+// From where on the clock runs at its present rates: zeros at first.
 typedef struct ClockBase {
-    bool set; // false: from frame 0 and, in real time, from `start`
     int64_t frame;
     double time;
     double beat;
 } ClockBase;
+
+// The clock of real time. What it counts is the script's `time`: 0 in frame 0, and the time that the host has held the
+// session does not count.
+typedef struct WallClock {
+    bool running;       // false: the next frame is the first, or the first after a restored state
+    double origin;      // what the machine's monotonic clock showed at time 0
+    double due;         // the time of the next frame
+    double performance; // the script's `performance`, which lockstep has as well
+    bool slow_frame;    // … and `slow_frame`
+} WallClock;
 
 typedef struct ClockRates {
     double fps;
@@ -54,7 +65,7 @@ typedef struct ClockRates {
     double quantum;
 } ClockRates;
 
-struct PetriSetup {
+struct PetriConfig {
     uint32_t references;
     uint64_t number;
     Unit *program;
@@ -68,7 +79,7 @@ struct PetriSetup {
 };
 
 struct PetriSnapshot {
-    PetriSetup *setup; // a reference
+    PetriConfig *config; // a reference
     PetriFrame frame;
     ClockBase base;
     double delta;
@@ -87,22 +98,25 @@ struct PetriSession {
     AutoFrame auto_frames[MOST_AUTO_SYSTEMS]; // what the automatic picture showed last
     FileCache *files;
     NoiseCache *noise;
-    const Define *defines; // replaced as a whole: setups share it
+    const Define *defines; // replaced as a whole: configurations share it
     uint32_t define_count;
-    Unit *program;   // the loaded script, or NULL
-    ClockRates said; // by its pragmas
+    uint32_t told_defines; // of these it was told what the script does with them
+    bool again;            // the same text is being compiled once more, for other definitions
+    Unit *program;         // the loaded script, or NULL
+    ClockRates said;       // by its pragmas
     ClockBase base;
     double resolution; // 0: as systems say
     Prompt *prompts;
     uint32_t prompt_count;
-    PetriSetup *setup;     // of the present number, once somebody has asked for it
-    uint64_t setup_number; // of the present setup
-    uint64_t last_number;  // given so far
-    Unit *modules;         // list
-    uint64_t generation;   // counts the units that frames came to depend on (session_put)
-    Unit *fresh;           // the script that was begun to be loaded last, for when its memory runs out
-    Unit *loading;         // whose compiler calls back
-    bool lint;             // petri_check is at work
+    PetriConfig *config;    // of the present number, once somebody has asked for it
+    uint64_t config_number; // of the present configuration
+    uint64_t last_number;   // given so far
+    Unit *modules;          // list
+    uint64_t generation;    // counts the units that frames came to depend on (session_put)
+    Unit *fresh;            // the script that was begun to be loaded last, for when its memory runs out
+    Unit *loading;          // whose compiler calls back
+    bool lint;              // petri_check is at work
+    bool unseen;            // no frame of the loaded script has been made
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
 
@@ -124,11 +138,7 @@ struct PetriSession {
     PetriFrame frame;
     double quantum;
     double delta;
-    double start;       // of realtime: the session's time of frame 0
-    double due;         // of realtime: when the next frame is due
-    double held;        // of realtime: seconds by which the session's clock is behind the monotonic one
-    double performance; // of realtime
-    bool slow_frame;
+    WallClock wall;
     bool in_frame;
     double profiled_physics; // seconds, since the script was loaded
     uint64_t profiled_frames;
@@ -140,7 +150,7 @@ struct PetriSession {
     Value *values;
     uint32_t value_count;
     uint32_t value_capacity;
-    bool evaluated;     // tree and values are those of the present frame and setup
+    bool evaluated;     // tree and values are those of the present frame and configuration
     Arena prompt_arena; // of one expression
     bool tell_again;    // what a person types twice is told twice
     atomic_bool interrupt;
@@ -153,6 +163,11 @@ void session_tell(PetriSession *session, const Diag *diag);
 void session_tell_text(PetriSession *session, DiagLevel level, const char *code, Str text);
 // Hands over what a sink has collected.
 void session_tell_all(PetriSession *session, const DiagSink *sink);
+
+// Defines a name; the text is that of its value.
+PetriStatus session_define(PetriSession *session, Str name, Str value);
+// Tells of definitions that a script does not take; false if one cannot be, and the script must not run.
+bool session_check_definitions(PetriSession *session, Unit *unit);
 
 // Loads a unit: reads, parses and compiles. The unit is returned even if that failed (program is NULL).
 Unit *unit_load_file(PetriSession *session, const char *file, bool module);
@@ -177,6 +192,8 @@ void session_start(PetriSession *session, const Program *program);
 void session_set_globals(const PetriSession *session, Vm *vm);
 // Goes to just after a frame.
 void session_resume(PetriSession *session, int64_t frame);
+// In real time, when the session has gone to another frame: time goes on from that frame's.
+void session_rewind_wall_clock(PetriSession *session);
 // Takes tempo, quantum and fps from the pragmas, where they differ from those of the script before.
 void session_take_rates(PetriSession *session, const Program *program);
 // Changes the rates from the present frame on.
@@ -185,10 +202,13 @@ void session_set_rates(PetriSession *session, const ClockRates *rates);
 void session_clear_frame(PetriSession *session);
 // Evaluates script and prompt statements; false if that was given up. Within escapes.
 bool session_evaluate(PetriSession *session);
-// Tells that the setup has changed; `frame_stays` says that what the last frame computed is still right.
-void session_change_setup(PetriSession *session, bool frame_stays);
-// The present setup, borrowed; NULL if memory is used up.
-PetriSetup *session_setup(PetriSession *session);
+// Warns of nodes at the top of the frame that are nearly spelled like those that drive or show something. Within
+// escapes.
+void session_look_at_top(PetriSession *session);
+// Tells that the configuration has changed; `frame_stays` says that what the last frame computed is still right.
+void session_change_config(PetriSession *session, bool frame_stays);
+// The present configuration, borrowed; NULL if memory is used up.
+PetriConfig *session_config(PetriSession *session);
 
 // Copies state and systems into a snapshot's memory, which is used again; false if memory is used up.
 bool session_take(PetriSession *session, PetriSnapshot *snapshot);

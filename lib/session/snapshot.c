@@ -178,15 +178,15 @@ bool session_put_back(PetriSession *session, const PetriSnapshot *snapshot) {
 }
 
 PetriSnapshot *petri_snapshot(PetriSession *session) {
-    PetriSetup *setup = petri_setup(session);
-    PetriSnapshot *snapshot = setup ? calloc(1, sizeof *snapshot) : NULL;
+    PetriConfig *config = petri_config(session);
+    PetriSnapshot *snapshot = config ? calloc(1, sizeof *snapshot) : NULL;
     if (snapshot && session_take(session, snapshot)) {
-        snapshot->setup = setup;
+        snapshot->config = config;
         unsigned char *exact = realloc(snapshot->bytes, snapshot->size); // many are kept
         snapshot->bytes = exact ? exact : snapshot->bytes;
         return snapshot;
     }
-    petri_setup_free(setup);
+    petri_config_free(config);
     petri_snapshot_free(snapshot);
     return NULL;
 }
@@ -194,7 +194,7 @@ PetriSnapshot *petri_snapshot(PetriSession *session) {
 void petri_snapshot_free(PetriSnapshot *snapshot) {
     if (!snapshot)
         return;
-    petri_setup_free(snapshot->setup);
+    petri_config_free(snapshot->config);
     free(snapshot->bytes);
     free(snapshot);
 }
@@ -206,6 +206,7 @@ size_t petri_snapshot_bytes(const PetriSnapshot *snapshot) {
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot) {
     if (!session_put_back(session, snapshot))
         return PETRI_MEMORY;
-    petri_setup_use(session, snapshot->setup);
+    petri_config_use(session, snapshot->config);
+    session_rewind_wall_clock(session);
     return PETRI_OK;
 }

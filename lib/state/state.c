@@ -11,9 +11,9 @@
 
 typedef struct StateEntry {
     Value key;   // in `keys`, or inline
-    Value value; // one heap block, or inline; a view if there is a viewer. Null: the slot is empty
+    Value value; // one heap block, or inline; borrowed if there is a lender. Null: the slot is empty
     uint32_t hash;
-    StateViewer viewer;
+    StateLender lender;
 } StateEntry;
 
 struct State {
@@ -23,8 +23,8 @@ struct State {
     uint32_t live;
     Index index;
     Arena keys;
-    bool *disturbed; // by viewer
-    uint32_t viewer_count;
+    bool *disturbed; // by lender
+    uint32_t lender_count;
 };
 
 static void start_keys(Arena *keys) {
@@ -93,8 +93,8 @@ static bool own(Value *copy, Value v) {
 
 static void disown(StateEntry *entry) {
     Value *v = &entry->value;
-    if (entry->viewer)
-        entry->viewer = 0;
+    if (entry->lender)
+        entry->lender = 0;
     else if (v->kind == VALUE_MIXED)
         free((void *)v->as.items);
     else if (v->len > 1)
@@ -108,7 +108,7 @@ void state_clear(State *state) {
     state->count = state->live = 0;
     index_clear(&state->index);
     arena_reset(&state->keys);
-    for (uint32_t i = 0; i < state->viewer_count; i++)
+    for (uint32_t i = 0; i < state->lender_count; i++)
         state->disturbed[i] = true;
 }
 
@@ -216,8 +216,8 @@ Value state_slot_key(const State *state, StateSlot slot) {
 static void replace(State *state, StateEntry *entry, Value owned) {
     state->live += (owned.len > 0);
     state->live -= (entry->value.len > 0);
-    if (entry->viewer)
-        state->disturbed[entry->viewer - 1] = true;
+    if (entry->lender)
+        state->disturbed[entry->lender - 1] = true;
     disown(entry);
     entry->value = owned;
 }
@@ -229,7 +229,7 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
     Value *stored = &entry->value;
     if (value.len > 0 && value_equal(*stored, value))
         return true; // equal values leave the stored bits alone
-    if (!entry->viewer && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
+    if (!entry->lender && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
         value.len > 0) {
         if (value.len == 1)
             *stored = value;
@@ -244,39 +244,39 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
     return true;
 }
 
-StateViewer state_add_viewer(State *state) {
-    bool *larger = realloc(state->disturbed, (state->viewer_count + 1) * sizeof *larger);
+StateLender state_add_lender(State *state) {
+    bool *larger = realloc(state->disturbed, (state->lender_count + 1) * sizeof *larger);
     if (!larger)
         return 0;
     state->disturbed = larger;
-    larger[state->viewer_count] = false;
-    return ++state->viewer_count;
+    larger[state->lender_count] = false;
+    return ++state->lender_count;
 }
 
-bool state_take_disturbed(State *state, StateViewer viewer) {
-    bool disturbed = state->disturbed[viewer - 1];
-    state->disturbed[viewer - 1] = false;
+bool state_take_disturbed(State *state, StateLender lender) {
+    bool disturbed = state->disturbed[lender - 1];
+    state->disturbed[lender - 1] = false;
     return disturbed;
 }
 
-void state_slot_view(State *state, StateSlot slot, StateViewer viewer, const double *numbers, uint32_t len) {
+void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const double *numbers, uint32_t len) {
     if (slot >= state->count)
         return;
     StateEntry *entry = &state->entries[slot];
-    if (entry->viewer == viewer && entry->value.len == len) {
+    if (entry->lender == lender && entry->value.len == len) {
         entry->value.as.numbers = numbers;
         return;
     }
     replace(state, entry, value_numbers_view(numbers, len));
-    entry->viewer = viewer;
+    entry->lender = lender;
 }
 
-bool state_slot_viewed(const State *state, StateSlot slot, StateViewer viewer) {
-    return slot < state->count && state->entries[slot].viewer == viewer;
+bool state_slot_borrows(const State *state, StateSlot slot, StateLender lender) {
+    return lender && slot < state->count && state->entries[slot].lender == lender;
 }
 
-bool state_slot_settle(State *state, StateSlot slot, StateViewer viewer) {
-    if (!state_slot_viewed(state, slot, viewer))
+bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
+    if (!state_slot_borrows(state, slot, lender))
         return true;
     StateEntry *entry = &state->entries[slot];
     Value copy;
@@ -285,7 +285,7 @@ bool state_slot_settle(State *state, StateSlot slot, StateViewer viewer) {
         return false;
     }
     entry->value = copy;
-    entry->viewer = 0;
+    entry->lender = 0;
     return true;
 }
 

@@ -38,20 +38,20 @@ Value state_slot_key(const State *state, StateSlot slot);
 // As state_set. Numbers of unchanged length are overwritten in place.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 
-// Views. A system that keeps its numbers from frame to frame need not copy them here: an entry shows them where they
-// are. Each such system is a viewer. Whoever else writes to or removes an entry that it shows disturbs the viewer: the
-// entry is its own from then on.
-typedef uint32_t StateViewer; // 0: nobody
+// Lenders. A system that owns numbers from frame to frame need not copy them here: it is a lender, and an entry borrows
+// its numbers, which means that the entry points at them. Whoever else writes to or removes such an entry disturbs the
+// lender: the entry owns its value from then on. scene/mirror.h says what for.
+typedef uint32_t StateLender; // 0: nobody
 // 0 if memory is used up.
-StateViewer state_add_viewer(State *state);
-// Has anything disturbed the viewer since this was asked last? Its own writes with state_slot_set count too.
-bool state_take_disturbed(State *state, StateViewer viewer);
-// Lets an entry show `len` > 1 numbers, which must stay where they are until it is changed or settled.
-void state_slot_view(State *state, StateSlot slot, StateViewer viewer, const double *numbers, uint32_t len);
-bool state_slot_viewed(const State *state, StateSlot slot, StateViewer viewer);
-// If the entry shows the viewer's numbers, keeps a copy instead; if there is no memory for it, the entry is removed
-// and false returned.
-bool state_slot_settle(State *state, StateSlot slot, StateViewer viewer);
+StateLender state_add_lender(State *state);
+// Has anything disturbed the lender since this was asked last? Its own writes with state_slot_set count too.
+bool state_take_disturbed(State *state, StateLender lender);
+// Lets an entry borrow `len` > 1 numbers, which must stay where they are until it is written to or owns a copy.
+void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const double *numbers, uint32_t len);
+bool state_slot_borrows(const State *state, StateSlot slot, StateLender lender);
+// If the entry borrows from the lender, gives it a copy instead; if there is no memory for it, the entry is removed and
+// false returned.
+bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender);
 
 // How many slots there are, with and without a value. Slots of removed keys stay until state_compact.
 uint32_t state_slot_count(const State *state);

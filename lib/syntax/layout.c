@@ -24,7 +24,7 @@ static Token fatal(Span span, const char *error) {
 }
 
 // What is still due for the newline in layout->line; a token of kind GR_EMPTY if nothing is.
-static Token settle(Layout *layout) {
+static Token newline_token(Layout *layout) {
     Span here = {layout->line.end, layout->line.end};
     LayoutLevel *top = &layout->levels[layout->level_count - 1];
     while (layout->indent < top->indent) {
@@ -56,7 +56,7 @@ static Token newline(Layout *layout, Token token) {
 
 static Token next(Layout *layout) {
     if (layout->settling) {
-        Token token = settle(layout);
+        Token token = newline_token(layout);
         if (token.kind != GR_EMPTY)
             return token;
     }

@@ -5,8 +5,8 @@
 #ifndef PETRI_SYNTAX_LAYOUT_H
 #define PETRI_SYNTAX_LAYOUT_H
 
+#include "ast/token.h"
 #include "base/arena.h"
-#include "syntax/token.h"
 
 enum { LAYOUT_MAX_DEPTH = 1000 }; // indentations, and separately parentheses, open at a time
 

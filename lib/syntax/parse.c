@@ -1,32 +1,41 @@
 // parse.c: the parser's driver: decides what words are keywords, builds literals, phrases errors; see parse.h.
 #include "syntax/parse.h"
 
+#include "ast/literal.h"
 #include "parser.h"
+#include "syntax/foreign.h"
+#include "syntax/habits.h"
 #include "syntax/layout.h"
-#include "syntax/literal.h"
 
 #include <string.h>
 
 enum { MOST_EXPECTED = 3 }; // more alternatives than this say nothing
 
+// What is wrong with a line is told once.
 static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
+    uint32_t line = source_locate(context->source, span.start).line;
+    bool follows = context->failed && line == context->faulty_line;
     context->failed = true;
+    context->faulty_line = line;
+    if (follows)
+        return;
     diag_report(
         context->diags,
         &(Diag){
             .level = DIAG_ERROR, .source = context->source, .span = span, .text = text, .hint = hint, .code = code});
 }
 
-Ast *parse_checked(ParseContext *context, Ast *ast) {
-    if (ast->height <= AST_MAX_HEIGHT)
-        return ast;
-    parse_too_deep(context, ast->span);
-    return ast_literal(context->arena, ast->span, VALUE_NULL); // any shallow tree: the program has failed
+// The same of a token that cannot stand where it is: the hint is the given one unless a better is known.
+static void report_token(ParseContext *context, Span span, Str text, Str hint) {
+    bool kept = context->diags->count < context->diags->limit;
+    Str habit = kept ? parse_habit(context->diags->arena, context->source, span) : (Str){0};
+    report(context, span, "syntax", text, habit.len ? habit : hint);
 }
 
-void parse_too_deep(ParseContext *context, Span span) {
+// Ends parsing.
+static void report_overflow(ParseContext *context) {
     if (!context->too_deep)
-        report(context, span, "too-deep",
+        report(context, context->overflow_at, "too-deep",
                str_format(context->arena, "nested too deeply: the limit is %d levels", AST_MAX_HEIGHT), (Str){0});
     context->too_deep = true;
 }
@@ -48,7 +57,7 @@ static void add_token_name(Text *out, const char *name) {
 }
 
 // A second sentence for common slips.
-static Str syntax_hint(const ParseContext *context, Span span, const char *found, bool wants_block) {
+static Str syntax_hint(const char *found, bool wants_block) {
     if (wants_block)
         return STR("the line above needs an indented block under it");
     if (strcmp(found, "'='") == 0)
@@ -59,8 +68,6 @@ static Str syntax_hint(const ParseContext *context, Span span, const char *found
         return STR("vectors are written with semicolons: 1;2;3");
     if (strcmp(found, "else") == 0 || strcmp(found, "elif") == 0)
         return STR("it must follow the block of an if, at the same indentation");
-    if (strcmp(found, "end of line") == 0 && span.start > 0 && context->source->text.bytes[span.start - 1] == ';')
-        return STR("a vector may not end in a semicolon");
     return (Str){0};
 }
 
@@ -82,10 +89,10 @@ static const char *after_names(const ParseContext *context, Span span, const cha
     return NULL;
 }
 
-void parse_syntax_error(ParseContext *context, Span span, const char *found, const char *const *expected, int count,
-                        bool wants_value) {
-    if (context->reported)
-        return;
+static void report_unexpected(ParseContext *context, const Unexpected *unexpected) {
+    const char *found = unexpected->found, *const *expected = unexpected->expected;
+    int count = unexpected->expected_count;
+    Span span = unexpected->span;
     const char *wanted = after_names(context, span, expected, count);
     if (wanted) {
         expected = &wanted;
@@ -108,7 +115,7 @@ void parse_syntax_error(ParseContext *context, Span span, const char *found, con
         add_token_name(&text, found);
     }
     bool ends = strcmp(found, "end of line") == 0 || strcmp(found, "end of file") == 0;
-    if (count == 0 && wants_value && ends)
+    if (count == 0 && unexpected->wants_value && ends)
         text_add_c(&text, ", expected an expression");
     for (int i = 0; i < count; i++) {
         text_add_c(&text, i == 0 ? ", expected " : i + 1 < count ? ", " : " or ");
@@ -117,7 +124,7 @@ void parse_syntax_error(ParseContext *context, Span span, const char *found, con
         else
             add_token_name(&text, expected[i]);
     }
-    report(context, span, "syntax", text_str(&text), syntax_hint(context, span, found, wants_block));
+    report_token(context, span, text_str(&text), syntax_hint(found, wants_block));
 }
 
 // A character at which no token starts.
@@ -131,18 +138,16 @@ static void report_character(ParseContext *context, Span span) {
     else if (c == '\\')
         report(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
     else if (c == 0xfeff)
-        report(context, span, "syntax", STR("byte-order mark: save the file as UTF-8 without one"), (Str){0});
+        report(context, span, "syntax", STR("a byte-order mark (U+FEFF) can only begin a file"), (Str){0});
     else if (c < 0x20 || c == 0x7f)
         report(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
                STR("is this a text file?"));
     else if (c == ':' || c == '!' || c == '#')
-        report(context, span, "syntax", str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
-               c == '#'   ? STR("comments start with --")
-               : c == '!' ? STR("to negate write not")
-                          : (Str){0});
+        report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
+                     c == '!' ? STR("to negate write not") : (Str){0});
     else
-        report(
-            context, span, "syntax",
+        report_token(
+            context, span,
             str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
             (Str){0});
 }
@@ -239,7 +244,7 @@ static void retoken(Layout *layout, Token *token, int kind, uint32_t len) {
 }
 
 // Context decides what a word or a directive is (L2.2, L2.12).
-static void settle_kind(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
+static void resolve_keyword(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
     Str text = token_text(context, token->span);
     if ((token->kind == PRAGMA || token->kind == INCLUDE) && !gr_accepts(parser, token->kind)) {
         retoken(layout, token, '%', 1);
@@ -274,7 +279,12 @@ static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token 
         report_character(context, token->span);
     GR_STYPE semantic = token_value(context, token);
     Span span = token->span;
+    context->unexpected.found = NULL;
     int status = gr_push_parse(parser, token->kind, &semantic, &span, context);
+    if (context->overflow)
+        report_overflow(context);
+    if (context->unexpected.found && !context->reported)
+        report_unexpected(context, &context->unexpected);
     if (context->diags->count > errors_before || context->reported) {
         add_paren_hint(context, layout, token, errors_before);
         layout_recover(layout, token);
@@ -292,14 +302,20 @@ static int skip_line(Layout *layout) {
 }
 
 static bool check_text(ParseContext *context) {
-    Str text = context->source->text;
-    size_t bad = utf8_find_error(text);
-    if (bad < text.len) {
+    const Source *source = context->source;
+    const char *encoding = foreign_encoding(source);
+    size_t bad = utf8_find_error(source->text);
+    if (encoding) {
+        context->failed = true;
+        Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", (int)source->name.len,
+                              source->name.bytes, encoding);
+        diag_report(context->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "encoding"});
+    } else if (bad < source->text.len) {
         report(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
-               STR("is this a text file?"));
-        return false;
+               str_format(context->arena, "the byte 0x%02X cannot stand here: save the file as UTF-8",
+                          (unsigned char)source->text.bytes[bad]));
     }
-    return true;
+    return !context->failed;
 }
 
 static void parse_text(ParseContext *context, Layout *layout) {
@@ -308,7 +324,7 @@ static void parse_text(ParseContext *context, Layout *layout) {
     int status = YYPUSH_MORE;
     while (parser && status == YYPUSH_MORE && !context->too_deep) {
         Token token = layout_next(layout);
-        settle_kind(context, layout, parser, &token);
+        resolve_keyword(context, layout, parser, &token);
         status = push(context, layout, parser, &token);
         if (status == 1 && token.kind != END) {
             // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
@@ -349,7 +365,7 @@ static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser)
     bool begins = true;
     for (;;) {
         Token token = layout_next(layout);
-        settle_kind(context, layout, parser, &token);
+        resolve_keyword(context, layout, parser, &token);
         if (token.kind == GR_UNDEF || token.error)
             return !token.error && opens_string(text, token.span) ? PARSE_PART : PARSE_WHOLE;
         if (token.kind == END)
@@ -385,5 +401,7 @@ const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *sourc
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
     if (check_text(&context))
         parse_text(&context, arena_alloc(arena, sizeof(Layout)));
+    if (context.failed && !foreign_encoding(source))
+        foreign_sum_up(source, diags);
     return context.failed ? NULL : context.program;
 }

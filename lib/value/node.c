@@ -11,7 +11,7 @@ Node *node_new(Arena *arena, const Symbol *kind) {
 
 static Node *node_clone(Arena *arena, const Node *node) {
     Node *copy = arena_copy(arena, node, sizeof *node);
-    copy->kept = false;
+    copy->program_lifetime = false;
     return copy;
 }
 
@@ -102,13 +102,13 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
         return copy;
     if (node->child_count == 0) {
         copy->children = list->nodes;
-        copy->kept_children = list->kept;
+        copy->program_lifetime_children = list->program_lifetime;
     } else {
         const Node **all = arena_alloc_array(arena, node->child_count + list->count, sizeof *all);
         memcpy(all, node->children, node->child_count * sizeof *all);
         memcpy(all + node->child_count, list->nodes, list->count * sizeof *all);
         copy->children = all;
-        copy->kept_children = false;
+        copy->program_lifetime_children = false;
     }
     copy->child_count += list->count;
     if (list->height >= copy->height)
@@ -116,16 +116,11 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
     return copy;
 }
 
-Node *node_append(Arena *arena, const Node *node, Value children) {
-    NodeList list = node_list(arena, children);
-    return node_append_list(arena, node, &list);
-}
-
 // Depth is limited by NODE_MAX_HEIGHT; what is marked already has been visited.
 static void node_keep(Node *node) {
-    if (node->kept)
+    if (node->program_lifetime)
         return;
-    node->kept = node->kept_children = true;
+    node->program_lifetime = node->program_lifetime_children = true;
     for (uint32_t i = 0; i < node->attr_count; i++)
         value_keep(node->attrs[i].value);
     for (uint32_t i = 0; i < node->child_count; i++)
@@ -136,6 +131,16 @@ void value_keep(Value v) {
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
         if (v.as.items[i].type == ITEM_NODE)
             node_keep((Node *)v.as.items[i].as.node);
+}
+
+Origin node_place(const Node *node, const Symbol *attr) {
+    const NodeOrigin *origin = node->origin;
+    if (!origin)
+        return (Origin){0};
+    for (uint32_t i = 0; i < origin->attr_count; i++)
+        if (origin->attrs[i].name == attr)
+            return (Origin){origin->place.source, origin->attrs[i].span};
+    return origin->place;
 }
 
 Value node_get(const Node *node, const Symbol *name) {
@@ -165,7 +170,7 @@ bool node_equal(const Node *a, const Node *b) {
 
 const Node *node_copy(Arena *arena, const Node *node) {
     Node *copy = node_clone(arena, node);
-    copy->kept_children = false;
+    copy->program_lifetime_children = false;
     copy->tags = arena_copy(arena, node->tags, node->tag_count * sizeof *node->tags);
     Attr *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
     for (uint32_t i = 0; i < node->attr_count; i++)

@@ -14,21 +14,31 @@ typedef struct Attr {
     Value value; // never null
 } Attr;
 
+// Where a node came from in a script.
+typedef struct NodeOrigin {
+    Origin place;
+    const struct AttrOrigin {
+        const Symbol *name;
+        Span span;
+    } * attrs; // those that were written with it, in the same text
+    uint32_t attr_count;
+} NodeOrigin;
+
 struct Node {
     const Symbol *kind;
     const Symbol *const *tags; // ascending by bytes
     const Attr *attrs;         // in the order in which they were first set
     const Node *const *children;
-    const Origin *origin; // lives as long as the program that made the node; NULL: unknown
+    const NodeOrigin *origin; // lives as long as the program that made the node; NULL: unknown
     uint32_t tag_count;
     uint32_t attr_count;
     uint32_t child_count;
     uint16_t height; // 1 + the greatest height of a child or of a node in an attribute
     // Lives as long as the program that made it, not only for a frame: as long as no program is dropped, the same
-    // address means the same node with everything in it. The children may be kept though the node is not: then the
-    // same `children` and `child_count` mean the same children.
-    bool kept;
-    bool kept_children;
+    // address means the same node with everything in it. The children may live so long though the node does not: then
+    // the same `children` and `child_count` mean the same children.
+    bool program_lifetime;
+    bool program_lifetime_children;
 };
 
 _Static_assert(sizeof(Node) == 56, "scripts make thousands of nodes a frame");
@@ -45,25 +55,27 @@ Node *node_new(Arena *arena, const Symbol *kind);
 Node *node_add_tag(Arena *arena, const Node *node, const Symbol *tag);
 // Sets attributes in order; a null or stream value removes one (L7.2). NULL if the tree would be too high.
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *attrs, uint32_t count);
-// Appends the nodes of `children`; other elements are ignored. NULL if the tree would be too high.
-Node *node_append(Arena *arena, const Node *node, Value children);
-// The nodes of a vector, ready to be appended: a node that has no children yet shares the array.
+// The nodes of a vector, ready to be appended; other elements are ignored. A node that has no children yet shares the
+// array.
 typedef struct NodeList {
     const Node *const *nodes;
     uint32_t count;
-    uint16_t height; // the greatest of a node
-    bool kept;       // as in Node
+    uint16_t height;       // the greatest of a node
+    bool program_lifetime; // as in Node
 } NodeList;
 NodeList node_list(Arena *arena, Value children);
 // The same in an array that has room for as many nodes as there are elements.
 NodeList node_list_in(const Node **nodes, Value children);
 // The greatest height of the nodes in a vector, 0 if there are none.
 uint32_t value_height(Value v);
+// NULL if the tree would be too high.
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Marks the nodes of a value that lives as long as its program, and all that are in them.
 void value_keep(Value v);
 // The attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name);
+// Where the attribute of this name was written, or else the node; the source is NULL if that is unknown, too.
+Origin node_place(const Node *node, const Symbol *attr);
 // Structural equality (L7.5).
 bool node_equal(const Node *a, const Node *b);
 const Node *node_copy(Arena *arena, const Node *node);

@@ -23,10 +23,6 @@ Value value_string(Arena *arena, Str text) {
     return value_item(arena, (Item){ITEM_STRING, .as.string = string_new(arena, text)});
 }
 
-Value value_node(Arena *arena, const Node *node) {
-    return value_item(arena, (Item){ITEM_NODE, .as.node = node});
-}
-
 Value value_function(Arena *arena, const Function *function) {
     return value_item(arena, (Item){ITEM_FUNCTION, .as.function = function});
 }

@@ -86,7 +86,6 @@ static inline Value value_stream(StreamKind kind, uint64_t key) {
 
 // One-element vectors. The string's bytes are copied.
 Value value_string(Arena *arena, Str text);
-Value value_node(Arena *arena, const Node *node);
 Value value_function(Arena *arena, const Function *function);
 Value value_item(Arena *arena, Item item);
 

@@ -11,22 +11,23 @@ bool vm_stack_left(const Vm *vm) {
 }
 
 // A closure captures names of the function that encloses it, and nothing else.
-static Value outer_value(const Frame *frame, const Expr *expr) {
-    switch (expr->kind) {
-    case EXPR_SLOT:
-        return frame->slots[expr->slot];
-    case EXPR_CAPTURE:
-        return frame->closure->captures[expr->slot];
-    default:
-        return frame->closure->self;
+static Value outer_value(const Frame *frame, const Capture *capture) {
+    switch (capture->kind) {
+    case CAPTURE_SLOT:
+        return frame->slots[capture->slot];
+    case CAPTURE_AGAIN:
+        return frame->closure->captures[capture->slot];
+    case CAPTURE_SELF:
+        break;
     }
+    return frame->closure->self;
 }
 
 Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults) {
     Closure *closure = arena_alloc(vm->arena, sizeof *closure);
     Value *captures = arena_alloc_array(vm->arena, code->capture_count, sizeof *captures);
     for (uint32_t i = 0; i < code->capture_count; i++)
-        captures[i] = outer_value(frame, code->captures[i]);
+        captures[i] = outer_value(frame, &code->captures[i]);
     *closure = (Closure){.base = {.name = code->name},
                          .code = code,
                          .captures = captures,
@@ -53,7 +54,7 @@ static Value argument(const Closure *closure, const Arguments *args, uint32_t i)
     return closure->defaults[i];
 }
 
-static bool may_enter(Vm *vm, const Closure *closure, const Expr *at) {
+static bool may_enter(Vm *vm, const Closure *closure, const Origin *at) {
     const char *limit = closure->active >= VM_CLOSURE_DEPTH ? "500 calls of one function"
                         : vm->depth >= VM_CALL_DEPTH        ? "8192 nested calls"
                         : !vm_stack_left(vm)                ? "the stack"
@@ -66,7 +67,7 @@ static bool may_enter(Vm *vm, const Closure *closure, const Expr *at) {
     return !limit;
 }
 
-static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Expr *at) {
+static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Origin *at) {
     const FunctionCode *code = closure->code;
     if (closure->run != vm->run) { // made ahead: what an evaluation that was given up left is void
         closure->run = vm->run;
@@ -87,9 +88,11 @@ static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const
     return result;
 }
 
-static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at) {
+static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *at) {
     if (item.type != ITEM_FUNCTION) {
-        static const char *const texts[] = {"not callable: a number", "not callable: a string", "not callable: a node"};
+        static const char *const texts[] = {
+            "not callable: a number", "not callable: a string",
+            "not callable: a node; attributes are written without parentheses: !name a=1"};
         vm_fault_text(vm, at, "not-callable", str_from(texts[item.type]));
         return VALUE_NULL;
     }
@@ -102,15 +105,15 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Expr *at)
                         args->named_count);
 }
 
-Value vm_call(Vm *vm, const Expr *expr, Value callee, const Value *values) {
-    const CallCode *code = expr->as.call;
+Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values) {
+    const CallCode *code = instr->as.call;
     if (callee.kind != VALUE_MIXED) // null, a stream, numbers: null in silence (L9.3)
         return VALUE_NULL;
     Arguments args = {values, code->arg_count, code->names, values + code->arg_count, code->named_count};
     if (callee.len == 1)
-        return call_item(vm, callee.as.items[0], &args, expr);
+        return call_item(vm, callee.as.items[0], &args, instr->at);
     Vector vector = vector_new(vm->arena);
     for (uint32_t i = 0; i < callee.len; i++)
-        vector_add(&vector, call_item(vm, callee.as.items[i], &args, expr));
-    return vm_finish(vm, expr, &vector);
+        vector_add(&vector, call_item(vm, callee.as.items[i], &args, instr->at));
+    return vm_finish(vm, instr->at, &vector);
 }

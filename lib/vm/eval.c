@@ -91,7 +91,7 @@ static const Value *gather(Vm *vm, const int32_t *list, const Value *slots, cons
 NOINLINE static Value call(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     Value few[FEW_ARGUMENTS];
     const Value *values = gather(vm, list, slots, instr, few);
-    return vm_call(vm, instr->at, slots[instr->b], values);
+    return vm_call(vm, instr, slots[instr->b], values);
 }
 
 NOINLINE static Value call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
@@ -106,22 +106,22 @@ NOINLINE static Value make_closure(Vm *vm, const int32_t *list, const Frame *fra
     Value *defaults = arena_alloc_array(vm->arena, instr->count, sizeof *defaults);
     for (uint32_t i = 0; i < instr->count; i++)
         defaults[i] = frame->slots[list[i]];
-    return vm_make_closure(vm, frame, instr->at->as.function, defaults);
+    return vm_make_closure(vm, frame, instr->as.function, defaults);
 }
 
-NOINLINE static Value unbound(Vm *vm, const Expr *expr) {
-    vm_fault(vm, expr, "unbound-name", "unbound name '%.*s' is null", (int)expr->as.name->name.len,
-             expr->as.name->name.bytes);
+NOINLINE static Value unbound(Vm *vm, const Instr *instr) {
+    Str name = instr->as.name->name;
+    vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", (int)name.len, name.bytes);
     return VALUE_NULL;
 }
 
 NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
     vm->met_dynamic = true;
     if (!vm->is_static)
-        vm_import(vm, frame, instr->at, file);
+        vm_import(vm, frame, instr, file);
     else // the rest is evaluated all the same
-        for (uint32_t i = 0; i < instr->at->slot_count; i++)
-            frame->slots[instr->at->slot + i] = VALUE_NULL;
+        for (uint32_t i = 0; i < instr->count; i++)
+            frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
 }
 
 #define A slots[instr->a]
@@ -172,11 +172,11 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             D = frame->closure->self;
             break;
         case OP_GLOBAL:
-            vm->met_dynamic |= instr->at->dynamic;
+            vm->met_dynamic |= instr->a;
             D = vm->globals[instr->target];
             break;
         case OP_UNBOUND:
-            D = unbound(vm, instr->at);
+            D = unbound(vm, instr);
             break;
         case OP_COMPOSE:
             D = vm_compose(vm, code->operands + instr->list, slots, instr, instr->at);
@@ -228,7 +228,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             D = vm_make_node(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_APPEND:
-            D = vm_append(vm, instr->at, A, instr->b == CODE_NO_OPERAND ? VALUE_NULL : B);
+            D = vm_append(vm, instr, A, instr->b == CODE_NO_OPERAND ? VALUE_NULL : B);
             break;
         case OP_DECORATE:
             D = vm_decorate(vm, code->operands + instr->list, slots, instr);
@@ -289,7 +289,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             break;
         }
         case OP_SLICE:
-            D = vm_slice(vm, instr->at, A, B, C);
+            D = vm_slice(vm, instr->as.inner, A, B, C);
             break;
         case OP_LOOKUP:
             D = vm_lookup(vm, code->operands + instr->list, slots, instr);

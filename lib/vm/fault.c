@@ -3,7 +3,7 @@
 
 #include <stdarg.h>
 
-static bool first_fault(Vm *vm, const Expr *at, uint64_t what) {
+static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     if (vm->reported_count >= VM_REPORTED / 2)
         return false;
     uint32_t i = (uint32_t)hash_mix((uint64_t)(uintptr_t)at ^ what << 1) % VM_REPORTED;
@@ -15,17 +15,17 @@ static bool first_fault(Vm *vm, const Expr *at, uint64_t what) {
     return true;
 }
 
-static void report(Vm *vm, const Expr *at, DiagLevel level, const char *code, Str text) {
+static void report(Vm *vm, const Origin *at, DiagLevel level, const char *code, Str text) {
     Diag diag = {.level = level, .source = at->source, .span = at->span, .text = text, .code = code};
     vm->host.report(vm->host.host, &diag);
 }
 
-void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text) {
+void vm_fault_text(Vm *vm, const Origin *at, const char *code, Str text) {
     if (first_fault(vm, at, hash_bytes(0, text.bytes, text.len)))
         report(vm, at, DIAG_WARNING, code, text);
 }
 
-void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) {
+void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ...) {
     if (!first_fault(vm, at, (uint64_t)(uintptr_t)format))
         return;
     va_list args;
@@ -36,7 +36,7 @@ void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...)
     report(vm, at, DIAG_WARNING, code, text_str(&text));
 }
 
-bool vm_work_goes_on(Vm *vm, const Expr *at) {
+bool vm_work_goes_on(Vm *vm, const Origin *at) {
     enum { BETWEEN_LOOKS = 1024 };
     if (vm->stopped)
         return false;
@@ -55,7 +55,7 @@ bool vm_work_goes_on(Vm *vm, const Expr *at) {
     return false;
 }
 
-Value vm_finish(Vm *vm, const Expr *at, Vector *vector) {
+Value vm_finish(Vm *vm, const Origin *at, Vector *vector) {
     if (vector->overflow)
         vm_fault(vm, at, "too-long", "vector too long: the limit is 134217728 elements");
     return vector_finish(vector);

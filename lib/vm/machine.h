@@ -3,6 +3,7 @@
 #define PETRI_VM_MACHINE_H
 
 #include "program/code.h"
+#include "value/ops.h"
 #include "vm/vm.h"
 
 // A user function as a value: its code with what it captured. Lives as long as the frame, or the program if it was made
@@ -40,20 +41,20 @@ struct ImportLink {
 // A frame for a code; its slots are not cleared.
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure);
 Value vm_eval(Vm *vm, Frame *frame, const Code *code);
-// The call that `expr` is, of the callee with the values of its arguments.
-Value vm_call(Vm *vm, const Expr *expr, Value callee, const Value *values);
+// The call that an instruction is, of the callee with the values of its arguments.
+Value vm_call(Vm *vm, const Instr *instr, Value callee, const Value *values);
 Value vm_make_closure(Vm *vm, const Frame *frame, const FunctionCode *code, const Value *defaults);
-void vm_import(Vm *vm, Frame *frame, const Expr *expr, Value file);
+void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
 // make.c: the instructions that make or look up something. `slots` are the registers, `list` the numbers of operands.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-Value vm_append(Vm *vm, const Expr *expr, Value parent, Value children);
-Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Expr *at);
+Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children);
+Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at);
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
-Value vm_range(Vm *vm, const Expr *at, Value start, Value stop, Value step);
+Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step);
 Value vm_index(Vm *vm, Value vector, Value index);
-Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop);
+Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop);
 
 // Makes room for the look-ups of a program and goes to before the first of each.
 void vm_memo_begin(Vm *vm, uint32_t count);
@@ -64,27 +65,28 @@ static inline bool is_number(const Value *v) {
     return v->len == 1 && v->kind == VALUE_NUMBERS;
 }
 
-// Reports a run-time fault at an expression: of each kind (`format`, a literal) the first at that place in the frame.
+// Reports a run-time fault at a place: of each kind (`format`, a literal) the first at that place in the frame.
 // The text is made up only then: a recursion that runs into its limit does so a million times.
-void vm_fault(Vm *vm, const Expr *at, const char *code, const char *format, ...) __attribute__((format(printf, 4, 5)));
+void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ...)
+    __attribute__((format(printf, 4, 5)));
 // The same for a text that is there already: each text once at that place in the frame.
-void vm_fault_text(Vm *vm, const Expr *at, const char *code, Str text);
+void vm_fault_text(Vm *vm, const Origin *at, const char *code, Str text);
 // vector_finish, with a report if the vector was too long.
-Value vm_finish(Vm *vm, const Expr *at, Vector *vector);
+Value vm_finish(Vm *vm, const Origin *at, Vector *vector);
 // Is there enough of the C stack left for one more call?
 bool vm_stack_left(const Vm *vm);
 
 // What vm_work does every now and then: looks whether the work is used up, which is reported once, or the host has
 // asked for an end.
-bool vm_work_goes_on(Vm *vm, const Expr *at);
+bool vm_work_goes_on(Vm *vm, const Origin *at);
 // Counts one call or loop round; false once the frame is to be given up.
-static inline bool vm_work(Vm *vm, const Expr *at) {
+static inline bool vm_work(Vm *vm, const Origin *at) {
     return ++vm->work <= vm->work_pause || vm_work_goes_on(vm, at);
 }
 
 // May a built-in be called now? Counts the call. What it complains of will belong to `at`. Ahead, no debug line is
 // written and no file is read.
-static inline bool vm_may_call(Vm *vm, const Builtin *builtin, const Expr *at) {
+static inline bool vm_may_call(Vm *vm, const Builtin *builtin, const Origin *at) {
     vm->met_dynamic |= !builtin->pure;
     if (vm->is_static && vm->met_dynamic)
         return false;

@@ -19,7 +19,7 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
 }
 
 // Numbers are put together in one allocation; anything else goes through a builder.
-Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Expr *at) {
+Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at) {
     uint64_t len = 0;
     bool numeric = true;
     for (uint32_t i = 0; i < instr->count; i++) {
@@ -42,21 +42,21 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
 
 // --- nodes
 
-Value vm_append(Vm *vm, const Expr *expr, Value parent, Value children) {
-    NodeList list = expr->as.kept ? *expr->as.kept : node_list(vm->arena, children);
+Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children) {
+    NodeList list = instr->as.kept ? *instr->as.kept : node_list(vm->arena, children);
     bool too_high = false;
     Value result = value_append(vm->arena, parent, &list, &too_high);
     if (too_high)
-        vm_fault(vm, expr, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
+        vm_fault(vm, instr->at, "too-deep", "node tree too deep: the limit is 12000 levels; not appended");
     return result;
 }
 
-static void attributes_too_deep(Vm *vm, const Expr *at) {
+static void attributes_too_deep(Vm *vm, const Origin *at) {
     vm_fault(vm, at, "too-deep", "nodes in attributes too deep: the limit is 12000 levels; not set");
 }
 
 Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
-    const DecorateCode *decorate = instr->at->as.decorate;
+    const DecorateCode *decorate = instr->as.decorate;
     Value subject = slots[instr->b];
     Attr *attrs = arena_alloc_array(vm->arena, instr->count, sizeof *attrs);
     for (uint32_t i = 0; i < instr->count; i++)
@@ -90,7 +90,7 @@ static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, cons
         attrs[count++] = (Attr){instr->as.node->names[i], *value};
     }
     if (height > NODE_MAX_HEIGHT) {
-        attributes_too_deep(vm, instr->as.node->decorate);
+        attributes_too_deep(vm, instr->as.node->decorated);
         return;
     }
     node->attrs = attrs;
@@ -107,7 +107,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
         return;
     node->children = list->nodes;
     node->child_count = list->count;
-    node->kept_children = list->kept;
+    node->program_lifetime_children = list->program_lifetime;
     if (list->height >= node->height)
         node->height = (uint16_t)(list->height + 1);
 }
@@ -121,7 +121,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     Attr *attrs = (Attr *)(made + 1);
     const Node **nodes = (const Node **)(attrs + instr->count);
     made->node = *plan->base;
-    made->node.kept = made->node.kept_children = false;
+    made->node.program_lifetime = made->node.program_lifetime_children = false;
     made->item = (Item){ITEM_NODE, .as.node = &made->node};
     if (instr->count)
         set_attributes(vm, list, slots, instr, &made->node, attrs);
@@ -152,7 +152,7 @@ Value vm_index(Vm *vm, Value vector, Value index) {
     return vector.kind == VALUE_STREAM ? index_stream(vm, vector, index) : value_index(vm->arena, vector, index);
 }
 
-Value vm_range(Vm *vm, const Expr *at, Value start, Value stop, Value step) {
+Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step) {
     bool too_long = false;
     Value range = op_range(vm->arena, start, stop, step, &too_long);
     if (too_long)
@@ -161,7 +161,7 @@ Value vm_range(Vm *vm, const Expr *at, Value start, Value stop, Value step) {
 }
 
 // Whole numbers within the vector need no range: its elements are copied.
-Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop) {
+Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) {
     if (is_number(&stop) && (is_number(&start) || start.len == 0) && vector.kind == VALUE_NUMBERS) {
         double from = start.len ? start.as.number : 0, to = stop.as.number;
         if (from >= 0 && to <= vector.len && to - from >= 2 && (double)(uint32_t)from == from &&
@@ -172,7 +172,7 @@ Value vm_slice(Vm *vm, const Expr *at, Value vector, Value start, Value stop) {
             return (Value){.len = len, .as.numbers = numbers};
         }
     }
-    return vm_index(vm, vector, vm_range(vm, at->children[1], start, stop, VALUE_NULL));
+    return vm_index(vm, vector, vm_range(vm, at, start, stop, VALUE_NULL));
 }
 
 // --- the state
@@ -250,7 +250,7 @@ Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *in
     }
     if (count == instr->count && vm->state)
         return value_copy(vm->arena, get(vm, instr->target, few, count));
-    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->at->children[0]);
+    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->as.inner);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)

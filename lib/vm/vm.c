@@ -85,13 +85,11 @@ Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports)
     return vm->stopped ? VALUE_NULL : result;
 }
 
-bool vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size, Value *value) {
+bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {
     vm->arena = vm->builtins.arena = arena;
     begin(vm, __builtin_frame_address(0));
     vm->met_dynamic = false;
-    vm->builtins.directory = expr->source->directory;
-    LowerOptions options = {.arena = &vm->slots, .values = arena};
-    const Code *code = program_lower(&options, expr, frame_size);
+    vm->builtins.directory = code->source->directory;
     Frame frame = new_frame(vm, code);
     *value = vm_eval(vm, &frame, code);
     if (!vm->met_dynamic && !vm->stopped && vm->reported_count == 0)
@@ -108,7 +106,7 @@ static bool being_imported(const Vm *vm, const Source *source) {
 }
 
 // Evaluates a module in a frame of its own, with only the built-ins visible and without state (L13.2).
-static void run_module(Vm *vm, Frame *frame, const Program *module, const Expr *expr) {
+static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
     ImportLink link = {vm->imports, module->source};
     const State *state = vm->state;
     Str directory = vm->builtins.directory;
@@ -122,37 +120,37 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Expr *
     vm->state = state;
     vm->builtins.directory = directory;
     Text missing = text_new(vm->arena);
-    for (uint32_t i = 0; i < expr->slot_count; i++) {
-        const Symbol *name = expr->as.import->names[i];
+    for (uint32_t i = 0; i < instr->count; i++) {
+        const Symbol *name = instr->as.names[i];
         const Export *found = program_find_export(module, name);
         if (found)
-            frame->slots[expr->slot + i] = inner.slots[found->slot];
+            frame->slots[(uint32_t)instr->d + i] = inner.slots[found->slot];
         else
             text_add_format(&missing, " '%.*s'", (int)name->name.len, name->name.bytes);
     }
     if (missing.len)
-        vm_fault(vm, expr, "no-such-name", "'%.*s' does not bind%.*s", (int)module->source->name.len,
+        vm_fault(vm, instr->at, "no-such-name", "'%.*s' does not bind%.*s", (int)module->source->name.len,
                  module->source->name.bytes, (int)missing.len, missing.bytes);
     arena_rewind(&vm->slots, mark);
 }
 
-void vm_import(Vm *vm, Frame *frame, const Expr *expr, Value file) {
-    for (uint32_t i = 0; i < expr->slot_count; i++)
-        frame->slots[expr->slot + i] = VALUE_NULL;
+void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
+    for (uint32_t i = 0; i < instr->count; i++)
+        frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
     Str name = value_text(vm->arena, vm->symbols, file);
-    Str path = path_join(vm->arena, expr->source->directory, name);
+    Str path = path_join(vm->arena, instr->at->source->directory, name);
     Str why = {0};
     const Program *module = name.len ? vm->host.module(vm->host.host, path, &why) : NULL;
     if (!module) {
         if (!name.len)
             why = STR("no file name");
-        vm_fault(vm, expr, "cannot-import", "cannot import '%.*s': %.*s", (int)path.len, path.bytes, (int)why.len,
+        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", (int)path.len, path.bytes, (int)why.len,
                  why.bytes);
     } else if (being_imported(vm, module->source)) {
-        vm_fault(vm, expr, "circular-import", "circular import of '%.*s'", (int)path.len, path.bytes);
+        vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", (int)path.len, path.bytes);
     } else if (!vm_stack_left(vm)) {
-        vm_fault(vm, expr, "recursion-depth", "imports nested too deeply");
+        vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");
     } else {
-        run_module(vm, frame, module, expr);
+        run_module(vm, frame, module, instr);
     }
 }

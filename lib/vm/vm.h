@@ -37,7 +37,7 @@ typedef struct ImportLink ImportLink;
 
 // A place and the kind of its fault.
 typedef struct Reported {
-    const Expr *at;
+    const Origin *at;
     uint64_t what;
 } Reported;
 
@@ -58,7 +58,7 @@ typedef struct Vm {
     Value globals[ENGINE_NAME_COUNT];
     BuiltinContext builtins; // arena, files, directory of the program being evaluated
     VmHost host;
-    const Expr *calling; // the call that a built-in's fault belongs to
+    const Origin *calling; // the call that a built-in's fault belongs to
     uint32_t depth;
     uint64_t work;
     uint64_t work_limit;
@@ -86,9 +86,9 @@ void vm_free(Vm *vm);
 // Evaluates a main program: the composition of its statements. `given` are the values of its parameters (NULL if it has
 // none); what its exports are bound to in the end is stored in `exports`, unless that is NULL.
 Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports);
-// Evaluates an expression that reads no slot from outside in a fresh frame of `frame_size` slots; the value lives in
+// Runs code that is no program's in a fresh frame; the value lives in
 // `arena`. False, and *value null, if that met anything dynamic (L17.2), a fault or a limit. For machines that run
 // nothing else.
-bool vm_run_static(Vm *vm, Arena *arena, const Expr *expr, uint32_t frame_size, Value *value);
+bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value);
 
 #endif

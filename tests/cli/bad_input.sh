@@ -32,6 +32,40 @@ petri run utf8.fl
 check "invalid UTF-8 is one error" one_error
 check "invalid UTF-8 is placed" has err "utf8.fl:2:7: error: "
 
+printf '!n a=1\n' | iconv -t UTF-16 >utf16.fl 2>/dev/null || printf '\377\376!\0n\0\n\0' >utf16.fl
+petri run utf16.fl
+check "a UTF-16 file is one error" one_error
+check "UTF-16 is called so" has err "'utf16.fl' is UTF-16 text: save it as UTF-8"
+printf '!a\0\n!b\0\n!c\0\n' >nul.fl
+petri check nul.fl
+check "NUL bytes are one error" one_error
+check "a file with NUL bytes is called binary" has err "'nul.fl' is a binary file"
+printf 'root:x:0:0:root:/root:/bin/bash\ndaemon:x:1:1:/bin/sh\n# end: x\nmail:x:8:8::/\n' >passwd
+petri run passwd
+check "a text that is no script is one error" one_error
+check "a text that is no script is called so" has err "passwd:1:5: error: this does not look like a Flitter script: 4 of 4"
+petri check passwd
+check "check says it once, too" count_is err "error: " 1
+cp passwd passwd.fl
+petri check passwd.fl
+check "what is named as a script gets all its errors" [ "$(grep -c 'error: ' err)" -ge 4 ]
+mark=$(printf '\357\273\277')
+printf '%s!n a=1 b=x\n' "$mark" >mark.fl
+printf '%slet m=2\n' "$mark" >mark_module.fl
+printf '%s!k\n' "$mark" >mark_include.fl
+printf "%simport m from 'mark_module.fl'\n%%include 'mark_include.fl'\n!n a=m x\n" "$mark" >marks.fl
+petri run --frames 1 --print tree mark.fl
+check "a byte-order mark is skipped" out_is "@0 time=0 beat=0
+!n a=1"
+check "columns are counted behind a byte-order mark" has err "mark.fl:1:10: warning: "
+petri run --frames 1 marks.fl
+check "and in the first of several lines" has err "marks.fl:3:9: error: "
+printf "%simport m from 'mark_module.fl'\n%%include 'mark_include.fl'\n!n a=m\n" "$mark" >marks.fl
+petri run --frames 1 --print tree marks.fl
+check "also in modules and includes" out_is "@0 time=0 beat=0
+!k
+!n a=2"
+
 # repeat COUNT TEXT
 repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }
 { printf '!n a=0' && repeat 5000000 ';1' && echo; } >long.fl

@@ -25,7 +25,7 @@ check "unused parameters are told" count_is err "unused parameter" 2
 check "a missing argument is told" has err "lints.fl:6:6: warning: no argument for 'y'"
 check "surplus arguments are told" has err "4 arguments for a function of 3"
 check "an unknown named argument is told" has err "no parameter 'q'"
-check "the arguments of built-ins are counted" has err "2 arguments for cos(x)"
+check "the arguments of built-ins are counted" has err "too many arguments: 2 given to cos(x)"
 check "an else that is never reached is told" has err "lints.fl:7:4: warning: always true"
 check "an unbound name is told with the nearest name" has err "did you mean 'cos'?"
 check "the summary counts" last_line_is err "petri: 1 file checked: 0 errors, 10 warnings"
@@ -51,3 +51,96 @@ func helper(x)
 END
 petri check --werror library.fl
 check "a file that only binds names is a module: none is unused" status_is 0
+
+# What stands in the tree: the first frame is made, and nothing of it is seen or kept.
+cat >nodes.fl <<'END'
+!window size=200;200
+    !canvas
+        !path
+            !elipse point=50;50 radius=20
+            !ellipse point=50;50 radus=20
+        !fil color=1;0;0
+    !record filename="out.png"
+!pysics state=:a dimensions=1
+!physics dimensions=2
+    !particle id=1
+!physics state=:b dimensions=2
+    !particle position=1;2
+    !partcle id=1
+    for i in ..20
+        !particle id=i poistion=i;0
+    !particle id=:far positoin=1;2
+    !collision strength="much"
+!offscreen
+    !canvas
+        !rect piont=1;1
+import a from "nowhere.fl"
+if time > 100
+    import b from "neither.fl"
+    !b a=b(a)
+%include "gone.fl"
+!shown a=debug("seen")
+END
+petri check nodes.fl
+check "warnings of nodes do not fail a check" status_is 0
+check "a check prints nothing of the frame" empty out
+check "… nor what it logs" lacks err "> seen"
+check "… and draws no !record" [ ! -e out.png ]
+for told in "4:13: warning: !path: '!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
+    "5:34: warning: !ellipse: unknown attribute 'radus', did you mean 'radius'?" \
+    "6:9: warning: !canvas: '!fil' is not drawn; it is left out, did you mean '!fill'?" \
+    "8:1: warning: '!pysics' does nothing" \
+    "9:1: warning: !physics: no state prefix" \
+    "12:5: warning: !particle: no id; ignored" \
+    "13:5: warning: !partcle id=1: no such node inside !physics; ignored, did you mean !particle?" \
+    "15:24: warning: !particle id=0: unknown attribute 'poistion', did you mean 'position'?" \
+    "16:23: warning: !particle id=:far: unknown attribute 'positoin', did you mean 'position'?" \
+    "17:16: warning: !collision: strength should be one number, not 'much'" \
+    "20:15: warning: !rect: unknown attribute 'piont', did you mean 'point'?" \
+    "21:1: warning: cannot import 'nowhere.fl': there is no such file" \
+    "23:5: warning: cannot import 'neither.fl': there is no such file" \
+    "25:10: warning: cannot include 'gone.fl'"; do
+    check "check finds $told" count_is err "nodes.fl:$told" 1
+done
+check "… and nothing else" last_line_is err "petri: 1 file checked: 0 errors, 14 warnings"
+petri run --frames 2 nodes.fl
+check "a run tells of a misspelled node at the top, too" count_is err "did you mean '!physics'?" 1
+
+# Other nodes may stand at the top, and what Flitter draws and petri does not is no mistake.
+printf '!outer\n!windows3d\n!key\n!rect\n!window\n    !bloom\n        !canvas3d\n' >others.fl
+petri check --werror others.fl
+check "nodes that merely mean nothing are no mistake" status_is 0
+check "… and silent" lines_are err 1
+
+# The systems are read and not simulated: ten million steps would take minutes.
+cat >slow.fl <<'END'
+!physics state=:s dimensions=2 resolution=1n time=time+10
+    for i in ..1000
+        !particle id=i position=i;i radius=1
+    !gravity
+END
+petri check --werror slow.fl
+check "a check simulates nothing" status_is 0
+printf 'func f(x)\n    f(x+1) + f(x+1)\n!n a=f(frame)\n' >limit.fl
+petri check limit.fl
+check "a frame without end meets the usual limits" has err "limit.fl:2:"
+
+printf 'let n=SIZE\n!n a=n\n' >define.fl
+petri check --werror define.fl
+check "a name that nobody defines is told" status_is 1
+petri check --werror -D SIZE=3 define.fl clean.fl
+check "-D defines it, for all scripts" status_is 0
+petri check -D SIZE define.fl
+check "-D without a value is a wrong command line" status_is 2
+
+cat >order.fl <<'END'
+!window
+    !canvas
+        !elipse
+!n a=1 b=unknown
+!physics state=:s dimensions=1
+    !particle
+END
+petri check order.fl
+check "what is said comes in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
+    "order.fl:3 order.fl:4 order.fl:6 " ]

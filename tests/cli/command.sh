@@ -106,6 +106,8 @@ check "--print takes several sections" out_is "@0 time=0 beat=0
 > 0"
 petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
 check "--realtime runs" lines_are out 2
+petri run --realtime --frames 1 --print tree -D x=1 count.fl
+check "… and its time, too, begins at 0" has out "@0 time=0 beat=0"
 petri run --threads 3 --neighbours always --nosimplify --lockstep --frames 1 -D x=1 count.fl
 check "--threads, --neighbours, --nosimplify and --lockstep are accepted" out_is "> 0"
 petri run --dump=ast plain.fl
@@ -169,9 +171,14 @@ fi
 timeout 100 "$petri" run --frames 1 --print tree plain.fl >&- 2>err
 status=$?
 check "a closed stdout is an error" status_is 1
-"$petri" run --frames 1000000000 --verbose plain.fl >out 2>err &
+rm out # that of the command before
+"$petri" run --frames 1000000000 --print tree --every 100 --verbose plain.fl >out 2>err &
 job=$!
-sleep 1
+tries=0
+until [ -s out ] || [ $tries -ge 600 ]; do # it runs
+    sleep 0.1
+    tries=$((tries + 1))
+done
 kill -INT "$job"
 wait "$job"
 status=$?

@@ -19,7 +19,8 @@ cd "$work" || exit 1
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm
-export TMPDIR TERM
+SHELL=/bin/sh # that of `script`; others warn of locales that are not installed
+export TMPDIR TERM SHELL
 
 passed=0
 failed=0
@@ -56,7 +57,7 @@ count_is() { [ "$(grep -Fc -e "$2" "$1")" -eq "$3" ]; }
 one_error() { status_is 1 && count_is err "error: " 1 && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }
 
-for part in command check bad_input state record render golden; do
+for part in command suggest streams parameters check habits bad_input state record render golden new; do
     # shellcheck source=/dev/null
     . "$here/$part.sh"
 done

@@ -21,6 +21,9 @@ check "… and leaves the state behind" has half.state "petri-state 1"
 petri run world.fl --frames 100 --every 199 --print state --state half.state
 sed -n '/^@199/,$p' whole >expected
 check "two runs of 100 frames are one of 200 to the last bit, time included" cmp -s out expected
+cp half.state real.state
+petri run world.fl --frames 2 --realtime --print tree --state real.state
+check "in real time a restored run goes on from the frame's time" has out "@200 time=3.3333333333333335 beat=5"
 rm -f half.state
 petri run world.fl --frames 40 --state half.state
 petri run world.fl --frames 1 --print state --state half.state

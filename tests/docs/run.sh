@@ -1,18 +1,23 @@
 #!/bin/sh
-# run.sh PETRI ROOT: runs the examples of ROOT/grammar/README.md and ROOT/README.md.
+# run.sh PETRI ROOT: runs the examples of the documents that are listed here, below ROOT.
 #
 # Fenced blocks that are read:
 #   ```flitter-eval       lines `EXPRESSION => RESULT`; RESULT is the printed value, or `error` if it must be rejected
 #   ```flitter            a script; the block that follows it is
 #   ```tree [FRAME]       its printed tree (for frame 0 unless a frame is named), or `error` if it must be rejected
+#   ```state FRAME        what is in the state after that frame: lines KEY = VALUE as `petri run --print state` has them, or
+#                         KEY = null for what is not there; keys that are not named are not compared. Warnings are not
+#                         allowed.
 #   ```flitter NAME.fl    a file of that name, for other examples to import or include
+#   ```flitter NAME.png   an excerpt of a script, which nodes.sh looks after
 # A failure is one line with the place in the document. Too few examples are a failure too: a broken extraction passes
 # everything it does not find.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
 
-least=60
+documents="grammar/README.md README.md lib/physics/README.md lib/canvas/README.md"
+least=100
 if [ $# -ne 2 ]; then
     echo "usage: run.sh PETRI ROOT" >&2
     exit 2
@@ -27,16 +32,16 @@ work=$(mktemp -d "${TMPDIR:-/tmp}/petri-docs.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 1' INT TERM HUP
 
-# Splits one document into $work/N.fl, $work/N.want and a line `N PLACE FRAME` in $work/cases for each example. What is
+# Splits one document into $work/N.fl, $work/N.want and a line `N PLACE FRAME KIND` in $work/cases for each example. What is
 # wrong with the document itself becomes a line of $work/faults.
 extract() { # FILE NAME FIRST
     awk -v name="$2" -v work="$work" -v count="$3" '
-        function fault(line, text) { print name ":" line ": " text > (work "/faults") }
-        function add(line, script, want, frame,    base) {
+        function fault(line, text) { print name ":" line ": " text >> (work "/faults") }
+        function add(line, script, want, frame, kind,    base) {
             base = work "/" ++count
             printf "%s", script > (base ".fl"); close(base ".fl")
             printf "%s", want > (base ".want"); close(base ".want")
-            print count, name ":" line, frame > (work "/cases")
+            print count, name ":" line, frame, kind >> (work "/cases")
         }
         function add_line(line, text,    at, next_at, want) {
             at = 0
@@ -51,11 +56,11 @@ extract() { # FILE NAME FIRST
             if (want != "error")
                 want = want == "null" ? "!value" : "!value is=" want
             # The closing parenthesis has a line of its own: the expression may end in a comment.
-            add(line, "!value is=(" substr(text, 1, at - 1) "\n)\n", want "\n", 0)
+            add(line, "!value is=(" substr(text, 1, at - 1) "\n)\n", want "\n", 0, "tree")
         }
         function unpaired() {
             if (pending)
-                fault(pending, "this script has no ```tree block after it")
+                fault(pending, "this script has no ```tree or ```state block after it")
             pending = 0
         }
         fence == "" && /^```/ {
@@ -63,9 +68,10 @@ extract() { # FILE NAME FIRST
             opened = NR
             file = $2
             body = ""
-            if (fence == "```tree" && !pending)
-                fault(NR, "no script before this tree")
-            else if (fence != "```tree")
+            result = fence == "```tree" || fence == "```state"
+            if (result && !pending)
+                fault(NR, "no script before this " substr(fence, 4))
+            else if (!result)
                 unpaired()
             next
         }
@@ -75,8 +81,8 @@ extract() { # FILE NAME FIRST
             } else if (fence == "```flitter") {
                 pending = opened
                 script = body
-            } else if (fence == "```tree" && pending) {
-                add(pending, script, body, file == "" ? 0 : file)
+            } else if (result && pending) {
+                add(pending, script, body, file == "" ? 0 : file, substr(fence, 4))
                 pending = 0
             }
             fence = ""
@@ -92,13 +98,29 @@ extract() { # FILE NAME FIRST
         }' "$1"
 }
 
+# Runs a script to a frame; what it prints (of that frame alone) goes to $work/last.
+play() { # N FRAME KIND
+    "$petri" run --print "$3" --frames $(($2 + 1)) --every $(($2 > 0 ? $2 : 1)) "$work/$1.fl" >"$work/out" 2>"$work/err"
+    status=$?
+    awk '/^@/ { text = ""; next } { text = text $0 "\n" } END { printf "%s", text }' "$work/out" >"$work/last"
+    return $status
+}
+
+# What the state has for each key that is wanted, and the first warning.
+run_state() { # N FRAME
+    play "$1" "$2" state || echo "exit status $?"
+    grep -m 1 -E ': (warning|error): ' "$work/err"
+    awk 'function key(line) { return substr(line, 1, index(line, " = ") - 1) }
+         FILENAME == ARGV[1] { state[key($0)] = $0; next }
+         { print key($0) in state ? state[key($0)] : key($0) " = null" }' "$work/last" "$work/$1.want"
+}
+
 # The tree of the last frame printed, or `error` if the script was rejected as it should be.
-run() { # N FRAME
-    "$petri" run --quiet --print tree --frames $(($2 + 1)) --every $(($2 > 0 ? $2 : 1)) "$work/$1.fl" \
-        >"$work/out" 2>"$work/err"
+run_tree() { # N FRAME
+    play "$1" "$2" tree
     status=$?
     if [ $status -eq 0 ]; then
-        awk '/^@/ { text = ""; next } { text = text $0 "\n" } END { printf "%s", text }' "$work/out"
+        cat "$work/last"
     elif [ $status -eq 1 ] && grep -q ': error: ' "$work/err"; then
         echo error
     else
@@ -122,14 +144,15 @@ explain() { # WANT GOT
 
 : >"$work/cases"
 : >"$work/faults"
-extract "$root/grammar/README.md" grammar/README.md 0
-extract "$root/README.md" README.md "$(awk 'END { print NR }' "$work/cases")"
+for document in $documents; do
+    extract "$root/$document" "$document" "$(awk 'END { print NR }' "$work/cases")"
+done
 
 cat "$work/faults"
 passed=0
 failed=$(awk 'END { print NR }' "$work/faults")
-while read -r number place frame; do
-    run "$number" "$frame" >"$work/got" </dev/null
+while read -r number place frame kind; do
+    "run_$kind" "$number" "$frame" >"$work/got" </dev/null
     if cmp -s "$work/$number.want" "$work/got"; then
         passed=$((passed + 1))
     else

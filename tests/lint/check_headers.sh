@@ -8,18 +8,12 @@ faults=0
 scratch=$(mktemp -d)
 trap 'rm -rf "$scratch"' EXIT
 
-for header in lib/*/*.h src/*.h tests/support/*.h; do
+for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     case $header in *_list.h | */engine_names.h) continue ;; esac
-    # The kernels' vocabulary is for files that are compiled for one instruction set.
+    # What draws is for builds that have the library.
+    isa=
     case $header in
-    lib/physics/simd.h | lib/physics/pair_sum.h | lib/physics/pair_terms.h)
-        case $(uname -m) in x86_64) isa=-mavx2 ;; *) continue ;; esac
-        ;;
-    *) isa= ;;
-    esac
-    # So is what draws for builds that have the library.
-    case $header in
-    lib/canvas/draw.h)
+    lib/draw/draw.h)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;
@@ -28,7 +22,7 @@ for header in lib/*/*.h src/*.h tests/support/*.h; do
     printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"
     # shellcheck disable=SC2086 # no option is no word
     if ! ${CC:-cc} $isa -std=c17 -D_XOPEN_SOURCE=700 -D_DEFAULT_SOURCE -fsyntax-only -Wall -Wextra -Wno-unused-variable \
-        -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Itests/support \
+        -Wno-unused-const-variable -Wno-unused-function -Werror -Ilib -Ilib/include -Isrc -Itests/support \
         -I"$build/grammar" "$scratch/alone.c"; then
         echo "$header does not compile alone"
         faults=1

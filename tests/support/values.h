@@ -3,6 +3,7 @@
 #define PETRI_TESTS_VALUES_H
 
 #include "check.h"
+#include "nodes.h"
 
 #include "value/format.h"
 #include "value/seed.h"

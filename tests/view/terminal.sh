@@ -1,39 +1,15 @@
 #!/bin/sh
 # terminal.sh: `petri view` in a terminal, under tmux: what the cells show, keys, the mouse, and that the terminal is
 # given back as it was.
-# usage: tests/view/terminal.sh PATH-OF-PETRI chafa|none
+# usage: tests/view/terminal.sh PATH-OF-PETRI chafa|none sdl|none
 # shellcheck source=tests/view/support.sh
 . "$(dirname "$0")/support.sh"
-
-[ "${2:-chafa}" = chafa ] || skip "petri was built without libchafa (Debian: libchafa-dev)"
-needs tmux tmux
-
-work=$(mktemp -d) || exit 1
-socket=petri-view-$$
-mux() { tmux -L "$socket" -f /dev/null "$@"; }
-trap 'mux kill-server 2>/dev/null; rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
-unset DISPLAY WAYLAND_DISPLAY SDL_VIDEODRIVER TMUX NO_COLOR
-LC_ALL=C.UTF-8
-export LC_ALL
-
-screen() { mux capture-pane -p -t view; }
-tell_more() { screen | sed 's/^/  | /'; }
-type_keys() { mux send-keys -t view "$@"; }
-shows() { screen | grep -Fq -e "$1"; }
-hides() { ! shows "$1"; }
-# Cells of rows FROM to TO and columns FROM to TO (from 1) that are no blanks; `filled` or `clear`.
-part() { screen | sed -n "$1,$2p" | sed "s/^.\{0,$(($3 - 1))\}//" | cut_columns $(($4 - $3 + 1)) | tr -d ' \n'; }
-cut_columns() { sed "s/^\(.\{0,$1\}\).*/\1/"; }
-filled() { [ -n "$(part "$@")" ]; }
-clear_of() { [ -z "$(part "$@")" ]; }
-
-mux new-session -d -s view -x 80 -y 24 "PS1='ready: ' sh" || skip "tmux does not start"
-soon shows 'ready:' || skip "no shell under tmux"
+# shellcheck source=tests/view/tmux.sh
+. "$(dirname "$0")/tmux.sh"
 
 # start [options] SCRIPT: a view in the terminal; `status N` is on the screen when it has ended.
 start() {
+    wipe
     view="$petri view $* 2>err; code=\$?"
     type_keys "clear; echo before; stty -a >stty.before; $view; stty -a >stty.after; echo status \$code" Enter
 }
@@ -42,9 +18,6 @@ ended() {
     soon shows "status $1" && shows before && cmp -s stty.before stty.after &&
         [ "$(mux display-message -p -t view '#{alternate_on} #{cursor_flag} #{mouse_any_flag}')" = '0 1 0' ]
 }
-# A picture is there, on the other screen: before that it might be the command line that is seen.
-started() { soon seen && soon filled 1 24 1 80; }
-seen() { mux display-message -p -t view '#{alternate_on}#{cursor_flag}' | grep -q 10; }
 
 # Circles in the left half only. A picture of 640 by 384 fills 80 by 24 cells of 8 by 16.
 cat >left.fl <<'END'
@@ -122,6 +95,81 @@ check "a key reaches the script" soon filled 21 24 72 80
 type_keys q
 check "q quits" ended 0
 
+# Parameters are chosen and changed, and the world goes on: what the script keeps of the key x stays.
+cat >dots.fl <<'END'
+let DOTS=DOTS or 2 -- 1..9 dots in a row
+    HIGH=HIGH or 0.5 -- 0.1..1|0.1 height
+    NAME=NAME or 'dots'
+!window size=640;384 title=NAME
+    !key name=:x state=:x
+    !key name=:page_up state=:up
+    !canvas
+        !rect size=640;384 color=0 fill=true
+        for i in ..DOTS
+            !rect point=16+64*i;16 size=32;320*HIGH color=1 stroke=true stroke_width=3
+        if $(:x;:toggled)
+            !rect point=600;340 size=30;30 color=1 stroke=true stroke_width=3
+        if $(:up;:toggled)
+            !rect point=540;340 size=30;30 color=1 stroke=true stroke_width=3
+END
+start dots.fl -D HIGH=0.3
+soon seen
+type_keys x
+check "two dots" soon filled 2 6 2 14
+check "and no third" soon clear_of 1 10 17 80
+check "and the mark" soon filled 21 24 75 80
+type_keys Up
+check "the first key tells what is chosen" soon shows 'DOTS = 2  (1..9)  dots in a row'
+check "and changes nothing" clear_of 1 10 17 80
+type_keys Up
+check "up changes it" soon shows 'DOTS = 3  (1..9, default 2)  dots in a row'
+check "which is seen" soon filled 2 6 18 22
+type_keys + =
+check "+ and = as well" soon shows 'DOTS = 5'
+check "what the world keeps is kept" filled 21 24 75 80
+type_keys Down -
+check "down and - go back" soon shows 'DOTS = 3'
+type_keys Space
+soon shows 'paused'
+type_keys Up
+check "while paused it is seen as well" soon filled 2 6 26 30
+type_keys Space
+type_keys BSpace
+check "backspace sets the default" soon shows 'DOTS = 2  (1..9)'
+check "which is seen, too" soon clear_of 1 10 17 80
+type_keys Tab
+check "Tab chooses the next" soon shows 'HIGH = 0.3  (0.1..1|0.1, default 0.5)  height'
+type_keys Up
+check "by steps of its own" soon shows 'HIGH = 0.4'
+type_keys NPage
+check "page down takes ten, and stays in the range" soon shows 'HIGH = 0.1 '
+type_keys ']' Up
+check "what is no number is not changed" soon shows "NAME = 'dots': keys change numbers only"
+type_keys '[' '['
+check "[ chooses the one before" soon shows 'DOTS = 2'
+type_keys PPage
+check "a key that the script asks for is the script's" soon filled 21 24 68 72
+check "and changes no parameter" shows 'DOTS = 2'
+type_keys Up
+soon shows 'DOTS = 3'
+cp dots.fl dots.saved
+sed 's/-- 1..9 dots/-- 1..20 spots/' dots.saved >dots.fl
+check "a saved script keeps what was set" soon shows 'loaded the changed script'
+type_keys h
+check "h shows it, and the keys" soon shows 'DOTS = 3  (1..20, default 2)  spots in a row'
+check "with theirs" shows 'tab parameter'
+type_keys 0
+check "0 sets the default" soon shows 'DOTS = 2  (1..20)'
+type_keys q
+check "q quits" ended 0
+check "nothing was said of all that" [ ! -s err ]
+start left.fl
+started
+type_keys Up
+check "a script without parameters has none" soon shows 'the script has no parameters'
+type_keys q
+check "q quits" ended 0
+
 # Mistakes are told over the picture, and the last good version goes on.
 start left.fl
 started
@@ -139,11 +187,55 @@ check "q quits" ended 0
 check "afterwards the mistake is on standard error" has err 'error:'
 mv good.fl left.fl
 
+# Warnings: a mark in a corner has their number, w lists them; they are those of the version that is running.
+sed 's/stroke_width=3/stroke_with=3/' left.fl >warn.fl
+start warn.fl
+check "a corner shows that there is a warning" soon shows '1 warning: w'
+check "in the first row" eval 'screen | head -n 1 | grep -q "1 warning: w *$"'
+check "the picture is there all the same" filled 12 24 1 38
+type_keys w
+check "w lists it" soon shows "unknown attribute 'stroke_with'"
+check "with its place" shows 'warn.fl:6'
+check "the mark is not needed then" hides 'warning: w '
+type_keys w
+check "w hides the list" soon hides 'stroke_with'
+check "and the mark is back" soon shows '1 warning: w'
+sed '$d' warn.fl >other.fl && echo '                !elipse point=30+48*i;32+64*j radius=9 colr=1' >>other.fl && cp other.fl warn.fl
+echo '        !rect size=9 fil=true clor=1' >>warn.fl
+check "after a reload there are others" soon shows '3 warnings: w'
+cp warn.fl other.fl
+echo '        !rect size=(' >>warn.fl
+check "a mistake comes first" soon shows 'cannot be loaded'
+check "without the mark" hides 'warnings: w'
+cp other.fl warn.fl
+check "the mended script has its own again" soon shows '3 warnings: w'
+cp left.fl warn.fl
+check "one without a fault has no mark" soon hides 'warnings: w'
+type_keys w
+check "w says so" soon shows 'No warnings'
+type_keys q
+check "q quits" ended 0
+check "standard error has all of them" has err "'stroke_with'"
+
 # It ends by itself, by signals, and by its own death: the terminal is as before.
 start left.fl --frames 10
 check "--frames ends it" ended 0
 start left.fl --runtime 1 --lockstep
 check "--runtime ends it" ended 0
+wipe
+type_keys "clear; echo before; $petri view left.fl --frames 12; echo status \$?" Enter
+check "on the screen that is there again one line sums up" soon shows 'petri: 12 frames in '
+check "the rest of it is as before" soon shows 'before'
+check "and it ended well" soon shows 'status 0'
+wipe
+type_keys "clear; $petri view left.fl --frames 12 --quiet; echo status \$?" Enter
+check "not with --quiet" soon shows 'status 0'
+check "which says nothing" hides 'frames in'
+if [ "${3:-sdl}" = none ]; then
+    wipe
+    type_keys "clear; DISPLAY=:77 $petri view left.fl --frames 3; echo status \$?" Enter
+    check "where there could be a window, it says how to get one" soon shows "'./dev build' adds windows"
+fi
 viewer() { pgrep -f "^$petri view left.fl" | head -n 1; }
 running() { [ -n "$(viewer)" ]; }
 for signal in TERM:143 HUP:129 INT:130 ABRT:134 SEGV:139 QUIT:131; do
@@ -155,8 +247,6 @@ done
 start left.fl
 started
 type_keys C-c
-soon shows 'ready:' # the shell gives up the rest of its line
-type_keys 'echo status $?; stty -a >stty.after' Enter
 check "Ctrl-C ends it" ended 130
 start left.fl
 started
@@ -167,6 +257,15 @@ check "fg goes on" soon seen
 check "with the picture" soon filled 1 24 1 38
 type_keys q
 soon shows 'left.fl'
+
+# A display that is not there, as an old ssh session leaves it: the terminal it is, and soon.
+for place in DISPLAY=:9999 DISPLAY=localhost:99.0 WAYLAND_DISPLAY=wayland-none; do
+    type_keys "clear; env XDG_RUNTIME_DIR=. $place $petri view left.fl 2>err; echo status \$?" Enter
+    check "with $place it is the terminal" started
+    check "which shows the picture" soon filled 22 24 1 38
+    type_keys q
+    check "q quits" soon shows 'status 0'
+done
 
 # Without a terminal there is nothing to show on.
 "$petri" view --terminal left.fl >out 2>err </dev/null

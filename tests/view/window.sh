@@ -51,6 +51,8 @@ tell_more() {
 }
 
 # view NAME [options] SCRIPT: starts a view, and waits until its window, called NAME, is there: $window.
+# The server takes away the window of a view that has ended when it comes to it: it must not be taken for the next one's.
+none_is_left() { ! find_window; }
 find_window() {
     window=$(xdotool search --name "^$title\$" 2>/dev/null | tail -n 1)
     [ -n "$window" ]
@@ -58,6 +60,7 @@ find_window() {
 view() {
     title=$1
     shift
+    soon none_is_left
     "$petri" view "$@" >out 2>err </dev/null &
     viewer=$!
     if ! soon find_window; then
@@ -204,7 +207,35 @@ check "nothing else was written" lacks err error
 press q
 check "q quits" ended 0
 
-# Full screen and back: that is for a window manager to do.
+# Warnings: a mark in a corner, and a list while it is wanted.
+sed 's/radius=60/radus=60 radius=60/' still.fl >warn.fl
+view still warn.fl
+check "a mark at the right tells of a warning" dark 300 16
+check "and nothing is at the left" point 20 20 336699
+press w
+check "w lists it" dark 20 20
+press w
+check "and hides it" point 20 20 336699
+cp still.fl warn.fl
+check "a reload without warnings has no mark" point 300 16 336699
+press q
+check "q quits" ended 0
+
+# Full screen where there is no window manager: the window is as large as the screen, and the picture as large as it goes.
+view still still.fl
+press f
+check "f fills the screen without a window manager" soon size_is 1000 700
+check "from its corner" soon eval 'xdotool getwindowgeometry "$window" | grep -q "Position: 0,0"'
+check "the picture fills its height" point 40 5 336699
+check "and is in the middle" point 960 690 336699
+check "with bars beside it" point 20 350 000000
+press f
+check "f goes back" soon size_is 320 240
+check "with the picture as it was" shows still.png
+press q
+check "q quits" ended 0
+
+# With a window manager it is for that to do.
 if command -v openbox >/dev/null 2>&1; then
     openbox >openbox.log 2>&1 &
     manager=$!
@@ -217,7 +248,7 @@ if command -v openbox >/dev/null 2>&1; then
     check "f goes back" soon size_is 320 240
     press q
     ended 0
-    kill "$manager"
+    kill -KILL "$manager" # it does not always heed SIGTERM
     wait "$manager" 2>/dev/null
     manager=
 else
@@ -258,6 +289,39 @@ press ctrl+q
 check "Control and q quit" ended 0
 "$petri" run hands.fl --state hands.state --frames 1 --print state >out 2>err
 check "the state has where the pointer was" has out '$:mouse = 0.75'
+
+# Parameters: what is seen is what -D would give, but that the world goes on.
+cat >steps.fl <<'END'
+let PARTS=PARTS or 2 -- 1..7 parts
+    SHADE=SHADE or 0.5 -- 0.1..1|0.1
+!counter state=:c rate=0 initial=PARTS
+!window size=400;300 title='steps'
+    !canvas
+        !rect size=400;300 color=0 fill=true
+        for i in ..PARTS
+            !rect point=50*i;0 size=40;100 color=SHADE fill=true
+        !rect point=0;150 size=50*($:c);30 color=0;1;0 fill=true
+END
+view steps steps.fl
+check "two parts" point 70 50 808080
+check "no third" point 120 50 000000
+press Up
+check "the first key shows what is chosen" dark 384 284
+press Up
+check "up: a third" point 120 50 808080
+press plus KP_Add
+check "plus: a fourth and a fifth" point 220 50 808080
+check "the state stays" point 110 165 000000
+press minus
+check "minus takes one" point 220 50 000000
+press Tab Down
+check "another parameter by its own step" point 70 50 666666
+press bracketleft BackSpace
+check "its default again" point 120 50 000000
+check "the other one stays" point 70 50 666666
+press q
+check "all ends well" ended 0
+check "without a word" [ ! -s err ]
 
 # Saving the script: it is loaded anew, keeps state and clock; mistakes are shown, and the last good version goes on.
 cat >work.fl <<'END'
@@ -320,6 +384,34 @@ check "and nothing else is left" sh -c 'test "$(find film -type f ! -name "*.png
 render film.fl --frame 2 -o wanted.png
 check "they are what petri render draws" cmp -s film/2.png wanted.png
 
+# The frames in which particles cannot be seen yet are neither shown nor recorded, also after a reset, even while paused.
+cat >early.fl <<'END'
+%pragma fps 4
+!physics state=:w dimensions=2
+    !particle id=1 position=20;20 velocity=1;0
+!window size=300;200 title='early'
+    !canvas
+        !rect size=300;200 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
+    !record filename=concat('early/';frame;'.png')
+END
+mkdir early
+view early early.fl --frames 60
+check "a view begins with black" point 150 100 000000
+check "then the particles are seen" point 150 100 00ff00
+press space
+soon exists early/2.png
+rm -f early/*
+press r
+check "after a reset the first frame with particles is seen" soon exists early/2.png
+check "no other is recorded" [ ! -e early/0.png ]
+sleep 1
+check "while paused one step is shown" [ "$(echo early/*)" = early/2.png ]
+check "and that is what is seen" point 150 100 00ff00
+press q
+check "q quits" ended 0
+short early.fl --lockstep --frames 5 --verbose
+check "--frames counts what is seen" [ "$(echo early/*)" = "early/2.png early/3.png early/4.png early/5.png early/6.png" ]
+
 # What cannot be.
 "$petri" view nothing.fl >out 2>err </dev/null
 check "a missing script fails" [ $? -eq 1 ]
@@ -333,7 +425,22 @@ check "two scripts are one too many" [ $? -eq 2 ]
 check "no display and no terminal fails" [ $? -eq 1 ]
 check "with a message" has err "no display"
 DISPLAY=:9999 "$petri" view still.fl >out 2>err </dev/null
-check "a display that does not answer fails" [ $? -eq 1 ]
-check "with a message" has err "cannot open a window"
+check "a display that is not there fails" [ $? -eq 1 ]
+check "with a message" has err "cannot open a window: nothing answers at DISPLAY=:9999"
+# Without a driver that is chosen, SDL would open a window that nobody sees.
+unset SDL_VIDEODRIVER
+for place in DISPLAY=:9999 DISPLAY=localhost:99.0 DISPLAY=nonsense WAYLAND_DISPLAY=wayland-none; do
+    env -u DISPLAY XDG_RUNTIME_DIR=. "$place" timeout 60 "$petri" view still.fl >out 2>err </dev/null
+    check "$place fails" [ $? -eq 1 ]
+    check "and is named" has err "nothing answers at $place"
+done
+view still still.fl
+press q
+check "the display that is there needs no driver" ended 0
+kill -STOP "$server"
+timeout 60 "$petri" view still.fl >out 2>err </dev/null
+check "one that takes connections and never answers fails" [ $? -eq 1 ]
+kill -CONT "$server"
+check "with a message, too" has err "nothing answers at DISPLAY="
 
 finish

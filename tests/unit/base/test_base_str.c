@@ -165,6 +165,38 @@ static void test_text(void **state) {
     arena_free(&arena);
 }
 
+static void test_hex_colours(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    static const struct {
+        const char *text, *wanted;
+    } rows[] = {
+        {"#ff8800", "1;0.533;0"},
+        {"#f80", "1;0.533;0"},
+        {"0xFF8800", "1;0.533;0"},
+        {"#000", "0;0;0"},
+        {"#fff8", "1;1;1;0.533"},
+        {"#01020380", "0.004;0.008;0.012;0.502"},
+        {"#f80 a=1", "1;0.533;0"},
+        {"#f80)", "1;0.533;0"},
+        {"#f8", ""},
+        {"#f8000", ""},
+        {"#ffg", ""},
+        {"#", ""},
+        {"ff8800", ""},
+        {"", ""},
+        {"#ff8800f_", ""},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        Text text = text_new(&arena);
+        bool added = text_add_hex_colour(&text, str_from(rows[i].text));
+        assert_string_equal(str_to_c(&arena, text_str(&text)), rows[i].wanted);
+        assert_true(added == (rows[i].wanted[0] != 0));
+    }
+    arena_free(&arena);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_utf8_round_trip),
@@ -174,6 +206,7 @@ int main(void) {
         cmocka_unit_test(test_prefix_suffix_trim),
         cmocka_unit_test(test_distance),
         cmocka_unit_test(test_text),
+        cmocka_unit_test(test_hex_colours),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

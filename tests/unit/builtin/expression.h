@@ -3,7 +3,7 @@
 #ifndef PETRI_TESTS_BUILTIN_EXPRESSION_H
 #define PETRI_TESTS_BUILTIN_EXPRESSION_H
 
-#include "value/node.h"
+#include "nodes.h"
 #include "value/ops.h"
 #include "value/seed.h"
 #include "world.h"

@@ -166,8 +166,12 @@ static void test_csv(void **state) {
                "1\n");
     write_file(place, "empty.csv", "");
     write_bytes(place, "bad.csv", "a,\xc3\n", 4);
+    write_file(place, "mark.csv",
+               "\xef\xbb\xbf"
+               "1,2\n3\n");
     static const char *const lines[] = {
         "csv('t.csv',0) => 1;2;'three';4.5",
+        "csv('mark.csv',0);csv('mark.csv',1) => 1;2;3", // a byte-order mark is left out
         "csv('t.csv',1) => null",
         "csv('t.csv',2) => 'a \"q\" b';7;inf;nan;10",
         "csv('t.csv',3) => null",

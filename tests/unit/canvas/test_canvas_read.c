@@ -1,5 +1,6 @@
 // Reading nodes into a drawing: types, words, reports. What the nodes look like is tested by tests/pictures.
 #include "check.h"
+#include "nodes.h"
 
 #include "canvas/read.h"
 
@@ -132,10 +133,44 @@ static void test_reports(void **state) {
     end(&f);
 }
 
+// Colours of bytes are told when asked for; those of light beyond white are not.
+static void test_lint(void **state) {
+    (void)state;
+    Fixture f;
+    begin(&f);
+    static const char told[] = "!paint color=0;255;0 is beyond white, which is 1;1;1: parts that go up to 255 are "
+                               "written (r;g;b)/255 [colour-range]\n";
+    for (int lint = 0; lint <= 1; lint++) {
+        f.schema.lint = lint;
+        assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 0, 255, 0)));
+        assert_string_equal(f.told, lint ? told : "");
+        assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 4.5, 3, 1)));
+        assert_string_equal(f.told, "");
+        assert_non_null(read_one(&f, "paint", "color", NUMBERS(&f, 1, 1, 1, 1)));
+        assert_string_equal(f.told, "");
+    }
+    end(&f);
+}
+
+// What Flitter draws and petri does not is no misspelling of what petri draws.
+static void test_undrawn(void **state) {
+    (void)state;
+    Fixture f;
+    begin(&f);
+    assert_null(read_one(&f, "canvas3d", "size", value_number(1)));
+    assert_string_equal(f.told, "!canvas '!canvas3d' is not drawn; it is left out [undrawn-node]\n");
+    assert_null(read_one(&f, "canvaz", "size", value_number(1)));
+    assert_string_equal(f.told,
+                        "!canvas '!canvaz' is not drawn; it is left out, did you mean '!canvas'? [unknown-node]\n");
+    end(&f);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_types),
         cmocka_unit_test(test_reports),
+        cmocka_unit_test(test_lint),
+        cmocka_unit_test(test_undrawn),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -182,7 +182,13 @@ static void test_check(void **state) {
     folder_write(&desk->folder, "good.fl", "!z v=unknown\n");
     assert_int_equal(petri_check(session, folder_file(&desk->folder, "good.fl")), PETRI_OK);
     assert_true(petri_diagnostic_count(session, PETRI_WARNING) >= 1);
+    folder_write(&desk->folder, "frame.fl", "!physics state=:check dimensions=1\n    !particle id=1 mas=NAME\n");
+    assert_int_equal(petri_define(session, "NAME=:x;1"), PETRI_OK);
+    player_forget(&desk->player);
+    assert_int_equal(petri_check(session, folder_file(&desk->folder, "frame.fl")), PETRI_OK);
+    check_told(desk, "unknown attribute 'mas'");
     player_step(&desk->player, 1); // the loaded script runs on
+    assert_text("no state of the other's frame", player_state(&desk->player), "");
     assert_text("still", player_tree(&desk->player), "!a\n");
     assert_int_equal(petri_frame(session).number, 1);
 }

@@ -255,11 +255,15 @@ static void test_places_of_nodes(void **state) {
     static const struct {
         const char *script, *wanted;
     } rows[] = {
-        {"\n!physics state=:s dimensions=1\n    !particle id=1 radious=2\n", "t.fl:3:5"},
-        {"!physics state=:s dimensions=1\n    for i in ..3\n        !particle id=1 mess=frame\n", "t.fl:3:9"},
-        {"func cell(r)\n    !particle id=1 radious=r\n!physics state=:s dimensions=1\n    cell(frame)\n", "t.fl:2:5"},
+        {"\n!physics state=:s dimensions=1\n    !particle id=1 radious=2\n", "t.fl:3:20"},
+        {"!physics state=:s dimensions=1\n    for i in ..3\n        !particle id=i mess=frame\n", "t.fl:3:24"},
+        {"func cell(r)\n    !particle id=1 radious=r\n!physics state=:s dimensions=1\n    cell(frame)\n", "t.fl:2:20"},
         {"!physics dimensions=1\n    !particle id=1\n", "t.fl:1:1"},
-        {"!physics state=:s dimensions=1\n    !particle id=1\n    !distance from=1 to=2\n", "t.fl:3:5"},
+        {"!physics state=:s dimensions=1\n    !particle id=1\n    !distance from=1 to=2\n", "t.fl:3:22"},
+        // An attribute that was written elsewhere: the node.
+        {"let cell=!particle id=1\n!physics state=:s dimensions=1\n    cell radious=2\n", "t.fl:1:10"},
+        {"!physics state=:s dimensions=1\n    !partikel id=1\n", "t.fl:2:5"},
+        {"!a\n!pysics\n", "t.fl:2:1"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         for (int simplify = 0; simplify <= 1; simplify++) {
@@ -274,6 +278,19 @@ static void test_places_of_nodes(void **state) {
             assert_text(rows[i].script, place, rows[i].wanted);
             petri_close(&session);
         }
+}
+
+// A loop that makes many nodes with one mistake has one mistake; the same mistake on two lines is two.
+static void test_one_place_is_told_once(void **state) {
+    (void)state;
+    Player player;
+    player_open(&player);
+    player_run(&player,
+               "!physics state=:s dimensions=1\n    for i in ..50\n        !particle id=i radious=2\n"
+               "    !particle id=50 radious=2\n",
+               3);
+    assert_int_equal(petri_diagnostic_count(player.session, PETRI_WARNING), 2);
+    player_close(&player);
 }
 
 static void test_helpers(void **state) {
@@ -312,6 +329,7 @@ int main(void) {
         PLAYER_TEST(test_two_sessions),
         cmocka_unit_test(test_rendered),
         cmocka_unit_test(test_places_of_nodes),
+        cmocka_unit_test(test_one_place_is_told_once),
         cmocka_unit_test(test_helpers),
         PLAYER_TEST(test_print_after_load), // last: it used to read freed memory
     };

@@ -26,12 +26,13 @@ static void test_static_children(void **state) {
         const Node *const *children = node->children;
         const Node *first = children[0];
         uint32_t count = node->child_count;
-        assert_claim(scripts[i], node->kept_children && !node->kept && first->kept && count > 1);
+        assert_claim(scripts[i], node->program_lifetime_children && !node->program_lifetime &&
+                                     first->program_lifetime && count > 1);
         for (int frame = 1; frame < 4; frame++) {
             player_step(player, 1);
             node = top_node(player);
             assert_claim(scripts[i], node->children == children && node->child_count == count);
-            assert_claim(scripts[i], node->kept_children && node->children[0] == first);
+            assert_claim(scripts[i], node->program_lifetime_children && node->children[0] == first);
             assert_number("its attributes change", node->attrs[node->attr_count - 1].value.as.number, frame);
         }
     }
@@ -42,9 +43,9 @@ static void test_changing_children(void **state) {
     static const char script[] = "!physics time=frame\n    !group\n        !particle id=1\n    !particle id=frame\n";
     player_run(player, script, 1);
     const Node *group = top_node(player)->children[0];
-    assert_false(top_node(player)->kept_children);
-    assert_true(group->kept);
-    assert_false(top_node(player)->children[1]->kept);
+    assert_false(top_node(player)->program_lifetime_children);
+    assert_true(group->program_lifetime);
+    assert_false(top_node(player)->children[1]->program_lifetime);
     player_step(player, 1);
     assert_ptr_equal(top_node(player)->children[0], group);
     assert_number("changed", top_node(player)->children[1]->attrs[0].value.as.number, 1);

@@ -153,10 +153,49 @@ static void test_nodes(void **state) {
     assert_false(petri_node_attribute(kinds, 0, &attribute));
 }
 
+// Frames that cannot show particles yet: 0 and 1 of a window whose systems have not simulated before.
+static void test_ready(void **state) {
+    Player *player = *state;
+    PetriPictureOptions own = petri_default_picture_options(), automatic = own;
+    automatic.automatic = PETRI_AUTO_ALWAYS;
+    static const char window[] = "!window size=8;4\n    !canvas\n";
+    static const struct {
+        const char *system;
+        bool ready[3];
+    } rows[] = {
+        {"", {true, true, true}},
+        {"!physics state=:a dimensions=1\n    !particle id=1\n", {false, false, true}},
+        {"!physics state=:a dimensions=1 time=0\n    !particle id=1\n", {false, false, true}}, // will never simulate
+        {"!physics dimensions=1\n    !particle id=1\n", {true, true, true}},                   // skipped: none
+        {"!counter state=:a\n", {true, true, true}},
+    };
+    char script[300];
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        snprintf(script, sizeof script, "%s%s", rows[i].system, window);
+        for (int frame = 0; frame < 3; frame++) {
+            if (frame == 0) {
+                player_run(player, script, 1);
+                petri_clear(player->session);
+            }
+            player_step(player, 1);
+            assert_int_equal(petri_frame(player->session).number, frame);
+            assert_int_equal(petri_picture_ready(player->session, &own), rows[i].ready[frame]);
+            assert_true(petri_picture_ready(player->session, &automatic));
+        }
+    }
+    player_run(player, rows[1].system, 1); // no canvas: the picture is the automatic one
+    assert_true(petri_picture_ready(player->session, &own));
+    snprintf(script, sizeof script, "%s%s", rows[1].system, window);
+    player_run(player, script, 5);
+    player_run(player, script, 1); // loaded again: frame 0, with a state
+    assert_int_equal(petri_frame(player->session).number, 0);
+    assert_true(petri_picture_ready(player->session, &own));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes), PLAYER_TEST(test_choice),
-        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_nodes),
+        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_nodes), PLAYER_TEST(test_ready),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

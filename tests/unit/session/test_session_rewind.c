@@ -1,4 +1,4 @@
-// test_session_rewind.c: snapshots, setups, interrupts, reloading and clocks changed by hand, through petri.h.
+// test_session_rewind.c: snapshots, configurations, interrupts, reloading and clocks changed by hand, through petri.h.
 #include "folder.h"
 #include "player.h"
 
@@ -60,30 +60,30 @@ static void test_snapshots(void **state) {
     petri_snapshot_free(NULL);
 }
 
-// A snapshot brings its script with it; a setup brings a script without its state.
-static void test_setups(void **state) {
+// A snapshot brings its script with it; a configuration brings a script without its state.
+static void test_configs(void **state) {
     Player *player = *state;
     PetriPrompted done;
     player_run(player, "!counter state=:c rate=1\n!old c=$:c", 4);
     PetriSnapshot *old = petri_snapshot(player->session);
-    uint64_t number = petri_setup_number(player->session);
+    uint64_t number = petri_config_number(player->session);
     player_step(player, 3);
     char *wanted = frame_text(player);
-    assert_int_equal(petri_setup_number(player->session), number);
+    assert_int_equal(petri_config_number(player->session), number);
     assert_int_equal(petri_prompt(player->session, "!typed f=frame", PETRI_Z, NULL, NULL, &done), PETRI_OK);
-    assert_true(petri_setup_number(player->session) != number);
+    assert_true(petri_config_number(player->session) != number);
     assert_int_equal(petri_define(player->session, "X=5"), PETRI_OK);
-    PetriSetup *setup = petri_setup(player->session);
+    PetriConfig *config = petri_config(player->session);
     assert_int_equal(petri_rewind(player->session, old), PETRI_OK);
-    assert_int_equal(petri_setup_number(player->session), number);
+    assert_int_equal(petri_config_number(player->session), number);
     player_step(player, 3);
     char *again = frame_text(player);
     assert_string_equal(again, wanted);
-    petri_setup_use(player->session, setup);
+    petri_config_use(player->session, config);
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!old c=0.1\n!typed f=7\n");
-    petri_setup_free(setup);
-    petri_setup_free(NULL);
+    petri_config_free(config);
+    petri_config_free(NULL);
     petri_snapshot_free(old);
     free(wanted);
     free(again);
@@ -208,7 +208,7 @@ static void test_clock(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_snapshots), PLAYER_TEST(test_setups), PLAYER_TEST(test_interrupts),
+        PLAYER_TEST(test_snapshots), PLAYER_TEST(test_configs), PLAYER_TEST(test_interrupts),
         PLAYER_TEST(test_reload),    PLAYER_TEST(test_clock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

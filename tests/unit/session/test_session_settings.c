@@ -1,6 +1,7 @@
 // test_session_settings.c: pragmas, -D definitions and engine names (language.md L12, L16).
 #include "player.h"
 
+#include <math.h>
 #include <time.h>
 
 static void test_pragmas(void **state) {
@@ -157,12 +158,75 @@ static void test_hold(void **state) {
     assert_claim("held", passed > 0.0999 && passed < 1.9);
 }
 
+static void nap(double seconds) {
+    nanosleep(&(struct timespec){.tv_sec = (time_t)seconds, .tv_nsec = (long)(fmod(seconds, 1) * 1e9)}, NULL);
+}
+
+// In real time, too, frame 0 has time 0, and what passed before it does not count; a host may take its time.
+static void assert_starts(Player *player, const char *what) {
+    player_step(player, 1);
+    PetriFrame frame = petri_frame(player->session);
+    assert_int_equal(frame.number, 0);
+    assert_number(what, frame.time, 0);
+    assert_number(what, frame.beat, 0);
+    nap(0.05);
+    player_step(player, 1);
+    frame = petri_frame(player->session);
+    assert_claim(what, frame.time >= 0.05 && frame.time < 20);
+    assert_number(what, frame.beat, frame.time / (60 / frame.tempo));
+}
+
+static void test_wall_clock_starts(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.realtime = true;
+    player_reopen(player, &options);
+    player_run(player, "%pragma fps 100\n!a v=time;beat\n", 0);
+    assert_starts(player, "loaded");
+    nap(0.05);
+    petri_clear(player->session);
+    nap(0.05);
+    assert_starts(player, "cleared");
+    player_run(player, "%pragma fps 50\n!a v=time\n", 0);
+    assert_starts(player, "loaded again");
+    double before = petri_frame(player->session).time;
+    petri_reload(player->session, NULL);
+    player_step(player, 1);
+    assert_claim("reloaded", petri_frame(player->session).time > before);
+}
+
+// Where a session goes back to, its time goes back to as well, and on from there as if nothing had been in between.
+static void test_wall_clock_goes_back(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.realtime = true;
+    options.fps = 20;
+    player_reopen(player, &options);
+    player_run(player, "!a v=time\n", 0);
+    PetriSnapshot *none = petri_snapshot(player->session);
+    player_step(player, 2);
+    PetriSnapshot *second = petri_snapshot(player->session);
+    double kept = petri_frame(player->session).time;
+    player_step(player, 40);
+    assert_claim("two seconds", petri_frame(player->session).time >= kept + 1.9);
+    assert_int_equal(petri_rewind(player->session, second), PETRI_OK);
+    player_step(player, 1);
+    PetriFrame frame = petri_frame(player->session);
+    assert_int_equal(frame.number, 2);
+    assert_claim("the next frame", frame.time >= kept + 0.0499 && frame.time < kept + 1.9);
+    assert_int_equal(petri_rewind(player->session, none), PETRI_OK);
+    assert_starts(player, "before frame 0");
+    petri_snapshot_free(none);
+    petri_snapshot_free(second);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings),
         PLAYER_TEST(test_definitions),       PLAYER_TEST(test_precedence),
         PLAYER_TEST(test_engine_names),      PLAYER_TEST(test_options),
         PLAYER_TEST(test_load_starts_again), PLAYER_TEST(test_hold),
+        PLAYER_TEST(test_wall_clock_starts), PLAYER_TEST(test_wall_clock_goes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 // test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
-#include "cli.h"
+#include "cli/cli.h"
 #include "player.h"
-#include "repl_history.h"
+#include "repl/history.h"
 
 #include <stdarg.h>
 
@@ -130,11 +130,51 @@ static void test_refused(void **state) {
     history_free(&history);
 }
 
+// What an interrupted step leaves: the state of the frame before, and nothing else of it.
+static void lose_systems(Player *player) {
+    PetriSystem system;
+    PetriSnapshot *snapshot = petri_snapshot(player->session);
+    assert_int_equal(petri_rewind(player->session, snapshot), PETRI_OK);
+    petri_snapshot_free(snapshot);
+    assert_false(petri_system(player->session, 0, &system));
+}
+
+// A frame of which only the state is there is made again whole, under the settings that it was made with.
+static void test_remade(void **state) {
+    Player *player = *state;
+    PetriSystem system;
+    begin(player);
+    step(player, 50);
+    for (int64_t frame = 49; frame > 30; frame -= 3) {
+        go(player, frame);
+        lose_systems(player);
+        assert_int_equal(petri_set_tempo(player->session, 90 + (double)frame), PETRI_OK);
+        uint64_t config = petri_config_number(player->session);
+        assert_int_equal(history_remake(&history, player->session), PETRI_OK);
+        assert_true(petri_system(player->session, 0, &system));
+        assert_int_equal(system.particle_count, 4);
+        assert_int_equal(petri_frame(player->session).number, frame);
+        assert_true(hash_of(player) == hashes[frame]);
+        assert_true(petri_config_number(player->session) == config);
+    }
+    lose_systems(player);
+    int64_t frame = petri_frame(player->session).number;
+    petri_interrupt(player->session);
+    assert_int_equal(history_remake(&history, player->session), PETRI_INTERRUPTED);
+    assert_int_equal(petri_frame(player->session).number, frame);
+    assert_true(hash_of(player) == hashes[frame]);
+    go(player, -1);
+    assert_int_equal(history_remake(&history, player->session), PETRI_OK); // there is nothing to make
+    assert_int_equal(petri_frame(player->session).number, -1);
+    history_free(&history);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_any_frame),
         PLAYER_TEST(test_changes),
         PLAYER_TEST(test_refused),
+        PLAYER_TEST(test_remade),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

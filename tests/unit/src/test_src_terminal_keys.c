@@ -2,7 +2,7 @@
 #include "check.h"
 
 #include "petri.h"
-#include "terminal_keys.h"
+#include "view/terminal_keys.h"
 
 #include <time.h>
 #include <unistd.h>

@@ -1,7 +1,7 @@
 // test_src_terminal_picture.c: pictures as text, by what the environment tells of the terminal.
 #include "check.h"
 
-#include "terminal_picture.h"
+#include "view/terminal_picture.h"
 
 #include <stdlib.h>
 

@@ -1,7 +1,7 @@
 // test_src_watch.c: changes on disk are told once, however an editor makes them, and not before they are whole.
 #include "folder.h"
 
-#include "watch.h"
+#include "cli/watch.h"
 
 #include <poll.h>
 #include <time.h>

@@ -19,7 +19,9 @@ static void test_slips(void **state) {
         {"foo(1, 2\n!b\n!c", "2:1: unexpected node !b | the parenthesis opened at line 1, column 4 is not closed"},
         {"(1;2\n", "1:5: unexpected end of file | the parenthesis opened at line 1, column 1 is not closed"},
         {"[1;2;3]", "1:1: unexpected '[' | vectors are written with semicolons: 1;2;3"},
-        {"1;2;", "1:5: unexpected end of line, expected an expression | a vector may not end in a semicolon"},
+        {"1;2;",
+         "1:5: unexpected end of line, expected an expression | a statement ends with its line; a vector may not "
+         "end in a semicolon"},
         {"!a x=", "1:6: unexpected end of line, expected an expression"},
         {"!a x=3,", "1:7: unexpected ',', expected end of line or '<<'"},
         {"'abc", "1:1: unterminated string | a string ends on its line; one in ''' or \"\"\" may span lines"},
@@ -31,14 +33,15 @@ static void test_slips(void **state) {
         {"2**-1", "1:4: unexpected '-'"},
         {"a<b<c", "1:4: unexpected '<'"},
         {"!", "1:1: '!' must be directly followed by a name | to negate write not"},
-        {"#t", "1:1: unexpected tag #t"},
+        {"#t", "1:1: unexpected tag #t | comments start with --"},
         {"# comment", "1:1: '#' must be directly followed by a name | comments start with --"},
         {"x = 3", "1:3: unexpected '=' | to compare write ==, to name a value write let NAME=…"},
         {"x == ", "1:6: unexpected end of line, expected an expression"},
         {"for x y\n    z", "1:7: unexpected name y, expected 'in'"},
         {"for in x\n    y", "1:8: unexpected name x, expected 'in'"},
         {"for x in\n    y", "1:9: unexpected end of line, expected an expression"},
-        {"import a 'x.fl'", "1:10: unexpected string 'x.fl', expected 'from'"},
+        {"import a 'x.fl'",
+         "1:10: unexpected string 'x.fl', expected 'from' | write import NAME from 'FILE.fl', or %include 'FILE.fl'"},
         {"func f\n    x", "1:7: unexpected end of line, expected '('"},
         {"func f(\n", "1:8: unexpected end of file, expected name or ')' | the parenthesis opened at line 1, column 7 "
                       "is not closed"},
@@ -51,9 +54,9 @@ static void test_slips(void **state) {
         {"%pragma fps x", "1:13: unexpected name x"},
         {"x\n%pragma fps 3", "2:1: unexpected '%'"},
         {"%include", "1:9: unexpected end of line, expected an expression"},
-        {"!a & !b", "1:4: no token starts with '&' (U+0026)"},
+        {"!a & !b", "1:4: no token starts with '&' (U+0026) | write A and B"},
         {"a² ", "1:2: no token starts with '²' (U+00B2)"},
-        {"a ? b", "1:3: no token starts with '?' (U+003F)"},
+        {"a ? b", "1:3: no token starts with '?' (U+003F) | a choice is written A if TEST else B"},
         {"!a \\ ", "1:4: a backslash outside a string must end its line"},
         {"\x01", "1:1: control character U+0001 | is this a text file?"},
         {"f(x=1, 2)", "1:8: unexpected number 2, expected name"},
@@ -72,14 +75,15 @@ static void test_slips(void **state) {
         {"1..2..3", "1:5: unexpected '..'"},
         {"$", "1:2: unexpected end of line, expected an expression"},
         {"x\n    y\n  z", "3:3: this line's indentation matches none of the lines above"},
-        {"\ufeff"
-         "!a",
-         "1:1: byte-order mark: save the file as UTF-8 without one"},
+        {"!a\n\ufeff"
+         "!b",
+         "2:1: a byte-order mark (U+FEFF) can only begin a file"},
+        {"\ufeff!a )", "1:4: unexpected ')', expected end of line or '<<'"}, // there it is left out
         {"!a\n\t!b\n    !c\n", "3:5: this line's indentation matches none of the lines above | a tab counts as eight "
                                "spaces: do not mix the two"},
         {"if x\n    !a (\nelse\n    !b )\n!c",
          "4:5: unexpected node !b | the parenthesis opened at line 2, column 8 is not closed"},
-        {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in'"},
+        {"for x of y\n    !a\n!b\n", "1:7: unexpected name of, expected 'in' | a loop is written for i in ..10"},
     };
     check_complaints(*state, rows, COUNT_OF(rows));
 }
@@ -117,10 +121,13 @@ static void test_encoding(void **state) {
         Str text;
         const char *wanted;
     } rows[] = {
-        {{"!a\n!b \xff\n!c )", 12}, "2:4: the file is not valid UTF-8 | is this a text file?"},
-        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | is this a text file?"},
-        {{"'\xed\xa0\x80'", 5}, "1:2: the file is not valid UTF-8 | is this a text file?"},
-        {{"-- \xe2\x82", 5}, "1:4: the file is not valid UTF-8 | is this a text file?"},
+        {{"!a\n!b \xff\n!c )", 12},
+         "2:4: the file is not valid UTF-8 | the byte 0xFF cannot stand here: save the file as UTF-8"},
+        {{"\xc0\x80", 2}, "1:1: the file is not valid UTF-8 | the byte 0xC0 cannot stand here: save the file as UTF-8"},
+        {{"'\xed\xa0\x80'", 5},
+         "1:2: the file is not valid UTF-8 | the byte 0xED cannot stand here: save the file as UTF-8"},
+        {{"-- \xe2\x82", 5},
+         "1:4: the file is not valid UTF-8 | the byte 0xE2 cannot stand here: save the file as UTF-8"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         assert_text(rows[i].wanted, complaints(world, rows[i].text), rows[i].wanted);

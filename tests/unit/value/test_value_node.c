@@ -183,28 +183,28 @@ static void test_kept(void **state) {
     Value attr = read_value(world, "!d");
     value_keep(children);
     const Node *b = children.as.items[0].as.node;
-    assert_true(b->kept && b->kept_children);
+    assert_true(b->program_lifetime && b->program_lifetime_children);
     NodeList list = node_list(arena, children);
-    list.kept = true;
+    list.program_lifetime = true;
     const Node *first = node_append_list(arena, fresh(world, "a"), &list);
     const Node *second = node_append_list(arena, fresh(world, "a"), &list);
     assert_ptr_equal(first->children, second->children);
-    assert_true(first->kept_children && !first->kept);
+    assert_true(first->program_lifetime_children && !first->program_lifetime);
     assert_int_equal(first->child_count, 2);
     const Node *more = node_append_list(arena, first, &list);
     assert_text("both lists", tree(world, more), "!a\n    !b\n    !c\n    !b\n    !c\n");
-    assert_false(more->kept_children);
-    assert_false(node_append(arena, fresh(world, "a"), children)->kept_children);
+    assert_false(more->program_lifetime_children);
+    assert_false(node_append(arena, fresh(world, "a"), children)->program_lifetime_children);
     const Node *changed = with_attr(world, b, "x", "1");
-    assert_false(changed->kept);
-    assert_true(changed->kept_children);
-    assert_false(node_add_tag(arena, b, name_of(world, "t"))->kept);
-    assert_false(node_copy(arena, first)->kept_children);
+    assert_false(changed->program_lifetime);
+    assert_true(changed->program_lifetime_children);
+    assert_false(node_add_tag(arena, b, name_of(world, "t"))->program_lifetime);
+    assert_false(node_copy(arena, first)->program_lifetime_children);
     // Keeping goes into attributes and children.
     Value outer = value_node(arena, node_set_attrs(arena, more, &(Attr){name_of(world, "x"), attr}, 1));
     value_keep(outer);
-    assert_true(outer.as.items[0].as.node->kept);
-    assert_true(attr.as.items[0].as.node->kept);
+    assert_true(outer.as.items[0].as.node->program_lifetime);
+    assert_true(attr.as.items[0].as.node->program_lifetime);
 }
 
 static void test_copy(void **state) {

@@ -1,0 +1,167 @@
+# packages.sh: the Debian packages that dev installs, and how. Sourced by dev after progress.sh, with `root` set.
+
+# What has to be there, and the packages that bring it: one line each, the test first.
+# To compile petri and to see it in a terminal:
+RUN_NEEDS='
+command -v gcc            : gcc libc6-dev
+command -v meson          : meson
+command -v ninja          : ninja-build
+command -v pkg-config     : pkg-config
+command -v bison          : bison
+command -v re2c           : re2c
+pkg-config --exists cairo : libcairo2-dev
+pkg-config --exists pangocairo : libpango1.0-dev
+pkg-config --exists libjpeg : libjpeg-dev
+pkg-config --exists chafa : libchafa-dev
+pkg-config --exists libedit: libedit-dev
+test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
+'
+# For windows and films:
+BUILD_NEEDS="$RUN_NEEDS
+pkg-config --exists sdl2  : libsdl2-dev
+command -v ffmpeg         : ffmpeg
+"
+# For the tests; those that lack a tool are skipped:
+TEST_NEEDS="$BUILD_NEEDS
+pkg-config --exists cmocka: libcmocka-dev
+command -v tmux           : tmux
+command -v pgrep          : procps
+command -v Xvfb           : xvfb
+command -v xdotool        : xdotool
+command -v xprop          : x11-utils
+command -v compare        : imagemagick
+command -v openbox        : openbox
+pkg-config --exists x11   : libx11-dev
+pkg-config --exists mpfr  : libmpfr-dev
+test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
+"
+CLANG_NEEDS='command -v clang: clang'
+FORMAT_NEEDS='command -v clang-format: clang-format'
+TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
+PEER_NEEDS='
+command -v lmp   : lammps
+command -v mpirun: openmpi-bin
+'
+FRESH_NEEDS='command -v debootstrap: debootstrap'
+# What meson looks for and can do without. A build folder is set up anew when another of these is there.
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 cmocka x11 mpfr'
+
+# missing NEEDS: the packages for what is not there.
+missing() {
+    echo "$1" | while IFS=: read -r probe packages; do
+        if [ -n "$probe" ] && ! eval "$probe" >/dev/null 2>&1; then
+            echo "$packages"
+        fi
+    done | xargs
+}
+
+by_hand() { echo "apt-get install --no-install-recommends $*"; }
+
+# agree PACKAGES: asks, once for all that will ever be needed, if there is someone to ask.
+agree() {
+    agreed=$root/build/packages-agreed
+    if [ ! -t 0 ] || [ "${CI:-}" = true ] || [ -e "$agreed" ]; then
+        return 0
+    fi
+    say "these Debian packages are missing, and what they need themselves:"
+    echo "  $1" | fold -s >&2
+    later=$(echo " $(missing "$TEST_NEEDS") " | tr ' ' '\n' | grep -vxF "$(echo "$1" | tr ' ' '\n')" | xargs)
+    if [ -n "$later" ]; then
+        echo "and, once you build all of it or run the tests:" >&2
+        echo "  $later" | fold -s >&2
+    fi
+    printf 'Install what is needed when it is needed? [Y/n] ' >&2
+    read -r answer || answer=no
+    case $answer in
+    '' | y* | Y*) ;;
+    *) die "nothing was installed. By hand it is done by: $(by_hand "$1")" ;;
+    esac
+    mkdir -p "$root/build"
+    : >"$agreed"
+}
+
+# become_root PACKAGES: sets `as_root` to what makes a command root's.
+become_root() {
+    as_root=
+    [ "$(id -u)" -ne 0 ] || return 0
+    as_root=sudo
+    if command -v sudo >/dev/null; then
+        # It asks for the password, or says why not, before anything is hidden in a log.
+        ! sudo -n true 2>/dev/null || return 0
+        if [ -t 0 ] || [ -t 2 ]; then
+            ! sudo -v || return 0
+        fi
+    fi
+    die "installing packages needs root, and you are not: there is no sudo, or it does not let you.
+An administrator can do it for you, and then the same command works:
+  $(by_hand "$1")"
+}
+
+get() {
+    # shellcheck disable=SC2086 # $as_root may be no word
+    $as_root env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -qy "$@"
+}
+
+follow_installation() {
+    fetched=0 unpacked=0 ready=0
+    while read -r first second rest; do
+        case $first in
+        Get:*)
+            fetched=$((fetched + 1))
+            name="fetching $(echo "$rest" | cut -d ' ' -f 3)"
+            ;;
+        Unpacking)
+            unpacked=$((unpacked + 1))
+            name="unpacking $second"
+            ;;
+        Setting)
+            ready=$((ready + 1))
+            name="setting up ${rest%% *}"
+            ;;
+        Waiting) name="waiting for another installation to end" ;;
+        *) continue ;;
+        esac
+        counted packages $(((fetched + unpacked + ready) / 3)) "$count" "$name"
+    done
+}
+
+# give_up LOG PACKAGES: tells why an installation failed.
+give_up() {
+    erase
+    if grep -Eq 'Temporary failure resolving|Could not (resolve|connect)|Unable to connect|Connection (failed|timed out)|Network is unreachable' "$1"; then
+        die "cannot fetch packages: no network? (What apt-get said is in $1.)"
+    fi
+    grep -h '^E: ' "$1" | tail -n 3 >&2
+    die "cannot install $2. (What apt-get said is in $1.)"
+}
+
+# need NEEDS: installs what is missing of these.
+need() {
+    packages=$(missing "$1")
+    [ -n "$packages" ] || return 0
+    command -v apt-get >/dev/null || die "please install what Debian calls: $packages"
+    agree "$packages"
+    become_root "$packages"
+    mkdir -p "$root/build"
+    lists=$root/build/packages-lists.log
+    plan=$root/build/packages-plan.log
+    # The lists of a fresh machine are empty, those of an old one may name files that are gone: both need the update.
+    say "packages: reading the lists"
+    get update >"$lists" 2>&1 </dev/null || true # with old lists it may do all the same
+    # shellcheck disable=SC2086 # packages are words
+    get --no-install-recommends --print-uris install $packages >"$plan" 2>&1 </dev/null || {
+        cat "$plan" >>"$lists"
+        give_up "$lists" "$packages"
+    }
+    count=$(sed -n 's/.* \([0-9]*\) newly installed.*/\1/p' "$plan")
+    size=$(sed -n 's/^Need to get \(.*B\) of archives.*/\1/p' "$plan")
+    say "packages: ${count:=1} to install, ${size:-nothing} to download"
+    rm -f "$plan"
+    # Nothing of the machine's is at stake when power fails in between: no need to wait for the disk after each file.
+    # shellcheck disable=SC2086 # packages are words
+    following "$root/build/packages.log" follow_installation get --no-install-recommends \
+        -o Dpkg::Options::=--force-unsafe-io -o DPkg::Lock::Timeout=600 install $packages ||
+        give_up "$root/build/packages.log" "$packages"
+    packages=$(missing "$1")
+    [ -z "$packages" ] || die "still missing after the installation: $packages"
+}

@@ -1,0 +1,44 @@
+# progress.sh: what dev says while it works. Sourced by dev; sets `columns`, the width of the terminal that is told, or 0.
+
+columns=0
+if [ -t 2 ] && [ "${TERM:-dumb}" != dumb ]; then
+    columns=$(stty size 2>/dev/null <&2 | cut -d ' ' -f 2)
+    [ "${columns:-0}" -gt 0 ] || columns=80
+fi
+
+# erase: takes the line away that `counted` rewrites.
+erase() { [ "$columns" -eq 0 ] || printf '\r\033[K' >&2; }
+
+say() {
+    erase
+    echo "dev: $*" >&2
+}
+
+die() {
+    say "$*"
+    exit 1
+}
+
+# counted WHAT N M [NAME]: N of M are done, NAME is at work. One line that is rewritten on a terminal; elsewhere a line for
+# each quarter.
+counted() {
+    if [ "$columns" -gt 0 ]; then
+        printf "\r\033[K%.$((columns - 1))s" "dev: $1: $2 of $3${4:+, $4}" >&2
+    elif [ "$1 $((4 * $2 / ($3 > 0 ? $3 : 1)))" != "${quarter:-}" ]; then
+        quarter="$1 $((4 * $2 / ($3 > 0 ? $3 : 1)))"
+        echo "dev: $1: $2 of $3" >&2
+    fi
+}
+
+# following LOG FOLLOWER COMMAND...: runs the command, which writes into LOG, while FOLLOWER reads the same. The
+# command's status.
+following() {
+    log=$1
+    follower=$2
+    shift 2
+    { "$@" 2>&1 </dev/null && echo 0 >"$log.status" || echo $? >"$log.status"; } | tee "$log" | "$follower"
+    erase
+    status=$(cat "$log.status")
+    rm -f "$log.status"
+    return "$status"
+}

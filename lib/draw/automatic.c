@@ -1,0 +1,279 @@
+// automatic.c: draws particle systems by themselves; see automatic.h.
+#include "draw/draw.h"
+#include "maths/maths.h"
+
+#include <math.h>
+#include <stdlib.h>
+
+typedef struct Colour {
+    double r, g, b;
+} Colour;
+
+static const Colour GROUND = {0.06, 0.07, 0.09};
+static const double MARGIN = 0.04;    // of a panel, on each side
+static const double LEAST_RADIUS = 2; // pixels
+// The eye is 0.45 radians to the right and 0.35 above.
+static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
+static const double COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
+static const double EYE = 4;          // its distance, in halves of the frame
+
+// Where a system is drawn.
+typedef struct Panel {
+    Canvas *canvas;
+    const AutoSystem *system;
+    double x; // its middle
+    double y;
+    double side;  // half of it
+    double scale; // units of the picture for each of the system's
+    double width;
+    double height;
+    double pixel; // the size of a pixel in the picture's units
+} Panel;
+
+static Colour mix(Colour a, Colour b, double part) {
+    return (Colour){a.r + (b.r - a.r) * part, a.g + (b.g - a.g) * part, a.b + (b.b - a.b) * part};
+}
+
+// Charge: blue, white, orange. Speed: deep blue, turquoise, pale yellow.
+static Colour shade_colour(const AutoSystem *system, double shade) {
+    static const Colour negative = {0.25, 0.55, 1}, neutral = {0.85, 0.87, 0.9}, positive = {1, 0.5, 0.15};
+    static const Colour slow = {0.2, 0.35, 0.75}, middle = {0.2, 0.75, 0.7}, fast = {1, 0.95, 0.6};
+    if (system->charged)
+        return shade < 0 ? mix(neutral, negative, -shade) : mix(neutral, positive, shade);
+    return shade < 0.5 ? mix(slow, middle, shade * 2) : mix(middle, fast, shade * 2 - 1);
+}
+
+static void set_colour(cairo_t *cr, Colour c, double alpha) {
+    cairo_set_source_rgba(cr, c.r, c.g, c.b, alpha);
+}
+
+// A point of a system in its panel. `depth` grows away from the eye, and `size` is the scale at that depth.
+typedef struct Seen {
+    double x;
+    double y;
+    double depth;
+    double size;
+} Seen;
+
+static Seen see(const Panel *panel, const double position[3]) {
+    const AutoFrame *frame = &panel->system->frame;
+    double x = (position[0] - frame->middle[0]) / frame->half, y = (position[1] - frame->middle[1]) / frame->half;
+    if (panel->system->dimensions < 3)
+        return (Seen){panel->x + x * panel->side, panel->y - y * panel->side, 0, panel->scale};
+    double z = (position[2] - frame->middle[2]) / frame->half;
+    double right = x * COS_YAW - z * SIN_YAW, towards = x * SIN_YAW + z * COS_YAW;
+    double up = y * COS_PITCH - towards * SIN_PITCH;
+    double depth = -(y * SIN_PITCH + towards * COS_PITCH);
+    double nearness = EYE / fmax(EYE + depth, 0.1);
+    return (Seen){panel->x + right * panel->side * nearness, panel->y - up * panel->side * nearness, depth,
+                  panel->scale * nearness};
+}
+
+// Far things fade into the ground.
+static Colour in_mist(const Panel *panel, Colour colour, double depth) {
+    return panel->system->dimensions < 3 ? colour : mix(colour, GROUND, fmin(fmax(0.3 + 0.3 * depth, 0), 0.8));
+}
+
+static void circle(Canvas *canvas, double x, double y, double radius) {
+    draw_tame(canvas, &x, &y);
+    draw_ellipse_path(canvas, x, y, radius, radius, 0, 1, false);
+    cairo_close_path(canvas->cr);
+}
+
+// A ball: light from the upper left.
+static void set_ball(cairo_t *cr, const Seen *seen, double radius, Colour colour) {
+    cairo_pattern_t *ball = cairo_pattern_create_radial(seen->x - radius * 0.35, seen->y - radius * 0.4, radius * 0.05,
+                                                        seen->x - radius * 0.1, seen->y - radius * 0.1, radius * 1.15);
+    Colour light = mix(colour, (Colour){1, 1, 1}, 0.5), dark = mix(colour, (Colour){0, 0, 0}, 0.65);
+    cairo_pattern_add_color_stop_rgb(ball, 0, light.r, light.g, light.b);
+    cairo_pattern_add_color_stop_rgb(ball, 0.45, colour.r, colour.g, colour.b);
+    cairo_pattern_add_color_stop_rgb(ball, 1, dark.r, dark.g, dark.b);
+    cairo_set_source(cr, ball);
+    cairo_pattern_destroy(ball);
+}
+
+static void draw_body(const Panel *panel, const AutoBody *body, const Seen *seen) {
+    cairo_t *cr = panel->canvas->cr;
+    double radius = body->radius * seen->size;
+    double shown = fmin(fmax(radius, LEAST_RADIUS * panel->pixel), 4 * (panel->width + panel->height));
+    Colour colour = in_mist(panel, shade_colour(panel->system, body->shade), seen->depth);
+    if (body->anchor) {
+        double line = 1.5 * panel->pixel;
+        circle(panel->canvas, seen->x, seen->y, fmax(shown - line / 2, 3 * panel->pixel));
+        cairo_set_line_width(cr, line);
+        set_colour(cr, colour, 1);
+        cairo_stroke(cr);
+        return;
+    }
+    circle(panel->canvas, seen->x, seen->y, shown);
+    if (panel->system->dimensions == 3 && shown > 2 * panel->pixel) {
+        set_ball(cr, seen, shown, colour);
+        cairo_fill(cr);
+        return;
+    }
+    set_colour(cr, colour, shown > 2 * panel->pixel ? 0.85 : 1);
+    cairo_fill(cr);
+}
+
+// The order from the farthest to the nearest; of equal ones the first first.
+typedef struct Place {
+    Seen seen;
+    uint32_t body;
+} Place;
+
+static int compare_places(const void *a, const void *b) {
+    const Place *x = a, *y = b;
+    if (x->seen.depth != y->seen.depth)
+        return x->seen.depth < y->seen.depth ? 1 : -1;
+    return (x->body > y->body) - (x->body < y->body);
+}
+
+static void draw_bodies(const Panel *panel) {
+    const AutoSystem *system = panel->system;
+    Arena *arena = &panel->canvas->painter->arena;
+    Place *places = arena_alloc_array(arena, system->body_count, sizeof *places);
+    for (uint32_t i = 0; i < system->body_count; i++)
+        places[i] = (Place){see(panel, system->bodies[i].position), i};
+    if (system->dimensions == 3)
+        qsort(places, system->body_count, sizeof *places, compare_places);
+    for (uint32_t i = 0; i < system->body_count; i++)
+        draw_body(panel, &system->bodies[places[i].body], &places[i].seen);
+}
+
+static void line(Canvas *canvas, double x1, double y1, double x2, double y2) {
+    draw_tame(canvas, &x1, &y1);
+    draw_tame(canvas, &x2, &y2);
+    cairo_move_to(canvas->cr, x1, y1);
+    cairo_line_to(canvas->cr, x2, y2);
+}
+
+static void draw_links(const Panel *panel) {
+    const AutoSystem *system = panel->system;
+    cairo_t *cr = panel->canvas->cr;
+    cairo_set_line_width(cr, panel->pixel);
+    for (uint32_t i = 0; i < system->link_count; i++) {
+        Seen from = see(panel, system->bodies[system->links[i].from].position);
+        Seen to = see(panel, system->bodies[system->links[i].to].position);
+        line(panel->canvas, from.x, from.y, to.x, to.y);
+        set_colour(cr, in_mist(panel, (Colour){0.6, 0.65, 0.7}, (from.depth + to.depth) / 2), 0.4);
+        cairo_stroke(cr);
+    }
+}
+
+static const Colour WALL = {0.75, 0.7, 0.55};
+
+// In two dimensions a line, with the side behind it shaded; in one a line across.
+static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
+    cairo_t *cr = panel->canvas->cr;
+    Seen at = see(panel, barrier->position);
+    double nx = barrier->normal[0], ny = panel->system->dimensions == 1 ? 0 : -barrier->normal[1];
+    double length = maths_hypot(nx, ny), far = panel->width + panel->height;
+    if (!(length > 0) || !isfinite(length))
+        return;
+    nx /= length;
+    ny /= length;
+    // The foot of the middle on the wall, so that the line spans the panel however far away its point is.
+    double along = (panel->x - at.x) * -ny + (panel->y - at.y) * nx;
+    double x = at.x - ny * along, y = at.y + nx * along;
+    cairo_move_to(cr, x - ny * far, y + nx * far);
+    cairo_line_to(cr, x + ny * far, y - nx * far);
+    cairo_set_line_width(cr, 2 * panel->pixel);
+    set_colour(cr, WALL, 0.9);
+    cairo_stroke(cr);
+    cairo_move_to(cr, x - ny * far, y + nx * far);
+    cairo_line_to(cr, x + ny * far, y - nx * far);
+    cairo_line_to(cr, x + (ny - nx) * far, y - (nx + ny) * far);
+    cairo_line_to(cr, x - (ny + nx) * far, y + (nx - ny) * far);
+    set_colour(cr, WALL, 0.12);
+    cairo_fill(cr);
+}
+
+// In three dimensions a grid of lines on the part of the wall that is nearest to the middle.
+static void draw_grid(const Panel *panel, const AutoBarrier *barrier) {
+    enum { LINES = 4 };
+    cairo_t *cr = panel->canvas->cr;
+    const AutoFrame *frame = &panel->system->frame;
+    const double *n = barrier->normal;
+    double away = 0, foot[3], u[3], v[3];
+    for (int k = 0; k < 3; k++)
+        away += (frame->middle[k] - barrier->position[k]) * n[k];
+    if (!(fabs(away) < 1.6 * frame->half)) // out of the picture
+        return;
+    for (int k = 0; k < 3; k++)
+        foot[k] = frame->middle[k] - away * n[k];
+    int axis = fabs(n[0]) <= fabs(n[1]) && fabs(n[0]) <= fabs(n[2]) ? 0 : fabs(n[1]) <= fabs(n[2]) ? 1 : 2;
+    double e[3] = {axis == 0, axis == 1, axis == 2};
+    double length = sqrt(1 - n[axis] * n[axis]);
+    for (int k = 0; k < 3; k++)
+        u[k] = (e[k] - n[axis] * n[k]) / length;
+    for (int k = 0; k < 3; k++)
+        v[k] = n[(k + 1) % 3] * u[(k + 2) % 3] - n[(k + 2) % 3] * u[(k + 1) % 3];
+    cairo_set_line_width(cr, panel->pixel);
+    for (int i = -LINES; i <= LINES; i++)
+        for (int turned = 0; turned < 2; turned++) {
+            const double *a = turned ? v : u, *b = turned ? u : v;
+            double one[3], two[3], part = frame->half * i / LINES;
+            for (int k = 0; k < 3; k++) {
+                one[k] = foot[k] + a[k] * part + b[k] * frame->half;
+                two[k] = foot[k] + a[k] * part - b[k] * frame->half;
+            }
+            Seen from = see(panel, one), to = see(panel, two);
+            line(panel->canvas, from.x, from.y, to.x, to.y);
+        }
+    set_colour(cr, WALL, 0.3);
+    cairo_stroke(cr);
+}
+
+static void draw_barriers(const Panel *panel) {
+    for (uint32_t i = 0; i < panel->system->barrier_count; i++)
+        if (panel->system->dimensions == 3)
+            draw_grid(panel, &panel->system->barriers[i]);
+        else
+            draw_wall(panel, &panel->system->barriers[i]);
+}
+
+static void draw_panel(Panel *panel) {
+    cairo_t *cr = panel->canvas->cr;
+    double left = panel->x - panel->width / 2, top = panel->y - panel->height / 2;
+    cairo_save(cr);
+    cairo_rectangle(cr, left, top, panel->width, panel->height);
+    cairo_clip(cr);
+    set_colour(cr, GROUND, 1);
+    cairo_paint(cr);
+    draw_barriers(panel);
+    if (panel->system->dimensions == 1) { // the line that everything lies on
+        double middle[3] = {panel->system->frame.middle[0], 0, 0};
+        line(panel->canvas, left, see(panel, middle).y, left + panel->width, see(panel, middle).y);
+        cairo_set_line_width(cr, panel->pixel);
+        set_colour(cr, (Colour){0.5, 0.55, 0.6}, 0.5);
+        cairo_stroke(cr);
+    }
+    draw_links(panel);
+    draw_bodies(panel);
+    cairo_restore(cr);
+}
+
+void draw_automatic(Canvas *canvas, const AutoPicture *picture) {
+    const CanvasPicture *whole = canvas->picture;
+    uint32_t columns = 1, count = picture->count ? picture->count : 1;
+    while (columns * columns < count)
+        columns++;
+    uint32_t rows = (count + columns - 1) / columns;
+    double width = whole->width / columns, height = whole->height / rows;
+    set_colour(canvas->cr, GROUND, 1);
+    cairo_paint(canvas->cr);
+    for (uint32_t i = 0; i < picture->count; i++) {
+        const AutoSystem *system = &picture->systems[i];
+        double side = fmin(width, height) / 2 * (1 - 2 * MARGIN);
+        Panel panel = {.canvas = canvas,
+                       .system = system,
+                       .x = (i % columns + 0.5) * width,
+                       .y = (i / columns + 0.5) * height,
+                       .side = side,
+                       .scale = side / system->frame.half,
+                       .width = width,
+                       .height = height,
+                       .pixel = fmin(width, height) / 540};
+        draw_panel(&panel);
+    }
+}

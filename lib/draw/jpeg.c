@@ -1,0 +1,81 @@
+// jpeg.c: reads JPEG files.
+#include "draw/draw.h"
+
+#include <stdio.h>
+
+#include <jpeglib.h>
+
+#include <jerror.h>
+#include <setjmp.h>
+#include <stdlib.h>
+
+enum { MOST_SIDE = 16384, MOST_PIXELS = 1 << 26 };
+
+typedef struct Trouble {
+    struct jpeg_error_mgr manager;
+    jmp_buf escape;
+} Trouble;
+
+static _Noreturn void give_up(j_common_ptr info) {
+    longjmp(((Trouble *)(void *)info->err)->escape, 1);
+}
+
+// Half a file is no picture; other oddities do no harm.
+static void on_warning(j_common_ptr info, int level) {
+    if (level < 0 && info->err->msg_code == JWRN_JPEG_EOF)
+        give_up(info);
+}
+
+static void be_quiet(j_common_ptr info) {
+    (void)info;
+}
+
+static void read_rows(struct jpeg_decompress_struct *jpeg, cairo_surface_t *surface, unsigned char *line) {
+    unsigned char *pixels = cairo_image_surface_get_data(surface);
+    int stride = cairo_image_surface_get_stride(surface);
+    while (jpeg->output_scanline < jpeg->output_height) {
+        uint32_t *row = (uint32_t *)(void *)(pixels + (size_t)stride * jpeg->output_scanline);
+        jpeg_read_scanlines(jpeg, &line, 1);
+        for (unsigned x = 0; x < jpeg->output_width; x++)
+            row[x] = 0xff000000u | (uint32_t)line[3 * x] << 16 | (uint32_t)line[3 * x + 1] << 8 | line[3 * x + 2];
+    }
+    cairo_surface_mark_dirty(surface);
+}
+
+cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
+    Trouble trouble;
+    struct jpeg_decompress_struct jpeg;
+    cairo_surface_t *volatile surface = NULL;
+    unsigned char *volatile line = NULL;
+    volatile bool done = false;
+    *problem = "it is damaged, or of a kind that is not read";
+    jpeg.err = jpeg_std_error(&trouble.manager);
+    trouble.manager.error_exit = give_up;
+    trouble.manager.emit_message = on_warning;
+    trouble.manager.output_message = be_quiet;
+    jpeg_create_decompress(&jpeg);
+    if (setjmp(trouble.escape) == 0) {
+        jpeg_mem_src(&jpeg, (const unsigned char *)bytes.bytes, bytes.len);
+        jpeg_read_header(&jpeg, TRUE);
+        jpeg.out_color_space = JCS_RGB;
+        if (jpeg.image_width > MOST_SIDE || jpeg.image_height > MOST_SIDE ||
+            (uint64_t)jpeg.image_width * jpeg.image_height > MOST_PIXELS) {
+            *problem = "it is too large";
+        } else {
+            jpeg_start_decompress(&jpeg);
+            surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)jpeg.output_width, (int)jpeg.output_height);
+            line = malloc((size_t)jpeg.output_width * 3);
+            if (line && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
+                read_rows(&jpeg, surface, line);
+                done = true;
+            }
+        }
+    }
+    jpeg_destroy_decompress(&jpeg);
+    free(line);
+    if (done)
+        return surface;
+    if (surface)
+        cairo_surface_destroy(surface);
+    return NULL;
+}

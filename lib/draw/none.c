@@ -1,0 +1,40 @@
+// none.c: paint.h in a build without Cairo.
+#include "draw/paint.h"
+
+#include <stdlib.h>
+
+struct CanvasPainter {
+    char nothing;
+};
+
+CanvasPainter *canvas_painter_new(void) {
+    return calloc(1, sizeof(CanvasPainter));
+}
+
+void canvas_painter_free(CanvasPainter *painter) {
+    free(painter);
+}
+
+static CanvasResult missing(DiagSink *faults) {
+    diag_report(faults, &(Diag){.level = DIAG_ERROR,
+                                .code = "cannot-draw",
+                                .text = STR("this build of petri cannot draw: it was made without Cairo, Pango and "
+                                            "libjpeg (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
+    return CANVAS_MISSING;
+}
+
+CanvasResult canvas_draw(CanvasPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                         size_t stride, DiagSink *faults) {
+    (void)painter, (void)picture;
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++)
+            pixels[(size_t)y * (stride / sizeof *pixels) + (size_t)x] = 0;
+    return missing(faults);
+}
+
+CanvasResult canvas_encode(CanvasPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width,
+                           int height, Arena *arena, Str *bytes, DiagSink *faults) {
+    (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)arena;
+    *bytes = STR("");
+    return missing(faults);
+}

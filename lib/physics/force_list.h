@@ -1,0 +1,37 @@
+// force_list.h: all forces, one row each. A new force is a row here, a formula (pair_formulas.h or single_formulas.h)
+// and a test; enums, tables and dispatch are made from the rows, and no switch over forces has a `default:`.
+//
+//   PAIR(KIND, name, sign, source, reach)   between every two particles that see each other (4.1)
+//       sign     of K in the formula: +1 where a positive strength pulls two particles together, -1 where it pushes
+//       source   what both particles must have: RADIUS, MASS, CHARGE or NOTHING
+//       reach    CONTACT: only where their distance is below the sum of their radii (source is RADIUS then);
+//                FAR: without end, unless `max_distance` says otherwise
+//   LINK(KIND, name)                        between two given particles (4.1)
+//   SINGLE(KIND, name, vectors, need)       on each particle (4.2), and BARRIER likewise (4.4)
+//       vectors  how many of PhysForce.vector and .vector2 it reads
+//       need     SECTION: radius^(n-1); VOLUME: radius^n; STREAM: random numbers; or NOTHING
+//
+// The order of the rows is that of the public kinds (petri.h) and of nothing else: forces act in the order in which the
+// script has them.
+#ifndef PETRI_PHYSICS_FORCE_LIST_H
+#define PETRI_PHYSICS_FORCE_LIST_H
+
+// clang-format off
+#define PHYS_FORCES(AS_PAIR, AS_LINK, AS_SINGLE, AS_BARRIER)                                                           \
+    AS_PAIR(COLLISION, collision, -1, RADIUS, CONTACT)                                                                 \
+    AS_PAIR(GRAVITY, gravity, +1, MASS, FAR)                                                                           \
+    AS_PAIR(ELECTROSTATIC, electrostatic, -1, CHARGE, FAR)                                                             \
+    AS_PAIR(ADHESION, adhesion, +1, RADIUS, CONTACT)                                                                   \
+    AS_LINK(DISTANCE, distance)                                                                                        \
+    AS_SINGLE(CONSTANT, constant, 2, NOTHING)                                                                          \
+    AS_SINGLE(RANDOM, random, 0, STREAM)                                                                               \
+    AS_SINGLE(FIELD, field, 1, NOTHING)                                                                                \
+    AS_SINGLE(DRAG, drag, 1, SECTION)                                                                                  \
+    AS_SINGLE(BUOYANCY, buoyancy, 1, VOLUME)                                                                           \
+    AS_BARRIER(BARRIER, barrier, 2, NOTHING)
+// clang-format on
+
+// For the parameters of PHYS_FORCES that a use has nothing to say about.
+#define PHYS_NO_ROW(...)
+
+#endif

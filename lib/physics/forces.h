@@ -1,0 +1,46 @@
+// forces.h: the rows of force_list.h as the code asks for them. All answers are constants where the kind is one.
+#ifndef PETRI_PHYSICS_FORCES_H
+#define PETRI_PHYSICS_FORCES_H
+
+#include "physics/system.h"
+
+// The stages of a step in which forces act.
+typedef enum Stage { STAGE_LINK, STAGE_PAIR, STAGE_SINGLE, STAGE_BARRIER, STAGE_COUNT } Stage;
+
+// What a force needs of its particles, or of the step.
+typedef enum ForceNeed {
+    NEED_NOTHING,
+    NEED_RADIUS,
+    NEED_MASS,
+    NEED_CHARGE,
+    NEED_SECTION,
+    NEED_VOLUME,
+    NEED_STREAM,
+} ForceNeed;
+
+typedef enum PairReach { REACH_CONTACT, REACH_FAR } PairReach;
+
+typedef struct ForceRow {
+    Stage stage;
+    ForceNeed need;  // of both ends of a pair
+    PairReach reach; // of a pair force
+    int sign;        // of a pair force: PairTerm.strength is sign · strength
+    int vectors;     // that it reads
+} ForceRow;
+
+static inline ForceRow phys_force_row(PhysForceKind kind) {
+    static const ForceRow rows[PHYS_FORCE_KINDS] = {
+#define PAIR(KIND, name, SIGN, SOURCE, REACH) {STAGE_PAIR, NEED_##SOURCE, REACH_##REACH, SIGN, 0},
+#define LINK(KIND, name) {STAGE_LINK, NEED_NOTHING, REACH_FAR, 0, 0},
+#define SINGLE(KIND, name, VECTORS, NEED) {STAGE_SINGLE, NEED_##NEED, REACH_FAR, 0, VECTORS},
+#define BARRIER(KIND, name, VECTORS, NEED) {STAGE_BARRIER, NEED_##NEED, REACH_FAR, 0, VECTORS},
+        PHYS_FORCES(PAIR, LINK, SINGLE, BARRIER)
+#undef PAIR
+#undef LINK
+#undef SINGLE
+#undef BARRIER
+    };
+    return rows[kind];
+}
+
+#endif

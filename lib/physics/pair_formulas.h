@@ -1,0 +1,126 @@
+// pair_formulas.h: the formulas of forces between two particles (4.1), for LANES pairs at once.
+//
+//   d_k = to_k − from_k;  l = sqrt(d_0² + d_1² + …);  inv = 1 / l;  u_k = d_k · inv;  f_k = u_k · K
+//
+// The target (`from`) gets + f, the partner − f, whichever of the two comes first in the pass: every K is symmetric in
+// the two, so with the ends exchanged d, u and f change their signs exactly and K stays the same. S is the strength,
+// with the sign of the force's row: a positive K pulls.
+#ifndef PETRI_PHYSICS_PAIR_FORMULAS_H
+#define PETRI_PHYSICS_PAIR_FORMULAS_H
+
+#include "physics/forces.h"
+#include "physics/kernels.h"
+#include "physics/power.h"
+
+// One end of LANES pairs.
+typedef struct PairEnd {
+    Real place[PHYS_VECTOR_DIMENSIONS];
+    Real radius;
+    Real mass;
+    Real charge;
+} PairEnd;
+
+// What is known of LANES pairs.
+typedef struct PairGeometry {
+    Real unit[PHYS_VECTOR_DIMENSIONS];
+    Real length;
+    Real reach; // sum of the radii
+    Mask valid; // l is neither 0 nor not finite
+} PairGeometry;
+
+// What a formula may use.
+typedef struct Pairs {
+    const PairTerm *term;
+    const PairGeometry *geometry;
+    const PairEnd *target;
+    const PairEnd *partner;
+    Mask touch; // lanes with l < r₁+r₂ where neither radius is 0
+} Pairs;
+
+// S · (a · b) / (D · D),  D = max(r₁+r₂, l)
+KERNEL Real inverse_square(const Pairs *pairs, Real a, Real b) {
+    Real distance = real_larger(pairs->geometry->reach, pairs->geometry->length);
+    return real_div(real_mul(real_set(pairs->term->strength), real_mul(a, b)), real_mul(distance, distance));
+}
+
+// K = S · (m₁ · m₂) / (D · D)
+KERNEL Real pair_gravity(const Pairs *pairs) {
+    return inverse_square(pairs, pairs->target->mass, pairs->partner->mass);
+}
+
+// K = S · (q₁ · q₂) / (D · D)
+KERNEL Real pair_electrostatic(const Pairs *pairs) {
+    return inverse_square(pairs, pairs->target->charge, pairs->partner->charge);
+}
+
+// K = (r₁+r₂ − l)^power · S
+KERNEL Real pair_collision(const Pairs *pairs) {
+    Real depth = real_sub(pairs->geometry->reach, pairs->geometry->length);
+    return real_mul(real_power(pairs->touch, depth, pairs->term->power), real_set(pairs->term->strength));
+}
+
+// K = S · o · (l − a),  o = r₁+r₂ − l,  a = |r₁−r₂| · overlap + (r₁+r₂) · (1 − overlap)
+KERNEL Real pair_adhesion(const Pairs *pairs) {
+    const PairGeometry *geometry = pairs->geometry;
+    double overlap = pairs->term->overlap;
+    Real depth = real_sub(geometry->reach, geometry->length);
+    Real difference = real_absolute(real_sub(pairs->target->radius, pairs->partner->radius));
+    Real rest = real_add(real_mul(difference, real_set(overlap)), real_mul(geometry->reach, real_set(1 - overlap)));
+    return real_mul(real_mul(real_set(pairs->term->strength), depth), real_sub(geometry->length, rest));
+}
+
+// K of a link. False: no force.
+//   l < min:       K = − ((min − l)^power · S)
+//   else l > max:  K = (l − max)^power · S
+KERNEL bool link_distance(const PhysForce *link, double strength, Real length, Real *k) {
+    bool near = link->has_minimum && mask_any(real_less(length, real_set(link->minimum)));
+    if (!near && !(link->has_maximum && mask_any(real_less(real_set(link->maximum), length))))
+        return false;
+    Real beyond = near ? real_sub(real_set(link->minimum), length) : real_sub(length, real_set(link->maximum));
+    *k = real_mul(real_power(mask_first(LANES), beyond, link->power), real_set(near ? -strength : strength));
+    return true;
+}
+
+// What `need` names of one end; 1 if it needs nothing.
+KERNEL Real pair_source(ForceNeed need, const PairEnd *end) {
+    if (need == NEED_MASS)
+        return end->mass;
+    return need == NEED_CHARGE ? end->charge : need == NEED_RADIUS ? end->radius : real_set(1);
+}
+
+// Lanes in which neither of two quantities is 0.
+KERNEL Mask both_there(Mask mask, Real a, Real b) {
+    return real_differs_where(real_differs_where(mask, a, real_zero()), b, real_zero());
+}
+
+KERNEL Mask pair_where(PairReach reach, ForceNeed need, const Pairs *pairs) {
+    if (reach == REACH_CONTACT)
+        return pairs->touch;
+    return both_there(pairs->geometry->valid, pair_source(need, pairs->target), pair_source(need, pairs->partner));
+}
+
+// K of one force, and where it applies. `contact_only`: no force of the pass reaches farther.
+KERNEL Mask pair_apply(const Pairs *pairs, bool contact_only, Real *k) {
+    Mask applies = mask_first(0);
+    *k = real_zero();
+    switch (pairs->term->kind) {
+#define PAIR(KIND, name, SIGN, SOURCE, REACH)                                                                          \
+    case PHYS_##KIND:                                                                                                  \
+        if (contact_only && REACH_##REACH != REACH_CONTACT)                                                            \
+            __builtin_unreachable();                                                                                   \
+        *k = pair_##name(pairs);                                                                                       \
+        applies = pair_where(REACH_##REACH, NEED_##SOURCE, pairs);                                                     \
+        break;
+#define OTHER(KIND, ...) case PHYS_##KIND:
+        PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
+        PHYS_FORCES(PHYS_NO_ROW, OTHER, OTHER, OTHER)
+#undef PAIR
+#undef OTHER
+    case PHYS_FORCE_KINDS:
+        __builtin_unreachable(); // a pass has pair forces only
+    }
+    double bound = pairs->term->bound;
+    return bound < INFINITY ? real_less_where(applies, pairs->geometry->length, real_set(bound)) : applies;
+}
+
+#endif

@@ -1,0 +1,107 @@
+// pair_geometry.h: LANES pairs on their way to the formulas: a vector of targets and one partner, or a vector of
+// partners.
+#ifndef PETRI_PHYSICS_PAIR_GEOMETRY_H
+#define PETRI_PHYSICS_PAIR_GEOMETRY_H
+
+#include "physics/pair_formulas.h"
+
+// What kernels are specialised on: a force without bound that comes first, and what follows it.
+enum { LEAD_NONE = PHYS_FORCE_KINDS }; // else the lead is the PhysForceKind
+typedef enum PairRest {
+    REST_NONE,
+    REST_TOUCH, // forces of contact only
+    REST_ANY,
+} PairRest;
+
+typedef struct PairShape {
+    size_t dimensions;
+    int lead;
+    PairRest rest;
+} PairShape;
+
+// What the leading force needs of both ends.
+KERNEL ForceNeed lead_need(PairShape shape) {
+#define PAIR(KIND, name, SIGN, SOURCE, REACH)                                                                          \
+    if (shape.lead == PHYS_##KIND)                                                                                     \
+        return NEED_##SOURCE;
+    PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
+#undef PAIR
+    return NEED_NOTHING;
+}
+
+KERNEL bool needs_mass(PairShape shape) {
+    return lead_need(shape) == NEED_MASS || shape.rest == REST_ANY;
+}
+
+KERNEL bool needs_charge(PairShape shape) {
+    return lead_need(shape) == NEED_CHARGE || shape.rest == REST_ANY;
+}
+
+// K of the leading force.
+KERNEL Real lead_coefficient(PairShape shape, const Pairs *pairs) {
+#define PAIR(KIND, name, ...)                                                                                          \
+    if (shape.lead == PHYS_##KIND)                                                                                     \
+        return pair_##name(pairs);
+    PHYS_FORCES(PAIR, PHYS_NO_ROW, PHYS_NO_ROW, PHYS_NO_ROW)
+#undef PAIR
+    return real_zero();
+}
+
+// LANES targets from column i on.
+KERNEL PairEnd pair_targets(const PairPass *pass, PairShape shape, size_t i) {
+    PairEnd end;
+    for (size_t k = 0; k < shape.dimensions; k++)
+        end.place[k] = real_load(pass->position + k * pass->stride + i);
+    end.radius = real_load(pass->radius + i);
+    end.mass = needs_mass(shape) ? real_load(pass->mass + i) : real_zero();
+    end.charge = needs_charge(shape) ? real_load(pass->charge + i) : real_zero();
+    return end;
+}
+
+// The partner j in every lane.
+KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
+    PairEnd end;
+    for (size_t k = 0; k < shape.dimensions; k++)
+        end.place[k] = real_set(pass->position[k * pass->stride + j]);
+    end.radius = real_set(pass->radius[j]);
+    end.mass = needs_mass(shape) ? real_set(pass->mass[j]) : real_zero();
+    end.charge = needs_charge(shape) ? real_set(pass->charge[j]) : real_zero();
+    return end;
+}
+
+// Forces that need contact: pairs that surely have none are dropped before the square root. The filter is a hair too
+// wide, so that rounding cannot drop a pair with l < r₁+r₂, however small the numbers are.
+KERNEL Mask pair_near(Mask live, Real square, Real reach) {
+    Real wide = real_mul(real_mul(reach, reach), real_set(1 + 0x1p-48));
+    return real_less_where(live, square, real_add(wide, real_set(DBL_MIN)));
+}
+
+// False if none of the pairs `live` can have a force.
+KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd *partner, Mask live,
+                          PairGeometry *pair) {
+    Real square = real_zero();
+    for (size_t k = 0; k < shape.dimensions; k++) {
+        pair->unit[k] = real_sub(partner->place[k], target->place[k]);
+        Real part = real_mul(pair->unit[k], pair->unit[k]);
+        square = k ? real_add(square, part) : part; // 0 + part is part: a square is never -0
+    }
+    pair->reach = real_add(target->radius, partner->radius);
+    if (shape.lead == LEAD_NONE && shape.rest == REST_TOUCH) {
+        live = pair_near(live, square, pair->reach);
+        if (!mask_any(live))
+            return false;
+    }
+    pair->length = real_sqrt(square);
+    pair->valid = real_at_most_where(real_less_where(live, real_zero(), square), square, real_set(DBL_MAX));
+    Real inverse = real_div(real_set(1), pair->length);
+    for (size_t k = 0; k < shape.dimensions; k++)
+        pair->unit[k] = real_mul(pair->unit[k], inverse);
+    return true;
+}
+
+// Lanes with contact. Radii of 0 are left to both_there: few pairs get so far.
+KERNEL Mask pair_touch(const PairGeometry *pair) {
+    return real_less_where(pair->valid, pair->length, pair->reach);
+}
+
+#endif

@@ -1,0 +1,231 @@
+// single_formulas.h: what happens to a particle alone: forces on single particles (4.2), soft bounds of barriers (4.4)
+// and motion (4.3), for LANES particles at once. v velocity, p position, r radius, m mass, q charge, S strength.
+#ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
+#define PETRI_PHYSICS_SINGLE_FORMULAS_H
+
+#include "maths/random.h"
+#include "physics/kernels.h"
+#include "physics/power.h"
+#include "physics/sweep.h"
+
+// LANES particles on their way through a step. Component k of a vector is at [k · step]: with several lanes the vectors
+// are copies in registers (step 1), with one lane they are where the particle lies (step is the columns' stride).
+typedef struct Block {
+    size_t first;  // column of the first lane
+    size_t active; // lanes that are not anchors
+    size_t step;
+    Mask live; // the lanes that are not anchors
+    Real *place;
+    Real *velocity;
+    Real *force;
+    Real mass;
+} Block;
+
+#if LANES == 1
+// Particle i where it lies.
+KERNEL Block block_at(const Columns *columns, size_t i) {
+    return (Block){.first = i,
+                   .active = 1,
+                   .step = columns->stride,
+                   .live = true,
+                   .place = columns->position + i,
+                   .velocity = columns->velocity + i,
+                   .force = columns->force + i,
+                   .mass = columns->mass[i]};
+}
+#endif
+
+// What a formula may use.
+typedef struct Singles {
+    const SweepPass *pass;
+    const Columns *columns;
+    const Force *force;
+    size_t n; // dimensions
+    Block *block;
+} Singles;
+
+KERNEL Real vector_part(PhysVector vector, size_t k) {
+    return real_set(phys_at(vector, k));
+}
+
+KERNEL Real place_part(const Block *block, size_t k) {
+    return block->place[k * block->step];
+}
+
+KERNEL Real velocity_part(const Block *block, size_t k) {
+    return block->velocity[k * block->step];
+}
+
+// Adds component k of a force where it applies.
+KERNEL void push(Block *block, size_t k, Mask applies, Real f) {
+    Real *sum = &block->force[k * block->step];
+    *sum = real_add_where(applies, *sum, f);
+}
+
+KERNEL Mask where_not_zero(Mask mask, Real x) {
+    return real_differs_where(mask, x, real_zero());
+}
+
+// (force_k + acceleration_k · m) · S
+KERNEL void single_constant(const Singles *s) {
+    const PhysForce *given = &s->force->given;
+    for (size_t k = 0; k < s->n; k++) {
+        Real acceleration = real_mul(vector_part(given->vector2, k), s->block->mass);
+        Real sum = real_add(vector_part(given->vector, k), acceleration);
+        push(s->block, k, s->block->live, real_mul(sum, real_set(s->force->strength)));
+    }
+}
+
+// S · direction_k · q
+KERNEL void single_field(const Singles *s) {
+    Real charge = real_load(s->columns->charge + s->block->first);
+    for (size_t k = 0; k < s->n; k++) {
+        Real along = real_mul(real_set(s->force->strength), vector_part(s->force->given.vector, k));
+        push(s->block, k, s->block->live, real_mul(along, charge));
+    }
+}
+
+// r ≠ 0:  − (v_k − flow_k) · c,  c = min(S · sqrt(Σ (v−flow)²) · r^(n−1), m / delta)
+KERNEL void single_drag(const Singles *s) {
+    PhysVector flow = s->force->given.vector;
+    Real square = real_zero();
+    for (size_t k = 0; k < s->n; k++) {
+        Real relative = real_sub(velocity_part(s->block, k), vector_part(flow, k));
+        square = real_add(square, real_mul(relative, relative));
+    }
+    Real c = real_mul(real_set(s->force->strength), real_sqrt(square));
+    c = real_mul(c, real_load(s->columns->section + s->block->first));
+    Real limit = real_div(s->block->mass, real_set(s->pass->delta));
+    // This way round a NaN (0 · ∞) stays one: the force does not act, instead of stopping the particle.
+    c = real_select(real_less(limit, c), limit, c);
+    Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
+    for (size_t k = 0; k < s->n; k++) {
+        Real relative = real_sub(velocity_part(s->block, k), vector_part(flow, k));
+        Real *sum = &s->block->force[k * s->block->step];
+        *sum = real_sub_where(applies, *sum, real_mul(relative, c));
+    }
+}
+
+// r ≠ 0 and m ≠ 0:  gravity_k · (S · (m − r^n · density))
+KERNEL void single_buoyancy(const Singles *s) {
+    const PhysForce *given = &s->force->given;
+    Real displaced = real_mul(real_load(s->columns->volume + s->block->first), real_set(given->density));
+    Real weight = real_mul(real_set(s->force->strength), real_sub(s->block->mass, displaced));
+    Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
+    applies = where_not_zero(applies, s->block->mass);
+    for (size_t k = 0; k < s->n; k++)
+        push(s->block, k, applies, real_mul(vector_part(given->vector, k), weight));
+}
+
+#if LANES == 1
+
+// S · normal(seed)[index], index counting up by one for each component of each particle, over all steps of a frame.
+KERNEL void single_random(const Singles *s) {
+    uint64_t item = s->force->item + s->pass->taken;
+    for (size_t k = 0; k < s->n; k++)
+        push(s->block, k, s->block->live, s->force->strength * random_normal(s->force->given.key, item + k));
+}
+
+#else
+
+// The same, drawn for all lanes together; anchors take no items.
+KERNEL void single_random(const Singles *s) {
+    double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
+    random_normals(LANES_LEVEL, s->force->given.key, s->force->item + s->pass->taken, s->n * s->block->active, normals);
+    unsigned bits = mask_bits(s->block->live);
+    const double *next = normals;
+    for (size_t lane = 0; lane < LANES; lane++)
+        for (size_t k = 0; k < s->n && bits >> lane & 1; k++)
+            lanes[k][lane] = *next++;
+    for (size_t k = 0; k < s->n; k++)
+        push(s->block, k, s->block->live, real_mul(real_set(s->force->strength), real_load(lanes[k])));
+}
+
+#endif
+
+// start + Σ (p_k − position_k) · normal_k
+KERNEL Real height_above(const PhysForce *barrier, size_t n, const Block *block, Real start) {
+    Real sum = start;
+    for (size_t k = 0; k < n; k++) {
+        Real along = real_sub(place_part(block, k), vector_part(barrier->vector, k));
+        sum = real_add(sum, real_mul(along, vector_part(barrier->vector2, k)));
+    }
+    return sum;
+}
+
+// With s = Σ (p_k − position_k) · normal_k:
+//   min > 0 and 0 ≤ s < min:  + normal_k · ((min − s)^power · S)
+//   else s > max:             − normal_k · ((s − max)^power · S)
+KERNEL void single_barrier(const Singles *s) {
+    const PhysForce *barrier = &s->force->given;
+    if (!barrier->has_minimum && !barrier->has_maximum)
+        return;
+    Block *block = s->block;
+    Real height = height_above(barrier, s->n, block, real_zero());
+    Real minimum = real_set(barrier->minimum), maximum = real_set(barrier->maximum);
+    Mask below = mask_first(0), above = mask_first(0);
+    if (barrier->has_minimum && barrier->minimum > 0)
+        below = real_less_where(real_at_most_where(block->live, real_zero(), height), height, minimum);
+    if (barrier->has_maximum)
+        above = real_less_where(mask_and(block->live, mask_not(below)), maximum, height);
+    if (!mask_any(below) && !mask_any(above))
+        return;
+    Real depth = real_select(below, real_sub(minimum, height), real_sub(height, maximum));
+    Real size = real_mul(real_power(mask_or(below, above), depth, barrier->power), real_set(s->force->strength));
+    for (size_t k = 0; k < s->n; k++) {
+        Real f = real_mul(vector_part(barrier->vector2, k), size), *sum = &block->force[k * block->step];
+        *sum = real_sub_where(above, real_add_where(below, *sum, f), f);
+    }
+}
+
+// One force of the stages of single particles and barriers.
+KERNEL void single_apply(const Singles *s) {
+    switch (s->force->given.kind) {
+#define SINGLE(KIND, name, ...)                                                                                        \
+    case PHYS_##KIND:                                                                                                  \
+        single_##name(s);                                                                                              \
+        break;
+#define OTHER(KIND, ...) case PHYS_##KIND:
+        PHYS_FORCES(PHYS_NO_ROW, PHYS_NO_ROW, SINGLE, SINGLE)
+        PHYS_FORCES(OTHER, OTHER, PHYS_NO_ROW, PHYS_NO_ROW)
+#undef SINGLE
+#undef OTHER
+    case PHYS_FORCE_KINDS:
+        __builtin_unreachable(); // the stages have no others
+    }
+}
+
+// v_k + F_k · c
+KERNEL Real pushed_part(const Block *block, size_t k, Real c) {
+    return real_add(velocity_part(block, k), real_mul(block->force[k * block->step], c));
+}
+
+// m ≠ 0 and every component of the force is finite:
+//     c = delta / m;  v_k = v_k + F_k · c
+//     if speed_of_light > 0 and Σ v_k² > speed_of_light²:  v_k = v_k · (speed_of_light / sqrt(Σ v_k²))
+// p_k = p_k + v_k · delta
+KERNEL void move(size_t n, Block *block, double delta, double speed_of_light) {
+    Mask pushed = where_not_zero(block->live, block->mass);
+    for (size_t k = 0; k < n; k++)
+        pushed = real_at_most_where(pushed, real_absolute(block->force[k * block->step]), real_set(DBL_MAX));
+    Real c = real_div(real_set(delta), block->mass), square = real_zero();
+    for (size_t k = 0; k < n; k++) {
+        Real v = pushed_part(block, k, c);
+        square = real_add(square, real_mul(v, v));
+    }
+    Mask fast = mask_first(0);
+    Real factor = real_zero();
+    if (speed_of_light > 0)
+        fast = real_less_where(pushed, real_set(speed_of_light * speed_of_light), square);
+    if (mask_any(fast))
+        factor = real_div(real_set(speed_of_light), real_sqrt(square));
+    for (size_t k = 0; k < n; k++) {
+        Real v = pushed_part(block, k, c), *velocity = &block->velocity[k * block->step];
+        if (mask_any(fast))
+            v = real_select(fast, real_mul(v, factor), v);
+        *velocity = real_select(pushed, v, *velocity);
+        block->place[k * block->step] = real_add(place_part(block, k), real_mul(*velocity, real_set(delta)));
+    }
+}
+
+#endif

@@ -1,0 +1,163 @@
+// parameters.c: the names that a script leaves to whoever runs it: `let NAME=NAME or DEFAULT`; see program.h.
+//
+// The language needs nothing for this: a name that is not defined is null, which is false, and `or` takes the default.
+// What is added here is that such a name is meant, so that nobody is warned of it, and that it can be listed: with the
+// comment behind it, which the scanner drops, but the source text still has.
+#include "program/compile.h"
+
+#include "ast/literal.h"
+
+#include <math.h>
+#include <string.h>
+
+// The NAME of `NAME or …`, however many `or` follow; NULL if the value is none.
+static const Ast *first_operand(const Ast *value) {
+    if (value->kind != AST_OR)
+        return NULL;
+    while (value->kind == AST_OR)
+        value = value->children[0];
+    return value->kind == AST_NAME ? value : NULL;
+}
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t';
+}
+
+// What stands between two offsets, without blanks at the ends.
+static Str text_between(const Source *source, uint32_t start, uint32_t end) {
+    return str_trim((Str){source->text.bytes + start, end > start ? end - start : 0});
+}
+
+// The text after the first `or`.
+static Str default_text(const Source *source, const Ast *use, const Ast *value) {
+    Str rest = text_between(source, use->span.end, value->span.end);
+    if (str_starts_with(rest, STR("or")))
+        rest = (Str){rest.bytes + 2, rest.len - 2};
+    return str_trim(rest);
+}
+
+// The comment behind a binding in the line in which it ends, if nothing else is between.
+static Str comment_behind(const Source *source, uint32_t at) {
+    const char *text = source->text.bytes;
+    while (is_blank(text[at]) || text[at] == ')')
+        at++;
+    if (text[at] != '-' || text[at + 1] != '-')
+        return (Str){0};
+    while (text[at] == '-')
+        at++;
+    const char *end = memchr(text + at, '\n', source->text.len - at);
+    return text_between(source, at, (uint32_t)(end - text));
+}
+
+// One end of a range; without a number it is `nothing`.
+static bool read_end(Str text, double nothing, double *x) {
+    *x = nothing;
+    return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));
+}
+
+// `LEAST..MOST`, `LEAST..MOST|STEP`, or either end alone.
+static bool read_range(Str word, Parameter *parameter) {
+    double least, most, step = 0;
+    const char *dots = NULL, *bar = memchr(word.bytes, '|', word.len);
+    size_t len = bar ? (size_t)(bar - word.bytes) : word.len;
+    for (size_t i = 0; !dots && i + 1 < len; i++)
+        if (word.bytes[i] == '.' && word.bytes[i + 1] == '.')
+            dots = word.bytes + i;
+    if (!dots || len == 2)
+        return false;
+    Str first = {word.bytes, (size_t)(dots - word.bytes)}, last = {dots + 2, len - first.len - 2};
+    if (bar && !(literal_parse_number((Str){bar + 1, word.len - len - 1}, &step) && step > 0 && isfinite(step)))
+        return false;
+    if (!read_end(first, -INFINITY, &least) || !read_end(last, INFINITY, &most) || !(least <= most))
+        return false;
+    parameter->least = least;
+    parameter->most = most;
+    parameter->step = step;
+    return true;
+}
+
+// Parts a comment into the range that it may begin with and the rest.
+static void read_comment(Str comment, Parameter *parameter) {
+    size_t len = 0;
+    while (len < comment.len && !is_blank(comment.bytes[len]))
+        len++;
+    Str word = {comment.bytes, len};
+    while (word.len && strchr(",;:", word.bytes[word.len - 1]))
+        word.len--;
+    parameter->least = -INFINITY;
+    parameter->most = INFINITY;
+    parameter->comment = comment;
+    if (comment.len && read_range(word, parameter))
+        parameter->comment = str_trim((Str){comment.bytes + len, comment.len - len});
+}
+
+// A default that its own range leaves out is hardly meant.
+static void lint(Compiler *compiler, const Parameter *parameter) {
+    Value v = parameter->value;
+    bool within = true;
+    for (uint32_t i = 0; parameter->is_static && v.kind == VALUE_NUMBERS && i < v.len; i++) {
+        double x = value_numbers(&v)[i];
+        within = within && x >= parameter->least && x <= parameter->most;
+    }
+    if (compiler->options->lint && !within)
+        compile_report(compiler, parameter->span, DIAG_WARNING, "outside-range",
+                       str_format(compiler->arena, "the default of '%.*s' is outside the range in its comment",
+                                  (int)parameter->name->name.len, parameter->name->name.bytes),
+                       (Str){0});
+}
+
+static Parameter *add(Compiler *compiler) {
+    if (compiler->parameter_count == compiler->parameter_capacity) {
+        uint32_t old = compiler->parameter_capacity, capacity = old ? old * 2 : 8;
+        compiler->parameters =
+            arena_grow(compiler->arena, compiler->parameters, old * sizeof(Parameter), capacity * sizeof(Parameter));
+        compiler->parameter_capacity = capacity;
+    }
+    return &compiler->parameters[compiler->parameter_count++];
+}
+
+void compile_note_parameter(Compiler *compiler, const Ast *binding) {
+    const Ast *names = binding->children[0], *value = binding->children[1], *use = first_operand(value);
+    compiler->parameter_use = compiler->fallback = NULL;
+    if (compiler->depth != 1 || names->count != 1 || !use || use->name != names->children[0]->name ||
+        !compile_is_free(compiler, use->name))
+        return;
+    Parameter parameter = {.name = use->name,
+                           .source = compiler->source,
+                           .span = names->children[0]->span,
+                           .fallback = default_text(compiler->source, use, value)};
+    read_comment(comment_behind(compiler->source, value->span.end), &parameter);
+    *add(compiler) = parameter;
+    compiler->parameter_use = use;
+    if (value->children[0] == use) // `X or A or B` without X is `A or B`, which is nowhere as a whole
+        compiler->fallback = value->children[1];
+}
+
+void compile_note_fallback(Compiler *compiler, const Expr *fallback) {
+    uint32_t last = compiler->parameter_count - 1;
+    Parameter *parameter = &compiler->parameters[last];
+    parameter->is_static = fallback->kind == EXPR_CONST;
+    if (parameter->is_static)
+        parameter->value = fallback->as.value;
+    if (compiler->rehearsal) {
+        parameter->is_static = compiler->rehearsal->parameters[last].is_static;
+        parameter->value = compiler->rehearsal->parameters[last].value;
+    }
+    lint(compiler, parameter);
+}
+
+void compile_note_define(Compiler *compiler, const Binding *binding) {
+    uint32_t count = compiler->options->module ? 0 : compiler->options->define_count;
+    for (uint32_t i = 0; i < count; i++)
+        if (compiler->options->defines[i].name == binding->name && !compiler->define_uses[i].bound.source) {
+            compiler->define_uses[i].bound = (Origin){compiler->source, binding->span};
+            compiler->define_uses[i].by_let = binding->kind == BINDING_LET && compiler->depth == 1;
+        }
+}
+
+const Parameter *program_find_parameter(const Program *program, const Symbol *name) {
+    for (uint32_t i = 0; i < program->parameter_count; i++)
+        if (program->parameters[i].name == name)
+            return &program->parameters[i];
+    return NULL;
+}

@@ -1,0 +1,238 @@
+// mirror.c: see mirror.h (and spec physics.md section 2, steps 5 and 6).
+#include "scene/mirror.h"
+
+#include "base/number.h"
+#include "scene/systems.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+void mirror_free(Mirror *mirror) {
+    free(mirror->slots);
+    free(mirror->last_slots);
+    free(mirror->anchors);
+}
+
+bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count) {
+    if (!scene_reserve((void **)&mirror->slots, &mirror->slot_capacity, count, sizeof *slots))
+        return false;
+    if (count)
+        memcpy(mirror->slots, slots, count * sizeof *slots);
+    mirror->slot_count = count;
+    return true;
+}
+
+static void own_copies(const Mirror *mirror, State *state, const StateSlot *slots, uint32_t count) {
+    for (uint32_t i = 0; mirror->lender && i < count; i++)
+        state_slot_own_copy(state, slots[i], mirror->lender);
+}
+
+static void own_all_copies(const Mirror *mirror, State *state) {
+    own_copies(mirror, state, mirror->slots, mirror->slot_count);
+    own_copies(mirror, state, mirror->last_slots, mirror->last_count);
+}
+
+void mirror_leave(Mirror *mirror, State *state) {
+    own_all_copies(mirror, state);
+    mirror->slot_count = 0;
+    mirror->state = MIRROR_STALE;
+}
+
+void mirror_remove(Mirror *mirror, State *state) {
+    for (uint32_t i = 0; i < mirror->slot_count; i++)
+        state_slot_set(state, mirror->slots[i], VALUE_NULL);
+    mirror->slot_count = 0;
+    if (mirror->state == MIRROR_CURRENT)
+        mirror->state = MIRROR_STALE;
+}
+
+void mirror_open(PhysicsTree *tree) {
+    State *state = tree->frame->state;
+    Mirror *mirror = &tree->system->mirror, before = *mirror;
+    if (!mirror->lender)
+        mirror->lender = state_add_lender(state);
+    if (mirror->state == MIRROR_OPEN) {
+        own_all_copies(mirror, state);
+    } else {
+        mirror->slots = before.last_slots;
+        mirror->slot_capacity = before.last_capacity;
+        mirror->last_slots = before.slots;
+        mirror->last_count = before.slot_count;
+        mirror->last_capacity = before.slot_capacity;
+    }
+    mirror->slot_count = mirror->anchor_count = 0;
+    mirror->state = MIRROR_OPEN;
+    phys_begin(tree->engine, tree->dimensions);
+}
+
+bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool anchor) {
+    Mirror *mirror = &tree->system->mirror;
+    uint32_t count = 2 * tree->body_count;
+    if (!scene_reserve((void **)&mirror->slots, &mirror->slot_capacity, count + 1, sizeof *mirror->slots) ||
+        !scene_reserve((void **)&mirror->anchors, &mirror->anchor_capacity, mirror->anchor_count,
+                       sizeof *mirror->anchors))
+        return false;
+    if (anchor)
+        mirror->anchors[mirror->anchor_count++] = tree->body_count;
+    mirror->slots[count] = position;
+    mirror->slots[count + 1] = velocity;
+    return true;
+}
+
+PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attribute, double *single,
+                        bool *from_attribute) {
+    Value stored = tree->from_state ? state_slot_get(tree->frame->state, slot) : VALUE_NULL;
+    *from_attribute = stored.kind != VALUE_NUMBERS || stored.len != tree->dimensions;
+    if (*from_attribute)
+        return attribute;
+    *single = stored.as.number;
+    return stored.len == 1 ? single : stored.as.numbers;
+}
+
+void mirror_remove_vanished(const PhysicsTree *tree) {
+    const Mirror *mirror = &tree->system->mirror;
+    for (uint32_t i = 0; i < mirror->last_count; i += 2)
+        if (!physics_has_position(tree, mirror->last_slots[i])) {
+            state_slot_set(tree->frame->state, mirror->last_slots[i], VALUE_NULL);
+            state_slot_set(tree->frame->state, mirror->last_slots[i + 1], VALUE_NULL);
+        }
+}
+
+// Is the entry missing? *alike: if not, it has what the row has.
+static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *row, bool *alike) {
+    const State *state = tree->frame->state;
+    Value v = state_slot_get(state, slot);
+    if (v.len == 0)
+        return true;
+    if (tree->dimensions > 1)
+        *alike = *alike && state_slot_borrows(state, slot, tree->system->mirror.lender);
+    else
+        *alike = *alike && v.len == 1 && v.kind == VALUE_NUMBERS && !memcmp(&v.as.number, row, sizeof *row);
+    return false;
+}
+
+// Has nobody written to an entry that was missing, or to one of a single number? Neither disturbs the lender.
+static bool unlent_alike(const PhysicsTree *tree) {
+    const Mirror *mirror = &tree->system->mirror;
+    if (tree->dimensions > 1 && mirror->missing == 0)
+        return true;
+    uint32_t missing = 0;
+    bool alike = true;
+    for (uint32_t i = 0; alike && i < mirror->slot_count / 2; i++) {
+        if (phys_is_anchor(tree->engine, i))
+            continue;
+        const StateSlot *slots = mirror->slots + 2 * (size_t)i;
+        missing += is_missing(tree, slots[0], phys_position(tree->engine, i), &alike);
+        missing += is_missing(tree, slots[1], phys_velocity(tree->engine, i), &alike);
+    }
+    return alike && missing == mirror->missing;
+}
+
+bool mirror_reuse(PhysicsTree *tree) {
+    Mirror *mirror = &tree->system->mirror;
+    bool disturbed = mirror->lender && state_take_disturbed(tree->frame->state, mirror->lender);
+    if (mirror->state != MIRROR_CURRENT || disturbed || !tree->from_state ||
+        tree->system->dimensions != tree->dimensions || !unlent_alike(tree))
+        return false;
+    mirror->state = MIRROR_STALE;
+    return true;
+}
+
+PhysPreserve mirror_preserve(const PhysicsTree *tree, uint32_t body) {
+    const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)body;
+    const State *state = tree->frame->state;
+    return (PhysPreserve){state_slot_get(state, slots[0]).len > 0, state_slot_get(state, slots[1]).len > 0};
+}
+
+bool mirror_can_lend(const PhysicsTree *tree) {
+    return !tree->shared && !tree->failed && (tree->system->mirror.lender || tree->dimensions == 1) &&
+           phys_particle_count(tree->engine) == tree->body_count;
+}
+
+static void copy_body(const PhysicsTree *tree, uint32_t body) {
+    uint32_t n = tree->dimensions;
+    const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)body;
+    const double *rows[] = {phys_position(tree->engine, body), phys_velocity(tree->engine, body)};
+    for (int i = 0; i < 2; i++)
+        if (rows[i] && numbers_finite(rows[i], n, 1))
+            state_slot_set(tree->frame->state, slots[i], value_numbers_view(rows[i], n));
+}
+
+// The entry of what was a particle in the last frame and is an anchor now still borrows, whether a copy of the anchor's
+// is stored or not.
+static void copy_anchors(const PhysicsTree *tree, bool store) {
+    const Mirror *mirror = &tree->system->mirror;
+    for (uint32_t i = 0; i < mirror->anchor_count; i++) {
+        own_copies(mirror, tree->frame->state, mirror->slots + 2 * (size_t)mirror->anchors[i], 2);
+        if (store)
+            copy_body(tree, mirror->anchors[i]);
+    }
+}
+
+// Lets an entry borrow a row, if that holds a finite result or what the state had; false if they are not alike in the
+// end.
+static bool lend(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
+    Mirror *mirror = &tree->system->mirror;
+    State *state = tree->frame->state;
+    uint32_t n = tree->dimensions;
+    Value stored = state_slot_get(state, slot);
+    if (!result && stored.len == 0) {
+        mirror->missing++;
+        return true;
+    }
+    bool same_source = stored.len == 0 || tree->from_state; // else the run began with other numbers than are stored
+    bool alike = same_source && (result || (stored.kind == VALUE_NUMBERS && stored.len == n));
+    if (n > 1 && alike) {
+        state_slot_borrow(state, slot, mirror->lender, row, n);
+        return true;
+    }
+    state_slot_own_copy(state, slot, mirror->lender);
+    if (result)
+        state_slot_set(state, slot, value_numbers_view(row, n));
+    return alike;
+}
+
+static bool lend_bodies(PhysicsTree *tree, bool simulated) {
+    const PhysSystem *engine = tree->engine;
+    bool alike = true;
+    tree->system->mirror.missing = 0;
+    for (uint32_t i = 0; i < tree->body_count; i++) {
+        if (phys_is_anchor(engine, i))
+            continue;
+        const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)i;
+        alike &= lend(tree, slots[0], phys_position(engine, i), simulated && phys_position_finite(engine, i));
+        alike &= lend(tree, slots[1], phys_velocity(engine, i), simulated && phys_velocity_finite(engine, i));
+    }
+    return alike;
+}
+
+// Entries that still borrow from the description before get copies.
+static void close_last(PhysicsTree *tree, bool lent) {
+    Mirror *mirror = &tree->system->mirror;
+    State *state = tree->frame->state;
+    for (uint32_t i = 0; mirror->lender && i < mirror->last_count; i++)
+        if (!lent || !physics_has_slot(tree, mirror->last_slots[i]))
+            state_slot_own_copy(state, mirror->last_slots[i], mirror->lender);
+    if (mirror->lender)
+        state_take_disturbed(state, mirror->lender); // by the mirror itself
+    mirror->last_count = 0;
+    physics_forget_slots(tree);
+}
+
+void mirror_store(PhysicsTree *tree, bool simulated) {
+    Mirror *mirror = &tree->system->mirror;
+    bool anew = mirror->state == MIRROR_OPEN, can_lend = mirror_can_lend(tree), alike = can_lend;
+    // The recorded language cases leave out the anchors of a system without particles as long as no time passes.
+    bool anchors = simulated || tree->body_count > mirror->anchor_count;
+    if (!can_lend && simulated) {
+        for (uint32_t i = 0; i < tree->body_count; i++)
+            copy_body(tree, i);
+    } else {
+        copy_anchors(tree, anchors);
+        if (can_lend && (anew || (simulated && (mirror->missing || tree->dimensions == 1))))
+            alike = lend_bodies(tree, simulated);
+    }
+    if (anew)
+        close_last(tree, can_lend);
+    mirror->state = alike ? MIRROR_CURRENT : MIRROR_STALE;
+}

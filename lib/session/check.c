@@ -1,0 +1,149 @@
+// check.c: what can be said of a script without running it, and of the nodes at the top of its first frame.
+#include "session/session.h"
+
+#include <string.h>
+
+// Any node may stand at the top, and means nothing there; one that is nearly spelled like one that does is a mistake.
+// Empty if this is none.
+static Str nearly(const PetriSession *session, Str kind) {
+    const Str known[] = {str_from(schema_kind_name(KIND_PHYSICS)), str_from(schema_kind_name(KIND_COUNTER)),
+                         session->canvas.kinds[DRAW_WINDOW]->name, session->canvas.kinds[DRAW_OFFSCREEN]->name};
+    Str nearest = {0};
+    int least = 3;
+    for (size_t i = 0; i < sizeof known / sizeof known[0] && least > 0; i++) {
+        int distance = str_distance(kind, known[i]);
+        if (distance < least && 3 * distance <= (int)kind.len) {
+            least = distance;
+            nearest = distance > 0 ? known[i] : (Str){0};
+        }
+    }
+    return nearest;
+}
+
+void session_look_at_top(PetriSession *session) {
+    const Symbol *last = NULL; // a loop makes many of a kind
+    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
+        const Item *item = &session->tree.as.items[i];
+        if (item->type != ITEM_NODE || item->as.node->kind == last)
+            continue;
+        last = item->as.node->kind;
+        Str kind = last->name, nearest = nearly(session, kind);
+        if (!nearest.len)
+            continue;
+        Origin place = node_place(item->as.node, NULL);
+        session_tell(
+            session,
+            &(Diag){.level = DIAG_WARNING,
+                    .source = place.source,
+                    .span = place.span,
+                    .text = str_format(&session->scene_arena, "'!%.*s' does nothing", (int)kind.len, kind.bytes),
+                    .hint = str_format(&session->scene_arena, "did you mean '!%.*s'?", (int)nearest.len, nearest.bytes),
+                    .code = "unknown-node"});
+    }
+}
+
+// Reads all windows, as if they were to be drawn.
+static void look_at_windows(PetriSession *session) {
+    jmp_buf escape;
+    session->scene_arena.escape = &escape;
+    if (setjmp(escape) == 0)
+        for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
+            const Item *item = &session->tree.as.items[i];
+            DrawKind kind = item->type == ITEM_NODE ? canvas_kind(&session->canvas, item->as.node) : DRAW_KIND_COUNT;
+            if (kind == DRAW_WINDOW || kind == DRAW_OFFSCREEN)
+                canvas_read(&session->canvas, &session->scene_arena, item->as.node);
+        }
+    session->scene_arena.escape = NULL;
+}
+
+// What the scratch session has to say. Its stages each see the whole script; people read it from top to bottom.
+typedef struct Heard {
+    Arena arena;
+    PetriDiagnostic *items;
+    size_t count;
+} Heard;
+
+static const char *keep(Heard *heard, const char *text) {
+    return text ? str_to_c(&heard->arena, str_from(text)) : NULL;
+}
+
+static void hear(void *host, const PetriDiagnostic *diagnostic) {
+    Heard *heard = host;
+    if (diagnostic->code && strcmp(diagnostic->code, "undrawn-node") == 0)
+        return; // the script is right, petri shows less of it
+    size_t size = heard->count * sizeof *heard->items;
+    heard->items = arena_grow(&heard->arena, heard->items, size, size + sizeof *heard->items);
+    PetriDiagnostic *item = &heard->items[heard->count++];
+    *item = *diagnostic;
+    item->file = keep(heard, diagnostic->file);
+    item->text = keep(heard, diagnostic->text);
+    item->code = keep(heard, diagnostic->code);
+    item->rendered = keep(heard, diagnostic->rendered);
+}
+
+static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
+    return a->file && b->file && strcmp(a->file, b->file) == 0 &&
+           (a->line < b->line || (a->line == b->line && a->column < b->column));
+}
+
+// In the order of the text, as far as they are of one file.
+static void tell_in_order(PetriSession *session, Heard *heard) {
+    for (size_t i = 0; i < heard->count; i++) {
+        PetriDiagnostic item = heard->items[i];
+        size_t at = i;
+        for (; at > 0 && comes_before(&item, &heard->items[at - 1]); at--)
+            heard->items[at] = heard->items[at - 1];
+        heard->items[at] = item;
+    }
+    for (size_t i = 0; i < heard->count; i++) {
+        session->counts[heard->items[i].level]++;
+        if (session->options.diagnostic)
+            session->options.diagnostic(session->options.host, &heard->items[i]);
+    }
+}
+
+static PetriSession *open_scratch(PetriSession *session, Heard *heard) {
+    PetriOptions options = session->options;
+    options.realtime = options.profile = options.interruptible = options.keep_forces = false;
+    options.threads = 1;
+    options.diagnostic = hear;
+    options.host = heard;
+    PetriSession *scratch = petri_open(&options);
+    for (uint32_t i = 0; scratch && i < session->define_count; i++)
+        petri_define(scratch, session->defines[i].text);
+    return scratch;
+}
+
+static PetriStatus look_over(PetriSession *scratch, const char *file, const char *text, size_t length) {
+    scratch->lint = scratch->canvas.lint = true;
+    scene_lint(scratch->scene);
+    PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
+    scratch->lint = false; // modules, which the frame loads, are checked for themselves
+    if (status == PETRI_OK)
+        status = petri_step(scratch);
+    if (status == PETRI_OK)
+        look_at_windows(scratch);
+    return status;
+}
+
+// A file, or a text of this name.
+static PetriStatus check(PetriSession *session, const char *file, const char *text, size_t length) {
+    Heard heard = {0};
+    PetriStatus status = PETRI_MEMORY;
+    arena_init(&heard.arena, "check", SIZE_MAX);
+    PetriSession *scratch = open_scratch(session, &heard);
+    if (scratch)
+        status = look_over(scratch, file, text, length);
+    petri_close(&scratch);
+    tell_in_order(session, &heard);
+    arena_free(&heard.arena);
+    return status;
+}
+
+PetriStatus petri_check(PetriSession *session, const char *file) {
+    return check(session, file, NULL, 0);
+}
+
+PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    return check(session, name, text, length);
+}

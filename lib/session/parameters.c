@@ -1,0 +1,371 @@
+// parameters.c: what definitions (-D) mean to the script that is loaded, and its parameters, for a host (petri.h).
+#include "session/session.h"
+
+#include "base/number.h"
+#include "value/format.h"
+
+#include <math.h>
+
+// The modules that a program imports at its top level, and those that they do, each once.
+enum { MOST_MODULES = 64 };
+typedef struct ModuleList {
+    const Program *items[MOST_MODULES];
+    uint32_t count;
+} ModuleList;
+
+static bool has_module(const ModuleList *list, const Program *module) {
+    for (uint32_t i = 0; i < list->count; i++)
+        if (list->items[i] == module)
+            return true;
+    return false;
+}
+
+// No deeper than the list is long.
+static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
+    for (uint32_t i = 0; i < program->import_count; i++) {
+        Str why;
+        const Program *module = session_module(session, program->imports[i], &why);
+        if (!module || has_module(list, module) || list->count == MOST_MODULES)
+            continue;
+        list->items[list->count++] = module;
+        collect_modules(session, module, list);
+    }
+}
+
+// Modules that do not fit into memory are left out.
+static void find_modules(PetriSession *session, const Program *program, ModuleList *list) {
+    jmp_buf escape, *outer = session->frame_arena.escape;
+    list->count = 0;
+    session->frame_arena.escape = &escape;
+    if (setjmp(escape) == 0)
+        collect_modules(session, program, list);
+    session->frame_arena.escape = outer;
+    session->loading = NULL;
+}
+
+static const Parameter *find_in_modules(const ModuleList *list, const Symbol *name) {
+    for (uint32_t i = 0; i < list->count; i++) {
+        const Parameter *parameter = program_find_parameter(list->items[i], name);
+        if (parameter)
+            return parameter;
+    }
+    return NULL;
+}
+
+// An element that is a number, not a symbol or something else.
+static bool is_plain_number(const PetriSession *session, Item item) {
+    return item.type == ITEM_NUMBER && !symbol_of_number(&session->symbols, item.as.number);
+}
+
+static bool all_numbers(const PetriSession *session, Value v) {
+    bool all = v.kind != VALUE_STREAM && v.len > 0;
+    for (uint32_t i = 0; all && i < v.len; i++)
+        all = is_plain_number(session, value_at(&v, i));
+    return all;
+}
+
+// The one number that a value is, else nan.
+static double one_number(const PetriSession *session, Value v) {
+    return v.len == 1 && all_numbers(session, v) ? value_at(&v, 0).as.number : NAN;
+}
+
+static bool is_within(const Parameter *parameter, double x) {
+    return x >= parameter->least && x <= parameter->most;
+}
+
+// `LEAST..MOST` as the comment has it.
+static Str range_text(Arena *arena, const Parameter *parameter) {
+    char least[NUMBER_TEXT] = "", most[NUMBER_TEXT] = "";
+    size_t before = isinf(parameter->least) ? 0 : number_format(parameter->least, least);
+    size_t after = isinf(parameter->most) ? 0 : number_format(parameter->most, most);
+    return str_format(arena, "%.*s..%.*s", (int)before, least, (int)after, most);
+}
+
+static Str value_printed(PetriSession *session, Arena *arena, Value v) {
+    Text text = text_new(arena);
+    format_value(&text, &session->symbols, v);
+    return text_str(&text);
+}
+
+// One definition being looked at.
+typedef struct Check {
+    PetriSession *session;
+    Unit *unit;
+    const Define *define;
+    const DefineUse *use;
+} Check;
+
+static void tell(const Check *check, DiagLevel level, const char *code, Origin at, Str text, Str hint) {
+    session_tell(check->session, &(Diag){level, at.source, at.span, text, hint, code});
+}
+
+static Origin origin_of(const Parameter *parameter) {
+    return (Origin){parameter->source, parameter->span};
+}
+
+// `'12x' is not a number`: where the default is made of numbers, nothing else will do.
+static bool check_numbers(const Check *check, const Parameter *parameter) {
+    Value v = check->define->value;
+    Arena *arena = &check->unit->arena;
+    if (!parameter->is_static || !all_numbers(check->session, parameter->value) || all_numbers(check->session, v))
+        return true;
+    uint32_t at = 0;
+    while (is_plain_number(check->session, value_at(&v, at)))
+        at++;
+    Str wrong = value_printed(check->session, arena, value_element(arena, v, at));
+    bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
+    tell(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
+         str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", (int)wrong.len,
+                    wrong.bytes, (int)parameter->name->name.len, parameter->name->name.bytes,
+                    (int)parameter->fallback.len, parameter->fallback.bytes),
+         is_truth ? STR("here true is written 1 and false 0") : (Str){0});
+    return false;
+}
+
+static void check_range(const Check *check, const Parameter *parameter) {
+    Value v = check->define->value;
+    Arena *arena = &check->unit->arena;
+    for (uint32_t i = 0; all_numbers(check->session, v) && i < v.len; i++) {
+        if (is_within(parameter, value_at(&v, i).as.number))
+            continue;
+        Str range = range_text(arena, parameter), printed = value_printed(check->session, arena, v);
+        tell(check, DIAG_WARNING, "outside-range", origin_of(parameter),
+             str_format(arena, "%.*s=%.*s is outside the range %.*s", (int)parameter->name->name.len,
+                        parameter->name->name.bytes, (int)printed.len, printed.bytes, (int)range.len, range.bytes),
+             (Str){0});
+        return;
+    }
+}
+
+// A value that is false, such as 0, is to `or` as good as none.
+static bool check_truth(const Check *check, const Parameter *parameter) {
+    Arena *arena = &check->unit->arena;
+    if (value_true(check->define->value))
+        return true;
+    if (parameter->is_static && !value_true(parameter->value))
+        return false; // nothing is lost
+    Str printed = value_printed(check->session, arena, check->define->value);
+    tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
+         str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
+                    (int)parameter->name->name.len, parameter->name->name.bytes, (int)printed.len, printed.bytes,
+                    (int)printed.len, printed.bytes, (int)parameter->fallback.len, parameter->fallback.bytes),
+         (Str){0});
+    return false;
+}
+
+static bool check_parameter(const Check *check, const Parameter *parameter) {
+    if (!check_numbers(check, parameter))
+        return false;
+    if (check_truth(check, parameter))
+        check_range(check, parameter);
+    return true;
+}
+
+// The parameter whose name is nearest to one that is not there, or NULL.
+static const Parameter *nearest_parameter(const Program *program, Str name) {
+    const Parameter *nearest = NULL;
+    int best = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
+    for (uint32_t i = 0; i < program->parameter_count; i++) {
+        int distance = str_distance(name, program->parameters[i].name->name);
+        if (distance < best) {
+            best = distance;
+            nearest = &program->parameters[i];
+        }
+    }
+    return nearest;
+}
+
+// A text followed by the names of all parameters.
+static Str with_parameters(Arena *arena, const Program *program, Str before) {
+    Text text = text_new(arena);
+    uint32_t count = program->parameter_count;
+    text_add(&text, before);
+    for (uint32_t i = 0; i < count; i++) {
+        text_add_c(&text, i > 0       ? (i + 1 < count ? ", " : " and ")
+                          : count > 1 ? "; its parameters are "
+                                      : "; its parameter is ");
+        text_add(&text, program->parameters[i].name->name);
+    }
+    return text_str(&text);
+}
+
+static void tell_unread(const Check *check) {
+    Arena *arena = &check->unit->arena;
+    const Program *program = check->unit->program;
+    Str name = check->define->name->name, script = check->unit->source->name;
+    const Parameter *nearest = nearest_parameter(program, name);
+    Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", (int)name.len,
+                          name.bytes, (int)script.len, script.bytes);
+    if (nearest)
+        tell(check, DIAG_WARNING, "unknown-parameter", origin_of(nearest), text,
+             str_format(arena, "did you mean '%.*s'?", (int)nearest->name->name.len, nearest->name->name.bytes));
+    else
+        tell(check, DIAG_WARNING, "unread-definition", (Origin){0}, with_parameters(arena, program, text), (Str){0});
+}
+
+// A definition that nothing has read.
+static void check_unread(const Check *check) {
+    Arena *arena = &check->unit->arena;
+    Str name = check->define->name->name;
+    ModuleList modules = {.count = 0};
+    if (engine_name_exists(name)) {
+        tell(check, DIAG_WARNING, "unused-definition", (Origin){0},
+             str_format(arena, "the definition of '%.*s' has no effect: petri itself gives this name its value",
+                        (int)name.len, name.bytes),
+             (Str){0});
+        return;
+    }
+    if (check->use->bound.source) {
+        tell(check, DIAG_WARNING, "unused-definition", check->use->bound,
+             str_format(arena, "the definition of '%.*s' has no effect: the script gives the name its own value here",
+                        (int)name.len, name.bytes),
+             check->use->by_let ? str_format(arena, "with `let %.*s=%.*s or …` it would take the definition",
+                                             (int)name.len, name.bytes, (int)name.len, name.bytes)
+                                : (Str){0});
+        return;
+    }
+    find_modules(check->session, check->unit->program, &modules);
+    const Parameter *parameter = find_in_modules(&modules, check->define->name);
+    if (parameter)
+        tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
+             str_format(arena, "the definition of '%.*s' has no effect: modules see no definitions", (int)name.len,
+                        name.bytes),
+             (Str){0});
+    else
+        tell_unread(check);
+}
+
+// Of several definitions of a name the last counts.
+static bool is_last(const PetriSession *session, uint32_t number) {
+    for (uint32_t i = number + 1; i < session->define_count; i++)
+        if (session->defines[i].name == session->defines[number].name)
+            return false;
+    return true;
+}
+
+static bool check_one(const Check *check) {
+    const Parameter *parameter = program_find_parameter(check->unit->program, check->define->name);
+    if (parameter)
+        return check_parameter(check, parameter);
+    if (!check->use->read && !check->session->lint) // a check has definitions for some of many scripts
+        check_unread(check);
+    return true;
+}
+
+bool session_check_definitions(PetriSession *session, Unit *unit) {
+    bool good = true, outer = session->tell_again;
+    // What is set by hand is told each time, what was told at the load is not.
+    uint32_t first = session->again ? session->told_defines : 0;
+    session->tell_again = outer || session->again;
+    for (uint32_t i = first; i < session->define_count && !unit->empty; i++)
+        if (is_last(session, i))
+            good = check_one(&(Check){session, unit, &session->defines[i], &unit->program->define_uses[i]}) && good;
+    session->tell_again = outer;
+    if (good)
+        session->told_defines = session->define_count;
+    return good;
+}
+
+// The definition of a name that counts, or NULL.
+static const Define *find_define(const PetriSession *session, const Symbol *name) {
+    for (uint32_t i = session->define_count; i > 0; i--)
+        if (session->defines[i - 1].name == name)
+            return &session->defines[i - 1];
+    return NULL;
+}
+
+// A piece of a script as text of one line, without anything that a terminal would act on.
+static const char *one_line(Arena *arena, Str piece) {
+    Text text = text_new(arena);
+    for (size_t at = 0; at < piece.len;) {
+        int32_t c = utf8_next(piece, &at);
+        bool blank = c < 0x20 || (c >= 0x7f && c < 0xa0);
+        if (!blank)
+            text_add_code_point(&text, (uint32_t)c);
+        else if (text.len && text.bytes[text.len - 1] != ' ')
+            text_add_char(&text, ' ');
+        while (c == '\n' && at < piece.len && piece.bytes[at] == ' ')
+            at++;
+    }
+    return str_to_c(arena, text_str(&text));
+}
+
+static void describe(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {
+    Arena *arena = &session->text_arena;
+    const Define *define = settable ? find_define(session, parameter->name) : NULL;
+    bool defined = define && value_true(define->value);
+    Value value = defined ? define->value : parameter->value;
+    SourcePlace place = source_locate(parameter->source, parameter->span.start);
+    *out = (PetriParameter){
+        .name = str_to_c(arena, parameter->name->name),
+        .fallback = one_line(arena, parameter->fallback),
+        .value = defined || parameter->is_static ? str_to_c(arena, value_printed(session, arena, value))
+                                                 : one_line(arena, parameter->fallback),
+        .comment = one_line(arena, parameter->comment),
+        .number = defined || parameter->is_static ? one_number(session, value) : NAN,
+        .fallback_number = parameter->is_static ? one_number(session, parameter->value) : NAN,
+        .least = parameter->least,
+        .most = parameter->most,
+        .step = parameter->step,
+        .defined = defined,
+        .settable = settable,
+        .file = str_to_c(arena, parameter->source->name),
+        .line = place.line,
+        .column = place.column,
+    };
+}
+
+bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
+    if (!session->program)
+        return false;
+    const Program *program = session->program->program;
+    arena_reset(&session->text_arena);
+    if (number < program->parameter_count) {
+        describe(session, &program->parameters[number], true, parameter);
+        return true;
+    }
+    number -= program->parameter_count;
+    ModuleList modules;
+    find_modules(session, program, &modules);
+    for (uint32_t i = 0; i < modules.count; i++) {
+        const Program *module = modules.items[i];
+        if (number < module->parameter_count) {
+            describe(session, &module->parameters[number], false, parameter);
+            return true;
+        }
+        number -= module->parameter_count;
+    }
+    return false;
+}
+
+// All definitions but those of a name.
+static void leave_out(PetriSession *session, const Symbol *name) {
+    Define *defines = arena_alloc_array(&session->arena, session->define_count + 1, sizeof *defines);
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < session->define_count; i++)
+        if (session->defines[i].name != name)
+            defines[count++] = session->defines[i];
+    session->defines = defines;
+    session->define_count = count;
+}
+
+PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
+    const Symbol *symbol = symbol_intern(&session->symbols, str_from(name));
+    if (!session->program || !program_find_parameter(session->program->program, symbol))
+        return PETRI_INVALID;
+    const Define *before = session->defines;
+    uint32_t count = session->define_count;
+    leave_out(session, symbol);
+    session->told_defines = session->define_count;
+    PetriStatus status = PETRI_OK;
+    if (value)
+        status = session_define(session, symbol->name, str_from(value));
+    if (status == PETRI_OK)
+        status = petri_reload(session, NULL);
+    if (status != PETRI_OK) {
+        session->defines = before;
+        session->define_count = session->told_defines = count;
+        session_change_config(session, true);
+    }
+    return status;
+}

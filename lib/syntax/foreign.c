@@ -1,0 +1,96 @@
+// foreign.c: see foreign.h.
+#include "syntax/foreign.h"
+
+#include <string.h>
+
+// Signatures of texts that are not UTF-8, the longer first.
+static const struct {
+    Str bytes;
+    const char *encoding;
+} marks[] = {
+    {{"\xff\xfe\0\0", 4}, "UTF-32"},
+    {{"\0\0\xfe\xff", 4}, "UTF-32"},
+    {{"\xff\xfe", 2}, "UTF-16"},
+    {{"\xfe\xff", 2}, "UTF-16"},
+};
+
+// Without a signature: every second of the first bytes is NUL.
+static bool alternates(Str text) {
+    enum { LOOKED_AT = 32, LEAST = 4 };
+    size_t count[2] = {0}, len = text.len < LOOKED_AT ? text.len & ~(size_t)1 : LOOKED_AT;
+    for (size_t i = 0; i < len; i++)
+        count[i % 2] += text.bytes[i] == 0;
+    return len >= LEAST && count[0] + count[1] == len / 2 && (count[0] == 0 || count[1] == 0);
+}
+
+const char *foreign_encoding(const Source *source) {
+    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++)
+        if (str_starts_with(source->text, marks[i].bytes))
+            return marks[i].encoding;
+    return alternates(source->text) ? "UTF-16" : NULL;
+}
+
+// Is the text meant as a script, whatever is in it? What comes neither from a file nor from a stream such as `<stdin>`
+// is the host's, and was typed at a prompt.
+static bool claims_to_be_script(const Source *source) {
+    Str first = source_locate(source, 0).text, petri = STR("petri");
+    bool read = str_starts_with(source->path, STR("/")) || str_starts_with(source->name, STR("<"));
+    if (!read || str_ends_with(source->name, STR(".fl")))
+        return true;
+    for (size_t i = 0; str_starts_with(first, STR("#!")) && i + petri.len <= first.len; i++)
+        if (memcmp(first.bytes + i, petri.bytes, petri.len) == 0)
+            return true;
+    return false;
+}
+
+static bool is_blank(const Source *source, uint32_t line) {
+    Str text = str_trim(source_locate(source, source->line_starts[line]).text);
+    return text.len == 0 || str_starts_with(text, STR("--"));
+}
+
+typedef struct Tally {
+    uint32_t lines; // that hold something, up to the last one in error
+    uint32_t bad;
+} Tally;
+
+static Tally count_lines(const Source *source, const DiagSink *diags) {
+    Tally tally = {0};
+    uint32_t last = 0;
+    for (uint32_t i = 0; i < diags->count; i++) { // in the order of the text
+        uint32_t line = source_locate(source, diags->items[i].span.start).line;
+        tally.bad += line > last;
+        last = line > last ? line : last;
+    }
+    for (uint32_t line = 0; line < last; line++)
+        tally.lines += !is_blank(source, line);
+    return tally;
+}
+
+static void replace(DiagSink *diags, const Diag *diag) {
+    diag_sink_free(diags);
+    diag_report(diags, diag);
+}
+
+void foreign_sum_up(const Source *source, DiagSink *diags) {
+    enum { FEWEST = 3 };
+    if (memchr(source->text.bytes, 0, source->text.len)) {
+        replace(diags, &(Diag){.level = DIAG_ERROR,
+                               .text = str_format(diags->arena, "'%.*s' is a binary file, not a script",
+                                                  (int)source->name.len, source->name.bytes),
+                               .code = "encoding"});
+        return;
+    }
+    if (diags->count < FEWEST || claims_to_be_script(source))
+        return;
+    Tally tally = count_lines(source, diags);
+    if (tally.bad < FEWEST || tally.bad * 2 < tally.lines)
+        return;
+    Diag first = diags->items[0];
+    Str what = diag_text(&first);
+    first.text = str_format(
+        diags->arena, "this does not look like a Flitter script: %u of %s%u lines are wrong, the first with: %.*s",
+        tally.bad, diags->dropped ? "the first " : "", tally.lines, (int)what.len, what.bytes);
+    first.hint = (Str){0};
+    first.code = "not-a-script";
+    replace(diags, &first);
+}

@@ -1,0 +1,69 @@
+// habits.c: see habits.h.
+#include "syntax/habits.h"
+
+#include <regex.h>
+#include <stdbool.h>
+#include <string.h>
+
+static const struct {
+    const char *before;
+    const char *after;
+    Str hint;
+} habits[] = {
+#define HABIT(before, after, hint) {before, after, {hint, sizeof hint - 1}},
+#include "syntax/habit_list.h"
+};
+
+enum { SHOWN = 300 }; // characters of a line that are looked at on either side
+
+// A pattern that begins with a plain character, which most do, is quickly seen not to match.
+static bool begins_otherwise(const char *pattern, const char *text) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyz:=,&#-<>`!";
+    return pattern[0] == '^' && pattern[1] && strchr(plain, pattern[1]) &&
+           (!pattern[2] || !strchr("?*{|", pattern[2])) && pattern[1] != text[0];
+}
+
+static bool matches(const char *pattern, const char *text) {
+    regex_t regex;
+    if (!*pattern)
+        return true;
+    if (begins_otherwise(pattern, text))
+        return false;
+    if (regcomp(&regex, pattern, REG_EXTENDED | REG_NOSUB) != 0)
+        return false;
+    bool found = regexec(&regex, text, 0, NULL, 0) == 0;
+    regfree(&regex);
+    return found;
+}
+
+// A colour of hexadecimal digits: `#ff8800`, or `0xff8800`, of which the 0 was taken for a number of its own.
+static Str hex_colour(Arena *arena, const char *before, const char *after) {
+    Text out = text_new(arena);
+    Str left = str_trim(str_from(before));
+    char last = left.len ? left.bytes[left.len - 1] : ' ';
+    text_add_c(&out, "a colour is r;g;b, each from 0 to 1: ");
+    if (after[0] == '#' && strchr("=;(,", last) && text_add_hex_colour(&out, str_from(after)))
+        return text_str(&out);
+    const char *hex = strstr(before, "0x");
+    return hex && text_add_hex_colour(&out, str_from(hex)) ? text_str(&out) : (Str){0};
+}
+
+Str parse_habit(Arena *arena, const Source *source, Span place) {
+    SourcePlace at = source_locate(source, place.start);
+    const char *line = at.text.bytes, *end = line + at.text.len, *token = source->text.bytes + place.start;
+    if (token < line || token > end)
+        return (Str){0};
+    Str left = {line, (size_t)(token - line)}, right = {token, (size_t)(end - token)};
+    if (left.len > SHOWN)
+        left = (Str){token - SHOWN, SHOWN};
+    if (right.len > SHOWN)
+        right.len = SHOWN;
+    if (str_starts_with(right, STR("--")))
+        right.len = 0;
+    const char *before = str_to_c(arena, left), *after = str_to_c(arena, right);
+    Str hint = hex_colour(arena, before, after);
+    for (size_t i = 0; !hint.len && i < sizeof habits / sizeof habits[0]; i++)
+        if (matches(habits[i].after, after) && matches(habits[i].before, before))
+            hint = habits[i].hint;
+    return hint;
+}

@@ -1,0 +1,143 @@
+// bytes.c: growable text and memory for the command.
+#include "cli/bytes.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdarg.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+enum { READ_BLOCK = 1 << 16 };
+
+static void *or_exit(void *block) {
+    if (block == NULL) {
+        message("out of memory");
+        exit(STATUS_FAILED);
+    }
+    return block;
+}
+
+void *memory_zeroed(size_t size) {
+    return or_exit(calloc(1, size == 0 ? 1 : size));
+}
+
+void *memory_resized(void *block, size_t size) {
+    return or_exit(realloc(block, size));
+}
+
+char *memory_copied(const char *text, size_t length) {
+    char *copy = or_exit(malloc(length + 1));
+    memcpy(copy, text, length);
+    copy[length] = '\0';
+    return copy;
+}
+
+static void reserve(Bytes *text, size_t more) {
+    size_t needed = text->length + more + 1;
+    if (needed > text->capacity) {
+        text->capacity = needed > 2 * text->capacity ? needed : 2 * text->capacity;
+        text->data = memory_resized(text->data, text->capacity);
+    }
+}
+
+void bytes_add(Bytes *text, const char *more, size_t length) {
+    reserve(text, length);
+    memcpy(text->data + text->length, more, length);
+    text->length += length;
+    text->data[text->length] = '\0';
+}
+
+void bytes_format(Bytes *text, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    int length = vsnprintf(NULL, 0, format, list);
+    va_end(list);
+    if (length < 0) {
+        return;
+    }
+    reserve(text, (size_t)length);
+    va_start(list, format);
+    vsnprintf(text->data + text->length, (size_t)length + 1, format, list);
+    va_end(list);
+    text->length += (size_t)length;
+}
+
+bool bytes_read(Bytes *text, int fd) {
+    for (;;) {
+        reserve(text, READ_BLOCK);
+        ssize_t got = read(fd, text->data + text->length, READ_BLOCK);
+        if (got < 0 && errno == EINTR) {
+            continue;
+        }
+        text->length += got > 0 ? (size_t)got : 0;
+        text->data[text->length] = '\0';
+        if (got <= 0) {
+            return got == 0;
+        }
+    }
+}
+
+bool bytes_read_file(Bytes *text, const char *path) {
+    int fd = open(path, O_RDONLY | O_CLOEXEC);
+    if (fd < 0) {
+        return false;
+    }
+    bool done = bytes_read(text, fd);
+    int error = errno;
+    close(fd);
+    errno = error;
+    return done;
+}
+
+static bool write_all(int fd, const char *data, size_t length) {
+    while (length > 0) {
+        ssize_t written = write(fd, data, length);
+        if (written < 0 && errno != EINTR) {
+            return false;
+        }
+        if (written > 0) {
+            data += written;
+            length -= (size_t)written;
+        }
+    }
+    return true;
+}
+
+// The permissions of the file that is replaced, or those of a new file.
+static mode_t wanted_mode(const char *path) {
+    struct stat old;
+    if (stat(path, &old) == 0) {
+        return old.st_mode & 0777;
+    }
+    return 0644;
+}
+
+bool bytes_replace_file(const Bytes *text, const char *path) {
+    Bytes beside = {0};
+    bytes_format(&beside, "%s.XXXXXX", path);
+    int fd = mkstemp(beside.data);
+    bool done = false;
+    if (fd >= 0) {
+        done = write_all(fd, text->data, text->length) && fchmod(fd, wanted_mode(path)) == 0;
+        done = close(fd) == 0 && done;
+        done = done && rename(beside.data, path) == 0;
+        if (!done) {
+            int error = errno;
+            unlink(beside.data);
+            errno = error;
+        }
+    }
+    bytes_free(&beside);
+    return done;
+}
+
+void bytes_free(Bytes *text) {
+    free(text->data);
+    *text = (Bytes){0};
+}

@@ -1,0 +1,67 @@
+// cli.h: what the commands of `petri` share: exit codes, messages, the table of commands.
+#ifndef PETRI_SRC_CLI_H
+#define PETRI_SRC_CLI_H
+
+#include <stdbool.h>
+#include <stddef.h>
+
+enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 }; // plus its number
+
+// One option of a command. Tables end with an entry without a name.
+typedef struct OptionSpec {
+    const char *name;  // without the dashes
+    char letter;       // short form, or 0
+    int id;            // what args_next returns for it, above 0
+    const char *value; // how help names the value; NULL for a flag
+    const char *help;
+} OptionSpec;
+
+// Those of the commands that run scripts.
+extern const OptionSpec RUN_OPTION_SPECS[];
+extern const OptionSpec RENDER_OPTION_SPECS[];
+extern const OptionSpec VIEW_OPTION_SPECS[];
+
+// What main found out about the process, for all commands.
+typedef struct Host {
+    size_t stack_bytes;  // C stack that evaluation may use
+    const char *program; // path of this program, from wherever it is started
+    const char *called;  // … as the user called it, for hints
+} Host;
+
+typedef struct Command {
+    const char *name;
+    const char *operands; // how usage names what follows the options
+    const char *summary;  // one line, for the list of commands
+    const char *details;  // a few sentences, for the command's own help
+    const char *examples; // lines to try, for its own help; NULL: none
+    const OptionSpec *options;
+    bool live;                                           // follows the wall clock and goes on until it is stopped
+    int (*run)(const Host *host, int argc, char **argv); // without the command's name; returns the exit status
+} Command;
+
+extern const Command RUN_COMMAND;
+extern const Command RENDER_COMMAND;
+extern const Command REPL_COMMAND;
+extern const Command VIEW_COMMAND;
+extern const Command TEST_COMMAND;
+extern const Command CHECK_COMMAND;
+extern const Command NEW_COMMAND;
+extern const Command HELP_COMMAND;
+
+// The commands in the order of help, ended by NULL.
+extern const Command *const COMMANDS[];
+// NULL if there is none of this name.
+const Command *command_find(const char *name);
+
+// Prints a command's own help on standard output; returns the exit status.
+int help_for(const Command *command);
+int help_overview(void);
+int help_version(void);
+
+// Writes `petri: text` and a newline to standard error.
+__attribute__((format(printf, 1, 2))) void message(const char *format, ...);
+// The name that is nearest to `word`, if near enough to be a slip of the hand, else NULL. Call it for each candidate
+// with the same `best`, which starts at SIZE_MAX.
+bool is_nearer(const char *word, const char *candidate, size_t *best);
+
+#endif

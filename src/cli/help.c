@@ -1,0 +1,103 @@
+// help.c: what the commands and their options are; the version.
+#include "cli/help.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+#include "petri.h"
+
+enum { OPTION_COLUMN = 28 };
+
+Output *help_begin(void) {
+    Output *output = malloc(sizeof *output);
+    if (output == NULL) {
+        message("out of memory");
+        return NULL;
+    }
+    output_start(output, STDOUT_FILENO);
+    return output;
+}
+
+int help_end(Output *output) {
+    int status = output_finish(output, STATUS_DONE);
+    free(output);
+    return status;
+}
+
+int help_overview(void) {
+    Output *output = help_begin();
+    if (output == NULL) {
+        return STATUS_FAILED;
+    }
+    output_format(output, "petri %s: runs Flitter scripts that hold systems of particles\n\n", petri_version());
+    output_format(output, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, "  %-8s %s\n", COMMANDS[i]->name, COMMANDS[i]->summary);
+    }
+    output_format(
+        output,
+        "\nTo begin: petri new dish, then petri view dish.fl, and change dish.fl in an editor.\n\n"
+        "'petri help COMMAND' lists a command's options. Scripts are made of functions ('petri help builtins') and\n"
+        "nodes ('petri help nodes'); 'petri help WORD' tells of one, such as sin, particle or tempo. SCRIPT.fl may\n"
+        "be - for standard input. 'petri --version' prints the version.\n");
+    return help_end(output);
+}
+
+// Text whose first line begins in a column and whose other lines are put below it.
+static void write_wrapped(Output *output, const char *text, int column) {
+    enum { LAST_COLUMN = 108 };
+    size_t most = (size_t)(LAST_COLUMN - column);
+    while (strlen(text) > most) {
+        size_t length = most;
+        while (length > 0 && text[length] != ' ') {
+            length--;
+        }
+        if (length == 0) {
+            break; // a word that is too long
+        }
+        output_format(output, "%.*s\n%*s", (int)length, text, column, "");
+        text += length + 1;
+    }
+    output_format(output, "%s\n", text);
+}
+
+void help_option(Output *output, const OptionSpec *spec) {
+    char letter[8] = "    ";
+    if (spec->letter != '\0') {
+        snprintf(letter, sizeof letter, "-%c, ", spec->letter);
+    }
+    char head[80];
+    snprintf(head, sizeof head, "  %s--%s%s%s", letter, spec->name, spec->value == NULL ? "" : " ",
+             spec->value == NULL ? "" : spec->value);
+    output_format(output, "%-*s  ", OPTION_COLUMN, head);
+    write_wrapped(output, spec->help, OPTION_COLUMN + 2);
+}
+
+int help_for(const Command *command) {
+    Output *output = help_begin();
+    if (output == NULL) {
+        return STATUS_FAILED;
+    }
+    output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name,
+                  command->options->name == NULL ? "" : " [options]", command->operands, command->details);
+    for (const OptionSpec *spec = command->options; spec->name != NULL; spec++) {
+        output_format(output, "%s", spec == command->options ? "\n" : "");
+        help_option(output, spec);
+    }
+    if (command->examples != NULL) {
+        output_format(output, "\nExamples:\n%s", command->examples);
+    }
+    return help_end(output);
+}
+
+int help_version(void) {
+    Output *output = help_begin();
+    if (output == NULL) {
+        return STATUS_FAILED;
+    }
+    output_format(output, "petri %s\n", petri_version());
+    return help_end(output);
+}

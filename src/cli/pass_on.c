@@ -1,0 +1,65 @@
+// pass_on.c: starting the other program, petri-pictures, for what this one cannot do.
+//
+// It lies beside this one, as in a build folder, or where `meson install` puts what only other programs call.
+#include "cli/pass_on.h"
+
+#include <errno.h>
+#include <limits.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+
+#ifdef PETRI_PICTURES
+enum { HAS_ALL = true };
+#else
+enum { HAS_ALL = false };
+#endif
+
+bool pass_on_wanted(const char *first) {
+    static const char *const words[] = {"view", "render", "repl", "help", "--help", "-h"};
+    for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
+        if (strcmp(first, words[i]) == 0) {
+            return !HAS_ALL;
+        }
+    }
+    return false;
+}
+
+bool pass_on_all(void) {
+    return !HAS_ALL;
+}
+
+// Where the path's last part begins.
+static char *last_part(char *path) {
+    char *slash = strrchr(path, '/');
+    return slash == NULL ? path : slash + 1;
+}
+
+int pass_on(char **argv) {
+    static const char *const places[] = {"petri-pictures", "../libexec/petri-pictures"};
+    char path[PATH_MAX + 64]; // of this program, and then of the other
+    ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
+    if (length > 0) {
+        path[length] = '\0';
+    } else if (realpath(argv[0], path) == NULL) {
+        path[0] = '\0';
+    }
+    char *place = last_part(path);
+    int cause = 0;
+    for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
+        strcpy(place, places[i]);
+        execvp(path, argv); // looks along PATH if there is no slash
+        cause = cause == 0 || errno != ENOENT ? errno : cause;
+    }
+    *place = '\0';
+    int folder = (int)(place - path), above = folder - 1;
+    while (above > 0 && path[above - 1] != '/') {
+        above--;
+    }
+    message("cannot start petri-pictures, which draws and prompts: %s; it belongs in %.*s or in %.*slibexec/",
+            strerror(cause), folder, path, above < 0 ? 0 : above, path);
+    return STATUS_FAILED;
+}

@@ -1,0 +1,81 @@
+// progress.c: the progress line on standard error.
+#include "cli/progress.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <time.h>
+#include <unistd.h>
+
+enum { BAR_WIDTH = 30, DEFAULT_COLUMNS = 80, MOST_SECONDS = 999 * 60 };
+
+static const double REDRAW_SECONDS = 0.1;
+
+double clock_seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_MONOTONIC, &now);
+    return (double)now.tv_sec + (double)now.tv_nsec * 1e-9;
+}
+
+bool progress_possible(void) {
+    const char *terminal = getenv("TERM");
+    return isatty(STDERR_FILENO) && (terminal == NULL || strcmp(terminal, "dumb") != 0);
+}
+
+void progress_start(Progress *progress, bool enabled, int64_t total) {
+    *progress = (Progress){.enabled = enabled && total > 0, .total = total, .start = clock_seconds()};
+}
+
+static int terminal_columns(void) {
+    struct winsize size;
+    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) {
+        return DEFAULT_COLUMNS;
+    }
+    return size.ws_col;
+}
+
+static void draw(const Progress *progress, int64_t done, double elapsed) {
+    double rate = elapsed > 0 ? (double)done / elapsed : 0;
+    double left = rate > 0 ? (double)(progress->total - done) / rate : 0;
+    long long seconds = left < MOST_SECONDS ? (long long)left : MOST_SECONDS;
+    char numbers[128];
+    int length = snprintf(numbers, sizeof numbers, "%lld/%lld frames", (long long)done, (long long)progress->total);
+    if (done > 0) {
+        length += snprintf(numbers + length, sizeof numbers - (size_t)length, ", %.1f frames/s, %lld:%02lld left", rate,
+                           seconds / 60, seconds % 60);
+    }
+    char bar[BAR_WIDTH + 4] = "";
+    int columns = terminal_columns();
+    // A line that wraps cannot be erased: leave out what does not fit.
+    if (length + BAR_WIDTH + 3 < columns) {
+        int filled = (int)((double)done / (double)progress->total * BAR_WIDTH);
+        bar[0] = '[';
+        memset(bar + 1, '#', (size_t)filled);
+        memset(bar + 1 + filled, '.', (size_t)(BAR_WIDTH - filled));
+        memcpy(bar + 1 + BAR_WIDTH, "] ", 3);
+    }
+    fprintf(stderr, "\r\033[K%s%.*s", bar, columns > 1 ? columns - 1 : 1, numbers);
+    fflush(stderr);
+}
+
+void progress_update(Progress *progress, int64_t done) {
+    if (!progress->enabled) {
+        return;
+    }
+    double now = clock_seconds();
+    if (progress->last != 0 && now - progress->last < REDRAW_SECONDS) {
+        return;
+    }
+    progress->last = now;
+    progress->drawn = true;
+    draw(progress, done < progress->total ? done : progress->total, now - progress->start);
+}
+
+void progress_erase(Progress *progress) {
+    if (progress->drawn) {
+        fputs("\r\033[K", stderr);
+        fflush(stderr);
+        progress->drawn = false;
+    }
+}

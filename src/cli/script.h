@@ -1,0 +1,23 @@
+// script.h: the script that a command line names: a file, or `-` for what comes on standard input.
+#ifndef PETRI_SRC_SCRIPT_H
+#define PETRI_SRC_SCRIPT_H
+
+#include "petri.h"
+
+// What messages call standard input. Files that such a script names are looked for in the current folder.
+#define SCRIPT_STDIN "<stdin>"
+
+bool script_is_stdin(const char *name);
+// The name, or SCRIPT_STDIN.
+const char *script_shown(const char *name);
+// petri_load and petri_check for what the name stands for. Where there is no such script, a message may tell which one
+// could be meant.
+PetriStatus script_load(PetriSession *session, const char *name);
+PetriStatus script_check(PetriSession *session, const char *name);
+// Says that a second script was named on the command line, which may have been meant as an option's value.
+void script_second(const char *first, const char *second);
+// Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
+// holds.
+void script_suggest(const char *name);
+
+#endif

@@ -1,0 +1,130 @@
+// topics.c: see topics.h.
+#include "cli/topics.h"
+
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/cli.h"
+#include "cli/table.h"
+#include "petri.h"
+
+typedef struct Topic {
+    const char *word;
+    const char *form;
+    const char *help;
+} Topic;
+
+static const Topic topics[] = {
+#define TOPIC(word, form, help) {word, form, help},
+#include "cli/topic_list.h"
+#undef TOPIC
+};
+
+enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
+
+static bool tell_word(Output *output, const char *word) {
+    for (size_t i = 0; i < TOPIC_COUNT; i++) {
+        if (strcmp(topics[i].word, word) == 0) {
+            output_format(output, "%s\n    %s\n", topics[i].form, topics[i].help);
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool tell_builtin(Output *output, const char *name) {
+    PetriBuiltin builtin;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        if (strcmp(builtin.name, name) == 0) {
+            output_format(output, "%s(%s)\n    %s\n", builtin.name, builtin.parameters, builtin.help);
+            return true;
+        }
+    }
+    return false;
+}
+
+static void tell_attributes(Output *output, size_t kind) {
+    Table table = table_new(4);
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
+        char head[80], fallback[120] = "";
+        snprintf(head, sizeof head, "    %s", attribute.name);
+        if (attribute.fallback[0] != '\0') {
+            snprintf(fallback, sizeof fallback, "default %s", attribute.fallback);
+        }
+        table_add(&table, head);
+        table_add(&table, attribute.type);
+        table_add(&table, fallback);
+        table_add(&table, attribute.help);
+    }
+    table_write(&table, output);
+    table_free(&table);
+}
+
+// A kind may belong to several areas, such as `!group`.
+static bool tell_node(Output *output, const char *name) {
+    PetriNodeKind kind;
+    bool found = false;
+    name += name[0] == '!';
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        if (strcmp(kind.name, name) == 0) {
+            output_format(output, "!%s (%s): %s\n", kind.name, kind.area, kind.help);
+            tell_attributes(output, i);
+            found = true;
+        }
+    }
+    return found;
+}
+
+// The nodes that have an attribute of this name, each with what it means there.
+static bool tell_owners(Output *output, const char *name) {
+    Table table = table_new(3);
+    PetriNodeKind kind;
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+            if (strcmp(attribute.name, name) == 0) {
+                char head[80];
+                snprintf(head, sizeof head, "    !%s", kind.name);
+                table_add(&table, head);
+                table_add(&table, attribute.type);
+                table_add(&table, attribute.help);
+            }
+        }
+    }
+    bool found = table.count > 0;
+    if (found) {
+        output_format(output, "%s is an attribute of\n", name);
+        table_write(&table, output);
+    }
+    table_free(&table);
+    return found;
+}
+
+bool topics_tell(Output *output, const char *topic) {
+    bool node_only = topic[0] == '!';
+    bool found = !node_only && tell_builtin(output, topic); // one name may be a function and a node, such as random
+    found = tell_node(output, topic) || found;
+    found = (!node_only && tell_word(output, topic)) || found;
+    return found || (!node_only && tell_owners(output, topic));
+}
+
+const char *topics_nearest(const char *topic, size_t *best) {
+    const char *nearest = NULL;
+    PetriBuiltin builtin;
+    PetriNodeKind kind;
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        nearest = is_nearer(topic, builtin.name, best) ? builtin.name : nearest;
+    }
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        nearest = is_nearer(topic + (topic[0] == '!'), kind.name, best) ? kind.name : nearest;
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+            nearest = is_nearer(topic, attribute.name, best) ? attribute.name : nearest;
+        }
+    }
+    for (size_t i = 0; i < TOPIC_COUNT; i++) {
+        nearest = is_nearer(topic, topics[i].word, best) ? topics[i].word : nearest;
+    }
+    return nearest;
+}

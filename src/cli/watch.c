@@ -1,0 +1,309 @@
+// watch.c: see watch.h. On Linux one epoll descriptor stands for inotify (something happened) and a timer (the quiet
+// after it is over); elsewhere the files are looked at by time.
+#include "cli/watch.h"
+
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <time.h>
+#include <unistd.h>
+
+#ifdef __linux__
+#include <sys/epoll.h>
+#include <sys/inotify.h>
+#include <sys/timerfd.h>
+#define HAVE_INOTIFY 1
+#else
+#define HAVE_INOTIFY 0
+#endif
+
+// Seconds without a change before one is told; the most that is waited for a writer who does not close the file; and
+// between looks at all files, with and without inotify.
+static const double QUIET = 0.05, PATIENCE = 2, SELDOM = 1, OFTEN = 0.2;
+
+// What a file is, as far as stat tells.
+typedef struct Stamp {
+    bool exists;
+    uint64_t device;
+    uint64_t inode;
+    int64_t size;
+    int64_t seconds; // modification time
+    int64_t nanoseconds;
+} Stamp;
+
+typedef struct File {
+    char *path;
+    Stamp told;   // as of the last time that a change was told
+    Stamp found;  // at the last look
+    double since; // when `found` was found first
+    bool pending; // differs from `told`
+    bool written; // someone has begun to write and not closed it
+    // Of the folders that hold the path and what it is a link to (often the same).
+    int folders[2];
+    const char *names[2]; // in these folders; the second points into `target`
+    char *target;
+} File;
+
+struct Watch {
+    int wake; // epoll; -1: none
+    int events;
+    int timer;
+    File *files;
+    size_t count;
+    double looked;
+};
+
+static double now(void) {
+    struct timespec time;
+    clock_gettime(CLOCK_MONOTONIC, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+static Stamp stamp_of(const char *path) {
+    struct stat info;
+    if (stat(path, &info) != 0) {
+        return (Stamp){0};
+    }
+    return (Stamp){true,
+                   (uint64_t)info.st_dev,
+                   (uint64_t)info.st_ino,
+                   (int64_t)info.st_size,
+                   (int64_t)info.st_mtim.tv_sec,
+                   (int64_t)info.st_mtim.tv_nsec};
+}
+
+static bool same(const Stamp *a, const Stamp *b) {
+    return a->exists == b->exists && a->device == b->device && a->inode == b->inode && a->size == b->size &&
+           a->seconds == b->seconds && a->nanoseconds == b->nanoseconds;
+}
+
+#if HAVE_INOTIFY
+static void close_all(Watch *watch) {
+    int *const descriptors[] = {&watch->wake, &watch->events, &watch->timer};
+    for (size_t i = 0; i < 3; i++) {
+        if (*descriptors[i] >= 0) {
+            close(*descriptors[i]);
+        }
+        *descriptors[i] = -1;
+    }
+}
+
+static bool wake_by(const Watch *watch, int descriptor) {
+    struct epoll_event event = {.events = EPOLLIN};
+    return descriptor >= 0 && epoll_ctl(watch->wake, EPOLL_CTL_ADD, descriptor, &event) == 0;
+}
+
+// Without descriptors to spare, looking by time has to do.
+static void open_wake(Watch *watch) {
+    watch->wake = epoll_create1(EPOLL_CLOEXEC);
+    watch->events = inotify_init1(IN_NONBLOCK | IN_CLOEXEC);
+    watch->timer = timerfd_create(CLOCK_MONOTONIC, TFD_NONBLOCK | TFD_CLOEXEC);
+    if (watch->wake < 0 || !wake_by(watch, watch->events) || !wake_by(watch, watch->timer)) {
+        close_all(watch);
+    }
+}
+
+// Events of the folder that a path is in; its number, or -1.
+static int watch_folder(const Watch *watch, const char *path) {
+    const uint32_t kinds = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
+    const char *slash = strrchr(path, '/');
+    char *folder = slash == NULL ? strdup(".") : strndup(path, slash == path ? 1 : (size_t)(slash - path));
+    int number = watch->events < 0 || folder == NULL ? -1 : inotify_add_watch(watch->events, folder, kinds);
+    free(folder);
+    return number;
+}
+
+static const char *name_in_folder(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? path : slash + 1;
+}
+
+// Asking anew gives the same numbers while the folders are the same; one that was removed and made again gets another.
+static void watch_folders(const Watch *watch, File *file) {
+    free(file->target);
+    file->target = realpath(file->path, NULL);
+    file->folders[0] = watch_folder(watch, file->path);
+    file->names[0] = name_in_folder(file->path);
+    file->folders[1] = file->target == NULL ? -1 : watch_folder(watch, file->target);
+    file->names[1] = file->target == NULL ? "" : name_in_folder(file->target);
+}
+
+static void take_event(Watch *watch, const struct inotify_event *event) {
+    for (size_t i = 0; i < watch->count; i++) {
+        File *file = &watch->files[i];
+        for (int j = 0; j < 2; j++) {
+            if (event->len > 0 && event->wd == file->folders[j] && strcmp(event->name, file->names[j]) == 0) {
+                file->written = (event->mask & IN_MODIFY) != 0;
+            }
+        }
+    }
+}
+
+// Takes what inotify and the timer have to say; true if that was anything.
+static bool take_events(Watch *watch) {
+    bool any = false;
+    union {
+        struct inotify_event first; // for its alignment
+        char bytes[1 << 14];
+    } buffer;
+    for (ssize_t size; watch->events >= 0 && (size = read(watch->events, buffer.bytes, sizeof buffer)) > 0;) {
+        for (const char *at = buffer.bytes; at < buffer.bytes + size;) {
+            const struct inotify_event *event = (const void *)at;
+            take_event(watch, event);
+            at += sizeof *event + event->len;
+        }
+        any = true;
+    }
+    uint64_t expired;
+    return (watch->timer >= 0 && read(watch->timer, &expired, sizeof expired) > 0) || any;
+}
+
+// The descriptor shall become readable once more after so many seconds; 0: not by itself.
+static void set_timer(const Watch *watch, double seconds) {
+    struct itimerspec time = {.it_value = {(time_t)seconds, (long)((seconds - (double)(time_t)seconds) * 1e9)}};
+    if (watch->timer >= 0) {
+        timerfd_settime(watch->timer, 0, &time, NULL);
+    }
+}
+#else
+static void close_all(Watch *watch) {
+    (void)watch;
+}
+
+static void open_wake(Watch *watch) {
+    (void)watch;
+}
+
+static void watch_folders(const Watch *watch, File *file) {
+    (void)watch;
+    (void)file;
+}
+
+static bool take_events(Watch *watch) {
+    (void)watch;
+    return false;
+}
+
+static void set_timer(const Watch *watch, double seconds) {
+    (void)watch;
+    (void)seconds;
+}
+#endif
+
+Watch *watch_new(void) {
+    Watch *watch = calloc(1, sizeof *watch);
+    if (watch != NULL) {
+        watch->wake = watch->events = watch->timer = -1;
+        watch->looked = now();
+        open_wake(watch);
+    }
+    return watch;
+}
+
+void watch_free(Watch *watch) {
+    if (watch == NULL) {
+        return;
+    }
+    close_all(watch);
+    for (size_t i = 0; i < watch->count; i++) {
+        free(watch->files[i].path);
+        free(watch->files[i].target);
+    }
+    free(watch->files);
+    free(watch);
+}
+
+// True if this file's change is to be told now; else `*wait` falls to the time until it may be.
+static bool look(const Watch *watch, File *file, double time, double *wait) {
+    Stamp stamp = stamp_of(file->path);
+    if (!same(&stamp, &file->found)) {
+        file->found = stamp;
+        file->since = time;
+        watch_folders(watch, file);
+    }
+    file->pending = stamp.exists && !same(&stamp, &file->told);
+    if (!file->pending) {
+        return false;
+    }
+    double left = file->since + (file->written ? PATIENCE : QUIET) - time;
+    if (left > 0) {
+        *wait = left < *wait ? left : *wait;
+        return false;
+    }
+    file->told = stamp;
+    file->pending = file->written = false;
+    return true;
+}
+
+static bool any_pending(const Watch *watch) {
+    for (size_t i = 0; i < watch->count; i++) {
+        if (watch->files[i].pending) {
+            return true;
+        }
+    }
+    return false;
+}
+
+// Whether something may happen that inotify does not tell: a folder that cannot be watched, or is gone with its file.
+static bool blind(const Watch *watch) {
+    for (size_t i = 0; i < watch->count; i++) {
+        if (watch->files[i].folders[0] < 0 || !watch->files[i].found.exists) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static void wake_later(const Watch *watch, double wait) {
+    if (any_pending(watch)) {
+        set_timer(watch, wait);
+    } else {
+        set_timer(watch, blind(watch) ? SELDOM : 0);
+    }
+}
+
+bool watch_file(Watch *watch, const char *path) {
+    for (size_t i = 0; i < watch->count; i++) {
+        if (strcmp(watch->files[i].path, path) == 0) {
+            return true;
+        }
+    }
+    File *files = realloc(watch->files, (watch->count + 1) * sizeof *files);
+    if (files == NULL) {
+        return false;
+    }
+    watch->files = files;
+    File *file = &files[watch->count];
+    *file = (File){.path = strdup(path)};
+    if (file->path == NULL) {
+        return false;
+    }
+    watch_folders(watch, file); // before the look, so that nothing is missed between the two
+    file->told = file->found = stamp_of(path);
+    watch->count++;
+    wake_later(watch, QUIET);
+    return true;
+}
+
+bool watch_changed(Watch *watch) {
+    double time = now(), wait = PATIENCE;
+    bool woken = take_events(watch), late = time - watch->looked >= (watch->wake >= 0 ? SELDOM : OFTEN);
+    if (!woken && !late && !any_pending(watch)) {
+        return false;
+    }
+    watch->looked = time;
+    bool changed = false;
+    for (size_t i = 0; i < watch->count; i++) {
+        if (late && !watch->files[i].found.exists) {
+            watch_folders(watch, &watch->files[i]); // its folder may be a new one
+        }
+        changed = look(watch, &watch->files[i], time, &wait) || changed;
+    }
+    wake_later(watch, wait);
+    return changed;
+}
+
+int watch_descriptor(const Watch *watch) {
+    return watch->wake;
+}

@@ -1,0 +1,143 @@
+// golden.c: reading and rewriting recorded output.
+#include "golden/golden.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void add_option(Golden *golden, const Bytes *word) {
+    size_t count = (size_t)golden->option_count++;
+    golden->options = memory_resized(golden->options, (count + 1) * sizeof *golden->options);
+    golden->options[count] = memory_copied(word->length == 0 ? "" : word->data, word->length);
+}
+
+// Splits the way a shell does: blanks part words; '...' keeps everything, "..." and \ protect what follows.
+static bool split_options(Golden *golden, const char *line, size_t length, Bytes *trouble) {
+    Bytes word = {0};
+    char quote = '\0';
+    bool in_word = false;
+    for (size_t i = 0; i < length; i++) {
+        char c = line[i];
+        if (c == '\\' && quote != '\'' && i + 1 < length) {
+            bytes_add(&word, &line[++i], 1);
+            in_word = true;
+        } else if (quote != '\0' ? c == quote : c == '\'' || c == '"') {
+            quote = quote != '\0' ? '\0' : c;
+            in_word = true;
+        } else if (quote == '\0' && (c == ' ' || c == '\t')) {
+            if (in_word) {
+                add_option(golden, &word);
+            }
+            word.length = 0;
+            in_word = false;
+        } else {
+            bytes_add(&word, &c, 1);
+            in_word = true;
+        }
+    }
+    if (in_word) {
+        add_option(golden, &word);
+    }
+    bytes_free(&word);
+    if (quote != '\0') {
+        bytes_format(trouble, "line 1: a quote is not closed");
+    }
+    return quote == '\0';
+}
+
+// Remarks that mean nothing to us are plain comments.
+static bool read_remark(Golden *golden, const char *line, size_t length, Bytes *trouble) {
+    char copy[128];
+    size_t kept = length < sizeof copy - 1 ? length : sizeof copy - 1;
+    memcpy(copy, line, kept);
+    copy[kept] = '\0';
+    char rest = '\0';
+    if (strncmp(copy, "# tolerance", 11) == 0) {
+        int count = sscanf(copy, "# tolerance %lf %c", &golden->tolerance, &rest);
+        if (count == 1 && golden->tolerance >= 0 && isfinite(golden->tolerance)) {
+            return true;
+        }
+    } else if (strncmp(copy, "# horizon", 9) == 0) {
+        int count =
+            sscanf(copy, "# horizon %" SCNd64 " strict %" SCNd64 " %c", &golden->horizon, &golden->strict, &rest);
+        if (count == 1) {
+            golden->strict = golden->horizon;
+            // Something may follow the number that is not `strict`.
+            if (sscanf(copy, "# horizon %*d %c", &rest) != 1) {
+                return true;
+            }
+        } else if (count == 2) {
+            return true;
+        }
+    } else {
+        return true;
+    }
+    bytes_format(trouble, "line %" PRIu32 ": cannot read '%s'", golden->body_line, copy);
+    return false;
+}
+
+static bool read_head_line(Golden *golden, const char *line, size_t length, Bytes *trouble) {
+    if (golden->body_line > 1) {
+        return read_remark(golden, line, length, trouble);
+    }
+    if (length < 5 || memcmp(line, "# run", 5) != 0 || (length > 5 && line[5] != ' ')) {
+        bytes_format(trouble, "line 1: expected '# run' and the options");
+        return false;
+    }
+    return split_options(golden, line + 5, length - 5, trouble);
+}
+
+bool golden_read(Golden *golden, const char *path, Bytes *trouble) {
+    *golden = (Golden){.horizon = INT64_MAX, .strict = INT64_MAX, .body_line = 1};
+    if (!bytes_read_file(&golden->text, path)) {
+        bytes_format(trouble, "cannot read %s: %s", path, strerror(errno));
+        return false;
+    }
+    const char *data = golden->text.data;
+    while (golden->body < golden->text.length && (golden->body_line == 1 || data[golden->body] == '#')) {
+        const char *line = data + golden->body;
+        const char *end = memchr(line, '\n', golden->text.length - golden->body);
+        size_t length = end == NULL ? golden->text.length - golden->body : (size_t)(end - line);
+        if (!read_head_line(golden, line, length, trouble)) {
+            return false;
+        }
+        golden->body += length + (end == NULL ? 0 : 1);
+        golden->body_line++;
+    }
+    if (golden->body_line == 1) {
+        bytes_format(trouble, "the golden is empty; its first line is '# run' and the options");
+    }
+    return golden->body_line > 1;
+}
+
+void golden_free(Golden *golden) {
+    for (int i = 0; i < golden->option_count; i++) {
+        free(golden->options[i]);
+    }
+    free(golden->options);
+    bytes_free(&golden->text);
+    *golden = (Golden){0};
+}
+
+bool golden_update(const Golden *golden, const char *path, const Bytes *output, bool *changed, Bytes *trouble) {
+    size_t recorded = golden->text.length - golden->body;
+    *changed = recorded != output->length || memcmp(golden->text.data + golden->body, output->data, recorded) != 0;
+    if (!*changed) {
+        return true;
+    }
+    Bytes updated = {0};
+    bytes_add(&updated, golden->text.data, golden->body);
+    if (golden->body > 0 && golden->text.data[golden->body - 1] != '\n') {
+        bytes_add(&updated, "\n", 1);
+    }
+    bytes_add(&updated, output->data, output->length);
+    bool done = bytes_replace_file(&updated, path);
+    if (!done) {
+        bytes_format(trouble, "cannot write %s: %s", path, strerror(errno));
+    }
+    bytes_free(&updated);
+    return done;
+}

@@ -1,0 +1,74 @@
+// report.c: how results of tests are told.
+#include "golden/report.h"
+
+#include <errno.h>
+#include <string.h>
+
+#include "cli/cli.h"
+
+void report_result(Output *output, const Result *result) {
+    if (result->passed) {
+        output_format(output, "ok %s%s\n", result->name, result->updated ? " (updated)" : "");
+    } else {
+        const char *trouble = result->trouble.data == NULL ? "" : result->trouble.data;
+        output_format(output, "FAIL %s %s\n", result->name, trouble);
+    }
+}
+
+// XML knows no control characters, escaped or not.
+static void add_escaped(Bytes *out, const char *text) {
+    for (const char *c = text; *c != '\0'; c++) {
+        switch (*c) {
+        case '<':
+            bytes_format(out, "&lt;");
+            break;
+        case '>':
+            bytes_format(out, "&gt;");
+            break;
+        case '&':
+            bytes_format(out, "&amp;");
+            break;
+        case '"':
+            bytes_format(out, "&quot;");
+            break;
+        default:
+            bytes_add(out, (unsigned char)*c < ' ' ? "?" : c, 1);
+        }
+    }
+}
+
+static void add_result(Bytes *out, const Result *result) {
+    bytes_format(out, "  <testcase name=\"");
+    add_escaped(out, result->name);
+    bytes_format(out, "\" time=\"%.3f\"", result->seconds);
+    if (result->passed) {
+        bytes_format(out, "/>\n");
+        return;
+    }
+    bytes_format(out, ">\n    <failure message=\"");
+    add_escaped(out, result->trouble.data == NULL ? "" : result->trouble.data);
+    bytes_format(out, "\"/>\n  </testcase>\n");
+}
+
+bool report_junit(const char *path, Result *const *results, size_t count) {
+    size_t failed = 0;
+    double seconds = 0;
+    for (size_t i = 0; i < count; i++) {
+        failed += results[i]->passed ? 0 : 1;
+        seconds += results[i]->seconds;
+    }
+    Bytes out = {0};
+    bytes_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
+    bytes_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
+                 seconds);
+    for (size_t i = 0; i < count; i++) {
+        add_result(&out, results[i]);
+    }
+    bytes_format(&out, "</testsuite>\n");
+    bool done = bytes_replace_file(&out, path);
+    if (!done) {
+        message("cannot write %s: %s", path, strerror(errno));
+    }
+    bytes_free(&out);
+    return done;
+}

@@ -1,0 +1,283 @@
+// painting.c: draws and writes pictures in threads of their own.
+#include "render/painting.h"
+
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/cli.h"
+#include "cli/progress.h"
+#include "cli/unfinished.h"
+#include "render/video.h"
+
+enum { QUEUE = 4, MOST_WORKERS = 16 };
+
+typedef struct Job Job;
+struct Job {
+    Job *next;
+    PetriPicture *picture;
+    bool for_film;
+    char *file; // owned, or NULL
+};
+
+struct Painting {
+    pthread_mutex_t lock; // for what follows, up to the film
+    pthread_cond_t changed;
+    Job *waiting; // oldest first
+    Job **last;
+    int waiting_count;
+    Job *running[MOST_WORKERS]; // in any order; NULL: none
+    Job *done;
+    bool ending; // no more will be added
+    bool failed;
+    double seconds;
+    const char *film; // the rest is the threads' own
+    double fps;
+    Video video;
+    uint32_t *pixels; // of the film's frames
+    pthread_t workers[MOST_WORKERS];
+    int worker_count;
+    char trouble[600];
+};
+
+static void set_trouble(Painting *painting, const char *text) {
+    pthread_mutex_lock(&painting->lock);
+    if (painting->trouble[0] == '\0') {
+        strncpy(painting->trouble, text, sizeof painting->trouble - 1);
+    }
+    pthread_mutex_unlock(&painting->lock);
+}
+
+static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter *painter) {
+    Video *video = &painting->video;
+    if (painting->pixels == NULL) {
+        int width = 0, height = 0;
+        petri_picture_size(picture, &width, &height);
+        painting->pixels = calloc((size_t)width * (size_t)height, sizeof(uint32_t));
+        if (painting->pixels == NULL) {
+            set_trouble(painting, "out of memory");
+            return false;
+        }
+        if (!video_open(video, painting->film, width, height, painting->fps)) {
+            set_trouble(painting, video->trouble);
+            return false;
+        }
+    }
+    PetriStatus status = petri_picture_draw(picture, painter, painting->pixels, video->width, video->height,
+                                            (size_t)video->width * sizeof(uint32_t));
+    if (status == PETRI_MEMORY) {
+        set_trouble(painting, "out of memory");
+    }
+    if (status != PETRI_OK) {
+        return false;
+    }
+    if (!video_add(video, painting->pixels)) {
+        set_trouble(painting, video->trouble);
+        return false;
+    }
+    return true;
+}
+
+static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painter, const char *file) {
+    int unfinished = unfinished_begin(file);
+    PetriStatus status = petri_picture_save(picture, painter, file);
+    unfinished_end(unfinished);
+    if (status == PETRI_MEMORY) {
+        set_trouble(painting, "out of memory");
+    }
+    return status == PETRI_OK;
+}
+
+static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
+    const char *record = NULL;
+    bool good = !job->for_film || add_to_film(painting, job->picture, painter);
+    if (job->file != NULL) {
+        good = good && save(painting, job->picture, painter, job->file);
+    }
+    for (size_t i = 0; good && (record = petri_picture_record(job->picture, i)) != NULL; i++) {
+        good = save(painting, job->picture, painter, record);
+    }
+    return good;
+}
+
+// The files that a job writes, by number; NULL beyond the last.
+static const char *written_file(const Job *job, size_t index) {
+    if (job->file != NULL && index == 0) {
+        return job->file;
+    }
+    return petri_picture_record(job->picture, job->file != NULL ? index - 1 : index);
+}
+
+static const char *last_part(const char *file) {
+    const char *slash = strrchr(file, '/');
+    return slash == NULL ? file : slash + 1;
+}
+
+// Whether two jobs may write the same file. Paths may differ and lead to the same: names count.
+static bool share_file(const Job *a, const Job *b) {
+    const char *one, *two;
+    for (size_t i = 0; (one = written_file(a, i)) != NULL; i++) {
+        for (size_t k = 0; (two = written_file(b, k)) != NULL; k++) {
+            if (strcmp(last_part(one), last_part(two)) == 0) {
+                return true;
+            }
+        }
+    }
+    return false;
+}
+
+static Job **find_running(Painting *painting, const Job *job) {
+    int i = 0;
+    while (painting->running[i] != job) {
+        i++;
+    }
+    return &painting->running[i];
+}
+
+// Frames that write the same file do so one after the other, so that the last one's picture stays.
+static bool may_run(const Painting *painting, const Job *job) {
+    for (int i = 0; i < MOST_WORKERS; i++) {
+        if (painting->running[i] != NULL && share_file(painting->running[i], job)) {
+            return false;
+        }
+    }
+    return true;
+}
+
+// The next job, or NULL if there will be none.
+static Job *take_job(Painting *painting) {
+    while (painting->waiting != NULL ? !may_run(painting, painting->waiting) : !painting->ending) {
+        pthread_cond_wait(&painting->changed, &painting->lock);
+    }
+    Job *job = painting->waiting;
+    if (job != NULL) {
+        painting->waiting = job->next;
+        painting->waiting_count--;
+        if (painting->waiting == NULL) {
+            painting->last = &painting->waiting;
+        }
+        *find_running(painting, NULL) = job; // no more run than there are threads
+        pthread_cond_broadcast(&painting->changed);
+    }
+    return job;
+}
+
+static void *work(void *context) {
+    Painting *painting = context;
+    PetriPainter *painter = petri_painter_open();
+    if (painter == NULL) {
+        set_trouble(painting, "out of memory");
+    }
+    pthread_mutex_lock(&painting->lock);
+    for (Job *job = take_job(painting); job != NULL; job = take_job(painting)) {
+        bool good = painter != NULL && !painting->failed;
+        pthread_mutex_unlock(&painting->lock);
+        double start = clock_seconds();
+        good = good && paint(painting, job, painter);
+        double seconds = clock_seconds() - start;
+        pthread_mutex_lock(&painting->lock);
+        painting->seconds += seconds;
+        painting->failed = painting->failed || !good;
+        *find_running(painting, job) = NULL;
+        job->next = painting->done;
+        painting->done = job;
+        pthread_cond_broadcast(&painting->changed);
+    }
+    pthread_mutex_unlock(&painting->lock);
+    petri_painter_close(&painter);
+    return NULL;
+}
+
+Painting *painting_start(const char *film, double fps) {
+    Painting *painting = memory_zeroed(sizeof *painting);
+    long processors = sysconf(_SC_NPROCESSORS_ONLN);
+    int wanted = film != NULL || processors < 1 ? 1 : processors > MOST_WORKERS ? MOST_WORKERS : (int)processors;
+    pthread_mutex_init(&painting->lock, NULL);
+    pthread_cond_init(&painting->changed, NULL);
+    painting->last = &painting->waiting;
+    painting->film = film;
+    painting->fps = fps;
+    painting->video = (Video){.frames = -1, .errors = -1, .unfinished = -1};
+    while (painting->worker_count < wanted &&
+           pthread_create(&painting->workers[painting->worker_count], NULL, work, painting) == 0) {
+        painting->worker_count++;
+    }
+    if (painting->worker_count == 0) {
+        message("cannot start a thread");
+        painting_free(painting);
+        return NULL;
+    }
+    return painting;
+}
+
+bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file) {
+    Job *job = memory_zeroed(sizeof *job);
+    *job = (Job){.picture = picture, .for_film = for_film};
+    job->file = file == NULL ? NULL : memory_copied(file, strlen(file));
+    pthread_mutex_lock(&painting->lock);
+    while (painting->waiting_count >= QUEUE && !painting->failed) {
+        pthread_cond_wait(&painting->changed, &painting->lock);
+    }
+    *painting->last = job;
+    painting->last = &job->next;
+    painting->waiting_count++;
+    bool good = !painting->failed;
+    pthread_cond_broadcast(&painting->changed);
+    pthread_mutex_unlock(&painting->lock);
+    return good;
+}
+
+void painting_tell(Painting *painting, PetriSession *session) {
+    pthread_mutex_lock(&painting->lock);
+    Job *done = painting->done;
+    painting->done = NULL;
+    pthread_mutex_unlock(&painting->lock);
+    while (done != NULL) {
+        Job *next = done->next;
+        petri_picture_tell(session, done->picture);
+        petri_picture_free(&done->picture);
+        free(done->file);
+        free(done);
+        done = next;
+    }
+}
+
+bool painting_finish(Painting *painting, PetriSession *session, bool abandon, const char **trouble) {
+    pthread_mutex_lock(&painting->lock);
+    painting->ending = true;
+    painting->failed = painting->failed || abandon;
+    pthread_cond_broadcast(&painting->changed);
+    pthread_mutex_unlock(&painting->lock);
+    while (painting->worker_count > 0) {
+        pthread_join(painting->workers[--painting->worker_count], NULL);
+    }
+    painting_tell(painting, session);
+    if (painting->failed) {
+        video_abandon(&painting->video);
+    } else if (painting->video.beside != NULL) {
+        double start = clock_seconds();
+        if (!video_close(&painting->video)) {
+            painting->failed = true;
+            set_trouble(painting, painting->video.trouble);
+        }
+        painting->seconds += clock_seconds() - start;
+    }
+    *trouble = painting->trouble[0] == '\0' ? NULL : painting->trouble;
+    return !painting->failed;
+}
+
+double painting_seconds(const Painting *painting) {
+    return painting->seconds;
+}
+
+void painting_free(Painting *painting) {
+    if (painting == NULL) {
+        return;
+    }
+    pthread_mutex_destroy(&painting->lock);
+    pthread_cond_destroy(&painting->changed);
+    free(painting->pixels);
+    free(painting);
+}

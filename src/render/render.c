@@ -1,0 +1,279 @@
+// render.c: `petri render`: frames as pictures, series of pictures and films.
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/piped.h"
+#include "render/painting.h"
+#include "render/video.h"
+#include "run/frames.h"
+
+typedef enum OutputKind { OUTPUT_PICTURE, OUTPUT_SERIES, OUTPUT_FILM } OutputKind;
+
+typedef struct Render {
+    Frames frames;
+    OutputKind kind;
+    PetriPictureOptions picture;
+    Painting *painting;
+    int64_t drawn;
+    bool failed;       // nothing more is to be drawn
+    Piped piped;       // for standard output
+    const char *shown; // how messages call what is written
+} Render;
+
+// The place of the frame's number in the name of a series: `%d` or `%05d`, with its end in *end. NULL if there is none.
+static const char *find_number(const char *name, const char **end) {
+    const char *at = strchr(name, '%');
+    if (at == NULL) {
+        return NULL;
+    }
+    const char *after = at + 1 + strspn(at + 1, "0123456789");
+    *end = after + 1;
+    return *after == 'd' && after - at <= 3 ? at : NULL;
+}
+
+// The name of a frame's file; to be freed.
+static char *series_name(const char *name, int64_t frame) {
+    Bytes text = {0};
+    const char *end = NULL;
+    const char *at = find_number(name, &end);
+    int width = (int)strtol(at + 1, NULL, 10);
+    bytes_add(&text, name, (size_t)(at - name));
+    if (at[1] == '0') {
+        bytes_format(&text, "%0*" PRId64, width, frame);
+    } else {
+        bytes_format(&text, "%*" PRId64, width, frame);
+    }
+    bytes_add(&text, end, strlen(end));
+    return text.data;
+}
+
+// Finds out what is to be written. False after a message.
+static bool read_output(Render *render) {
+    RunOptions *options = &render->frames.options;
+    const char *end = NULL;
+    if (options->output == NULL) {
+        message("option '--output' is missing: petri render %s -o OUT.png", options->script);
+        return false;
+    }
+    if (options->format != NULL && !piped_wanted(options->output)) {
+        message("option '--format' is for '-o -'; what '%s' is, its ending tells", options->output);
+        return false;
+    }
+    if (piped_wanted(options->output)) {
+        if (!piped_check(options->format) || !piped_open(&render->piped, options->format)) {
+            return false;
+        }
+        options->output = render->piped.file;
+    }
+    render->shown = render->piped.file != NULL ? "-" : options->output;
+    if (video_is_name(options->output)) {
+        render->kind = OUTPUT_FILM;
+    } else if (!petri_picture_format(options->output)) {
+        message("'%s' should end in .png, .svg, .pdf, .mp4, .webm or .gif", options->output);
+        return false;
+    } else {
+        render->kind = find_number(options->output, &end) != NULL ? OUTPUT_SERIES : OUTPUT_PICTURE;
+    }
+    if (options->frame >= 0 && render->kind == OUTPUT_FILM) {
+        message("option '--frame' is for pictures; '%s' is a film", render->shown);
+        return false;
+    }
+    if (options->frame >= 0) {
+        options->frames = options->frame + 1;
+    }
+    return true;
+}
+
+// A folder that cannot be written to is better known before the work is done.
+static bool check_folder(const char *file) {
+    const char *slash = strrchr(file, '/');
+    Bytes folder = {0};
+    bytes_add(&folder, slash == NULL ? "." : file, slash == NULL ? 1 : (size_t)(slash - file) + 1);
+    bool good = access(folder.data, W_OK | X_OK) == 0;
+    if (!good) {
+        message("cannot write '%s': %s", file, strerror(errno));
+    }
+    bytes_free(&folder);
+    return good;
+}
+
+// Draws the last frame: for the film, for a file, or only for its own `!record` nodes.
+static void draw_frame(Render *render, bool for_film, const char *file) {
+    PetriPicture *picture = NULL;
+    PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
+    if (status == PETRI_MEMORY) {
+        progress_erase(&render->frames.progress);
+        message("out of memory");
+    }
+    render->failed = status != PETRI_OK || !painting_add(render->painting, picture, for_film, file);
+    render->drawn += for_film || file != NULL;
+}
+
+static void output_frame(Render *render) {
+    const RunOptions *options = &render->frames.options;
+    int64_t number = petri_frame(render->frames.session).number;
+    bool wanted =
+        options->frame >= 0 ? number == options->frame : (number - render->frames.early) % options->every == 0;
+    if (wanted && render->kind == OUTPUT_FILM) {
+        draw_frame(render, true, NULL);
+    } else if (wanted && render->kind == OUTPUT_SERIES) {
+        char *name = series_name(options->output, number);
+        draw_frame(render, false, name);
+        free(name);
+    } else if (petri_records(render->frames.session)) {
+        draw_frame(render, false, NULL);
+    }
+}
+
+// The frames before particles are where they are (petri_picture_ready) are made, since what comes depends on them, but
+// neither drawn nor counted: a film does not begin with everything in one place. Files keep the numbers of their
+// frames, and whoever asks for a frame by its number gets it.
+static bool is_early(const Render *render) {
+    return render->frames.options.frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
+}
+
+// A single picture shows the last frame that there is.
+static void output_picture(Render *render) {
+    const RunOptions *options = &render->frames.options;
+    int64_t number = petri_frame(render->frames.session).number;
+    if (options->frame >= 0 && number != options->frame) {
+        message("there is nothing to draw: the run ended with frame %" PRId64 ", not %" PRId64, number, options->frame);
+        render->failed = true;
+    } else {
+        draw_frame(render, false, options->output);
+    }
+}
+
+static void report_summary(const Render *render) {
+    const Frames *frames = &render->frames;
+    Verbosity verbosity = frames->options.verbosity;
+    if (verbosity < LOG_NORMAL || (verbosity == LOG_NORMAL && !isatty(STDERR_FILENO))) {
+        return;
+    }
+    double seconds = clock_seconds() - frames->start;
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRId64 " drawn in %.3f s meanwhile", frames->done,
+            frames->done == 1 ? "" : "s", seconds, seconds > 0 ? (double)frames->done / seconds : 0, render->drawn,
+            painting_seconds(render->painting));
+}
+
+// Films and series keep what was drawn before a signal came; half of what a picture needs is no picture.
+static void report_stop(const Render *render, bool kept) {
+    const char *frames = render->drawn == 1 ? "frame" : "frames";
+    if (!kept) {
+        message("stopped; '%s' is not written", render->shown);
+    } else if (render->kind == OUTPUT_FILM) {
+        message("stopped; '%s' is whole, with the %" PRId64 " %s drawn so far", render->shown, render->drawn, frames);
+    } else {
+        message("stopped; '%s' has the %" PRId64 " %s drawn so far", render->shown, render->drawn, frames);
+    }
+}
+
+static int end_render(Render *render, bool going) {
+    const char *trouble = NULL;
+    Frames *frames = &render->frames;
+    int stopped = frames_signal();
+    bool keeps = render->kind != OUTPUT_PICTURE && render->drawn > 0;
+    bool abandon = (stopped != 0 && !keeps) || !going || render->failed;
+    bool good = painting_finish(render->painting, frames->session, abandon, &trouble);
+    frames_end(frames, going);
+    if (trouble != NULL) {
+        message("%s", trouble);
+    }
+    if (stopped != 0) {
+        report_stop(render, keeps && good);
+        return STATUS_SIGNAL + stopped;
+    }
+    if (!going || !good || frames->state_lost) {
+        return STATUS_FAILED;
+    }
+    if (render->drawn == 0) {
+        message("no frame was drawn; '%s' is not written", render->shown);
+        return STATUS_FAILED;
+    }
+    report_summary(render);
+    return STATUS_DONE;
+}
+
+static int render_frames(Render *render) {
+    Frames *frames = &render->frames;
+    const RunOptions *options = &frames->options;
+    double fps = frames_fps(frames) / (double)options->every;
+    render->painting = painting_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps);
+    if (render->painting == NULL) {
+        return STATUS_FAILED;
+    }
+    frames_begin(frames);
+    bool going = true;
+    while (going && !render->failed && frames_due(frames)) {
+        going = frames_step(frames);
+        if (going && is_early(render)) {
+            frames->early++;
+        } else if (going) {
+            output_frame(render);
+        }
+        painting_tell(render->painting, frames->session);
+    }
+    if (going && !render->failed && frames_signal() == 0 && frames->done > 0 && render->kind == OUTPUT_PICTURE) {
+        output_picture(render);
+    }
+    int status = end_render(render, going);
+    painting_free(render->painting);
+    return status;
+}
+
+static int render_script(Render *render) {
+    const RunOptions *options = &render->frames.options;
+    if (!read_output(render)) {
+        return STATUS_USAGE;
+    }
+    render->picture = petri_default_picture_options();
+    render->picture.width = options->width;
+    render->picture.height = options->height;
+    render->picture.scale = options->scale;
+    render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    if (!check_folder(options->output) || !frames_load(&render->frames)) {
+        return render->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
+    }
+    return render_frames(render);
+}
+
+static int render_run(const Host *host, int argc, char **argv) {
+    Render *render = memory_zeroed(sizeof *render);
+    int status = frames_open(&render->frames, &RENDER_COMMAND, host, argc, argv);
+    if (status == RUN_OPTIONS_OK) {
+        status = render_script(render);
+    }
+    if (!piped_send(&render->piped)) {
+        status = STATUS_FAILED;
+    }
+    piped_close(&render->piped);
+    frames_close(&render->frames);
+    free(render);
+    return status;
+}
+
+const Command RENDER_COMMAND = {
+    .name = "render",
+    .operands = "SCRIPT.fl -o OUT",
+    .summary = "draw a script's frames to pictures and films",
+    .details =
+        "Draws what a script's !window holds, or its particles if it does not draw itself. OUT's suffix tells what is\n"
+        "written: a picture of the last frame, or of one that is chosen; a picture of each frame, if the name has a\n"
+        "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard\n"
+        "output when all is drawn: petri render dish.fl -o - --format gif >dish.gif\n"
+        "Ctrl-C ends a film or a series after the frame at hand and keeps what is done; a second Ctrl-C keeps no "
+        "film.\n"
+        "\n"
+        "A script that draws what its !physics has stored finds nothing stored in frames 0 and 1. They are made, but\n"
+        "not drawn and not counted: the first picture is that of frame 2, and --frames 60 makes a film of 60 frames.",
+    .examples = "  petri render dish.fl -o dish.png --frame 100    one picture\n"
+                "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
+                "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a film\n",
+    .options = RENDER_OPTION_SPECS,
+    .run = render_run,
+};

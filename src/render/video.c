@@ -1,0 +1,264 @@
+// video.c: films, made by an ffmpeg process.
+#include "render/video.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <spawn.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/unfinished.h"
+
+extern char **environ;
+
+enum { MOST_WORDS = 64, PIPE_BYTES = 1 << 20 };
+
+// What comes out, by suffix: words for ffmpeg. The colours of screens are those of BT.709.
+#define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
+// Many players want an even number of rows and columns.
+#define EVEN "pad=ceil(iw/2)*2:ceil(ih/2)*2,scale=out_color_matrix=bt709:out_range=tv,format=yuv420p"
+
+static const struct {
+    const char *suffix;
+    const char *words[24];
+} formats[] = {
+    {".mp4",
+     {"-vf", EVEN, COLOURS, "-c:v", "libx264", "-preset", "veryfast", "-crf", "17", "-movflags", "+faststart", "-f",
+      "mp4", NULL}},
+    {".webm",
+     {"-vf", EVEN, COLOURS, "-c:v", "libvpx-vp9", "-crf", "24", "-b:v", "0", "-deadline", "realtime", "-cpu-used", "6",
+      "-row-mt", "1", "-f", "webm", NULL}},
+    // A palette for each frame: one for all would need all frames in memory.
+    {".gif",
+     {"-filter_complex", "split[a][b];[a]palettegen=stats_mode=single[p];[b][p]paletteuse=new=1:dither=bayer", "-f",
+      "gif", NULL}},
+};
+
+static int find_format(const char *file) {
+    size_t length = strlen(file);
+    for (int i = 0; i < (int)(sizeof formats / sizeof formats[0]); i++) {
+        size_t suffix = strlen(formats[i].suffix);
+        if (length > suffix && strcmp(file + length - suffix, formats[i].suffix) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+bool video_is_name(const char *file) {
+    return find_format(file) >= 0;
+}
+
+// Our pixels are 32-bit numbers; ffmpeg names the order of their bytes.
+static const char *pixel_format(void) {
+    const uint32_t one = 1;
+    unsigned char first;
+    memcpy(&first, &one, 1);
+    return first == 1 ? "bgra" : "argb";
+}
+
+static pid_t start(Video *video, int input, double fps) {
+    char size[32], rate[32];
+    snprintf(size, sizeof size, "%dx%d", video->width, video->height);
+    snprintf(rate, sizeof rate, "%.9g", fps);
+    const char *words[MOST_WORDS] = {
+        "ffmpeg",   "-hide_banner", "-nostdin",      "-loglevel",   "error",   "-xerror",    "-y",       "-f",
+        "rawvideo", "-pix_fmt",     pixel_format(),  "-video_size", size,      "-framerate", rate,       "-i",
+        "pipe:0",   "-an",          "-map_metadata", "-1",          "-fflags", "+bitexact",  "-flags:v", "+bitexact"};
+    size_t count = 0;
+    while (words[count] != NULL) {
+        count++;
+    }
+    const char *const *format = formats[find_format(video->file)].words;
+    for (size_t i = 0; format[i] != NULL; i++) {
+        words[count++] = format[i];
+    }
+    Bytes output = {0}; // a name with a colon would be taken for a protocol
+    bytes_format(&output, "file:%s", video->beside);
+    words[count] = output.data;
+
+    posix_spawn_file_actions_t files;
+    posix_spawnattr_t attributes;
+    sigset_t usual;
+    posix_spawn_file_actions_init(&files);
+    posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
+    posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
+    posix_spawn_file_actions_adddup2(&files, video->errors, STDERR_FILENO);
+    // A group of its own: Ctrl-C is for us to deal with.
+    posix_spawnattr_init(&attributes);
+    sigemptyset(&usual);
+    sigaddset(&usual, SIGPIPE);
+    posix_spawnattr_setsigdefault(&attributes, &usual);
+    posix_spawnattr_setpgroup(&attributes, 0);
+    posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+    pid_t pid = 0;
+    int error = posix_spawnp(&pid, "ffmpeg", &files, &attributes, (char **)(void *)words, environ);
+    posix_spawn_file_actions_destroy(&files);
+    posix_spawnattr_destroy(&attributes);
+    bytes_free(&output);
+    errno = error;
+    return error == 0 ? pid : -1;
+}
+
+static int unnamed_file(void) {
+    FILE *file = tmpfile();
+    int fd = file == NULL ? -1 : fcntl(fileno(file), F_DUPFD_CLOEXEC, 0);
+    if (file != NULL) {
+        fclose(file);
+    }
+    return fd;
+}
+
+__attribute__((format(printf, 2, 3))) static void set_trouble(Video *video, const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    vsnprintf(video->trouble, sizeof video->trouble, format, list);
+    va_end(list);
+}
+
+static void forget(Video *video) {
+    if (video->frames >= 0) {
+        close(video->frames);
+    }
+    if (video->errors >= 0) {
+        close(video->errors);
+    }
+    unfinished_end(video->unfinished);
+    video->unfinished = -1;
+    free(video->beside);
+    free(video->target);
+    video->beside = video->target = NULL;
+    video->frames = video->errors = -1;
+}
+
+bool video_open(Video *video, const char *file, int width, int height, double fps) {
+    Bytes beside = {0};
+    int ends[2] = {-1, -1};
+    char *target = realpath(file, NULL); // a symbolic link stays one
+    if (target == NULL) {
+        target = memory_copied(file, strlen(file));
+    }
+    bytes_format(&beside, "%s.%ld.tmp", target, (long)getpid());
+    *video =
+        (Video){.file = file, .target = target, .beside = beside.data, .width = width, .height = height, .frames = -1};
+    video->errors = unnamed_file();
+    video->unfinished = unfinished_begin(file);
+    if (video->errors < 0 || pipe(ends) != 0) {
+        set_trouble(video, "cannot start ffmpeg: %s", strerror(errno));
+        forget(video);
+        return false;
+    }
+    fcntl(ends[0], F_SETFD, FD_CLOEXEC);
+    fcntl(ends[1], F_SETFD, FD_CLOEXEC);
+#ifdef F_SETPIPE_SZ
+    fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES);
+#endif
+    video->frames = ends[1];
+    video->pid = start(video, ends[0], fps);
+    int error = errno;
+    unfinished_process(video->unfinished, video->pid);
+    close(ends[0]);
+    if (video->pid < 0) {
+        set_trouble(video, "cannot start ffmpeg, which writes '%s': %s%s", file, strerror(error),
+                    error == ENOENT ? " (Debian: apt install ffmpeg)" : "");
+        forget(video);
+        return false;
+    }
+    return true;
+}
+
+// The last line that ffmpeg wrote.
+static void report_failure(Video *video, int status) {
+    Bytes text = {0};
+    bytes_add(&text, "", 0);
+    if (lseek(video->errors, 0, SEEK_SET) == 0) {
+        bytes_read(&text, video->errors);
+    }
+    while (text.length > 0 && (text.data[text.length - 1] == '\n' || text.data[text.length - 1] == '\r')) {
+        text.data[--text.length] = '\0';
+    }
+    const char *line = strrchr(text.data, '\n');
+    line = line == NULL ? text.data : line + 1;
+    if (WIFSIGNALED(status)) {
+        set_trouble(video, "'%s' is not written: ffmpeg was killed by signal %d (%s)", video->file, WTERMSIG(status),
+                    strsignal(WTERMSIG(status)));
+    } else {
+        set_trouble(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
+                    WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
+    }
+    bytes_free(&text);
+}
+
+static int wait_for(pid_t pid) {
+    int status = 0;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+// Ends ffmpeg's input and waits for its end. False, after a message and without the film, if it has failed.
+static bool finish(Video *video) {
+    close(video->frames);
+    video->frames = -1;
+    int status = wait_for(video->pid);
+    unfinished_process(video->unfinished, 0);
+    if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
+        return true;
+    }
+    report_failure(video, status);
+    unlink(video->beside);
+    forget(video);
+    return false;
+}
+
+bool video_add(Video *video, const uint32_t *pixels) {
+    const char *bytes = (const char *)pixels;
+    size_t left = (size_t)video->width * (size_t)video->height * sizeof *pixels;
+    while (left > 0) {
+        ssize_t put = write(video->frames, bytes, left);
+        if (put < 0 && errno == EINTR) {
+            continue;
+        }
+        if (put < 0) {
+            // It takes no more: whatever it says, the film lacks frames.
+            if (finish(video)) {
+                set_trouble(video, "'%s' is not written: ffmpeg ended before its time", video->file);
+                unlink(video->beside);
+                forget(video);
+            }
+            return false;
+        }
+        bytes += put;
+        left -= (size_t)put;
+    }
+    return true;
+}
+
+bool video_close(Video *video) {
+    if (video->beside == NULL || !finish(video)) {
+        return false;
+    }
+    bool done = rename(video->beside, video->target) == 0;
+    if (!done) {
+        set_trouble(video, "cannot write '%s': %s", video->file, strerror(errno));
+        unlink(video->beside);
+    }
+    forget(video);
+    return done;
+}
+
+void video_abandon(Video *video) {
+    if (video->beside == NULL) {
+        return;
+    }
+    kill(video->pid, SIGKILL);
+    wait_for(video->pid);
+    unlink(video->beside);
+    forget(video);
+}

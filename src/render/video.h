@@ -1,0 +1,37 @@
+// video.h: films, made by an ffmpeg process that gets frames through a pipe.
+//
+// The film grows in a file beside the one that is wanted and takes its name when it is complete; nothing is left behind
+// otherwise. What fails says why in `trouble`, since this is for a thread that does not write messages.
+#ifndef PETRI_SRC_VIDEO_H
+#define PETRI_SRC_VIDEO_H
+
+#include <stdbool.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+typedef struct Video {
+    const char *file;
+    char *target; // the file without symbolic links; owned
+    char *beside; // the film while it grows; owned; NULL: not open
+    int width;
+    int height;
+    pid_t pid;
+    int frames;        // pipe to ffmpeg
+    int errors;        // file without a name that holds its messages
+    int unfinished;    // its number there (unfinished.h)
+    char trouble[512]; // why the last of the functions below failed
+} Video;
+
+// Whether the name's suffix is one of a film: .mp4, .webm or .gif.
+bool video_is_name(const char *file);
+// Starts ffmpeg. False with trouble.
+bool video_open(Video *video, const char *file, int width, int height, double fps);
+// Adds a frame of width x height pixels, in rows without gaps. False, with trouble, if ffmpeg has failed; the film is
+// then given up.
+bool video_add(Video *video, const uint32_t *pixels);
+// Completes the film and gives it its name. False with trouble.
+bool video_close(Video *video);
+// Gives a film up. To do so twice, or without a film, is fine.
+void video_abandon(Video *video);
+
+#endif

@@ -1,0 +1,215 @@
+// commands.c: the commands of the prompt: finding them, telling of them, and those about commands themselves.
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/help.h"
+#include "cli/progress.h"
+#include "cli/table.h"
+#include "cli/topics.h"
+#include "repl/repl.h"
+
+const ReplCommand *repl_command_at(size_t index) {
+    static const ReplCommand *const groups[] = {STEP_COMMANDS,   SHOW_COMMANDS,   PLOT_COMMANDS, SETTING_COMMANDS,
+                                                SCRIPT_COMMANDS, RECORD_COMMANDS, OTHER_COMMANDS};
+    for (size_t i = 0; i < sizeof groups / sizeof groups[0]; i++) {
+        for (const ReplCommand *command = groups[i]; command->name != NULL; command++) {
+            if (index-- == 0) {
+                return command;
+            }
+        }
+    }
+    return NULL;
+}
+
+const ReplCommand *repl_find_command(const char *name, size_t length) {
+    const ReplCommand *command;
+    size_t bare = length > 0 && name[0] == '.' ? 0 : 1;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        if (strlen(command->name + bare) == length && memcmp(command->name + bare, name, length) == 0) {
+            break;
+        }
+    }
+    return command;
+}
+
+static void list_commands(Repl *repl) {
+    Table table = table_new(2);
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        char head[64];
+        snprintf(head, sizeof head, "%s%s%s", command->name, command->operands[0] == '\0' ? "" : " ",
+                 command->operands);
+        table_add(&table, head);
+        table_add(&table, command->help);
+    }
+    table_write(&table, &repl->output);
+    table_free(&table);
+    output_format(
+        &repl->output,
+        "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of an expression\n"
+        "is printed; let, func, import and nodes stay. Lines indented below the first belong to it, and Up goes back "
+        "to\n"
+        "them; an empty line ends them. Ctrl-C stops what is being done. Try .help builtins, .help nodes,\n"
+        ".help !particle, .help polar, .help tempo.\n");
+}
+
+static void list_builtins(Repl *repl) {
+    Table table = table_new(2);
+    PetriBuiltin builtin;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        char head[128];
+        snprintf(head, sizeof head, "%s(%s)", builtin.name, builtin.parameters);
+        table_add(&table, head);
+        table_add(&table, builtin.help);
+    }
+    table_write(&table, &repl->output);
+    table_free(&table);
+}
+
+static void list_nodes(Repl *repl) {
+    Table table = table_new(3);
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        char head[80];
+        snprintf(head, sizeof head, "!%s", kind.name);
+        table_add(&table, head);
+        table_add(&table, kind.area);
+        table_add(&table, kind.help);
+    }
+    table_write(&table, &repl->output);
+    table_free(&table);
+}
+
+static bool tell_nearest(Repl *repl, const char *topic) {
+    const char *nearest = NULL;
+    size_t best = SIZE_MAX;
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        nearest = is_nearer(topic, command->name + (topic[0] != '.'), &best) ? command->name : nearest;
+    }
+    const char *word = topics_nearest(topic, &best);
+    nearest = word != NULL ? word : nearest;
+    return nearest == NULL ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
+                           : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest);
+}
+
+static bool run_help(Repl *repl, const char *topic) {
+    if (topic[0] == '\0') {
+        list_commands(repl);
+    } else if (strcmp(topic, "builtins") == 0) {
+        list_builtins(repl);
+    } else if (strcmp(topic, "nodes") == 0) {
+        list_nodes(repl);
+    } else {
+        bool found = topic[0] != '.' && topics_tell(&repl->output, topic);
+        const ReplCommand *command = repl_find_command(topic, strlen(topic));
+        if (command != NULL) {
+            output_format(&repl->output, "%s%s%s\n    %s\n", command->name, command->operands[0] == '\0' ? "" : " ",
+                          command->operands, command->help);
+        }
+        return found || command != NULL || tell_nearest(repl, topic);
+    }
+    return true;
+}
+
+bool help_prompt(Output *output, const char *name) {
+    const ReplCommand *command = repl_find_command(name, strlen(name));
+    if (command != NULL) {
+        output_format(output, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
+    }
+    return command != NULL;
+}
+
+static void say_seconds(Repl *repl, double seconds, const char *more) {
+    static const struct {
+        double unit;
+        const char *name;
+    } units[] = {{1, "s"}, {1e-3, "ms"}, {1e-6, "us"}, {1e-9, "ns"}};
+    size_t i = 0;
+    while (i < 3 && seconds < units[i].unit) {
+        i++;
+    }
+    repl_say(repl, "%.3g %s%s", seconds / units[i].unit, units[i].name, more);
+}
+
+// The best of many, since other programs can only make it slower.
+static bool time_expression(Repl *repl, const char *expression) {
+    double best = INFINITY, start = clock_seconds();
+    int64_t count = 0;
+    PetriStatus status = PETRI_OK;
+    repl_busy(repl);
+    while (status == PETRI_OK && count < 100000 && (count < 3 || clock_seconds() - start < 0.2)) {
+        PetriResult result;
+        status = petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL);
+        best = status == PETRI_OK ? fmin(best, result.seconds) : best;
+        count++;
+    }
+    repl_idle(repl);
+    if (repl_status(repl, status)) {
+        say_seconds(repl, best, ", the best of several evaluations");
+    }
+    return status == PETRI_OK;
+}
+
+static bool run_time(Repl *repl, const char *rest) {
+    if (rest[0] == '\0') {
+        return repl_fail(repl, ".time needs an expression, or a command");
+    }
+    if (rest[0] != '.' || (rest[1] >= '0' && rest[1] <= '9') || rest[1] == '.') {
+        return time_expression(repl, rest);
+    }
+    double start = clock_seconds();
+    repl_command(repl, rest);
+    double seconds = clock_seconds() - start;
+    say_seconds(repl, seconds, "");
+    return !repl->failed;
+}
+
+static bool run_quit(Repl *repl, const char *rest) {
+    (void)rest;
+    repl->quit = true;
+    return true;
+}
+
+const ReplCommand OTHER_COMMANDS[] = {
+    {".time", "EXPR", "tell how long an expression takes, or a command such as .step", run_time, COMPLETE_LANGUAGE},
+    {".help", "[TOPIC]", "tell of a command, a function, a node, a word; builtins, nodes list them", run_help,
+     COMPLETE_TOPICS},
+    {".quit", "", "leave", run_quit, COMPLETE_LANGUAGE},
+    {0},
+};
+
+static void unknown(Repl *repl, const char *name) {
+    const char *nearest = NULL;
+    size_t best = SIZE_MAX;
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        nearest = is_nearer(name, command->name, &best) ? command->name : nearest;
+    }
+    if (nearest != NULL) {
+        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest);
+    } else {
+        repl_fail(repl, "there is no command '%.40s'; .help lists the commands", name);
+    }
+}
+
+void repl_command(Repl *repl, const char *line) {
+    size_t length = strcspn(line, " \t\n");
+    char *name = memory_copied(line, length);
+    char *rest = word_trimmed(line + length);
+    const char *alias = bare_alias(name + 1, length - 1); // .exit, .q
+    const ReplCommand *command =
+        alias != NULL ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
+    if (command == NULL) {
+        unknown(repl, name);
+    } else if (command->operands[0] == '\0' && rest[0] != '\0') {
+        repl_fail(repl, "%s takes nothing, not '%.40s'", name, rest);
+    } else if (!command->run(repl, rest)) {
+        repl->failed = true;
+    }
+    free(name);
+    free(rest);
+}

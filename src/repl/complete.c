@@ -1,0 +1,313 @@
+// complete.c: what a word at the prompt may go on with.
+#include "repl/repl.h"
+
+#include <ctype.h>
+#include <dirent.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { MOST_SHOWN = 100, LINE_WIDTH = 78 };
+
+// A word being completed: candidates are offered, those that fit are kept.
+typedef struct Search {
+    Repl *repl;
+    const char *typed;
+    size_t length;
+    Completion *found;
+    Bytes line; // of the state, while it comes in pieces
+} Search;
+
+static void offer(Search *search, const char *word) {
+    if (strncmp(word, search->typed, search->length) == 0) {
+        bytes_add(&search->found->words, word, strlen(word) + 1);
+        search->found->count++;
+    }
+}
+
+static void offer_with(Search *search, const char *before, const char *word, const char *after) {
+    Bytes text = {0};
+    bytes_format(&text, "%s%s%s", before, word, after);
+    offer(search, text.data);
+    bytes_free(&text);
+}
+
+static bool is_word(char c) {
+    return isalnum((unsigned char)c) || c == '_' || (unsigned char)c >= 0x80;
+}
+
+static void offer_commands(Search *search) {
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        offer(search, command->name);
+    }
+}
+
+static void offer_kinds(Search *search) {
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        offer(search, kind.name);
+    }
+}
+
+static void offer_names(Search *search) {
+    static const char *const words[] = {"let", "func", "import", "for", "if"};
+    PetriBuiltin builtin;
+    const char *name;
+    for (size_t i = 0; (name = petri_name(search->repl->session, i)) != NULL; i++) {
+        offer(search, name);
+    }
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        offer(search, builtin.name);
+    }
+    for (size_t i = 0; search->length > 0 && i < sizeof words / sizeof words[0]; i++) {
+        offer(search, words[i]);
+    }
+}
+
+static void offer_attributes(Search *search, const char *kind, size_t length) {
+    PetriNodeKind node;
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; petri_node_kind(i, &node); i++) {
+        bool same = strlen(node.name) == length && memcmp(node.name, kind, length) == 0;
+        for (size_t k = 0; same && petri_node_attribute(i, k, &attribute); k++) {
+            offer_with(search, "", attribute.name, "=");
+        }
+    }
+}
+
+// The state's keys are what its lines have before ` = `.
+static bool take_state(void *host, const char *text, size_t length) {
+    Search *search = host;
+    for (size_t i = 0; i < length; i++) {
+        if (text[i] != '\n') {
+            bytes_add(&search->line, text + i, 1);
+            continue;
+        }
+        char *end = search->line.length > 0 && search->line.data[0] == '$' ? strstr(search->line.data, " = ") : NULL;
+        if (end != NULL) {
+            *end = '\0';
+            offer(search, search->line.data);
+        }
+        search->line.length = 0;
+    }
+    return true;
+}
+
+static void offer_keys(Search *search) {
+    petri_print(search->repl->session, PETRI_PRINT_STATE, take_state, search);
+    bytes_free(&search->line);
+}
+
+static void offer_systems(Search *search) {
+    PetriSystem system;
+    for (size_t i = 0; petri_system(search->repl->session, i, &system); i++) {
+        offer(search, system.name);
+    }
+}
+
+static void offer_files(Search *search) {
+    size_t folder = search->length;
+    while (folder > 0 && search->typed[folder - 1] != '/') {
+        folder--;
+    }
+    char *path = folder == 0 ? memory_copied(".", 1) : memory_copied(search->typed, folder);
+    char *before = memory_copied(search->typed, folder);
+    DIR *stream = opendir(path);
+    for (const struct dirent *entry; stream != NULL && (entry = readdir(stream)) != NULL;) {
+        if (entry->d_name[0] != '.') {
+            offer_with(search, before, entry->d_name, "");
+        }
+    }
+    if (stream != NULL) {
+        closedir(stream);
+    }
+    free(path);
+    free(before);
+}
+
+// The kind of the node whose attributes may be named at `at`; NULL if a value or something else is expected there.
+static const char *node_before(const char *line, size_t at, size_t *length) {
+    if (at == 0 || !isspace((unsigned char)line[at - 1])) {
+        return NULL;
+    }
+    size_t end = at;
+    while (end > 0 && isspace((unsigned char)line[end - 1])) {
+        end--;
+    }
+    if (end == 0 || strchr("=;+-*/%(,<>$.", line[end - 1]) != NULL) {
+        return NULL;
+    }
+    while (end > 0 && line[end - 1] != '!') {
+        end--;
+    }
+    *length = 0;
+    while (end > 0 && is_word(line[end + *length])) {
+        ++*length;
+    }
+    return *length > 0 ? line + end : NULL;
+}
+
+// Where a look-up begins that is not ended, or SIZE_MAX.
+static size_t lookup_before(const char *line, size_t length) {
+    for (size_t at = length; at > 0; at--) {
+        char c = line[at - 1];
+        if (c == '$') {
+            return at - 1;
+        }
+        if (isspace((unsigned char)c) || c == ')') {
+            break;
+        }
+    }
+    return SIZE_MAX;
+}
+
+static void search_from(Search *search, const char *line, size_t start, size_t length) {
+    search->typed = line + start;
+    search->length = length - start;
+}
+
+static void search_language(Search *search, const char *line, size_t length) {
+    size_t kind_length = 0, start = lookup_before(line, length);
+    if (start != SIZE_MAX) {
+        search_from(search, line, start, length);
+        offer_keys(search);
+        return;
+    }
+    start = length;
+    while (start > 0 && is_word(line[start - 1])) {
+        start--;
+    }
+    search_from(search, line, start, length);
+    if (start > 0 && line[start - 1] == '!') {
+        offer_kinds(search);
+        return;
+    }
+    const char *kind = node_before(line, start, &kind_length);
+    if (kind != NULL) {
+        offer_attributes(search, kind, kind_length);
+    } else if (start == 0 || line[start - 1] != ':') {
+        offer_names(search);
+    }
+}
+
+static void offer_parameters(Search *search) {
+    PetriParameter parameter;
+    for (size_t i = 0; petri_parameter(search->repl->session, i, &parameter) && parameter.settable; i++) {
+        offer(search, parameter.name);
+    }
+}
+
+static void offer_topics(Search *search) {
+    PetriNodeKind kind;
+    offer_commands(search);
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        offer_with(search, "!", kind.name, "");
+    }
+    offer_names(search);
+    offer(search, "builtins");
+    offer(search, "nodes");
+}
+
+// What follows a command.
+static void search_operand(Search *search, const char *line, size_t name, size_t length) {
+    static void (*const offers[])(Search *) = {
+        [COMPLETE_FILES] = offer_files, [COMPLETE_SYSTEMS] = offer_systems,       [COMPLETE_KEYS] = offer_keys,
+        [COMPLETE_KINDS] = offer_kinds, [COMPLETE_PARAMETERS] = offer_parameters, [COMPLETE_TOPICS] = offer_topics,
+    };
+    size_t start = name + strspn(line + name, " \t");
+    search_from(search, line, start < length ? start : length, length);
+    const ReplCommand *command = repl_find_command(line, name);
+    if (command != NULL && command->complete != COMPLETE_LANGUAGE) {
+        offers[command->complete](search);
+    } else {
+        search_language(search, line, length);
+    }
+}
+
+static int compare_words(const void *a, const void *b) {
+    return strcmp(*(const char *const *)a, *(const char *const *)b);
+}
+
+// Sorts the words and drops what is there twice.
+static void tidy(Completion *completion) {
+    const char **words = memory_zeroed(completion->count * sizeof *words);
+    const char *word = completion->words.data;
+    for (size_t i = 0; i < completion->count; i++, word += strlen(word) + 1) {
+        words[i] = word;
+    }
+    qsort(words, completion->count, sizeof *words, compare_words);
+    Bytes sorted = {0};
+    size_t count = 0;
+    for (size_t i = 0; i < completion->count; i++) {
+        if (i == 0 || strcmp(words[i], words[i - 1]) != 0) {
+            bytes_add(&sorted, words[i], strlen(words[i]) + 1);
+            count++;
+        }
+    }
+    free(words);
+    bytes_free(&completion->words);
+    completion->words = sorted;
+    completion->count = count;
+}
+
+// What the sorted words have in common: what the first and the last have.
+static void find_common(Completion *completion, size_t typed) {
+    const char *first = completion->words.data, *last = first;
+    for (size_t i = 1; i < completion->count; i++) {
+        last += strlen(last) + 1;
+    }
+    size_t length = 0;
+    while (first[length] != '\0' && first[length] == last[length]) {
+        length++;
+    }
+    while (length > typed && ((unsigned char)first[length] & 0xc0) == 0x80) {
+        length--; // no half character
+    }
+    bytes_add(&completion->common, first + typed, length - typed);
+}
+
+void complete_line(Repl *repl, const char *line, size_t length, Completion *completion) {
+    char *text = memory_copied(line, length);
+    Search search = {.repl = repl, .found = completion};
+    *completion = (Completion){0};
+    size_t name = strcspn(text, " \t");
+    if (text[0] != '.') {
+        search_language(&search, text, length);
+    } else if (name == length) {
+        search_from(&search, text, 0, length);
+        offer_commands(&search);
+    } else {
+        search_operand(&search, text, name, length);
+    }
+    if (completion->count > 0) {
+        tidy(completion);
+        find_common(completion, search.length);
+    }
+    free(text);
+}
+
+void complete_free(Completion *completion) {
+    bytes_free(&completion->words);
+    bytes_free(&completion->common);
+}
+
+void complete_show(const Completion *completion, Output *output) {
+    const char *word = completion->words.data;
+    size_t widest = 0, column = 0;
+    for (size_t i = 0; i < completion->count; i++, word += strlen(word) + 1) {
+        widest = strlen(word) > widest ? strlen(word) : widest;
+    }
+    word = completion->words.data;
+    for (size_t i = 0; i < completion->count && i < MOST_SHOWN; i++, word += strlen(word) + 1) {
+        if (column > 0 && column + widest > LINE_WIDTH) {
+            output_write(output, "\n", 1);
+            column = 0;
+        }
+        output_format(output, "%-*s", (int)widest + 2, word);
+        column += widest + 2;
+    }
+    output_write(output, "\n", 1);
+    if (completion->count > MOST_SHOWN) {
+        output_format(output, "... and %zu more\n", completion->count - MOST_SHOWN);
+    }
+}

@@ -1,0 +1,397 @@
+// edit.c: lines edited on a terminal, with history and completion, by libedit.
+#include "repl/line.h"
+
+#ifdef HAVE_LIBEDIT
+
+#include <errno.h>
+#include <histedit.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+#include <wchar.h>
+
+struct Editor {
+    Repl *repl;
+    EditLine *line;
+    History *history;
+    char prompt[64];
+    unsigned back; // how far we are in the history
+};
+
+// The terminal as it was: a signal handler can reach nothing but globals.
+static struct termios settings;
+
+// While a line is edited the terminal does not echo: it must not stay like that when a signal ends petri.
+static void on_end(int signal_number) {
+    tcsetattr(STDIN_FILENO, TCSANOW, &settings);
+    raise(signal_number); // now without a handler
+}
+
+static void catch_ends(void) {
+    static const int numbers[] = {SIGTERM, SIGHUP};
+    struct sigaction action = {.sa_handler = on_end, .sa_flags = (int)SA_RESETHAND}, before;
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && tcgetattr(STDIN_FILENO, &settings) == 0; i++) {
+        if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // as with nohup
+            sigaction(numbers[i], &action, NULL);
+        }
+    }
+}
+
+static Editor *editor_of(EditLine *line) {
+    Editor *editor = NULL;
+    el_get(line, EL_CLIENTDATA, &editor);
+    return editor;
+}
+
+static const char *prompt_of(EditLine *line) {
+    return editor_of(line)->prompt;
+}
+
+// To below the lines that follow the cursor's, for what is written next; a line too far down where some are broken.
+static void leave_block(Editor *editor) {
+    const LineInfo *info = el_line(editor->line);
+    struct winsize size = {0};
+    int width = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80, column = 0;
+    for (const char *c = info->cursor; c < info->lastchar; c++) {
+        column = *c == '\n' ? 0 : column + 1;
+        output_write(&editor->repl->output, "\n", *c == '\n' || column == width);
+    }
+}
+
+// One character. Waits where changed files are noticed and where Ctrl-C ends it.
+static int read_character(EditLine *line, wchar_t *character) {
+    Editor *editor = editor_of(line);
+    mbstate_t state = {0};
+    for (;;) {
+        char byte;
+        LineWait wait = line_wait(editor->repl);
+        if (wait == WAIT_INTERRUPTED) {
+            leave_block(editor);
+            errno = EINTR;
+            return -1;
+        }
+        if (wait == WAIT_NOTICED) {
+            el_set(line, EL_REFRESH);
+            continue;
+        }
+        ssize_t got = read(STDIN_FILENO, &byte, 1);
+        if (got < 0 && errno == EINTR && !repl_interrupted()) {
+            continue;
+        }
+        if (got <= 0) {
+            return (int)got;
+        }
+        size_t used = mbrtowc(character, &byte, 1, &state);
+        if (used == (size_t)-1) { // no character of this locale: left out
+            state = (mbstate_t){0};
+        } else if (used != (size_t)-2) {
+            return 1;
+        }
+    }
+}
+
+// Where the line begins that the cursor is in.
+static const char *line_start(const LineInfo *info) {
+    const char *start = info->cursor;
+    while (start > info->buffer && start[-1] != '\n') {
+        start--;
+    }
+    return start;
+}
+
+// Keys that call libedit's own functions, which ours can only reach as if these had been typed.
+#define KEY_ACCEPT "\036"        // Ctrl-^
+#define KEY_LINE_UP "\030\020"   // Ctrl-X Ctrl-P
+#define KEY_LINE_DOWN "\030\016" // Ctrl-X Ctrl-N
+#define KEY_HISTORY_UP "\020"
+#define KEY_HISTORY_DOWN "\016"
+
+static unsigned char push(EditLine *line, const char *keys) {
+    el_push(line, keys);
+    return CC_NORM;
+}
+
+// Enter: goes on at the end of the block, in a new line if more is wanted.
+static unsigned char enter(EditLine *line, wint_t character) {
+    (void)character;
+    Editor *editor = editor_of(line);
+    const LineInfo *info = el_line(line);
+    Bytes text = {0};
+    size_t taken = 0;
+    bytes_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
+    bytes_add(&text, "\n", 1);
+    bool more = line_wants_more(editor->repl, text.data, text.length, &taken);
+    el_cursor(line, (int)text.length); // it stops at the end
+    bytes_free(&text);
+    if (!more) {
+        return push(line, KEY_ACCEPT);
+    }
+    return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
+}
+
+// A new line at the cursor.
+static unsigned char open_line(EditLine *line, wint_t character) {
+    (void)character;
+    return el_insertstr(line, "\n") == 0 ? CC_REFRESH : CC_ERROR;
+}
+
+static unsigned char go_up(EditLine *line, wint_t character) {
+    (void)character;
+    Editor *editor = editor_of(line);
+    const LineInfo *info = el_line(line);
+    bool inside = line_start(info) > info->buffer;
+    editor->back += !inside;
+    return push(line, inside ? KEY_LINE_UP : KEY_HISTORY_UP);
+}
+
+// Below the last line there is nothing, unless we are in the history: libedit would empty the line.
+static unsigned char go_down(EditLine *line, wint_t character) {
+    (void)character;
+    Editor *editor = editor_of(line);
+    const LineInfo *info = el_line(line);
+    if (memchr(info->cursor, '\n', (size_t)(info->lastchar - info->cursor)) != NULL) {
+        return push(line, KEY_LINE_DOWN);
+    }
+    if (editor->back == 0) {
+        return CC_ERROR;
+    }
+    editor->back--;
+    return push(line, KEY_HISTORY_DOWN);
+}
+
+// Characters, not bytes, from one place to another.
+static int characters(const char *from, const char *to) {
+    int count = 0;
+    for (; from < to; from++) {
+        count += ((unsigned char)*from & 0xc0) != 0x80;
+    }
+    return count;
+}
+
+static unsigned char go_home(EditLine *line, wint_t character) {
+    (void)character;
+    const LineInfo *info = el_line(line);
+    el_cursor(line, -characters(line_start(info), info->cursor));
+    return CC_CURSOR;
+}
+
+// To the end of the line; returns how many characters that were.
+static int to_line_end(EditLine *line) {
+    const LineInfo *info = el_line(line);
+    const char *end = info->cursor;
+    while (end < info->lastchar && *end != '\n') {
+        end++;
+    }
+    int count = characters(info->cursor, end);
+    el_cursor(line, count);
+    return count;
+}
+
+static unsigned char go_end(EditLine *line, wint_t character) {
+    (void)character;
+    to_line_end(line);
+    return CC_CURSOR;
+}
+
+// Deletes the rest of the line, or the line's end if the cursor is there.
+static unsigned char kill_rest(EditLine *line, wint_t character) {
+    (void)character;
+    int count = to_line_end(line);
+    const LineInfo *info = el_line(line);
+    if (count == 0 && info->cursor < info->lastchar) {
+        el_cursor(line, 1);
+        count = 1;
+    }
+    el_deletestr(line, count);
+    return CC_REFRESH;
+}
+
+static unsigned char complete(EditLine *line, wint_t character) {
+    (void)character;
+    Editor *editor = editor_of(line);
+    const LineInfo *info = el_line(line);
+    const char *start = line_start(info);
+    if (start > info->buffer && strspn(start, " \t") >= (size_t)(info->cursor - start)) {
+        return el_insertstr(line, "    ") == 0 ? CC_REFRESH : CC_ERROR; // there is no word yet: indentation
+    }
+    Completion completion;
+    complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
+    bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
+    unsigned char result = inserted ? CC_REFRESH : CC_ERROR;
+    if (!inserted && completion.count > 1) {
+        leave_block(editor);
+        output_write(&editor->repl->output, "\n", 1);
+        complete_show(&completion, &editor->repl->output);
+        output_flush(&editor->repl->output);
+        result = CC_REDISPLAY;
+    }
+    complete_free(&completion);
+    return result;
+}
+
+static void load_history(Editor *editor) {
+    HistEvent event;
+    Bytes lines = {0};
+    saved_read(&lines);
+    for (size_t at = 0; at < lines.length;) {
+        char *end = memchr(lines.data + at, '\n', lines.length - at);
+        *end = '\0';
+        for (char *mark = strchr(lines.data + at, SAVED_LINE_END); mark != NULL; mark = strchr(mark, SAVED_LINE_END)) {
+            *mark = '\n';
+        }
+        history(editor->history, &event, H_ENTER, lines.data + at);
+        at = (size_t)(end - lines.data) + 1;
+    }
+    bytes_free(&lines);
+}
+
+// libedit copies narrow names and never frees the copies.
+static void add_functions(EditLine *line) {
+    el_wset(line, EL_ADDFN, L"petri-complete", L"complete the word", complete);
+    el_wset(line, EL_ADDFN, L"petri-enter", L"take the lines, or begin another", enter);
+    el_wset(line, EL_ADDFN, L"petri-open-line", L"begin a line here", open_line);
+    el_wset(line, EL_ADDFN, L"petri-home", L"go to the line's beginning", go_home);
+    el_wset(line, EL_ADDFN, L"petri-end", L"go to the line's end", go_end);
+    el_wset(line, EL_ADDFN, L"petri-kill-rest", L"delete the rest of the line", kill_rest);
+    el_wset(line, EL_ADDFN, L"petri-up", L"go to the line above", go_up);
+    el_wset(line, EL_ADDFN, L"petri-down", L"go to the line below", go_down);
+}
+
+static const struct {
+    const char *key;
+    const char *function;
+} bindings[] = {
+    // clang-format off
+    {"^I", "petri-complete"},
+    {"^R", "em-inc-search-prev"},
+    {"^W", "ed-delete-prev-word"},
+    {"^^", "ed-newline"},
+    {"^X^P", "ed-prev-line"},
+    {"^X^N", "ed-next-line"},
+    {"^M", "petri-enter"}, {"^J", "petri-enter"},
+    {"^[^M", "petri-open-line"}, {"^[^J", "petri-open-line"}, // Alt-Enter
+    {"^A", "petri-home"}, {"^E", "petri-end"}, {"^K", "petri-kill-rest"},
+    // Arrows, Home and End, as terminals send them in one mode or another.
+    {"^[[A", "petri-up"}, {"^[OA", "petri-up"}, {"^[[B", "petri-down"}, {"^[OB", "petri-down"},
+    {"^[[H", "petri-home"}, {"^[OH", "petri-home"}, {"^[[1~", "petri-home"},
+    {"^[[F", "petri-end"}, {"^[OF", "petri-end"}, {"^[[4~", "petri-end"},
+    // clang-format on
+};
+
+Editor *editor_new(Repl *repl) {
+    const char *terminal = getenv("TERM");
+    if (terminal == NULL || strcmp(terminal, "dumb") == 0) {
+        return NULL;
+    }
+    catch_ends(); // before libedit changes the terminal
+    Editor *editor = memory_zeroed(sizeof *editor);
+    HistEvent event;
+    editor->repl = repl;
+    editor->line = el_init("petri", stdin, stdout, stderr);
+    editor->history = history_init();
+    if (editor->line == NULL || editor->history == NULL) {
+        editor_free(editor);
+        return NULL;
+    }
+    history(editor->history, &event, H_SETSIZE, SAVED_MOST);
+    history(editor->history, &event, H_SETUNIQUE, 1);
+    load_history(editor);
+    el_set(editor->line, EL_CLIENTDATA, editor);
+    el_set(editor->line, EL_PROMPT_ESC, prompt_of, '\1');
+    el_set(editor->line, EL_EDITOR, "emacs");
+    el_set(editor->line, EL_HIST, history, editor->history);
+    add_functions(editor->line);
+    for (size_t i = 0; i < sizeof bindings / sizeof bindings[0]; i++) {
+        el_set(editor->line, EL_BIND, bindings[i].key, bindings[i].function, NULL);
+    }
+    el_set(editor->line, EL_GETCFN, read_character);
+    el_source(editor->line, NULL);
+    return editor;
+}
+
+void editor_free(Editor *editor) {
+    if (editor == NULL) {
+        return;
+    }
+    if (editor->history != NULL) {
+        history_end(editor->history);
+    }
+    if (editor->line != NULL) {
+        el_end(editor->line);
+    }
+    free(editor);
+}
+
+// A block is kept as one, without the empty line that ends it.
+static void remember(Editor *editor, const Bytes *lines) {
+    HistEvent event;
+    enum { LONGEST = 10000 };
+    size_t length = lines->length;
+    while (length > 0 && lines->data[length - 1] == '\n') {
+        length--;
+    }
+    if (length == 0 || length > LONGEST) {
+        return;
+    }
+    char *block = memory_copied(lines->data, length);
+    history(editor->history, &event, H_ENTER, block);
+    for (char *end = strchr(block, '\n'); end != NULL; end = strchr(end, '\n')) {
+        *end = SAVED_LINE_END;
+    }
+    Bytes whole = {0};
+    bytes_format(&whole, "%s\n", block);
+    saved_add(&whole); // at once: a terminal that is closed ends petri without a word
+    bytes_free(&whole);
+    free(block);
+}
+
+LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
+    bool coloured = editor->repl->colour;
+    snprintf(editor->prompt, sizeof editor->prompt, coloured ? "\1\033[1;32m\1%s\1\033[0m\1" : "%s", prompt);
+    int count = 0;
+    editor->back = 0;
+    bytes_add(lines, "", 0);
+    const char *text = el_gets(editor->line, &count);
+    if (text == NULL || count <= 0) {
+        bool stopped = repl_interrupted();
+        if (stopped) {
+            el_reset(editor->line);
+        }
+        output_write(&editor->repl->output, stopped ? "^C\n" : "\n", stopped ? 3 : 1);
+        output_flush(&editor->repl->output);
+        return stopped ? LINE_INTERRUPTED : LINE_END;
+    }
+    bytes_add(lines, text, (size_t)count);
+    if (lines->data[lines->length - 1] != '\n') {
+        bytes_add(lines, "\n", 1);
+    }
+    remember(editor, lines);
+    return LINE_READ;
+}
+
+#else
+
+#include <stddef.h>
+
+Editor *editor_new(Repl *repl) {
+    repl_say(repl, "built without libedit: lines cannot be edited, completed or recalled");
+    return NULL;
+}
+
+void editor_free(Editor *editor) {
+    (void)editor;
+}
+
+LineStatus editor_read(Editor *editor, const char *prompt, Bytes *line) {
+    (void)editor;
+    (void)prompt;
+    (void)line;
+    return LINE_END;
+}
+
+#endif

@@ -1,0 +1,249 @@
+// history.c: see history.h.
+#include "repl/history.h"
+
+#include <inttypes.h>
+#include <stdlib.h>
+#include <string.h>
+
+static void drop_keyframe(ReplHistory *history, size_t at) {
+    history->bytes -= petri_snapshot_bytes(history->keyframes[at].snapshot);
+    petri_snapshot_free(history->keyframes[at].snapshot);
+    history->keyframe_count--;
+    memmove(history->keyframes + at, history->keyframes + at + 1,
+            (history->keyframe_count - at) * sizeof *history->keyframes);
+}
+
+static void drop_all(ReplHistory *history) {
+    while (history->keyframe_count > 0) {
+        drop_keyframe(history, history->keyframe_count - 1);
+    }
+    history->epoch_count = 0;
+}
+
+void history_free(ReplHistory *history) {
+    drop_all(history);
+    petri_snapshot_free(history->origin);
+    free(history->epochs);
+    *history = (ReplHistory){0};
+}
+
+// A keyframe with which its epoch begins: without it frames would be lost.
+static bool is_pinned(const ReplHistory *history, size_t at) {
+    return at == 0 || history->keyframes[at - 1].epoch != history->keyframes[at].epoch;
+}
+
+// How little is lost with a keyframe: the frames between its neighbours for each frame that they lie back.
+static double cost_of(const ReplHistory *history, size_t at) {
+    const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
+    return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_EVERY);
+}
+
+// The timeline begins later.
+static void drop_oldest(ReplHistory *history) {
+    drop_keyframe(history, 0);
+    while (history->epoch_count > 1 && history->epochs[0].number != history->keyframes[0].epoch) {
+        history->epoch_count--;
+        memmove(history->epochs, history->epochs + 1, history->epoch_count * sizeof *history->epochs);
+    }
+    history->first = history->epochs[0].start = history->keyframes[0].frame;
+    history->why = "what was before it was dropped to save memory";
+}
+
+static void drop_one(ReplHistory *history) {
+    size_t best = 0;
+    for (size_t i = 1; i + 1 < history->keyframe_count; i++) {
+        if (!is_pinned(history, i) && (best == 0 || cost_of(history, i) < cost_of(history, best))) {
+            best = i;
+        }
+    }
+    if (best > 0) {
+        drop_keyframe(history, best);
+    } else {
+        drop_oldest(history);
+    }
+}
+
+static bool add_keyframe(ReplHistory *history, PetriSession *session) {
+    PetriSnapshot *snapshot = petri_snapshot(session);
+    if (snapshot == NULL) {
+        return false;
+    }
+    history->keyframes[history->keyframe_count++] =
+        (Keyframe){petri_frame(session).number, history->epochs[history->epoch_count - 1].number, snapshot};
+    history->bytes += petri_snapshot_bytes(snapshot);
+    while (history->keyframe_count > HISTORY_MOST || (history->bytes > HISTORY_BYTES && history->keyframe_count > 2)) {
+        drop_one(history);
+    }
+    return true;
+}
+
+// From the present frame on, the present configuration counts.
+static bool begin_epoch(ReplHistory *history, PetriSession *session) {
+    history->epochs = memory_resized(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
+    history->epochs[history->epoch_count++] =
+        (Epoch){++history->last_epoch, petri_frame(session).number, petri_config_number(session)};
+    return add_keyframe(history, session);
+}
+
+bool history_start(ReplHistory *history, PetriSession *session, const char *why) {
+    drop_all(history);
+    petri_snapshot_free(history->origin);
+    history->origin = petri_snapshot(session);
+    history->first = history->last = petri_frame(session).number;
+    history->why = why;
+    return history->origin != NULL && begin_epoch(history, session);
+}
+
+// The epoch in which a frame beyond the first was made.
+static const Epoch *epoch_of(const ReplHistory *history, int64_t frame) {
+    size_t at = history->epoch_count - 1;
+    while (at > 0 && history->epochs[at].start >= frame) {
+        at--;
+    }
+    return &history->epochs[at];
+}
+
+// Forgets what was after a frame.
+static void cut(ReplHistory *history, int64_t frame) {
+    while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].frame > frame) {
+        drop_keyframe(history, history->keyframe_count - 1);
+    }
+    while (history->epoch_count > 1 && history->epochs[history->epoch_count - 1].start >= frame) {
+        uint32_t number = history->epochs[--history->epoch_count].number;
+        while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].epoch == number) {
+            drop_keyframe(history, history->keyframe_count - 1);
+        }
+    }
+    history->last = frame;
+}
+
+static bool prepare(ReplHistory *history, PetriSession *session, int64_t frame) {
+    if (epoch_of(history, frame + 1)->config == petri_config_number(session)) {
+        return true;
+    }
+    cut(history, frame);
+    if (frame > history->first) {
+        return begin_epoch(history, session);
+    }
+    // Nothing was made with the old configuration that could be asked for.
+    drop_all(history);
+    return begin_epoch(history, session);
+}
+
+PetriStatus history_step(ReplHistory *history, PetriSession *session) {
+    int64_t before = petri_frame(session).number;
+    if (!prepare(history, session, before)) {
+        return PETRI_MEMORY;
+    }
+    uint64_t config = petri_config_number(session);
+    PetriStatus status = petri_step(session);
+    int64_t frame = petri_frame(session).number;
+    if (status == PETRI_INTERRUPTED || frame == before) {
+        return status;
+    }
+    if (petri_config_number(session) != config) {
+        PetriStatus started =
+            history_start(history, session, "a file that the script imports was changed") ? PETRI_OK : PETRI_MEMORY;
+        return status == PETRI_OK ? started : status;
+    }
+    if (frame > history->last) {
+        history->last = frame;
+        bool due = frame - history->keyframes[history->keyframe_count - 1].frame >= HISTORY_EVERY;
+        if (due && !add_keyframe(history, session)) {
+            return PETRI_MEMORY;
+        }
+    }
+    return status;
+}
+
+// The last keyframe from which a frame beyond the first can be made, or NULL.
+static const Keyframe *keyframe_before(const ReplHistory *history, int64_t frame) {
+    uint32_t epoch = epoch_of(history, frame)->number;
+    for (size_t i = history->keyframe_count; i > 0; i--) {
+        const Keyframe *keyframe = &history->keyframes[i - 1];
+        if (keyframe->epoch == epoch && keyframe->frame < frame) {
+            return keyframe;
+        }
+    }
+    return NULL;
+}
+
+// Makes frames again up to one in the timeline, from a keyframe or from where the session is.
+static PetriStatus replay(PetriSession *session, const Keyframe *from, uint64_t config, int64_t frame) {
+    int64_t now = petri_frame(session).number;
+    PetriStatus status = PETRI_OK;
+    if (now >= frame || now < from->frame || petri_config_number(session) != config) {
+        status = petri_rewind(session, from->snapshot);
+    }
+    while (status == PETRI_OK && petri_frame(session).number < frame) {
+        status = petri_step(session);
+    }
+    return status;
+}
+
+static PetriStatus go_back(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
+    if (frame == history->first) {
+        return petri_rewind(session, history->keyframes[0].snapshot);
+    }
+    const Keyframe *from = frame < history->first ? NULL : keyframe_before(history, frame);
+    if (from == NULL) {
+        bytes_format(why, "frame %" PRId64 " cannot be made again: the history begins with frame %" PRId64 "%s%s",
+                     frame, history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
+        return PETRI_INVALID;
+    }
+    return replay(session, from, epoch_of(history, frame)->config, frame);
+}
+
+PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
+    PetriConfig *config = petri_config(session);
+    if (config == NULL) {
+        return PETRI_MEMORY;
+    }
+    PetriStatus status = PETRI_OK;
+    int64_t target = frame < history->last ? frame : history->last;
+    if (petri_frame(session).number != target) {
+        status = go_back(history, session, target, why);
+    }
+    petri_config_use(session, config);
+    petri_config_free(config);
+    while (status == PETRI_OK && petri_frame(session).number < frame) {
+        status = history_step(history, session);
+    }
+    return status;
+}
+
+static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t config, int64_t frame) {
+    PetriSnapshot *present = petri_snapshot(session);
+    if (present == NULL) {
+        return PETRI_MEMORY;
+    }
+    PetriStatus status = replay(session, from, config, frame);
+    if (status != PETRI_OK) {
+        petri_rewind(session, present);
+    }
+    petri_snapshot_free(present);
+    return status;
+}
+
+PetriStatus history_remake(ReplHistory *history, PetriSession *session) {
+    int64_t frame = petri_frame(session).number;
+    const Keyframe *from = frame <= history->first || frame > history->last ? NULL : keyframe_before(history, frame);
+    PetriConfig *config = petri_config(session);
+    PetriStatus status = config == NULL ? PETRI_MEMORY : PETRI_OK;
+    if (status == PETRI_OK && from != NULL) {
+        status = remake(from, session, epoch_of(history, frame)->config, frame);
+        petri_config_use(session, config);
+    }
+    petri_config_free(config);
+    return status;
+}
+
+PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
+    PetriConfig *config = petri_config(session);
+    PetriStatus status = config == NULL ? PETRI_MEMORY : petri_rewind(session, history->origin);
+    if (config != NULL) {
+        petri_config_use(session, config);
+    }
+    petri_config_free(config);
+    return status;
+}

@@ -1,0 +1,62 @@
+// history.h: the frames that were made, so that one can go back to them.
+//
+// A timeline of frames from `first` to `last`. Some of them, the keyframes, are kept whole; a frame between two of them
+// is made again from the one before it, which gives the same bits. Keyframes are kept denser for the recent past,
+// within HISTORY_BYTES and HISTORY_MOST of them: when there are too many, the one goes whose absence lengthens the way
+// to its neighbours least, measured by how long ago that is.
+//
+// What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a
+// keyframe of its own: a frame is made again with what was in force when it was made. To step on from a frame in the
+// past under a changed configuration gives the timeline another future: what was after that frame is forgotten then.
+#ifndef PETRI_SRC_REPL_HISTORY_H
+#define PETRI_SRC_REPL_HISTORY_H
+
+#include "cli/bytes.h"
+#include "petri.h"
+
+// 64 MiB, or two keyframes where they are larger than that.
+enum { HISTORY_MOST = 512, HISTORY_EVERY = 8 };
+#define HISTORY_BYTES ((size_t)64 << 20)
+
+typedef struct Keyframe {
+    int64_t frame;
+    uint32_t epoch;
+    PetriSnapshot *snapshot;
+} Keyframe;
+
+// Frames after `start` up to the next epoch's start.
+typedef struct Epoch {
+    uint32_t number;
+    int64_t start;
+    uint64_t config;
+} Epoch;
+
+typedef struct ReplHistory {
+    Keyframe keyframes[HISTORY_MOST + 1];
+    size_t keyframe_count;
+    Epoch *epochs;
+    size_t epoch_count;
+    uint32_t last_epoch; // number given last
+    size_t bytes;        // of all keyframes
+    int64_t first;
+    int64_t last;
+    PetriSnapshot *origin; // where `.reset` goes
+    const char *why;       // why the timeline begins where it does, or NULL if nothing was before it
+} ReplHistory;
+
+// The timeline begins with the present frame; `why` (a literal) says what became of the one before.
+bool history_start(ReplHistory *history, PetriSession *session, const char *why);
+void history_free(ReplHistory *history);
+// petri_step, with the history kept.
+PetriStatus history_step(ReplHistory *history, PetriSession *session);
+// Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
+// again. PETRI_INTERRUPTED in some frame on the way. The configuration stays.
+PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why);
+// Makes the present frame again, with its systems and its tree, from the keyframe before it. The first one of the
+// timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_MEMORY change
+// nothing.
+PetriStatus history_remake(ReplHistory *history, PetriSession *session);
+// Goes to where the timeline began, even if that was dropped since. The configuration stays.
+PetriStatus history_reset(ReplHistory *history, PetriSession *session);
+
+#endif

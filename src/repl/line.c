@@ -1,0 +1,224 @@
+// line.c: lines for the prompt, and which of them belong together.
+#include "repl/line.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+enum { BLOCK = 1 << 16, MOST_ECHOED = 4000 };
+
+struct LineReader {
+    Repl *repl;
+    Editor *editor; // NULL: none is wanted, or there is none
+    Bytes text;     // read and not taken yet, from `at` on
+    size_t at;
+    size_t searched; // for a line end
+    bool ended;
+};
+
+LineReader *line_reader_new(Repl *repl) {
+    LineReader *reader = memory_zeroed(sizeof *reader);
+    reader->repl = repl;
+    reader->editor = repl->terminal ? editor_new(repl) : NULL;
+    return reader;
+}
+
+void line_reader_free(LineReader *reader) {
+    editor_free(reader->editor);
+    bytes_free(&reader->text);
+    free(reader);
+}
+
+LineWait line_wait(Repl *repl) {
+    for (;;) {
+        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {-1, POLLIN, 0}};
+        files[1].fd = repl->files == NULL ? -1 : watch_descriptor(repl->files);
+        int ready = poll(files, 2, repl->files != NULL && files[1].fd < 0 ? 200 : -1);
+        if (ready < 0 && errno == EINTR) {
+            if (repl_interrupted()) {
+                return WAIT_INTERRUPTED;
+            }
+            continue;
+        }
+        if (files[0].revents != 0 || ready < 0) {
+            return WAIT_INPUT;
+        }
+        if (repl_notice(repl, true)) {
+            return WAIT_NOTICED;
+        }
+    }
+}
+
+// Takes the first line of what was read; false if there is no whole one.
+static bool take_line(LineReader *reader, Bytes *line) {
+    const char *start = reader->text.data + reader->at;
+    size_t length = reader->text.length - reader->at;
+    const char *end = length == 0 ? NULL : memchr(start + reader->searched, '\n', length - reader->searched);
+    reader->searched = length;
+    if (end == NULL && !(reader->ended && length > 0)) {
+        return false;
+    }
+    size_t taken = end == NULL ? length : (size_t)(end - start);
+    bytes_add(line, start, taken);
+    reader->at += taken + (end != NULL);
+    reader->searched = 0;
+    if (line->length > 0 && line->data[line->length - 1] == '\r') {
+        line->data[--line->length] = '\0';
+    }
+    return true;
+}
+
+static void echo(Repl *repl, const Bytes *line) {
+    if (line->length <= MOST_ECHOED) {
+        output_write(&repl->output, line->data, line->length);
+        output_write(&repl->output, "\n", 1);
+    } else {
+        output_write(&repl->output, line->data, 60);
+        output_format(&repl->output, "... (%zu bytes)\n", line->length);
+    }
+}
+
+// Waits for input and reads some of it.
+static LineStatus read_block(LineReader *reader, const char *prompt) {
+    Output *output = &reader->repl->output;
+    if (reader->ended) {
+        output_write(output, "\n", 1);
+        return LINE_END;
+    }
+    output_flush(output);
+    LineWait wait = line_wait(reader->repl);
+    if (wait == WAIT_INTERRUPTED) {
+        output_write(output, "\n", 1);
+        return LINE_INTERRUPTED;
+    }
+    if (wait == WAIT_NOTICED) {
+        output_format(output, "%s", prompt);
+        return LINE_READ;
+    }
+    char block[BLOCK];
+    ssize_t got = read(STDIN_FILENO, block, sizeof block);
+    reader->ended = got == 0 || (got < 0 && errno != EINTR);
+    bytes_add(&reader->text, block, got > 0 ? (size_t)got : 0);
+    return LINE_READ;
+}
+
+// An editor gives several lines at a time, which have been seen on the screen already.
+LineStatus line_read(LineReader *reader, const char *prompt, Bytes *line) {
+    Output *output = &reader->repl->output;
+    output_flush(output);
+    bytes_add(line, "", 0);
+    output_format(output, "%s", reader->editor != NULL ? "" : prompt);
+    bool echoed = reader->editor == NULL && !isatty(STDIN_FILENO);
+    while (!take_line(reader, line)) {
+        if (reader->at > 0) {
+            memmove(reader->text.data, reader->text.data + reader->at, reader->text.length - reader->at);
+            reader->text.length -= reader->at;
+            reader->at = 0;
+        }
+        LineStatus status =
+            reader->editor != NULL ? editor_read(reader->editor, prompt, &reader->text) : read_block(reader, prompt);
+        if (status != LINE_READ) {
+            return status;
+        }
+    }
+    if (echoed) {
+        echo(reader->repl, line);
+    }
+    return LINE_READ;
+}
+
+bool line_is_blank(const char *line) {
+    return line[strspn(line, " \t\n")] == '\0';
+}
+
+// Does a line go on with the lines above it?
+static bool goes_on(const char *line) {
+    return line[0] == ' ' || line[0] == '\t' || strncmp(line, "else", 4) == 0 || strncmp(line, "elif", 4) == 0;
+}
+
+// Where the last line begins.
+static size_t last_line(const char *text, size_t length) {
+    size_t at = length > 0 ? length - 1 : 0;
+    while (at > 0 && text[at - 1] != '\n') {
+        at--;
+    }
+    return at;
+}
+
+bool line_wants_more(Repl *repl, const char *text, size_t length, size_t *taken) {
+    size_t last = last_line(text, length);
+    *taken = length;
+    if (text[strspn(text, " \t")] == '.') {
+        return false;
+    }
+    PetriInput above = last == 0 ? PETRI_INPUT_PART : petri_input(repl->session, text, last);
+    if (above != PETRI_INPUT_PART && (line_is_blank(text + last) || !goes_on(text + last))) {
+        *taken = last;
+        return false;
+    }
+    return petri_input(repl->session, text, length) != PETRI_INPUT_WHOLE;
+}
+
+// The path of the file; false if there is no home for it.
+static bool file_path(Bytes *path) {
+    const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
+    if (folder != NULL && folder[0] == '/') { // relative ones do not count, says XDG
+        bytes_format(path, "%s", folder);
+    } else if (home != NULL && home[0] != '\0') {
+        bytes_format(path, "%s/.local/state", home);
+    } else {
+        return false;
+    }
+    bytes_format(path, "/petri/history");
+    return true;
+}
+
+void saved_read(Bytes *lines) {
+    Bytes path = {0};
+    if (file_path(&path)) {
+        bytes_read_file(lines, path.data);
+    }
+    if (lines->length > 0 && lines->data[lines->length - 1] != '\n') {
+        bytes_add(lines, "\n", 1);
+    }
+    bytes_free(&path);
+}
+
+// Makes the folders that a file lies in; only its owner may look into new ones.
+static void make_folders(char *path) {
+    for (char *slash = strchr(path + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
+        *slash = '\0';
+        mkdir(path, 0700);
+        *slash = '/';
+    }
+}
+
+// Where the last `most` lines begin.
+static size_t start_of_last(const Bytes *lines, size_t most) {
+    size_t at = lines->length;
+    while (at > 0 && most > 0) {
+        at--;
+        while (at > 0 && lines->data[at - 1] != '\n') {
+            at--;
+        }
+        most--;
+    }
+    return at;
+}
+
+void saved_add(const Bytes *lines) {
+    Bytes path = {0}, all = {0};
+    if (lines->length > 0 && file_path(&path)) {
+        saved_read(&all); // again: another session may have added to it
+        bytes_add(&all, lines->data, lines->length);
+        size_t start = start_of_last(&all, SAVED_MOST);
+        Bytes kept = {.data = all.data + start, .length = all.length - start};
+        make_folders(path.data);
+        bytes_replace_file(&kept, path.data);
+    }
+    bytes_free(&all);
+    bytes_free(&path);
+}

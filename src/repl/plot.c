@@ -1,0 +1,255 @@
+// plot.c: a number over the last frames, drawn as a line, and the frame's picture in the terminal.
+#include <inttypes.h>
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "repl/repl.h"
+#include "view/terminal_picture.h"
+
+// Cells of the picture. A braille cell is 2 dots wide and 4 high; without Unicode a cell is one dot.
+enum { WIDEST = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MOST_FRAMES = 1000000 };
+
+typedef struct Canvas {
+    bool braille;
+    int columns; // of dots
+    int rows;
+    unsigned char *dots;
+} Canvas;
+
+static void set_dot(Canvas *canvas, int x, int y) {
+    canvas->dots[y * canvas->columns + x] = 1;
+}
+
+// The dots of a column from one height to another, so that steep parts stay a line.
+static void draw_column(Canvas *canvas, int x, int from, int to) {
+    int step = from < to ? 1 : -1;
+    for (int y = from; y != to; y += step) {
+        set_dot(canvas, x, y);
+    }
+    set_dot(canvas, x, to);
+}
+
+typedef struct Range {
+    double least;
+    double most;
+} Range;
+
+static Range range_of(const double *values, int64_t count) {
+    Range range = {INFINITY, -INFINITY};
+    for (int64_t i = 0; i < count; i++) {
+        if (isfinite(values[i])) {
+            range.least = fmin(range.least, values[i]);
+            range.most = fmax(range.most, values[i]);
+        }
+    }
+    return range;
+}
+
+static int row_of(const Canvas *canvas, const Range *range, double value) {
+    double part = range->most > range->least ? (value - range->least) / (range->most - range->least) : 0.5;
+    return canvas->rows - 1 - (int)(part * (canvas->rows - 1) + 0.5);
+}
+
+static void draw(Canvas *canvas, const Range *range, const double *values, int64_t count) {
+    int last = -1;
+    for (int x = 0; x < canvas->columns; x++) {
+        // Where frames are fewer than dots, each has several; where they are more, some are passed over.
+        double value = values[(int64_t)((double)x * (double)count / canvas->columns)];
+        int row = isfinite(value) ? row_of(canvas, range, value) : -1;
+        if (row >= 0) {
+            int from = last < 0 || last == row ? row : last < row ? last + 1 : last - 1;
+            draw_column(canvas, x, from, row);
+        }
+        last = row;
+    }
+}
+
+static void write_braille(Output *output, const Canvas *canvas, int row, int column) {
+    static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
+    unsigned pattern = 0;
+    for (int y = 0; y < 4; y++) {
+        for (int x = 0; x < 2; x++) {
+            bool set = canvas->dots[(row * 4 + y) * canvas->columns + column * 2 + x];
+            pattern |= set ? bits[y][x] : 0;
+        }
+    }
+    // U+2800 and what follows.
+    const char utf8[3] = {(char)0xe2, (char)(0xa0 | pattern >> 6), (char)(0x80 | (pattern & 0x3f))};
+    output_write(output, utf8, sizeof utf8);
+}
+
+static void write_canvas(Output *output, const Canvas *canvas, const Range *range) {
+    int rows = canvas->braille ? canvas->rows / 4 : canvas->rows;
+    int columns = canvas->braille ? canvas->columns / 2 : canvas->columns;
+    for (int row = 0; row < rows; row++) {
+        const unsigned char *dots = canvas->dots + row * canvas->columns;
+        int last = columns; // blanks at the end say nothing
+        while (!canvas->braille && last > 0 && !dots[last - 1]) {
+            last--;
+        }
+        char label[32] = "";
+        if (row == 0 || row == rows - 1) {
+            snprintf(label, sizeof label, "%.6g", row == 0 ? range->most : range->least);
+        }
+        output_format(output, "%12s %s", label, canvas->braille ? "\u2502" : "|");
+        for (int column = 0; column < last; column++) {
+            if (canvas->braille) {
+                write_braille(output, canvas, row, column);
+            } else {
+                output_write(output, dots[column] ? "*" : " ", 1);
+            }
+        }
+        output_write(output, "\n", 1);
+    }
+}
+
+static void plot(Repl *repl, const double *values, int64_t first, int64_t count) {
+    Range range = range_of(values, count);
+    if (range.least > range.most) {
+        repl_fail(repl, "there is no number to plot");
+        return;
+    }
+    Canvas canvas = {.braille = repl->utf8};
+    int columns = count > WIDEST ? WIDEST : count < 20 ? 20 : (int)count;
+    canvas.columns = canvas.braille ? columns * 2 : columns;
+    canvas.rows = canvas.braille ? HEIGHT * 4 : HEIGHT;
+    canvas.dots = memory_zeroed((size_t)(canvas.columns * canvas.rows));
+    draw(&canvas, &range, values, count);
+    write_canvas(&repl->output, &canvas, &range);
+    char from[24], to[24];
+    snprintf(from, sizeof from, "@%" PRId64, first);
+    snprintf(to, sizeof to, "@%" PRId64, first + count - 1);
+    output_format(&repl->output, "%14s%-*s%s\n", "", columns - (int)strlen(to), from, to);
+    free(canvas.dots);
+}
+
+// Goes through the frames again, which ends where it began.
+static PetriStatus gather(Repl *repl, const char *expression, int64_t first, int64_t count, double *values,
+                          Bytes *why) {
+    PetriStatus status = PETRI_OK;
+    for (int64_t i = 0; i < count && status == PETRI_OK; i++) {
+        PetriResult result = {0};
+        status = history_goto(&repl->history, repl->session, first + i, why);
+        if (status == PETRI_OK) {
+            status = petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL);
+        }
+        values[i] = result.number;
+    }
+    return status;
+}
+
+static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
+    int64_t now = petri_frame(repl->session).number, first = now - count + 1;
+    int64_t least = repl->history.first + 1;
+    first = first < least ? least : first;
+    if (now < first) {
+        return repl_fail(repl, "there are no frames to plot; .step makes some");
+    }
+    Bytes why = {0};
+    double *values = memory_zeroed((size_t)(now - first + 1) * sizeof *values);
+    repl_busy(repl);
+    PetriStatus status = gather(repl, expression, first, now - first + 1, values, &why);
+    bool stopped = repl_idle(repl);
+    if (status == PETRI_OK) {
+        plot(repl, values, first, now - first + 1);
+    } else {
+        history_goto(&repl->history, repl->session, now, &why);
+        repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "there is nothing to plot");
+    }
+    free(values);
+    bytes_free(&why);
+    return status == PETRI_OK && !repl->failed;
+}
+
+static bool run_plot(Repl *repl, const char *rest) {
+    char *expression = memory_copied(rest, strlen(rest));
+    int64_t count = DEFAULT_FRAMES;
+    word_last_count(expression, &count);
+    bool good = expression[0] != '\0' || repl_fail(repl, ".plot needs an expression");
+    if (good && count > MOST_FRAMES) {
+        good = repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
+    }
+    PetriResult result; // of the present frame: whether it is an expression at all
+    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
+    good = good && plot_frames(repl, expression, count);
+    free(expression);
+    return good;
+}
+
+enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30 };
+
+// Of the terminal, with a line left for the prompt.
+static void find_room(int *columns, int *rows) {
+    struct winsize size;
+    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 2;
+    *columns = known ? size.ws_col : DEFAULT_COLUMNS;
+    *rows = known ? size.ws_row - 2 : DEFAULT_ROWS;
+}
+
+static PetriStatus draw_picture(Repl *repl, PetriPicture *picture, uint32_t *pixels, const TerminalCells *cells) {
+    PetriPainter *painter = petri_painter_open();
+    if (painter == NULL) {
+        return PETRI_MEMORY;
+    }
+    PetriStatus status =
+        petri_picture_draw(picture, painter, pixels, cells->width, cells->height, (size_t)cells->width * 4);
+    petri_picture_tell(repl->session, picture);
+    petri_painter_close(&painter);
+    return status;
+}
+
+static PetriStatus show_picture(Repl *repl, PetriPicture *picture) {
+    int columns = 0, rows = 0, width = 0, height = 0;
+    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->colour);
+    if (way == NULL) {
+        return PETRI_MEMORY;
+    }
+    find_room(&columns, &rows);
+    petri_picture_size(picture, &width, &height);
+    TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);
+    uint32_t *pixels = memory_zeroed((size_t)cells.width * (size_t)cells.height * sizeof *pixels);
+    PetriStatus status = draw_picture(repl, picture, pixels, &cells);
+    size_t length = 0;
+    char *text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
+    if (text != NULL) {
+        output_write(&repl->output, text, length);
+        output_write(&repl->output, "\n", 1);
+    } else if (status == PETRI_OK) {
+        status = PETRI_MEMORY;
+    }
+    free(text);
+    free(pixels);
+    terminal_picture_free(way);
+    return status;
+}
+
+static bool run_show(Repl *repl, const char *rest) {
+    (void)rest;
+    if (!terminal_picture_possible()) {
+        return repl_fail(repl, "this petri was built without libchafa: it cannot show pictures in the terminal");
+    }
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    repl_complete_frame(repl);
+    repl_busy(repl);
+    PetriStatus status = petri_preview(repl->session);
+    if (status == PETRI_OK) {
+        status = petri_picture(repl->session, &options, &picture);
+    }
+    if (status == PETRI_OK) {
+        status = show_picture(repl, picture);
+    }
+    repl_idle(repl);
+    petri_picture_free(&picture);
+    return repl_status(repl, status);
+}
+
+const ReplCommand PLOT_COMMANDS[] = {
+    {".plot", "EXPR [N]", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
+    {".show", "", "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
+    {0},
+};

@@ -1,0 +1,175 @@
+// record.c: `.record`: what was stepped as a golden that `petri test` replays (spec cli.md 3.4).
+//
+// NAME.golden needs a script NAME.fl beside it: the loaded one, if it is just that, else a copy, in the same folder so
+// that the file names in it mean the same, with what was typed at its end. What a golden cannot repeat is refused:
+// frames that do not follow each other from frame 0 under the same script and settings.
+#include <errno.h>
+#include <inttypes.h>
+#include <limits.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "repl/repl.h"
+
+// Up to and including the last slash.
+static size_t folder_length(const char *path) {
+    const char *slash = strrchr(path, '/');
+    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
+}
+
+// Do two paths lie in one folder?
+static bool same_folder(const char *a, const char *b) {
+    char resolved[2][PATH_MAX];
+    const char *const paths[] = {a, b};
+    for (int i = 0; i < 2; i++) {
+        char *folder = memory_copied(paths[i], folder_length(paths[i]));
+        bool good = realpath(folder[0] == '\0' ? "." : folder, resolved[i]) != NULL;
+        free(folder);
+        if (!good) {
+            return false;
+        }
+    }
+    return strcmp(resolved[0], resolved[1]) == 0;
+}
+
+static bool may_record(Repl *repl, const char *script) {
+    const ReplHistory *history = &repl->history;
+    if (petri_frame(repl->session).number < 0) {
+        return repl_fail(repl, "there are no frames to record; .step makes some");
+    }
+    if (history->first != -1) {
+        return repl_fail(repl, "a golden begins with frame 0, and the history with frame %" PRId64 "%s%s",
+                         history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
+    }
+    for (size_t i = 1; i < history->epoch_count; i++) {
+        if (history->epochs[i].start < petri_frame(repl->session).number) {
+            return repl_fail(
+                repl, "a golden cannot repeat that things were changed after frame %" PRId64 "; .reset and step again",
+                history->epochs[i].start);
+        }
+    }
+    if (history->epochs[0].config != petri_config_number(repl->session)) {
+        return repl_fail(repl, "things were changed after these frames were made; .reset and step again");
+    }
+    if (petri_resolution(repl->session) > 0 || repl->rates_changed) {
+        return repl_fail(repl, "a golden cannot repeat %s; .load the script again",
+                         repl->rates_changed ? ".tempo and .fps" : ".resolution");
+    }
+    if (repl->loaded && !same_folder(repl->script, script)) {
+        return repl_fail(repl, "a recording must lie in the folder of '%s', for names of files are relative to it",
+                         repl->script);
+    }
+    return true;
+}
+
+// The script that the golden needs: the loaded one with what was typed.
+static bool write_script(Repl *repl, const char *path) {
+    const char *kept = petri_kept(repl->session, 0);
+    char resolved[2][PATH_MAX];
+    if (kept == NULL && repl->loaded && realpath(repl->script, resolved[0]) != NULL &&
+        realpath(path, resolved[1]) != NULL && strcmp(resolved[0], resolved[1]) == 0) {
+        return true;
+    }
+    if (access(path, F_OK) == 0) {
+        return repl_fail(repl, "'%s' is there already, and is another script", path);
+    }
+    Bytes text = {0};
+    bytes_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
+              repl->loaded ? repl->script_text.length : 0);
+    if (text.length > 0 && text.data[text.length - 1] != '\n') {
+        bytes_add(&text, "\n", 1);
+    }
+    for (size_t i = 0; (kept = petri_kept(repl->session, i)) != NULL; i++) {
+        bytes_add(&text, kept, strlen(kept));
+        bytes_add(&text, "\n", 1);
+    }
+    bool done = bytes_replace_file(&text, path) || repl_fail(repl, "cannot write '%s': %s", path, strerror(errno));
+    bytes_free(&text);
+    return done;
+}
+
+// Words with blanks cannot stand in a golden's first line.
+static bool add_options(Repl *repl, Bytes *text, int64_t frames, int64_t every) {
+    bytes_format(text, "# run --frames %" PRId64, frames);
+    if (every > 1) {
+        bytes_format(text, " --every %" PRId64, every);
+    }
+    bytes_format(text, " --print state,log");
+    if (repl->record_fps) {
+        bytes_format(text, " --fps %.17g", repl->fps);
+    }
+    for (size_t i = 0; i < repl->definition_count; i++) {
+        if (strpbrk(repl->definitions[i], " \t\n") != NULL) {
+            return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks", repl->definitions[i]);
+        }
+        bytes_format(text, " -D %s", repl->definitions[i]);
+    }
+    bytes_format(text, "\n");
+    return true;
+}
+
+// Makes the frames again and gathers their text.
+static PetriStatus gather(Repl *repl, Bytes *text, int64_t last, int64_t every, Bytes *why) {
+    PetriStatus status = PETRI_OK;
+    for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
+        status = history_goto(&repl->history, repl->session, i, why);
+        if (status == PETRI_OK && i % every == 0) {
+            petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, repl_collect, text);
+        }
+    }
+    return status;
+}
+
+static bool record(Repl *repl, const char *golden, const char *script, int64_t every) {
+    int64_t last = petri_frame(repl->session).number;
+    Bytes text = {0}, why = {0};
+    bool good = may_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
+    if (good) {
+        repl_busy(repl);
+        PetriStatus status = gather(repl, &text, last, every, &why);
+        bool stopped = repl_idle(repl);
+        if (status != PETRI_OK) {
+            history_goto(&repl->history, repl->session, last, &why);
+            good = repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "not recorded");
+        }
+    }
+    if (good && !bytes_replace_file(&text, golden)) {
+        good = repl_fail(repl, "cannot write '%s': %s", golden, strerror(errno));
+    }
+    if (good) {
+        repl_say(repl, "frames 0 to %" PRId64 " are in %s", last, golden);
+    }
+    bytes_free(&text);
+    bytes_free(&why);
+    return good;
+}
+
+static bool run_record(Repl *repl, const char *rest) {
+    char *name = memory_copied(rest, strlen(rest));
+    int64_t every = 1;
+    word_last_count(name, &every);
+    size_t length = strlen(name);
+    static const char *const suffixes[] = {".golden", ".fl"};
+    for (int i = 0; i < 2; i++) {
+        size_t cut = strlen(suffixes[i]);
+        if (length > cut && strcmp(name + length - cut, suffixes[i]) == 0) {
+            length -= cut;
+            break;
+        }
+    }
+    Bytes golden = {0}, script = {0};
+    bytes_format(&golden, "%.*s.golden", (int)length, name);
+    bytes_format(&script, "%.*s.fl", (int)length, name);
+    bool good = length > 0 ? record(repl, golden.data, script.data, every) : repl_fail(repl, ".record needs a file");
+    bytes_free(&golden);
+    bytes_free(&script);
+    free(name);
+    return good;
+}
+
+const ReplCommand RECORD_COMMANDS[] = {
+    {".record", "FILE [K]", "write each K-th frame from the first on as a golden for petri test", run_record,
+     COMPLETE_FILES},
+    {0},
+};

@@ -1,0 +1,423 @@
+// repl.c: `petri repl`: a script at a prompt, frame by frame.
+#include "repl/repl.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <langinfo.h>
+#include <locale.h>
+#include <math.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/args.h"
+#include "cli/parameters.h"
+#include "cli/script.h"
+#include "repl/line.h"
+
+enum { OPT_DEFINE = 1, OPT_FPS, OPT_STATE, OPT_LIMIT, OPT_THREADS, OPT_NOSIMPLIFY, OPT_COLOR };
+enum { DEFAULT_LIMIT = 100000, MOST_THREADS = 1024 };
+
+static const OptionSpec OPTIONS[] = {
+    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "set a parameter of the script; may be repeated"},
+    {"fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins"},
+    {"state", 0, OPT_STATE, "FILE", "begin with the state in FILE"},
+    {"limit", 0, OPT_LIMIT, "N", "frames that .run and .until make at the most (100000)"},
+    {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
+    {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
+    {"color", 0, OPT_COLOR, "WHEN", "colour prompts and messages: auto, always or never"},
+    {0},
+};
+
+// A signal handler can reach nothing but globals.
+static volatile sig_atomic_t interrupted;
+static PetriSession *volatile working; // the session that is to be interrupted
+static pthread_t prompt_thread;
+
+// The process has other threads: the one that waits for input must be woken.
+static void on_interrupt(int signal_number) {
+    PetriSession *session = working;
+    interrupted = 1;
+    if (session != NULL) {
+        petri_interrupt(session);
+    }
+    if (!pthread_equal(pthread_self(), prompt_thread)) {
+        pthread_kill(prompt_thread, signal_number);
+    }
+}
+
+void repl_busy(Repl *repl) {
+    interrupted = 0;
+    petri_interrupted(repl->session);
+    working = repl->session;
+}
+
+bool repl_idle(Repl *repl) {
+    working = NULL;
+    petri_interrupted(repl->session); // what came too late must not stop the next thing
+    if (interrupted && repl->terminal) {
+        output_write(&repl->output, "\n", 1); // after the ^C that the terminal shows
+    }
+    return interrupted != 0;
+}
+
+bool repl_interrupted(void) {
+    return interrupted != 0;
+}
+
+void repl_say(Repl *repl, const char *format, ...) {
+    Bytes text = {0};
+    char line[1024];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(line, sizeof line, format, list);
+    va_end(list);
+    bytes_format(&text, repl->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
+    output_write(&repl->output, text.data, text.length);
+    bytes_free(&text);
+}
+
+bool repl_fail(Repl *repl, const char *format, ...) {
+    char line[1024];
+    va_list list;
+    va_start(list, format);
+    vsnprintf(line, sizeof line, format, list);
+    va_end(list);
+    output_flush(&repl->output);
+    message("%s", line);
+    repl->failed = true;
+    return false;
+}
+
+bool repl_status(Repl *repl, PetriStatus status) {
+    repl->failed = repl->failed || status != PETRI_OK;
+    if (status == PETRI_INTERRUPTED) {
+        return repl_fail(repl, "interrupted");
+    }
+    if (status == PETRI_MEMORY) {
+        return repl_fail(repl, "out of memory");
+    }
+    return status == PETRI_OK;
+}
+
+bool repl_collect(void *bytes, const char *text, size_t length) {
+    bytes_add(bytes, text, length);
+    return true;
+}
+
+bool repl_write(void *host, const char *text, size_t length) {
+    Repl *repl = host;
+    return output_write(&repl->output, text, length);
+}
+
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
+    Repl *repl = host;
+    if (diagnostic->code != NULL && strcmp(diagnostic->code, "unread-definition") == 0) {
+        return; // what is typed may read it
+    }
+    repl->wrong_definition = repl->wrong_definition || is_wrong_definition(diagnostic);
+    output_flush(&repl->output);
+    fputs(diagnostic->rendered, stderr);
+}
+
+static void take_language(Repl *repl, const char *text, size_t length) {
+    PetriPrompted done;
+    repl_busy(repl);
+    PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
+    repl_idle(repl);
+    if (done.hidden != NULL) {
+        char *name = memory_copied(done.hidden, strlen(done.hidden));
+        repl_tell_hidden(repl, name);
+        free(name);
+    }
+    if (done.nodes > 0) {
+        repl_say(repl, "in the scene from the next step on; .drop takes it out");
+    }
+    repl_status(repl, status);
+}
+
+// What begins with a dot and is no number, or what people type without one.
+static void take_text(Repl *repl, const char *text, size_t length) {
+    Bytes remark = {0};
+    size_t start = strspn(text, " \t");
+    if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.') {
+        repl_command(repl, text + start);
+    } else if (!bare_take(repl, text, &remark)) {
+        take_language(repl, text, length);
+    }
+    if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n")) != NULL)) {
+        repl_say(repl, "%s", remark.data);
+    }
+    bytes_free(&remark);
+}
+
+void repl_take(Repl *repl, const char *text, size_t length) {
+    repl->failed = false;
+    take_text(repl, text, length);
+    repl->any_failed = repl->any_failed || repl->failed;
+}
+
+static void make_prompt(const Repl *repl, char *prompt, size_t size) {
+    int64_t frame = petri_frame(repl->session).number;
+    if (frame < 0) {
+        snprintf(prompt, size, "petri> ");
+    } else {
+        snprintf(prompt, size, "@%" PRId64 "> ", frame);
+    }
+}
+
+// Reads the lines that belong to the first. A line that does not is left in `next`.
+static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
+    size_t taken = 0;
+    while (line_wants_more(repl, text->data, text->length, &taken)) {
+        Bytes line = {0};
+        LineStatus status = line_read(reader, "... ", &line);
+        bytes_add(text, line.data, line.length);
+        bytes_free(&line);
+        if (status != LINE_READ) {
+            return status;
+        }
+        bytes_add(text, "\n", 1);
+    }
+    if (!line_is_blank(text->data + taken)) {
+        bytes_add(next, text->data + taken, text->length - taken - 1);
+    }
+    text->data[text->length = taken] = '\0';
+    return LINE_READ;
+}
+
+// One input: its first line is in `text`.
+static LineStatus handle(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
+    bytes_add(text, "\n", 1);
+    LineStatus status = read_rest(repl, reader, text, next);
+    if (status != LINE_INTERRUPTED) { // what the end of the input cuts off is tried as it is
+        repl_take(repl, text->data, text->length);
+    }
+    return status;
+}
+
+static void converse(Repl *repl) {
+    LineReader *reader = line_reader_new(repl);
+    Bytes next = {0};
+    LineStatus status = LINE_READ;
+    while (status != LINE_END && !repl->quit && repl->output.error == 0) {
+        char prompt[40];
+        Bytes text = next;
+        next = (Bytes){0};
+        make_prompt(repl, prompt, sizeof prompt);
+        repl_notice(repl, false);
+        status = text.length > 0 ? LINE_READ : line_read(reader, prompt, &text);
+        if (status == LINE_READ && !line_is_blank(text.data)) {
+            status = handle(repl, reader, &text, &next);
+        }
+        bytes_free(&text);
+        output_flush(&repl->output);
+        if (status == LINE_INTERRUPTED && !repl->terminal) {
+            repl->any_failed = true;
+            break;
+        }
+        interrupted = 0;
+    }
+    bytes_free(&next);
+    line_reader_free(reader);
+}
+
+static bool read_state(Repl *repl, const char *file) {
+    if (file == NULL) {
+        return true;
+    }
+    if (access(file, F_OK) != 0) {
+        return repl_fail(repl, "cannot read '%s': %s", file, strerror(errno));
+    }
+    return petri_restore(repl->session, file) == PETRI_OK;
+}
+
+// A script that is wrong is no reason to leave: it can be mended, and is watched.
+static void start(Repl *repl, const char *state) {
+    petri_load_text(repl->session, "prompt", "", 0);
+    if (repl->script != NULL) {
+        repl_load(repl, repl->script);
+    }
+    if (!read_state(repl, state)) {
+        repl->failed = true;
+    }
+    if (!history_start(&repl->history, repl->session, NULL)) {
+        repl_status(repl, PETRI_MEMORY);
+    }
+    repl->any_failed = repl->failed;
+}
+
+static bool open_session(Repl *repl, const Host *host, PetriOptions *options) {
+    options->colour = repl->colour;
+    options->stack_bytes = host->stack_bytes;
+    options->keep_forces = options->interruptible = true;
+    options->diagnostic = on_diagnostic;
+    options->host = repl;
+    repl->session = petri_open(options);
+    if (repl->session == NULL) {
+        message("out of memory");
+        return false;
+    }
+    for (size_t i = 0; i < repl->definition_count; i++) {
+        if (petri_define(repl->session, repl->definitions[i]) != PETRI_OK) {
+            message("option '--define' expects NAME=VALUE, not '%s'", repl->definitions[i]);
+            return false;
+        }
+    }
+    return true;
+}
+
+static void catch_interrupt(void) {
+    struct sigaction action = {.sa_handler = on_interrupt};
+    prompt_thread = pthread_self();
+    sigemptyset(&action.sa_mask);
+    sigaction(SIGINT, &action, NULL);
+}
+
+static int run_session(Repl *repl, const char *state) {
+    // Of the locale only the characters: numbers stay as the language has them.
+    setlocale(LC_CTYPE, "");
+    repl->utf8 = strcmp(nl_langinfo(CODESET), "UTF-8") == 0;
+    repl->terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO);
+    repl->files = watch_new();
+    catch_interrupt();
+    start(repl, state);
+    if (repl->wrong_definition) {
+        return STATUS_USAGE;
+    }
+    if (repl->terminal) {
+        repl_say(repl, "petri %s; .help lists the commands, Ctrl-D leaves", petri_version());
+    }
+    converse(repl);
+    return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
+}
+
+typedef struct Settings {
+    PetriOptions session;
+    const char *script;
+    const char *state;
+} Settings;
+
+static bool set_script(const Args *args, Settings *settings) {
+    if (settings->script != NULL) {
+        script_second(settings->script, args->value);
+        return false;
+    }
+    if (args->value[0] == '\0' || script_is_stdin(args->value)) {
+        message(args->value[0] == '\0'
+                    ? "the name of the script is empty"
+                    : "the prompt reads what is typed from standard input: the script must be a file");
+        return false;
+    }
+    settings->script = args->value;
+    return true;
+}
+
+void repl_keep_definition(Repl *repl, const char *definition) {
+    repl->definitions = memory_resized(repl->definitions, (repl->definition_count + 1) * sizeof *repl->definitions);
+    repl->definitions[repl->definition_count++] = memory_copied(definition, strlen(definition));
+}
+
+static bool add_definition(Repl *repl, const Args *args) {
+    const char *equals = strchr(args->value, '=');
+    if (equals == NULL || equals == args->value) {
+        return args_wrong_value(args, "NAME=VALUE");
+    }
+    repl_keep_definition(repl, args->value);
+    return true;
+}
+
+static bool set_threads(const Args *args, int *threads) {
+    int64_t number = 0;
+    bool good = args_integer(args, 1, MOST_THREADS, &number);
+    *threads = (int)number;
+    return good;
+}
+
+static bool apply(Repl *repl, Settings *settings, const Args *args, int id) {
+    switch (id) {
+    case ARG_OPERAND:
+        return set_script(args, settings);
+    case OPT_DEFINE:
+        return add_definition(repl, args);
+    case OPT_FPS:
+        repl->record_fps = true;
+        return args_positive(args, &settings->session.fps);
+    case OPT_STATE:
+        settings->state = args->value;
+        return true;
+    case OPT_LIMIT:
+        return args_integer(args, 1, INT64_MAX, &repl->limit);
+    case OPT_THREADS:
+        return set_threads(args, &settings->session.threads);
+    case OPT_NOSIMPLIFY:
+        settings->session.simplify = false;
+        return true;
+    case OPT_COLOR:
+        return args_colour(args, &repl->colour);
+    default:
+        return false;
+    }
+}
+
+static int read_and_run(Repl *repl, const Host *host, Args *args) {
+    Settings settings = {.session = petri_default_options()};
+    for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
+        if (id == ARG_HELP) {
+            return args_help(args);
+        }
+        if (id == ARG_WRONG || !apply(repl, &settings, args, id)) {
+            return STATUS_USAGE;
+        }
+    }
+    repl->fps = settings.session.fps;
+    repl->script = settings.script == NULL ? NULL : memory_copied(settings.script, strlen(settings.script));
+    if (!open_session(repl, host, &settings.session)) {
+        return STATUS_USAGE;
+    }
+    return output_finish(&repl->output, run_session(repl, settings.state));
+}
+
+static int repl_run(const Host *host, int argc, char **argv) {
+    Repl *repl = memory_zeroed(sizeof *repl);
+    repl->limit = DEFAULT_LIMIT;
+    repl->colour = colour_by_default();
+    output_start(&repl->output, STDOUT_FILENO);
+    Args args = args_start(&REPL_COMMAND, argc, argv);
+    int status = read_and_run(repl, host, &args);
+    history_free(&repl->history);
+    petri_close(&repl->session);
+    watch_free(repl->files);
+    for (size_t i = 0; i < repl->watched_count; i++) {
+        free(repl->watched[i]);
+    }
+    for (size_t i = 0; i < repl->definition_count; i++) {
+        free(repl->definitions[i]);
+    }
+    free(repl->watched);
+    free(repl->definitions);
+    free(repl->script);
+    bytes_free(&repl->script_text);
+    free(repl);
+    return status;
+}
+
+const Command REPL_COMMAND = {
+    .name = "repl",
+    .operands = "[SCRIPT.fl]",
+    .summary = "step a script by hand: evaluate, go back and forth, change it",
+    .details =
+        "Reads lines: expressions, whose value is printed; let, func, import and nodes, which stay; and commands, "
+        "such\n"
+        "as .step, which makes a frame, and .help, which lists the others. The script is loaded anew when it was\n"
+        "changed, and the state stays. Ctrl-C stops what is being done, Ctrl-D or .quit leaves. The exit status is 0;\n"
+        "if the lines come from a file or a pipe, it is 1 when one of them was in error.",
+    .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
+                "  petri repl                                      without a script, to try things out\n",
+    .options = OPTIONS,
+    .run = repl_run,
+};

@@ -1,0 +1,138 @@
+// repl.h: what the files of `petri repl` share: the session at the prompt and how it speaks.
+#ifndef PETRI_SRC_REPL_H
+#define PETRI_SRC_REPL_H
+
+#include "cli/bytes.h"
+#include "cli/cli.h"
+#include "cli/output.h"
+#include "cli/watch.h"
+#include "petri.h"
+#include "repl/history.h"
+
+typedef struct Repl {
+    PetriSession *session;
+    ReplHistory history;
+    Output output;
+    Watch *files;      // NULL: changes are not noticed
+    char *script;      // NULL: none was named
+    bool loaded;       // the script named is the one that is running
+    Bytes script_text; // as it was loaded
+    bool changed;      // the script's files have changed since: it is reloaded before the next step
+    char **watched;    // expressions that are printed after each step
+    size_t watched_count;
+    int64_t limit; // frames that .run and .until make at the most
+    bool terminal; // a person types and reads
+    bool colour;
+    bool utf8;             // other characters than ASCII can be shown
+    bool failed;           // the input at hand was in error
+    bool any_failed;       // some input was
+    bool wrong_definition; // the script cannot take a value that was set
+    bool quit;
+    bool incomplete;    // a step was interrupted: of the frame at hand only the state is there
+    bool rates_changed; // .tempo or .fps was used since the script was loaded
+    bool record_fps;    // --fps was given: goldens must say so
+    double fps;
+    char **definitions; // of -D and .set, as given
+    size_t definition_count;
+} Repl;
+
+// Writes a remark, `-- text`, in a line of its own.
+__attribute__((format(printf, 2, 3))) void repl_say(Repl *repl, const char *format, ...);
+// The same as a message of the command, on standard error; the input at hand has failed. Returns false.
+__attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *format, ...);
+// What a status means, unless diagnostics have told it; true for PETRI_OK.
+bool repl_status(Repl *repl, PetriStatus status);
+// Takes one line or suite, which is not blank: a command or something of the language.
+void repl_take(Repl *repl, const char *text, size_t length);
+// A PetriWrite to Bytes, and one to the output; `host` is the Bytes or the Repl.
+bool repl_collect(void *bytes, const char *text, size_t length);
+bool repl_write(void *repl, const char *text, size_t length);
+
+// Keeps a definition for recordings.
+void repl_keep_definition(Repl *repl, const char *definition);
+
+// While `busy`, Ctrl-C interrupts the session. Tells whether it was typed since, when that ends.
+void repl_busy(Repl *repl);
+bool repl_idle(Repl *repl);
+// Whether Ctrl-C was typed since the last repl_busy or prompt.
+bool repl_interrupted(void);
+
+// Loading (script.c). True if the script is running now.
+bool repl_load(Repl *repl, const char *file);
+// Looks whether files have changed and says so: true if it did. `at_prompt`: something stands in the line already.
+bool repl_notice(Repl *repl, bool at_prompt);
+// Reloads if files have changed: before a step. The old script stays where the new one is wrong.
+void repl_refresh(Repl *repl);
+void repl_watch_files(Repl *repl);
+
+// Commands (commands.c). Those of a file are in a table at its end: a new one is a row there and its function.
+typedef enum Completes {
+    COMPLETE_LANGUAGE,
+    COMPLETE_FILES,
+    COMPLETE_KEYS,
+    COMPLETE_KINDS,
+    COMPLETE_PARAMETERS,
+    COMPLETE_SYSTEMS,
+    COMPLETE_TOPICS
+} Completes;
+typedef struct ReplCommand {
+    const char *name;     // with its dot
+    const char *operands; // "": it takes none
+    const char *help;
+    bool (*run)(Repl *repl, const char *rest); // false if it failed, after a message
+    Completes complete;                        // how its operand goes on
+} ReplCommand;
+// Each ends with a row without a name.
+extern const ReplCommand STEP_COMMANDS[], SHOW_COMMANDS[], PLOT_COMMANDS[], SETTING_COMMANDS[], SCRIPT_COMMANDS[],
+    RECORD_COMMANDS[], OTHER_COMMANDS[];
+// All of them in the order of help; NULL beyond the last.
+const ReplCommand *repl_command_at(size_t index);
+// By its name with or without the dot; NULL if there is none.
+const ReplCommand *repl_find_command(const char *name, size_t length);
+void repl_command(Repl *repl, const char *line);
+
+// Commands without a dot (words.c).
+// `help`, `?`, `quit`, `exit`, `q`: true if the text was one of those and is done; also if it begins with the name of
+// another command, after a message. Where the word is a name of the script, the prompt or petri, the text is left to
+// the language, and a remark is for when that has failed or, with the words above, has shown its value.
+bool bare_take(Repl *repl, const char *text, Bytes *remark);
+// The command that such a word stands for, or NULL.
+const char *bare_alias(const char *name, size_t length);
+
+// What follows a command's name (words.c).
+// A copy without blanks at its ends; to be freed.
+char *word_trimmed(const char *text);
+// A finite number: one as the command line takes it, a time code, or an expression of the present frame. False after a
+// message.
+bool word_number(Repl *repl, const char *text, double *number);
+// A whole number from `least` on, or an expression for one; an empty text leaves *count. False after a message.
+bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count);
+// Takes `--limit N` off the text's beginning or end. False after a message.
+bool word_limit(Repl *repl, char *text, int64_t *limit);
+// Takes a whole number off the text's end, if there is one after a blank and something before it.
+void word_last_count(char *text, int64_t *count);
+// Takes a whole number, or `all`, off the end of what a table is asked for: how many lines to show. What is not said is
+// a screenful, less `around` lines, on a terminal and everything elsewhere.
+size_t word_lines(const Repl *repl, char *text, size_t around);
+
+// Says that the script has a name of its own which was bound at the prompt just now (settings.c).
+void repl_tell_hidden(Repl *repl, const char *name);
+// Writes the present frame's `@` line, what it logged and what is watched (steps.c).
+void repl_show_frame(Repl *repl);
+// Makes the present frame again if Ctrl-C has taken away what it computed beside the state: the systems, the tree.
+void repl_complete_frame(Repl *repl);
+
+// What a word may go on with (complete.c).
+typedef struct Completion {
+    Bytes words; // that begin with what was typed, each ended by NUL, sorted, each once
+    size_t count;
+    Bytes common; // what all of them have beyond what was typed
+} Completion;
+
+// For the first `length` bytes of a line. To be freed.
+void complete_line(Repl *repl, const char *line, size_t length, Completion *completion);
+void complete_free(Completion *completion);
+// Writes the words in columns.
+void complete_show(const Completion *completion, Output *output);
+
+#endif

@@ -1,0 +1,305 @@
+// script.c: the script at the prompt: loading, noticing that somebody has changed it, and its state in files.
+#include <errno.h>
+#include <inttypes.h>
+#include <stdint.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/script.h"
+#include "repl/repl.h"
+
+enum { MOST_CELLS = 4000000, MOST_NAMES = 6 };
+
+typedef struct Line {
+    const char *text;
+    size_t length;
+} Line;
+
+typedef struct Lines {
+    Line *items;
+    size_t count;
+} Lines;
+
+static Lines split(const Bytes *text) {
+    Lines lines = {0};
+    size_t capacity = 0;
+    for (size_t at = 0; at < text->length;) {
+        const char *start = text->data + at;
+        const char *end = memchr(start, '\n', text->length - at);
+        size_t length = end == NULL ? text->length - at : (size_t)(end - start);
+        if (lines.count == capacity) {
+            capacity = capacity == 0 ? 64 : capacity * 2;
+            lines.items = memory_resized(lines.items, capacity * sizeof *lines.items);
+        }
+        lines.items[lines.count++] = (Line){start, length};
+        at += length + 1;
+    }
+    return lines;
+}
+
+static bool same(const Line *a, const Line *b) {
+    return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
+}
+
+// The name that a line binds, if it looks like one that does.
+static Line bound_name(const Line *line) {
+    static const char *const words[] = {"let ", "func "};
+    size_t at = 0;
+    while (at < line->length && (line->text[at] == ' ' || line->text[at] == '\t')) {
+        at++;
+    }
+    for (size_t i = 0; i < 2; i++) {
+        size_t length = strlen(words[i]);
+        at += line->length - at > length && memcmp(line->text + at, words[i], length) == 0 ? length : 0;
+    }
+    size_t end = at;
+    while (end < line->length && (line->text[end] == '_' || (unsigned char)line->text[end] >= 0x80 ||
+                                  strchr("=(;!@#$:%&|<>*/+-.,)[]{}'\" \t", line->text[end]) == NULL)) {
+        end++;
+    }
+    bool binds = end > at && end < line->length && strchr("=(;", line->text[end]) != NULL;
+    return (Line){line->text + at, binds ? end - at : 0};
+}
+
+typedef struct Names {
+    Line items[MOST_NAMES];
+    size_t count;
+} Names;
+
+static void add_name(Names *names, const Line *line) {
+    Line name = bound_name(line);
+    bool known = name.length == 0 || names->count == MOST_NAMES;
+    for (size_t i = 0; i < names->count && !known; i++) {
+        known = same(&names->items[i], &name);
+    }
+    if (!known) {
+        names->items[names->count++] = name;
+    }
+}
+
+// lengths[i][j]: of the longest common subsequence of the lines from i and from j on.
+static uint32_t *common_lengths(const Line *a, size_t rows, const Line *b, size_t columns) {
+    uint32_t *lengths = memory_zeroed((rows + 1) * (columns + 1) * sizeof *lengths);
+    for (size_t i = rows; i-- > 0;) {
+        uint32_t *row = lengths + i * (columns + 1), *next = row + columns + 1;
+        for (size_t j = columns; j-- > 0;) {
+            row[j] = same(&a[i], &b[j]) ? next[j + 1] + 1 : next[j] > row[j + 1] ? next[j] : row[j + 1];
+        }
+    }
+    return lengths;
+}
+
+typedef struct Counts {
+    size_t added;
+    size_t removed;
+} Counts;
+
+static Counts compare(const Line *a, size_t rows, const Line *b, size_t columns, Names *names) {
+    Counts counts = {0};
+    bool small = rows == 0 || columns < MOST_CELLS / rows;
+    uint32_t *lengths = small ? common_lengths(a, rows, b, columns) : NULL;
+    size_t i = 0, j = 0;
+    while (i < rows || j < columns) {
+        if (lengths != NULL && i < rows && j < columns && same(&a[i], &b[j])) {
+            i++;
+            j++;
+        } else if (j < columns && (i == rows || lengths == NULL ||
+                                   lengths[i * (columns + 1) + j + 1] >= lengths[(i + 1) * (columns + 1) + j])) {
+            add_name(names, &b[j++]);
+            counts.added++;
+        } else {
+            add_name(names, &a[i++]);
+            counts.removed++;
+        }
+    }
+    free(lengths);
+    return counts;
+}
+
+static void add_count(Bytes *what, size_t count, const char *verb) {
+    bool first = what->length == 0;
+    if (count > 0) {
+        bytes_format(what, "%s%zu %s%s", first ? "" : ", ", count, !first ? "" : count == 1 ? "line " : "lines ", verb);
+    }
+}
+
+// Adds how many lines were added and removed and which names are bound in them, such as `2 lines added, 1 removed
+// (COUNT, start)`; nothing if the texts are equal.
+static void describe_changes(const Bytes *before, const Bytes *after, Bytes *what) {
+    Lines a = split(before), b = split(after);
+    size_t start = 0, rows = a.count, columns = b.count;
+    while (start < rows && start < columns && same(&a.items[start], &b.items[start])) {
+        start++;
+    }
+    while (rows > start && columns > start && same(&a.items[rows - 1], &b.items[columns - 1])) {
+        rows--;
+        columns--;
+    }
+    Names names = {0};
+    Counts counts = {0};
+    if (rows > start || columns > start) {
+        counts = compare(a.items + start, rows - start, b.items + start, columns - start, &names);
+    }
+    add_count(what, counts.added, "added");
+    add_count(what, counts.removed, "removed");
+    for (size_t i = 0; i < names.count; i++) {
+        bytes_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].length, names.items[i].text);
+    }
+    bytes_format(what, "%s", names.count == 0 ? "" : ")");
+    free(a.items);
+    free(b.items);
+}
+
+void repl_watch_files(Repl *repl) {
+    if (repl->files == NULL) {
+        return;
+    }
+    if (repl->script != NULL) {
+        watch_file(repl->files, repl->script);
+    }
+    const char *path;
+    for (size_t i = 0; (path = petri_source(repl->session, i)) != NULL; i++) {
+        watch_file(repl->files, path);
+    }
+}
+
+static void remember_text(Repl *repl) {
+    bytes_free(&repl->script_text);
+    if (repl->script != NULL) {
+        bytes_read_file(&repl->script_text, repl->script);
+    }
+}
+
+static bool loaded(Repl *repl, PetriStatus status) {
+    repl_watch_files(repl);
+    repl->changed = false;
+    if (status == PETRI_OK) {
+        remember_text(repl);
+        repl->loaded = true;
+    }
+    repl->failed = repl->failed || status != PETRI_OK;
+    return status == PETRI_OK;
+}
+
+bool repl_load(Repl *repl, const char *file) {
+    PetriStatus status = script_load(repl->session, file);
+    repl->rates_changed = repl->rates_changed && status != PETRI_OK;
+    if (status == PETRI_OK && file != repl->script) {
+        free(repl->script);
+        repl->script = memory_copied(file, strlen(file));
+    }
+    return loaded(repl, status);
+}
+
+static bool run_reload(Repl *repl, const char *rest) {
+    (void)rest;
+    if (repl->script == NULL) {
+        return repl_fail(repl, "no script is loaded; .load FILE loads one");
+    }
+    // What was never running has no state that could stay.
+    PetriStatus status =
+        repl->loaded ? petri_reload(repl->session, repl->script) : petri_load(repl->session, repl->script);
+    bool first = !repl->loaded;
+    if (!loaded(repl, status)) {
+        return false;
+    }
+    if (first) {
+        history_start(&repl->history, repl->session, NULL);
+    }
+    repl_say(repl, "%s is loaded anew", repl->script);
+    return true;
+}
+
+void repl_refresh(Repl *repl) {
+    repl_notice(repl, false);
+    if (repl->changed) {
+        repl->changed = false;
+        if (!run_reload(repl, "")) {
+            repl_say(repl, repl->loaded ? "the script as it was goes on" : "no script is running");
+        }
+    }
+}
+
+bool repl_notice(Repl *repl, bool at_prompt) {
+    if (repl->files == NULL || !watch_changed(repl->files)) {
+        return false;
+    }
+    Bytes now = {0}, what = {0};
+    bool changed = repl->script != NULL && bytes_read_file(&now, repl->script);
+    if (changed) {
+        repl->changed = true;
+        describe_changes(&repl->script_text, &now, &what);
+        if (at_prompt) {
+            output_write(&repl->output, "\n", 1);
+        }
+        // If nothing is different here, it is a file that the script includes or imports.
+        repl_say(repl, "%s%s was changed%s%s; it is loaded anew before the next step",
+                 what.length == 0 ? "what goes into " : "", repl->script, what.length == 0 ? "" : ": ",
+                 what.length == 0 ? "" : what.data);
+        output_flush(&repl->output);
+    }
+    bytes_free(&now);
+    bytes_free(&what);
+    return changed;
+}
+
+static bool run_drop(Repl *repl, const char *rest) {
+    if (rest[0] != '\0' && strcmp(rest, "all") != 0) {
+        return repl_fail(repl, ".drop takes out nodes, .drop all also names; not '%s'", rest);
+    }
+    uint32_t count = petri_drop(repl->session, rest[0] != '\0');
+    repl_say(repl, "%" PRIu32 " statement%s dropped", count, count == 1 ? "" : "s");
+    return true;
+}
+
+static bool run_load(Repl *repl, const char *rest) {
+    if (rest[0] == '\0') {
+        return repl_fail(repl, ".load needs a file");
+    }
+    if (script_is_stdin(rest)) {
+        return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
+    }
+    if (!repl_load(repl, rest)) {
+        return false;
+    }
+    petri_clear(repl->session);
+    return history_start(&repl->history, repl->session, NULL) || repl_status(repl, PETRI_MEMORY);
+}
+
+static bool run_save(Repl *repl, const char *rest) {
+    if (rest[0] == '\0') {
+        return repl_fail(repl, ".save needs a file");
+    }
+    if (petri_save(repl->session, rest) != PETRI_OK) {
+        repl->failed = true;
+        return false;
+    }
+    repl_say(repl, "the state after frame %" PRId64 " is in %s", petri_frame(repl->session).number, rest);
+    return true;
+}
+
+static bool run_restore(Repl *repl, const char *rest) {
+    if (rest[0] == '\0') {
+        return repl_fail(repl, ".restore needs a file");
+    }
+    if (access(rest, R_OK) != 0) {
+        return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
+    }
+    if (petri_restore(repl->session, rest) != PETRI_OK) {
+        repl->failed = true;
+        return false;
+    }
+    repl_say(repl, "the next frame is the one after %" PRId64, petri_frame(repl->session).number);
+    return history_start(&repl->history, repl->session, "a state was restored there") ||
+           repl_status(repl, PETRI_MEMORY);
+}
+
+const ReplCommand SCRIPT_COMMANDS[] = {
+    {".drop", "[all]", "take out what was typed: nodes; with all, names as well", run_drop, COMPLETE_LANGUAGE},
+    {".load", "FILE", "load another script and begin with an empty state", run_load, COMPLETE_FILES},
+    {".reload", "", "load the script anew; state and frame number stay", run_reload, COMPLETE_LANGUAGE},
+    {".save", "FILE", "write the state to a file", run_save, COMPLETE_FILES},
+    {".restore", "FILE", "take the state from a file; the history begins there", run_restore, COMPLETE_FILES},
+    {0},
+};

@@ -1,0 +1,170 @@
+// settings.c: what the script leaves to whoever runs it: parameters and rates.
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/parameters.h"
+#include "repl/repl.h"
+
+// Is a text, a name or NAME=VALUE, of the name?
+static bool is_of(const char *text, const char *name) {
+    size_t length = strlen(name);
+    return strncmp(text, name, length) == 0 && (text[length] == '\0' || text[length] == '=');
+}
+
+// Does something else than a definition give the name its value? What the script and the prompt bind, and the names of
+// the engine, come before it.
+static bool is_bound(const Repl *repl, const char *name) {
+    size_t seen = 0, defined = 0;
+    const char *known;
+    for (size_t i = 0; (known = petri_name(repl->session, i)) != NULL; i++) {
+        seen += is_of(known, name);
+    }
+    for (size_t i = 0; i < repl->definition_count; i++) {
+        defined += is_of(repl->definitions[i], name);
+    }
+    return seen > defined;
+}
+
+// `-- CELLS = 200  (1..500)  how many`
+static void say_parameter(Repl *repl, const PetriParameter *parameter) {
+    Bytes text = {0};
+    parameter_describe(&text, parameter);
+    repl_say(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
+    bytes_free(&text);
+}
+
+// What has become of a name that was set.
+static void report_set(Repl *repl, const char *name, bool warned) {
+    PetriParameter parameter;
+    if (parameter_find(repl->session, name, &parameter)) {
+        say_parameter(repl, &parameter);
+    } else if (!warned && is_bound(repl, name)) {
+        repl_say(repl, "%s keeps the value that the script or the prompt gives it", name);
+    }
+}
+
+// Defines the name and compiles the script for it. Where that fails everything is as before.
+static bool set(Repl *repl, const char *name, const char *definition) {
+    PetriConfig *before = petri_config(repl->session);
+    if (before == NULL) {
+        return repl_status(repl, PETRI_MEMORY);
+    }
+    uint64_t warnings = petri_diagnostic_count(repl->session, PETRI_WARNING);
+    bool good = petri_define(repl->session, definition) == PETRI_OK ||
+                repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50");
+    if (good && petri_reload(repl->session, NULL) != PETRI_OK) {
+        petri_config_use(repl->session, before);
+        good = false;
+        repl->failed = true;
+    }
+    petri_config_free(before);
+    if (good) {
+        repl_keep_definition(repl, definition);
+        report_set(repl, name, petri_diagnostic_count(repl->session, PETRI_WARNING) > warnings);
+    }
+    return good;
+}
+
+static bool show_one(Repl *repl, const char *name) {
+    PetriParameter parameter;
+    if (!parameter_find(repl->session, name, &parameter)) {
+        return repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50; '%.40s' is no parameter of the script",
+                         name);
+    }
+    say_parameter(repl, &parameter);
+    return true;
+}
+
+static bool run_parameters(Repl *repl, const char *rest) {
+    (void)rest;
+    if (parameters_list(repl->session, &repl->output) == 0) {
+        repl_say(repl, "the script has no parameters; `let SIZE=SIZE or 20 -- 1..100 how large` makes one");
+    }
+    return true;
+}
+
+static bool run_set(Repl *repl, const char *rest) {
+    if (rest[0] == '\0') {
+        return run_parameters(repl, rest);
+    }
+    size_t length = strcspn(rest, " \t=");
+    char *name = memory_copied(rest, length);
+    const char *value = rest + length + strspn(rest + length, " \t");
+    bool given = *value != '\0';
+    char *text = word_trimmed(value + (*value == '='));
+    Bytes definition = {0};
+    bytes_format(&definition, "%s=%s", name, text);
+    bool good = given ? set(repl, name, definition.data) : show_one(repl, name);
+    bytes_free(&definition);
+    free(text);
+    free(name);
+    return good;
+}
+
+void repl_tell_hidden(Repl *repl, const char *name) {
+    PetriParameter parameter;
+    if (parameter_find(repl->session, name, &parameter)) {
+        repl_say(repl, "the script keeps its own %s, which is %s; .set %s VALUE changes that", parameter.name,
+                 parameter.value, parameter.name);
+    } else {
+        repl_say(repl, "the script keeps its own %s; only what is typed here sees the new one", name);
+    }
+}
+
+static void show_number(Repl *repl, const char *name, double value) {
+    output_format(&repl->output, "%s = %.12g\n", name, value);
+}
+
+static bool read_rate(Repl *repl, const char *rest, double *value) {
+    return word_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
+}
+
+static bool run_tempo(Repl *repl, const char *rest) {
+    double tempo = 0;
+    if (rest[0] != '\0' && !(read_rate(repl, rest, &tempo) && petri_set_tempo(repl->session, tempo) == PETRI_OK)) {
+        return false;
+    }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
+    show_number(repl, "tempo", petri_frame(repl->session).tempo);
+    return true;
+}
+
+static bool run_fps(Repl *repl, const char *rest) {
+    double fps = 0;
+    if (rest[0] != '\0' && !(read_rate(repl, rest, &fps) && petri_set_fps(repl->session, fps) == PETRI_OK)) {
+        return false;
+    }
+    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
+    show_number(repl, "fps", petri_frame(repl->session).fps);
+    return true;
+}
+
+static bool run_resolution(Repl *repl, const char *rest) {
+    double step = 0;
+    bool off = strcmp(rest, "off") == 0;
+    if (rest[0] != '\0' && !off && !read_rate(repl, rest, &step)) {
+        return false;
+    }
+    if (rest[0] != '\0') {
+        petri_set_resolution(repl->session, step);
+    }
+    step = petri_resolution(repl->session);
+    if (step > 0) {
+        show_number(repl, "resolution", step);
+    } else {
+        repl_say(repl, "each system's own resolution counts");
+    }
+    return true;
+}
+
+const ReplCommand SETTING_COMMANDS[] = {
+    {".parameters", "", "list the script's parameters: value, default, range, comment", run_parameters,
+     COMPLETE_LANGUAGE},
+    {".set", "[NAME [VALUE]]", "give a parameter of the script a value, as -D does; or show it", run_set,
+     COMPLETE_PARAMETERS},
+    {".tempo", "[T]", "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
+    {".fps", "[F]", "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
+    {".resolution", "[R | off]", "show or change the longest simulation step of all systems", run_resolution,
+     COMPLETE_LANGUAGE},
+    {0},
+};

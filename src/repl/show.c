@@ -1,0 +1,349 @@
+// show.c: what a frame holds, as text: state, nodes, particles, and expressions that are watched.
+#include <inttypes.h>
+#include <math.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/table.h"
+#include "repl/repl.h"
+
+enum { AROUND = 3 }; // lines of the screen that a long output leaves: the command, the closing line, the prompt
+
+// Text that comes in pieces, cut into lines for a filter.
+typedef struct Filter {
+    Repl *repl;
+    const char *wanted;
+    size_t depth; // of the node whose subtree is being written, SIZE_MAX outside
+    size_t found;
+    size_t lines; // that were to be written, of which the first `most` are
+    size_t most;
+    bool header; // the `@` line is still to come
+    Bytes line;
+    void (*take)(struct Filter *filter, const char *line, size_t length);
+} Filter;
+
+static bool filter_lines(void *host, const char *text, size_t length) {
+    Filter *filter = host;
+    while (length > 0) {
+        const char *end = memchr(text, '\n', length);
+        size_t taken = end == NULL ? length : (size_t)(end - text) + 1;
+        bytes_add(&filter->line, text, taken);
+        text += taken;
+        length -= taken;
+        if (end != NULL) {
+            if (!filter->header) {
+                filter->take(filter, filter->line.data, filter->line.length);
+            }
+            filter->header = false;
+            filter->line.length = 0;
+        }
+    }
+    return filter->repl->output.error == 0 && !repl_interrupted();
+}
+
+// Writes a section of the frame's text through a filter; returns how much it has found.
+static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
+    filter->repl = repl;
+    filter->header = true;
+    filter->depth = SIZE_MAX;
+    repl_busy(repl);
+    petri_print(repl->session, section, filter_lines, filter);
+    repl_idle(repl);
+    bytes_free(&filter->line);
+    return filter->found;
+}
+
+static void write_line(Filter *filter, const char *line, size_t length) {
+    if (filter->lines++ < filter->most) {
+        output_write(&filter->repl->output, line, length);
+    }
+}
+
+// What was left out, and how it is seen: `asked` is what was typed, without a number of lines.
+static void tell_rest(const Filter *filter, const char *command, const char *asked) {
+    if (filter->lines > filter->most) {
+        repl_say(filter->repl, "%zu more lines; %s%s%s all shows all", filter->lines - filter->most, command,
+                 asked[0] == '\0' ? "" : " ", asked);
+    }
+}
+
+// `$:cells = …` and `$(:cells;0) = …` are both under `:cells`, and under `$:cells`, `(:cells)` and `cells` as well.
+static void take_entry(Filter *filter, const char *line, size_t length) {
+    const char *key = line + 1 + (line[1] == '(');
+    key += key[0] == ':' && filter->wanted[0] != ':';
+    size_t wanted = strlen(filter->wanted), rest = length - (size_t)(key - line);
+    bool under = wanted == 0 || (rest > wanted && memcmp(key, filter->wanted, wanted) == 0 &&
+                                 (key[wanted] == ';' || key[wanted] == ')' || key[wanted] == ' '));
+    if (under) {
+        filter->found++;
+        write_line(filter, line, length);
+    }
+}
+
+static bool run_state(Repl *repl, const char *rest) {
+    char *asked = memory_copied(rest, strlen(rest));
+    // A number alone is a key.
+    size_t most = strpbrk(asked, " \t") != NULL || strcmp(asked, "all") == 0 ? word_lines(repl, asked, AROUND)
+                                                                             : word_lines(repl, (char[]){""}, AROUND);
+    const char *prefix = asked + (asked[0] == '$');
+    bool enclosed = prefix[0] == '(';
+    char *wanted = memory_copied(prefix + enclosed, strlen(prefix + enclosed));
+    size_t length = strlen(wanted);
+    if (enclosed && length > 0 && wanted[length - 1] == ')') {
+        wanted[length - 1] = '\0';
+    }
+    Filter filter = {.wanted = wanted, .take = take_entry, .most = most};
+    if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0) {
+        repl_say(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
+    }
+    tell_rest(&filter, ".state", asked);
+    free(wanted);
+    free(asked);
+    return true;
+}
+
+static void take_node(Filter *filter, const char *line, size_t length) {
+    size_t depth = strspn(line, " "), wanted = strlen(filter->wanted);
+    if (filter->depth == SIZE_MAX || depth <= filter->depth) {
+        const char *kind = line + depth + 1;
+        bool same = wanted == 0 || (strncmp(kind, filter->wanted, wanted) == 0 && strchr(" \n", kind[wanted]) != NULL);
+        filter->depth = same ? depth : SIZE_MAX;
+        filter->found += same;
+    }
+    if (filter->depth != SIZE_MAX) {
+        size_t cut = wanted == 0 ? 0 : filter->depth;
+        write_line(filter, line + cut, length - cut);
+    }
+}
+
+static bool show_tree(Repl *repl, const char *asked, size_t most) {
+    const char *kind = asked + (asked[0] == '!');
+    repl_busy(repl);
+    PetriStatus status = petri_preview(repl->session);
+    repl_idle(repl);
+    if (!repl_status(repl, status)) {
+        return false;
+    }
+    Filter filter = {.wanted = kind, .take = take_node, .most = most};
+    if (print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0) {
+        repl_say(repl, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
+    }
+    tell_rest(&filter, ".tree", asked);
+    return true;
+}
+
+static bool run_tree(Repl *repl, const char *rest) {
+    char *asked = memory_copied(rest, strlen(rest));
+    size_t most = word_lines(repl, asked, AROUND);
+    bool good = show_tree(repl, asked, most);
+    free(asked);
+    return good;
+}
+
+static bool is_meant(const char *name, const char *wanted) {
+    return wanted[0] == '\0' || strcmp(name, wanted) == 0 || (name[0] == ':' && strcmp(name + 1, wanted) == 0);
+}
+
+// What a table is asked for.
+typedef struct Wish {
+    const char *system; // "": all of them
+    size_t most;        // rows of each
+} Wish;
+
+// Calls `show` for each system that is meant.
+static bool each_system(Repl *repl, const Wish *wish, void (*show)(Repl *, size_t, const PetriSystem *, const Wish *)) {
+    PetriSystem system;
+    const char *wanted = wish->system;
+    size_t count = 0, shown = 0;
+    repl_complete_frame(repl);
+    for (; petri_system(repl->session, count, &system); count++) {
+        char *name = memory_copied(system.name, strlen(system.name)); // the next call takes it
+        system.name = name;
+        if (is_meant(name, wanted)) {
+            show(repl, count, &system, wish);
+            shown++;
+        }
+        free(name);
+    }
+    if (count == 0) {
+        repl_say(repl, petri_frame(repl->session).number < 0
+                           ? "there are no particles before the first frame; .step makes it"
+                           : "no particle system was updated in this frame");
+    } else if (shown == 0) {
+        return repl_fail(repl, "there is no system '%.40s'", wanted);
+    }
+    return true;
+}
+
+static void add_vector(Table *table, const double *vector, uint32_t dimensions) {
+    char number[40];
+    Bytes cell = {0};
+    for (uint32_t k = 0; k < dimensions && vector != NULL; k++) {
+        snprintf(number, sizeof number, "%s%.6g", k == 0 ? "" : ";", vector[k]);
+        bytes_add(&cell, number, strlen(number));
+    }
+    table_add(table, vector == NULL ? "-" : cell.data);
+    bytes_free(&cell);
+}
+
+static void add_number(Table *table, double x) {
+    add_vector(table, &x, 1);
+}
+
+static double speed_of(const PetriParticle *particle, uint32_t dimensions) {
+    double sum = 0;
+    for (uint32_t k = 0; k < dimensions; k++) {
+        sum += particle->velocity[k] * particle->velocity[k];
+    }
+    return sqrt(sum);
+}
+
+static uint32_t count_anchors(const Repl *repl, size_t number) {
+    PetriParticle particle;
+    uint32_t anchors = 0;
+    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
+        anchors += particle.anchor;
+    }
+    return anchors;
+}
+
+static void show_particles(Repl *repl, size_t number, const PetriSystem *system, const Wish *wish) {
+    Table table = table_new(5);
+    PetriParticle particle;
+    uint32_t anchors = count_anchors(repl, number), moving = system->particle_count - anchors;
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
+    if (anchors > 0) {
+        output_format(&repl->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
+    }
+    output_write(&repl->output, "\n", 1);
+    const char *const heads[] = {"id", "position", "velocity", "speed", "force"};
+    for (size_t i = 0; i < 5; i++) {
+        table_add(&table, heads[i]);
+    }
+    for (uint32_t i = 0; i < wish->most && petri_particle(repl->session, number, i, &particle); i++) {
+        table_add(&table, particle.id);
+        add_vector(&table, particle.position, system->dimensions);
+        add_vector(&table, particle.velocity, system->dimensions);
+        add_number(&table, speed_of(&particle, system->dimensions));
+        if (particle.anchor) {
+            table_add(&table, "anchor");
+        } else {
+            add_vector(&table, particle.force, system->dimensions);
+        }
+    }
+    table_write(&table, &repl->output);
+    table_free(&table);
+    if (system->particle_count > wish->most) {
+        repl_say(repl, "%zu more; .particles%s%s all shows all", system->particle_count - wish->most,
+                 wish->system[0] == '\0' ? "" : " ", wish->system);
+    }
+}
+
+static bool run_particles(Repl *repl, const char *rest) {
+    enum { AROUND_TABLE = 5 }; // lines of the screen beside the rows: command, title, heads, closing line, prompt
+    char *system = memory_copied(rest, strlen(rest));
+    Wish wish = {.system = system, .most = word_lines(repl, system, AROUND_TABLE)};
+    bool good = each_system(repl, &wish, show_particles);
+    free(system);
+    return good;
+}
+
+static void show_energy(Repl *repl, size_t number, const PetriSystem *system, const Wish *wish) {
+    (void)wish;
+    PetriParticle particle;
+    double *momentum = memory_zeroed(system->dimensions * sizeof *momentum);
+    double energy = 0, fastest = -1;
+    uint32_t moving = 0;
+    Bytes id = {0};
+    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
+        if (particle.anchor) {
+            continue;
+        }
+        double speed = speed_of(&particle, system->dimensions);
+        moving++;
+        energy += 0.5 * particle.mass * speed * speed;
+        for (uint32_t k = 0; k < system->dimensions; k++) {
+            momentum[k] += particle.mass * particle.velocity[k];
+        }
+        if (speed > fastest) {
+            fastest = speed;
+            id.length = 0;
+            bytes_add(&id, particle.id, strlen(particle.id));
+        }
+    }
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, moving,
+                  moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
+    if (moving > 0) {
+        Table table = table_new(2);
+        table_add(&table, "  kinetic energy");
+        add_number(&table, energy);
+        table_add(&table, "  momentum");
+        add_vector(&table, momentum, system->dimensions);
+        table_add(&table, "  fastest");
+        bytes_format(&id, " at %.6g", fastest);
+        table_add(&table, id.data);
+        table_write(&table, &repl->output);
+        table_free(&table);
+    }
+    bytes_free(&id);
+    free(momentum);
+}
+
+static bool run_energy(Repl *repl, const char *wanted) {
+    return each_system(repl, &(Wish){.system = wanted}, show_energy);
+}
+
+static bool run_watch(Repl *repl, const char *rest) {
+    PetriResult result;
+    for (size_t i = 0; i < repl->watched_count && rest[0] == '\0'; i++) {
+        repl_say(repl, "%s", repl->watched[i]);
+    }
+    if (rest[0] == '\0') {
+        return true;
+    }
+    Bytes value = {0};
+    if (petri_evaluate(repl->session, rest, PETRI_Z, &result, repl_collect, &value) != PETRI_OK) {
+        bytes_free(&value);
+        repl->failed = true;
+        return false;
+    }
+    output_format(&repl->output, "%s = %s\n", rest, value.data);
+    bytes_free(&value);
+    for (size_t i = 0; i < repl->watched_count; i++) {
+        if (strcmp(rest, repl->watched[i]) == 0) {
+            return true; // once is enough
+        }
+    }
+    repl->watched = memory_resized(repl->watched, (repl->watched_count + 1) * sizeof *repl->watched);
+    repl->watched[repl->watched_count++] = memory_copied(rest, strlen(rest));
+    return true;
+}
+
+static bool run_unwatch(Repl *repl, const char *rest) {
+    size_t kept = 0, count = repl->watched_count;
+    for (size_t i = 0; i < count; i++) {
+        if (rest[0] == '\0' || strcmp(rest, repl->watched[i]) == 0) {
+            free(repl->watched[i]);
+        } else {
+            repl->watched[kept++] = repl->watched[i];
+        }
+    }
+    repl->watched_count = kept;
+    return rest[0] == '\0' || kept < count || repl_fail(repl, "'%s' is not watched", rest);
+}
+
+const ReplCommand SHOW_COMMANDS[] = {
+    {".state", "[KEY] [N|all]", "print the state, or the part of it under a key such as :cells; N lines of it",
+     run_state, COMPLETE_KEYS},
+    {".tree", "[KIND] [N|all]", "print the frame's nodes, or those of a kind", run_tree, COMPLETE_KINDS},
+    {".particles", "[SYSTEM] [N|all]", "print particles as a table: id, position, velocity, speed, force",
+     run_particles, COMPLETE_SYSTEMS},
+    {".energy", "[SYSTEM]", "print kinetic energy, momentum and the fastest particle of each system", run_energy,
+     COMPLETE_SYSTEMS},
+    {".watch", "[EXPR]", "print the expression after each step; alone, list what is watched", run_watch,
+     COMPLETE_LANGUAGE},
+    {".unwatch", "[EXPR]", "watch it no more; alone, nothing any more", run_unwatch, COMPLETE_LANGUAGE},
+    {0},
+};

@@ -1,0 +1,261 @@
+// steps.c: commands that make frames, forward and back, and what is said of them.
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/progress.h"
+#include "repl/repl.h"
+
+// Frames until `count` are made, an expression is true or Ctrl-C; what they say is written.
+typedef struct Walk {
+    int64_t count;
+    const char *until; // NULL: no condition
+    bool limited;      // reaching the count is worth a word
+} Walk;
+
+// Adds `EXPR = value` for each expression that is watched.
+static void add_watched(Repl *repl, Bytes *text) {
+    for (size_t i = 0; i < repl->watched_count; i++) {
+        PetriResult result;
+        Bytes value = {0};
+        const char *expression = repl->watched[i];
+        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, repl_collect, &value);
+        bytes_format(text, "%s = ", expression);
+        bytes_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
+        bytes_add(text, "\n", 1);
+        bytes_free(&value);
+    }
+}
+
+// The frame's text; true if there is more to it than its first line.
+static bool describe(Repl *repl, Bytes *text) {
+    petri_print(repl->session, PETRI_PRINT_LOG, repl_collect, text);
+    add_watched(repl, text);
+    return memchr(text->data, '\n', text->length) != text->data + text->length - 1;
+}
+
+void repl_show_frame(Repl *repl) {
+    Bytes text = {0};
+    if (petri_frame(repl->session).number < 0) {
+        repl_say(repl, "before the first frame");
+        return;
+    }
+    describe(repl, &text);
+    output_write(&repl->output, text.data, text.length);
+    bytes_free(&text);
+}
+
+// Writes a frame if it has something to say or is the last; whether it did.
+static bool show_step(Repl *repl, Progress *progress, bool last) {
+    Bytes text = {0};
+    bool shown = describe(repl, &text) || last;
+    if (shown) {
+        progress_erase(progress);
+        output_write(&repl->output, text.data, text.length);
+        if (repl->terminal) {
+            output_flush(&repl->output);
+        }
+    }
+    bytes_free(&text);
+    return shown;
+}
+
+typedef enum Outcome { GOING, REACHED, GIVEN_UP } Outcome;
+
+static Outcome one_step(Repl *repl, const Walk *walk) {
+    PetriResult result = {0};
+    PetriStatus status = history_step(&repl->history, repl->session);
+    if (status == PETRI_OK && walk->until != NULL) {
+        status = petri_evaluate(repl->session, walk->until, PETRI_Z, &result, NULL, NULL);
+    }
+    if (status != PETRI_OK && status != PETRI_INTERRUPTED) {
+        repl_status(repl, status);
+        return GIVEN_UP;
+    }
+    return result.is_true ? REACHED : GOING;
+}
+
+static void conclude(Repl *repl, const Walk *walk, int64_t made, Outcome outcome) {
+    repl->incomplete = repl_interrupted();
+    if (repl_interrupted()) {
+        repl_fail(repl, "interrupted after %" PRId64 " frame%s", made, made == 1 ? "" : "s");
+    } else if (outcome == GOING && walk->until != NULL) {
+        repl_fail(repl, "not true within %" PRId64 " frame%s (--limit)", made, made == 1 ? "" : "s");
+    } else if (outcome == GOING && walk->limited) {
+        repl_say(repl, "stopped after %" PRId64 " frames (--limit)", made);
+    }
+}
+
+static bool walk_frames(Repl *repl, const Walk *walk) {
+    Progress progress;
+    Outcome outcome = GOING;
+    int64_t made = 0;
+    repl_refresh(repl);
+    repl->failed = false; // a script that is wrong does not stop the old one
+    progress_start(&progress, repl->terminal && progress_possible(), walk->count);
+    repl_busy(repl);
+    bool shown = true;
+    while (made < walk->count && outcome == GOING && !repl_interrupted() && repl->output.error == 0) {
+        int64_t before = petri_frame(repl->session).number;
+        outcome = one_step(repl, walk);
+        if (petri_frame(repl->session).number == before) {
+            break;
+        }
+        made++;
+        shown = show_step(repl, &progress, made == walk->count || outcome != GOING);
+        progress_update(&progress, made);
+    }
+    progress_erase(&progress);
+    repl_idle(repl);
+    if (!shown) {
+        show_step(repl, &progress, true);
+    }
+    conclude(repl, walk, made, outcome);
+    repl_watch_files(repl); // modules that were imported
+    return !repl->failed;
+}
+
+void repl_complete_frame(Repl *repl) {
+    if (!repl->incomplete) {
+        return;
+    }
+    repl_busy(repl);
+    PetriStatus status = history_remake(&repl->history, repl->session);
+    repl_idle(repl);
+    repl->incomplete = status != PETRI_OK;
+    repl_status(repl, status);
+}
+
+// Within the timeline at one go, beyond it by steps that show how far it is.
+static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
+    int64_t last = repl->history.last, made = 0;
+    Progress progress;
+    PetriStatus status = history_goto(&repl->history, repl->session, frame < last ? frame : last, why);
+    progress_start(&progress, repl->terminal && progress_possible(), frame - last);
+    while (status == PETRI_OK && petri_frame(repl->session).number < frame) {
+        status = history_goto(&repl->history, repl->session, last + ++made, why);
+        progress_update(&progress, made);
+    }
+    progress_erase(&progress);
+    return status;
+}
+
+static bool go_to(Repl *repl, int64_t frame) {
+    Bytes why = {0};
+    repl_refresh(repl);
+    repl->failed = false;
+    repl_busy(repl);
+    PetriStatus status = go(repl, frame, &why);
+    bool stopped = repl_idle(repl);
+    repl->incomplete = stopped;
+    if (stopped) {
+        repl_fail(repl, "interrupted");
+    } else if (status == PETRI_INVALID) {
+        repl_fail(repl, "%s", why.length == 0 ? "this cannot be done" : why.data);
+    } else {
+        repl_status(repl, status);
+    }
+    bytes_free(&why);
+    if (status == PETRI_OK || stopped) {
+        repl_show_frame(repl);
+    }
+    return status == PETRI_OK;
+}
+
+static bool run_step(Repl *repl, const char *rest) {
+    int64_t count = 1;
+    return word_count(repl, rest, 1, &count) && walk_frames(repl, &(Walk){.count = count});
+}
+
+static bool run_run(Repl *repl, const char *rest) {
+    double seconds = 0;
+    if (rest[0] == '\0') {
+        return walk_frames(repl, &(Walk){.count = repl->limit, .limited = true});
+    }
+    if (!word_number(repl, rest, &seconds)) {
+        return false;
+    }
+    if (seconds < 0) {
+        return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
+    }
+    double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
+    bool limited = frames > (double)repl->limit;
+    return walk_frames(repl, &(Walk){.count = limited ? repl->limit : (int64_t)frames, .limited = limited});
+}
+
+static bool run_until(Repl *repl, const char *rest) {
+    char *expression = memory_copied(rest, strlen(rest));
+    int64_t limit = repl->limit;
+    bool good = word_limit(repl, expression, &limit);
+    if (good && expression[0] == '\0') {
+        good = repl_fail(repl, ".until needs an expression");
+    }
+    PetriResult result; // of the present frame: whether it is an expression at all
+    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
+    good = good && walk_frames(repl, &(Walk){.count = limit, .until = expression});
+    free(expression);
+    return good;
+}
+
+// Adds what the first frame of the history is.
+static void add_start(const Repl *repl, Bytes *text) {
+    const char *why = repl->history.why;
+    if (why == NULL) {
+        bytes_format(text, "this is the start");
+    } else {
+        bytes_format(text, "the history begins here (%s)", why);
+    }
+}
+
+static bool run_back(Repl *repl, const char *rest) {
+    int64_t count = 1, ago = petri_frame(repl->session).number - repl->history.first;
+    if (!word_count(repl, rest, 1, &count)) {
+        return false;
+    }
+    if (count <= ago) {
+        return go_to(repl, petri_frame(repl->session).number - count);
+    }
+    Bytes start = {0};
+    add_start(repl, &start);
+    if (ago > 0) {
+        repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
+    } else {
+        repl_fail(repl, "there is nothing to go back to: %s", start.data);
+    }
+    bytes_free(&start);
+    return ago > 0 && go_to(repl, repl->history.first);
+}
+
+static bool run_go(Repl *repl, const char *rest) {
+    int64_t frame = -1;
+    if (rest[0] == '\0') {
+        return repl_fail(repl, ".goto needs the number of a frame");
+    }
+    return word_count(repl, rest, -1, &frame) && go_to(repl, frame);
+}
+
+static bool run_reset(Repl *repl, const char *rest) {
+    (void)rest;
+    PetriStatus status = history_reset(&repl->history, repl->session);
+    if (status == PETRI_OK && petri_frame(repl->session).number < repl->history.first &&
+        !history_start(&repl->history, repl->session, NULL)) {
+        status = PETRI_MEMORY;
+    }
+    if (!repl_status(repl, status)) {
+        return false;
+    }
+    repl_show_frame(repl);
+    return true;
+}
+
+const ReplCommand STEP_COMMANDS[] = {
+    {".step", "[N]", "make N frames (1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", "make frames for T seconds of the script's time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "make frames until the expression is true, N at the most", run_until,
+     COMPLETE_LANGUAGE},
+    {".back", "[N]", "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
+    {".goto", "FRAME", "go to a frame, back or forward; -1 is before the first", run_go, COMPLETE_LANGUAGE},
+    {".reset", "", "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
+    {0},
+};

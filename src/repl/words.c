@@ -1,0 +1,238 @@
+// words.c: reading what follows a command's name, and commands that were typed without their dot.
+#include <errno.h>
+#include <inttypes.h>
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <unistd.h>
+
+#include "repl/repl.h"
+
+static const char BLANKS[] = " \t\r\n";
+
+static bool is_blank(char c) {
+    return c != '\0' && strchr(BLANKS, c) != NULL;
+}
+
+static void cut_end(char *text) {
+    size_t length = strlen(text);
+    while (length > 0 && is_blank(text[length - 1])) {
+        length--;
+    }
+    text[length] = '\0';
+}
+
+char *word_trimmed(const char *text) {
+    text += strspn(text, BLANKS);
+    char *copy = memory_copied(text, strlen(text));
+    cut_end(copy);
+    return copy;
+}
+
+static bool read_count(const char *text, int64_t *count) {
+    char *end = NULL;
+    errno = 0;
+    intmax_t value = strtoimax(text, &end, 10);
+    *count = value;
+    return end != text && *end == '\0' && errno == 0 && !is_blank(text[0]) && text[0] != '+';
+}
+
+// What the text stands for, which need not be finite. False after a message.
+static bool evaluate(Repl *repl, const char *text, double *number) {
+    PetriResult result;
+    if (petri_read_number(text, number) && isfinite(*number)) {
+        return true;
+    }
+    repl_busy(repl);
+    PetriStatus status = petri_evaluate(repl->session, text, PETRI_Z, &result, NULL, NULL);
+    repl_idle(repl);
+    if (!repl_status(repl, status)) {
+        return false;
+    }
+    *number = result.number;
+    return true;
+}
+
+bool word_number(Repl *repl, const char *text, double *number) {
+    return evaluate(repl, text, number) && (isfinite(*number) || repl_fail(repl, "'%.40s' is no number", text));
+}
+
+bool word_count(Repl *repl, const char *text, int64_t least, int64_t *count) {
+    static const double most = 9007199254740992; // beyond it not all whole numbers are there
+    double value = 0;
+    if (text[0] == '\0' || (read_count(text, count) && *count >= least)) {
+        return true;
+    }
+    if (!evaluate(repl, text, &value)) {
+        return false;
+    }
+    if (!(value == floor(value) && value >= (double)least && value <= most)) {
+        return repl_fail(repl, "'%.40s' is no whole number from %" PRId64, text, least);
+    }
+    *count = (int64_t)value;
+    return true;
+}
+
+bool word_limit(Repl *repl, char *text, int64_t *limit) {
+    static const char option[] = "--limit";
+    char *at = text;
+    while ((at = strstr(at, option)) != NULL) {
+        char *word = at + sizeof option - 1 + strspn(at + sizeof option - 1, " \t=");
+        char *end = word + strcspn(word, BLANKS);
+        char *after = end + strspn(end, BLANKS);
+        if ((at == text || is_blank(at[-1])) && (at == text || *after == '\0')) {
+            char *number = memory_copied(word, (size_t)(end - word));
+            bool good = number[0] != '\0' ? word_count(repl, number, 1, limit)
+                                          : repl_fail(repl, "--limit needs a number of frames");
+            free(number);
+            memmove(at, after, strlen(after) + 1);
+            cut_end(text);
+            return good;
+        }
+        at++;
+    }
+    return true;
+}
+
+void word_last_count(char *text, int64_t *count) {
+    char *last = text + strlen(text);
+    while (last > text && !is_blank(last[-1])) {
+        last--;
+    }
+    int64_t value = 0;
+    if (last > text && read_count(last, &value) && value > 0) {
+        *count = value;
+        *last = '\0';
+        cut_end(text);
+    }
+}
+
+static size_t screen_lines(const Repl *repl, size_t around) {
+    enum { FEWEST = 5, USUAL = 24 };
+    struct winsize size = {0};
+    if (!repl->terminal) {
+        return SIZE_MAX;
+    }
+    size_t rows = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 ? size.ws_row : USUAL;
+    return rows > around + FEWEST ? rows - around : FEWEST;
+}
+
+size_t word_lines(const Repl *repl, char *text, size_t around) {
+    char *last = text + strlen(text);
+    while (last > text && !is_blank(last[-1])) {
+        last--;
+    }
+    char *before = last;
+    while (before > text && is_blank(before[-1])) {
+        before--;
+    }
+    int64_t count = 0;
+    bool all = strcmp(last, "all") == 0, open = before > text && before[-1] == ';'; // what goes on with a key
+    if (open || (!all && !(read_count(last, &count) && count > 0))) {
+        return screen_lines(repl, around);
+    }
+    *before = '\0';
+    return all ? SIZE_MAX : (size_t)count;
+}
+
+// What people type to leave and to get help. A question mark is no word of the language.
+static const struct {
+    const char *word;
+    const char *command;
+    bool topic; // something may follow
+} bare_words[] = {
+    {"help", ".help", true},  {"?", ".help", true},     {"h", ".help", false},
+    {"quit", ".quit", false}, {"exit", ".quit", false}, {"q", ".quit", false},
+};
+
+enum { BARE_COUNT = sizeof bare_words / sizeof bare_words[0] };
+
+static bool is_word(const char *name, const char *word, size_t length) {
+    return strlen(name) == length && memcmp(name, word, length) == 0;
+}
+
+const char *bare_alias(const char *name, size_t length) {
+    for (size_t i = 0; i < BARE_COUNT; i++) {
+        if (is_word(bare_words[i].word, name, length)) {
+            return bare_words[i].command;
+        }
+    }
+    return NULL;
+}
+
+// Does the script, the prompt or petri itself give the word a meaning?
+static bool is_bound(Repl *repl, const char *word, size_t length) {
+    PetriBuiltin builtin;
+    const char *name;
+    for (size_t i = 0; (name = petri_name(repl->session, i)) != NULL; i++) {
+        if (is_word(name, word, length)) {
+            return true;
+        }
+    }
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        if (is_word(builtin.name, word, length)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+static size_t word_length(const char *text) {
+    return text[0] == '?' ? 1 : strcspn(text, " \t\n(");
+}
+
+// Names are known once something was evaluated.
+static void learn_names(Repl *repl) {
+    PetriResult result;
+    repl_busy(repl);
+    petri_evaluate(repl->session, "0", PETRI_Z, &result, NULL, NULL);
+    repl_idle(repl);
+}
+
+// `help`, `quit` and the like.
+static bool take_alias(Repl *repl, const char *word, size_t length, const char *rest, Bytes *remark) {
+    bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0, topic = false;
+    const char *command = NULL;
+    for (size_t i = 0; i < BARE_COUNT; i++) {
+        if (is_word(bare_words[i].word, word, length)) {
+            command = bare_words[i].command;
+            topic = bare_words[i].topic;
+        }
+    }
+    if (command == NULL || !(alone || topic)) {
+        return false;
+    }
+    if (is_bound(repl, word, length)) {
+        bytes_format(remark, "%.*s is a name here; the command is %s", (int)length, word, command);
+        return false;
+    }
+    Bytes line = {0};
+    size_t inner = strlen(rest);
+    bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // help(sin)
+    bytes_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
+    repl_command(repl, line.data);
+    bytes_free(&line);
+    return true;
+}
+
+bool bare_take(Repl *repl, const char *text, Bytes *remark) {
+    char *line = word_trimmed(text);
+    size_t length = word_length(line);
+    char *rest = word_trimmed(line + length);
+    bool alias = bare_alias(line, length) != NULL, command = line[0] != '.' && repl_find_command(line, length) != NULL,
+         done = false;
+    if ((alias || command) && strchr(line, '\n') == NULL) {
+        learn_names(repl);
+        done = take_alias(repl, line, length, rest, remark);
+        if (!done && !alias && !is_bound(repl, line, length)) {
+            repl_fail(repl, "commands begin with a dot: did you mean .%s?", line);
+            done = true;
+        } else if (!done && command && rest[0] != '\0') {
+            bytes_format(remark, "commands begin with a dot: did you mean .%s?", line);
+        }
+    }
+    free(line);
+    free(rest);
+    return done;
+}

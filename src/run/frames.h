@@ -1,0 +1,43 @@
+// frames.h: the loop over a script's frames, for the commands that have one.
+//
+// frames_open, frames_load, frames_begin; while frames_due: frames_step; frames_end; frames_close.
+#ifndef PETRI_SRC_FRAMES_H
+#define PETRI_SRC_FRAMES_H
+
+#include "cli/progress.h"
+#include "petri.h"
+#include "run/run_options.h"
+
+typedef struct Frames {
+    RunOptions options;
+    PetriSession *session;
+    Progress progress;
+    int64_t done;          // frames that were made
+    int64_t early;         // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
+    double start;          // seconds of the monotonic clock
+    double saved;          // when the state was saved last
+    bool state_lost;       // the state file could not be read or written
+    bool shown_last;       // the last diagnostic that was no note was shown
+    bool wrong_definition; // the script cannot take a value of -D
+} Frames;
+
+// Reads the command line and opens a session. RUN_OPTIONS_OK, or the status to exit with. Frames must be zero at first,
+// and stay where it is.
+int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv);
+void frames_close(Frames *frames);
+// Loads the script; false if that failed, which has been told.
+bool frames_load(Frames *frames);
+// Takes the state from its file and from here on catches signals and shows progress.
+void frames_begin(Frames *frames);
+// Whether another frame is to be made.
+bool frames_due(const Frames *frames);
+// Makes one frame. False, after a message, if there is no going on: a limit that one frame has reached, the next will
+// reach as well.
+bool frames_step(Frames *frames);
+// Takes the progress line away and, if all went well, saves the state.
+void frames_end(Frames *frames, bool going);
+// The signal that asked for an end, or 0.
+int frames_signal(void);
+double frames_fps(const Frames *frames);
+
+#endif

@@ -1,0 +1,220 @@
+// run.c: `petri run`: runs frames without drawing them and prints what was asked for.
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/hints.h"
+#include "cli/output.h"
+#include "cli/parameters.h"
+#include "cli/script.h"
+#include "run/frames.h"
+#include "run/show.h"
+#include "run/stats.h"
+#include "run/trajectory.h"
+
+typedef struct Run {
+    const Host *host;
+    Frames frames;
+    bool to_terminal; // standard output is a terminal
+    Stats stats;
+    Trajectory trajectory;
+    Output output;
+} Run;
+
+static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
+    if (run->frames.options.verbosity < (printed ? LOG_DEBUG : LOG_TRACE)) {
+        return;
+    }
+    progress_erase(&run->frames.progress);
+    message("frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps", frame->number,
+            frame->evaluation_seconds * 1e3, frame->physics_seconds * 1e3, frame->physics_steps);
+}
+
+// On a terminal the bar must make way before text comes, and come back below it.
+static bool write_text(void *host, const char *text, size_t length) {
+    Run *run = host;
+    if (run->to_terminal) {
+        progress_erase(&run->frames.progress);
+    }
+    return output_write(&run->output, text, length);
+}
+
+static bool collect(void *bytes, const char *text, size_t length) {
+    bytes_add(bytes, text, length);
+    return true;
+}
+
+// Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
+static void print_if_any(Run *run, unsigned sections) {
+    Bytes text = {0};
+    petri_print(run->frames.session, sections, collect, &text);
+    const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
+    if (end + 1 < text.data + text.length) {
+        write_text(run, text.data, text.length);
+    }
+    bytes_free(&text);
+}
+
+// What is printed and recorded of a frame.
+static void output_frame(Run *run) {
+    double start = clock_seconds();
+    unsigned sections = run->frames.options.sections;
+    if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0) {
+        print_if_any(run, sections);
+    } else if (sections != 0) {
+        petri_print(run->frames.session, sections, write_text, run);
+    } else {
+        petri_print_log(run->frames.session, write_text, run);
+    }
+    if (run->to_terminal || run->frames.options.realtime) {
+        output_flush(&run->output);
+    }
+    if (run->trajectory.beside != NULL) {
+        trajectory_add(&run->trajectory, run->frames.session);
+    }
+    run->stats.output_seconds += clock_seconds() - start;
+}
+
+static bool run_frame(Run *run) {
+    if (!frames_step(&run->frames)) {
+        return false;
+    }
+    PetriFrame frame = petri_frame(run->frames.session);
+    stats_count(&run->stats, run->frames.session);
+    bool printed = frame.number % run->frames.options.every == 0;
+    if (printed) {
+        output_frame(run);
+    }
+    report_frame(run, &frame, printed);
+    return true;
+}
+
+static bool write_message(void *host, const char *text, size_t length) {
+    (void)host;
+    return fwrite(text, 1, length, stderr) == length;
+}
+
+static void report_profile(Run *run) {
+    if (run->frames.options.profile && run->stats.frames > 0) {
+        petri_profile(run->frames.session, run->stats.output_seconds, write_message, NULL);
+    }
+}
+
+// What there is to see is told to a person who watches, and to nobody else.
+static void report_pictures(const Run *run) {
+    const RunOptions *options = &run->frames.options;
+    if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session) ||
+        script_is_stdin(options->script)) {
+        return;
+    }
+    hint_pictures(run->host, options->script);
+}
+
+static void report_summary(Run *run) {
+    Verbosity verbosity = run->frames.options.verbosity;
+    bool wanted = verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO));
+    if (!wanted || run->output.error != 0) {
+        return;
+    }
+    double seconds = clock_seconds() - run->frames.start;
+    message("%" PRId64 " frame%s in %.3f s (%.1f frames/s), %" PRIu64 " physics step%s", run->stats.frames,
+            run->stats.frames == 1 ? "" : "s", seconds, seconds > 0 ? (double)run->stats.frames / seconds : 0,
+            run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
+}
+
+static int run_frames(Run *run) {
+    Frames *frames = &run->frames;
+    frames_begin(frames);
+    bool going = true;
+    while (going && run->output.error == 0 && !run->trajectory.failed && frames_due(frames)) {
+        going = run_frame(run);
+    }
+    progress_erase(&frames->progress);
+    output_flush(&run->output);
+    frames_end(frames, going);
+    bool recorded = trajectory_close(&run->trajectory);
+    report_profile(run);
+    report_summary(run);
+    if (frames->options.stats) {
+        stats_print(&run->stats, frames->session, clock_seconds() - frames->start);
+    }
+    if (frames_signal() != 0) {
+        return STATUS_SIGNAL + frames_signal();
+    }
+    if (!going || !recorded || frames->state_lost) {
+        return STATUS_FAILED;
+    }
+    report_pictures(run);
+    return STATUS_DONE;
+}
+
+static int list_parameters(Run *run) {
+    if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options.verbosity > LOG_QUIET) {
+        message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
+                script_shown(run->frames.options.script));
+    }
+    return STATUS_DONE;
+}
+
+static int run_session(Run *run) {
+    const RunOptions *options = &run->frames.options;
+    if (!frames_load(&run->frames)) {
+        return run->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
+    }
+    if (options->parameters) {
+        return list_parameters(run);
+    }
+    if (options->dump >= 0) {
+        PetriStatus status = petri_dump(run->frames.session, (PetriDump)options->dump, output_write, &run->output);
+        return status == PETRI_OK || run->output.error != 0 ? STATUS_DONE : STATUS_FAILED;
+    }
+    if (options->trajectory != NULL && !trajectory_open(&run->trajectory, options->trajectory)) {
+        return STATUS_FAILED;
+    }
+    return run_frames(run);
+}
+
+static int run_run(const Host *host, int argc, char **argv) {
+    Run *run = calloc(1, sizeof *run);
+    if (run == NULL) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    output_start(&run->output, STDOUT_FILENO);
+    run->to_terminal = isatty(STDOUT_FILENO);
+    run->host = host;
+    int status = frames_open(&run->frames, &RUN_COMMAND, host, argc, argv);
+    if (status == RUN_OPTIONS_OK && show_wanted(&run->frames.options, argc, argv)) {
+        show(&run->frames.options, host, argc, argv);
+    }
+    if (status == RUN_OPTIONS_OK) {
+        status = output_finish(&run->output, run_session(run));
+    }
+    frames_close(&run->frames);
+    free(run);
+    return status;
+}
+
+const Command RUN_COMMAND = {
+    .name = "run",
+    .operands = "SCRIPT.fl",
+    .summary = "run a script's frames and print what they hold",
+    .details =
+        "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
+        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.\n"
+        "\n"
+        "A script has parameters where it says, at its top level, `let CELLS=CELLS or 200 -- 1..500 how many`:\n"
+        "'petri run --parameters SCRIPT.fl' lists them, '-D CELLS=50' sets one. The range is optional; a value "
+        "outside\n"
+        "is a warning, and so is a name that the script does not take. Numbers may have suffixes (1k, 20m), vectors\n"
+        "are 1;2;3, symbols :name; 0 is as good as none, for it is false. Modules see none of this.",
+    .examples = "  petri run dish.fl --stats                       how fast it is, and the energy at the end\n"
+                "  petri run dish.fl --print state --every 60      where everything is, once a second\n"
+                "  petri run dish.fl -D DROPS=50 --frames 100      another number of drops\n"
+                "  petri run dish.fl --trajectory dish.csv         all ways as a table\n",
+    .options = RUN_OPTION_SPECS,
+    .run = run_run,
+};

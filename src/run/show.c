@@ -1,0 +1,84 @@
+// show.c: `petri run --show`: whoever runs a script at a terminal sees its picture there.
+#include "run/show.h"
+
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/pass_on.h"
+#include "cli/progress.h"
+#include "cli/script.h"
+
+static bool is_named(const char *word, const char *name) {
+    size_t length = strlen(name);
+    return strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && strchr("=", word[2 + length]) != NULL;
+}
+
+// What `petri view` does not know asks for text or files.
+static bool view_knows(const char *word) {
+    for (const OptionSpec *spec = VIEW_OPTION_SPECS; spec->name != NULL; spec++) {
+        if (is_named(word, spec->name)) {
+            return true;
+        }
+    }
+    return strncmp(word, "--", 2) != 0 || is_named(word, "show");
+}
+
+bool show_wanted(const RunOptions *options, int argc, char **argv) {
+#ifdef HAVE_CHAFA
+    bool at_terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) && progress_possible();
+#else
+    bool at_terminal = false;
+#endif
+    for (int i = 0; i < argc; i++) {
+        if (!view_knows(argv[i])) {
+            return false;
+        }
+    }
+    return options->show && at_terminal && !script_is_stdin(options->script) &&
+           (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
+}
+
+// What is wrong is told by the run, or the view, to come.
+static void ignore(void *context, const PetriDiagnostic *diagnostic) {
+    (void)context;
+    (void)diagnostic;
+}
+
+// The first frame tells.
+static bool is_drawable(const RunOptions *options, const Host *host) {
+    PetriSession *session = NULL;
+    if (run_options_open(options, host, ignore, NULL, &session) != RUN_OPTIONS_OK) {
+        return false;
+    }
+    bool drawable =
+        petri_load(session, options->script) == PETRI_OK && petri_step(session) == PETRI_OK && petri_drawable(session);
+    petri_close(&session);
+    return drawable;
+}
+
+void show(const RunOptions *options, const Host *host, int argc, char **argv) {
+    if (!is_drawable(options, host)) {
+        return;
+    }
+    char frames[32];
+    snprintf(frames, sizeof frames, "--frames=%" PRId64, options->frames);
+    char **words = memory_zeroed(((size_t)argc + 6) * sizeof *words);
+    char called[] = "view", terminal[] = "--terminal", verbose[] = "--verbose";
+    char *program = memory_copied(host->called, strlen(host->called));
+    char *const first[] = {program, called, terminal, verbose, frames};
+    int count = (int)(sizeof first / sizeof first[0]);
+    memcpy(words, first, sizeof first);
+    for (int i = 0; i < argc; i++) {
+        if (!is_named(argv[i], "show")) {
+            words[count++] = argv[i];
+        }
+    }
+    fflush(NULL);
+    pass_on(words);
+    free(program);
+    free(words);
+}

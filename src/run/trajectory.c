@@ -1,0 +1,189 @@
+// trajectory.c: the file of `petri run --trajectory`: where all particles were, frame by frame.
+//
+// Extended XYZ (one block a frame, all systems together) as ASE and OVITO read it: the format has three dimensions, so
+// missing ones are 0 and further ones are left out; the species of every particle is X, the one that both know for "no
+// element". CSV: one row a particle and frame.
+#include "run/trajectory.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/cli.h"
+
+enum { XYZ_DIMENSIONS = 3 };
+
+bool trajectory_format(const char *path, TrajectoryFormat *format) {
+    static const char *const endings[] = {[TRAJECTORY_XYZ] = ".xyz", [TRAJECTORY_CSV] = ".csv"};
+    size_t length = strlen(path);
+    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
+        size_t ending = strlen(endings[i]);
+        if (length > ending && strcmp(path + length - ending, endings[i]) == 0) {
+            *format = (TrajectoryFormat)i;
+            return true;
+        }
+    }
+    return false;
+}
+
+static bool complain(Trajectory *trajectory, int error) {
+    if (!trajectory->failed) {
+        message("cannot write %s: %s", trajectory->path, strerror(error));
+    }
+    trajectory->failed = true;
+    return false;
+}
+
+bool trajectory_open(Trajectory *trajectory, const char *path) {
+    Bytes beside = {0};
+    bytes_format(&beside, "%s.%ld.tmp", path, (long)getpid());
+    trajectory->path = path;
+    trajectory->failed = false;
+    trajectory->dimensions = 0;
+    trajectory_format(path, &trajectory->format);
+    int fd = open(beside.data, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (fd < 0) {
+        complain(trajectory, errno);
+        bytes_free(&beside);
+        return false;
+    }
+    trajectory->beside = beside.data;
+    output_start(&trajectory->output, fd);
+    return true;
+}
+
+static double component(const double *vector, uint32_t k, uint32_t dimensions) {
+    return k < dimensions ? vector[k] : 0;
+}
+
+static void add_xyz(Output *output, PetriSession *session) {
+    PetriFrame frame = petri_frame(session);
+    PetriSystem system;
+    PetriParticle particle;
+    uint64_t count = 0;
+    for (size_t s = 0; petri_system(session, s, &system); s++) {
+        count += system.particle_count;
+    }
+    output_format(output,
+                  "%" PRIu64 "\nProperties=species:S:1:pos:R:3:velo:R:3:radius:R:1:mass:R:1:charge:R:1:"
+                  "id:I:1:system:I:1:anchor:I:1 Time=%.17g Frame=%" PRId64 "\n",
+                  count, frame.time, frame.number);
+    uint64_t id = 0;
+    for (size_t s = 0; petri_system(session, s, &system); s++) {
+        for (uint32_t i = 0; i < system.particle_count && petri_particle(session, s, i, &particle); i++) {
+            output_format(output, "X");
+            for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++) {
+                output_format(output, " %.17g", component(particle.position, k, system.dimensions));
+            }
+            for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++) {
+                output_format(output, " %.17g", component(particle.velocity, k, system.dimensions));
+            }
+            output_format(output, " %.17g %.17g %.17g %" PRIu64 " %zu %d\n", particle.radius, particle.mass,
+                          particle.charge, id++, s, particle.anchor ? 1 : 0);
+        }
+    }
+}
+
+static void add_csv_header(Trajectory *trajectory, PetriSession *session) {
+    Output *output = &trajectory->output;
+    PetriSystem system;
+    trajectory->dimensions = 1;
+    for (size_t s = 0; petri_system(session, s, &system); s++) {
+        if (system.dimensions > trajectory->dimensions) {
+            trajectory->dimensions = system.dimensions;
+        }
+    }
+    output_format(output, "frame,time,system,id,anchor");
+    for (uint32_t k = 0; k < trajectory->dimensions; k++) {
+        output_format(output, ",x%" PRIu32, k + 1);
+    }
+    for (uint32_t k = 0; k < trajectory->dimensions; k++) {
+        output_format(output, ",v%" PRIu32, k + 1);
+    }
+    output_format(output, ",radius,mass,charge\n");
+}
+
+// Quoted as RFC 4180 has it: ids may hold commas and quotes.
+static void add_csv_text(Output *output, const char *text) {
+    if (strpbrk(text, ",\"\r\n") == NULL) {
+        output_format(output, ",%s", text);
+        return;
+    }
+    output_write(output, ",\"", 2);
+    for (const char *c = text; *c != '\0'; c++) {
+        output_write(output, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
+    }
+    output_write(output, "\"", 1);
+}
+
+// A component that a system does not have is left empty.
+static void add_csv_vector(const Trajectory *trajectory, Output *output, const double *vector, uint32_t dimensions) {
+    for (uint32_t k = 0; k < trajectory->dimensions; k++) {
+        if (k < dimensions) {
+            output_format(output, ",%.17g", vector[k]);
+        } else {
+            output_write(output, ",", 1);
+        }
+    }
+}
+
+static void add_csv(Trajectory *trajectory, PetriSession *session) {
+    Output *output = &trajectory->output;
+    PetriFrame frame = petri_frame(session);
+    PetriSystem system;
+    PetriParticle particle;
+    if (trajectory->dimensions == 0) {
+        add_csv_header(trajectory, session);
+    }
+    for (size_t s = 0; petri_system(session, s, &system); s++) {
+        char *name = memory_copied(system.name, strlen(system.name)); // it is valid until the next call only
+        for (uint32_t i = 0; i < system.particle_count && petri_particle(session, s, i, &particle); i++) {
+            output_format(output, "%" PRId64 ",%.17g", frame.number, frame.time);
+            add_csv_text(output, name);
+            add_csv_text(output, particle.id);
+            output_format(output, ",%d", particle.anchor ? 1 : 0);
+            add_csv_vector(trajectory, output, particle.position, system.dimensions);
+            add_csv_vector(trajectory, output, particle.velocity, system.dimensions);
+            output_format(output, ",%.17g,%.17g,%.17g\n", particle.radius, particle.mass, particle.charge);
+        }
+        free(name);
+    }
+}
+
+void trajectory_add(Trajectory *trajectory, PetriSession *session) {
+    if (trajectory->format == TRAJECTORY_XYZ) {
+        add_xyz(&trajectory->output, session);
+    } else {
+        add_csv(trajectory, session);
+    }
+    if (trajectory->output.error != 0) {
+        complain(trajectory, trajectory->output.error);
+    }
+}
+
+bool trajectory_close(Trajectory *trajectory) {
+    if (trajectory->beside == NULL) {
+        return true;
+    }
+    bool done = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
+    if (done && fsync(trajectory->output.fd) != 0) {
+        done = complain(trajectory, errno);
+    }
+    if (close(trajectory->output.fd) != 0 && done) {
+        done = complain(trajectory, errno);
+    }
+    if (done && rename(trajectory->beside, trajectory->path) != 0) {
+        done = complain(trajectory, errno);
+    }
+    if (!done) {
+        unlink(trajectory->beside);
+    }
+    free(trajectory->beside);
+    trajectory->beside = NULL;
+    return done;
+}

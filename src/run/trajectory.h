@@ -1,0 +1,31 @@
+// trajectory.h: the file of `petri run --trajectory`: where all particles were, frame by frame.
+#ifndef PETRI_SRC_TRAJECTORY_H
+#define PETRI_SRC_TRAJECTORY_H
+
+#include <stdint.h>
+
+#include "cli/output.h"
+#include "petri.h"
+
+typedef enum TrajectoryFormat { TRAJECTORY_XYZ, TRAJECTORY_CSV } TrajectoryFormat;
+
+// Written beside its final name, which it gets when it is complete.
+typedef struct Trajectory {
+    const char *path;
+    TrajectoryFormat format;
+    char *beside;        // NULL: nothing is open
+    uint32_t dimensions; // of a CSV's columns: the most that a system of the first frame has
+    bool failed;         // told already
+    Output output;
+} Trajectory;
+
+// The format that a file's name asks for; false if it is neither .xyz nor .csv.
+bool trajectory_format(const char *path, TrajectoryFormat *format);
+// False after a message if the file cannot be made.
+bool trajectory_open(Trajectory *trajectory, const char *path);
+// Adds the last frame of a session. If it cannot be written there is a message, and `failed` is set.
+void trajectory_add(Trajectory *trajectory, PetriSession *session);
+// Puts the file in its place. False after a message if that or an earlier writing failed; then no file is left.
+bool trajectory_close(Trajectory *trajectory);
+
+#endif

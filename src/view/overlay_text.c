@@ -1,0 +1,153 @@
+// overlay_text.c: see overlay_text.h.
+#include "view/overlay_text.h"
+
+#include <string.h>
+
+// Length of the UTF-8 character at the start of a text, 0 if there is none.
+static size_t character_length(const unsigned char *text) {
+    size_t length = text[0] < 0x80                      ? 1
+                    : text[0] >= 0xC2 && text[0] < 0xE0 ? 2
+                    : text[0] >= 0xE0 && text[0] < 0xF0 ? 3
+                                                        : 4;
+    if (text[0] == 0 || text[0] > 0xF4 || (text[0] >= 0x80 && text[0] < 0xC2)) {
+        return 0;
+    }
+    for (size_t i = 1; i < length; i++) {
+        if ((text[i] & 0xC0) != 0x80) {
+            return 0;
+        }
+    }
+    bool surrogate = text[0] == 0xED && text[1] >= 0xA0,
+         overlong = (text[0] == 0xE0 && text[1] < 0xA0) || (text[0] == 0xF0 && text[1] < 0x90),
+         beyond = text[0] == 0xF4 && text[1] >= 0x90;
+    return surrogate || overlong || beyond ? 0 : length;
+}
+
+// Past an escape sequence such as those that colour messages.
+static const char *skip_escape(const char *text) {
+    if (text[1] != '[') {
+        return text + 1;
+    }
+    text += 2;
+    text += strspn(text, "0123456789;:?<=>!\"#$%&'()*+,-./ ");
+    return *text == '\0' ? text : text + 1;
+}
+
+static bool is_control(const char *text, size_t length) {
+    unsigned char first = (unsigned char)text[0];
+    return (length == 1 && (first < ' ' || first == 127)) || (first == 0xC2 && (unsigned char)text[1] < 0xA0);
+}
+
+bool overlay_set(char *text, size_t size, const char *from) {
+    char clean[sizeof(Overlay)];
+    size_t used = 0;
+    size = size < sizeof clean ? size : sizeof clean;
+    while (*from != '\0') {
+        size_t length = character_length((const unsigned char *)from);
+        if (*from == '\033') {
+            from = skip_escape(from);
+            continue;
+        }
+        bool blank = *from == '\t', kept = length > 0 && (*from == '\n' || !is_control(from, length));
+        if (used + (length > 1 ? length : 1) >= size) {
+            break;
+        }
+        if (blank || length == 0) {
+            clean[used++] = blank ? ' ' : '?';
+        } else if (kept) {
+            memcpy(clean + used, from, length);
+            used += length;
+        }
+        from += length > 0 ? length : 1;
+    }
+    while (used > 0 && clean[used - 1] == '\n') {
+        used--;
+    }
+    clean[used] = '\0';
+    bool changed = strcmp(text, clean) != 0;
+    memcpy(text, clean, used + 1);
+    return changed;
+}
+
+int overlay_lines(const char *text) {
+    int lines = *text == '\0' ? 0 : 1;
+    for (; *text != '\0'; text++) {
+        lines += *text == '\n';
+    }
+    return lines;
+}
+
+static bool starts_character(char byte) {
+    return ((unsigned char)byte & 0xC0) != 0x80;
+}
+
+// Characters up to the end of the line.
+static int line_columns(const char *line) {
+    int columns = 0;
+    for (; *line != '\0' && *line != '\n'; line++) {
+        columns += starts_character(*line);
+    }
+    return columns;
+}
+
+int overlay_columns(const char *text) {
+    int longest = 0;
+    for (const char *line = text; line != NULL; line = strchr(line, '\n'), line += line != NULL) {
+        int columns = line_columns(line);
+        longest = columns > longest ? columns : longest;
+    }
+    return longest;
+}
+
+// So many characters on.
+static const char *skip_columns(const char *line, int columns) {
+    for (int passed = -1; *line != '\0' && *line != '\n'; line++) {
+        passed += starts_character(*line);
+        if (passed == columns) {
+            break;
+        }
+    }
+    return line;
+}
+
+// Where the part of a line ends that is shown in one row.
+static const char *row_end(const char *line, int columns) {
+    const char *end = skip_columns(line, columns);
+    if (*end == '\0' || *end == '\n') {
+        return end;
+    }
+    for (const char *blank = end; blank > line; blank--) {
+        if (*blank == ' ') {
+            return blank;
+        }
+    }
+    return end;
+}
+
+static size_t add(char *out, size_t size, size_t used, const char *text, size_t length) {
+    if (used + length >= size) {
+        return used;
+    }
+    memcpy(out + used, text, length);
+    return used + length;
+}
+
+void overlay_fit(char *out, size_t size, const char *text, int columns) {
+    static const char more[] = "…";
+    size_t used = 0;
+    columns = columns < 2 ? 2 : columns;
+    while (*text != '\0') {
+        bool cut = *text == ' ' && line_columns(text) > columns;
+        const char *end = cut ? skip_columns(text, columns - 1) : row_end(text, columns);
+        used = add(out, size, used, text, (size_t)(end - text));
+        if (cut) {
+            used = add(out, size, used, more, sizeof more - 1);
+            end = skip_columns(text, line_columns(text));
+        }
+        text = *end == ' ' || *end == '\n' ? end + 1 : end;
+        if (*text != '\0') {
+            used = add(out, size, used, "\n", 1);
+        }
+    }
+    out[used] = '\0';
+}

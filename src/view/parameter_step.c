@@ -1,0 +1,60 @@
+// parameter_step.c: see parameter_step.h.
+#include "view/parameter_step.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { STEPS_OF_RANGE = 50, STEPS_OF_VALUE = 20 };
+
+static bool is_whole(double x) {
+    return !isfinite(x) || x == floor(x);
+}
+
+// The greatest of 1, 2 and 5 times a power of ten that is not above x.
+static double round_step(double x) {
+    double power = pow(10, floor(log10(x))), digit = x / power;
+    return (digit >= 5 ? 5 : digit >= 2 ? 2 : 1) * power;
+}
+
+static double step_size(const PetriParameter *parameter) {
+    double usual = isnan(parameter->fallback_number) ? parameter->number : parameter->fallback_number;
+    double range = parameter->most - parameter->least;
+    if (parameter->step > 0) {
+        return parameter->step;
+    }
+    double rough = isfinite(range) ? range / STEPS_OF_RANGE : fabs(usual) / STEPS_OF_VALUE;
+    double size = rough > 0 && isfinite(rough) ? round_step(rough) : 1;
+    bool whole =
+        is_whole(usual) && is_whole(parameter->number) && is_whole(parameter->least) && is_whole(parameter->most);
+    return whole ? fmax(1, floor(size)) : size;
+}
+
+// As a person would write it: without the dust of binary fractions.
+static double without_dust(double x) {
+    char text[40];
+    snprintf(text, sizeof text, "%.12g", x);
+    double clean = strtod(text, NULL);
+    return clean == 0 ? 0 : clean; // and -0 is 0
+}
+
+// Steps lead to multiples of their size, counted from the range's start if it says how large they are.
+static double step_from(const PetriParameter *parameter, double value, int steps) {
+    double size = step_size(parameter), dust = 1e-9;
+    double origin = parameter->step > 0 && isfinite(parameter->least) ? parameter->least : 0;
+    double place = (value - origin) / size;
+    place = steps > 0 ? floor(place + dust) : ceil(place - dust);
+    double to = without_dust(origin + (place + steps) * size);
+    return fmin(fmax(to, parameter->least), parameter->most);
+}
+
+double parameter_stepped(const PetriParameter *parameter, int steps) {
+    if (!isfinite(parameter->number)) {
+        return NAN;
+    }
+    double to = step_from(parameter, parameter->number, steps);
+    if (to == 0 && parameter->fallback_number != 0) { // beyond it, if there is something
+        to = step_from(parameter, to, steps > 0 ? 1 : -1);
+    }
+    return to == 0 && parameter->fallback_number != 0 ? NAN : to;
+}

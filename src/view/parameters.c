@@ -1,0 +1,126 @@
+// parameters.c: see parameters.h.
+#include "view/parameters.h"
+
+#include <math.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/parameters.h"
+#include "view/parameter_step.h"
+
+enum { LARGE_STEP = 10 };
+
+typedef enum KeyMeaning { MEANS_NOTHING, MEANS_CHOICE, MEANS_STEP, MEANS_DEFAULT } KeyMeaning;
+
+static const struct {
+    const char *key;
+    KeyMeaning meaning;
+    int by;
+} KEYS[] = {
+    {"tab", MEANS_CHOICE, 1},
+    {"right_bracket", MEANS_CHOICE, 1},
+    {"left_bracket", MEANS_CHOICE, -1},
+    {"up", MEANS_STEP, 1},
+    {"equal", MEANS_STEP, 1},
+    {"kp_add", MEANS_STEP, 1},
+    {"down", MEANS_STEP, -1},
+    {"minus", MEANS_STEP, -1},
+    {"kp_subtract", MEANS_STEP, -1},
+    {"page_up", MEANS_STEP, LARGE_STEP},
+    {"page_down", MEANS_STEP, -LARGE_STEP},
+    {"0", MEANS_DEFAULT, 0},
+    {"backspace", MEANS_DEFAULT, 0},
+};
+
+static KeyMeaning meaning_of(const char *key, int *by) {
+    for (size_t i = 0; i < sizeof KEYS / sizeof KEYS[0]; i++) {
+        if (strcmp(KEYS[i].key, key) == 0) {
+            *by = KEYS[i].by;
+            return KEYS[i].meaning;
+        }
+    }
+    return MEANS_NOTHING;
+}
+
+bool parameter_key_repeats(const char *key) {
+    int by;
+    return meaning_of(key, &by) == MEANS_STEP;
+}
+
+// How many there are that can be set.
+static size_t count_parameters(PetriSession *session) {
+    PetriParameter parameter;
+    size_t count = 0;
+    while (petri_parameter(session, count, &parameter) && parameter.settable) {
+        count++;
+    }
+    return count;
+}
+
+static void describe(World *world, size_t chosen, Bytes *text) {
+    PetriParameter parameter;
+    if (petri_parameter(world->session, chosen, &parameter)) {
+        parameter_describe(text, &parameter);
+        bytes_format(text, "%s%s", parameter.comment[0] == '\0' ? "" : "  ", parameter.comment);
+    }
+}
+
+static ParameterAct set(ParameterKeys *keys, World *world, const char *value, Bytes *text) {
+    PetriParameter parameter;
+    petri_parameter(world->session, keys->chosen, &parameter);
+    char *name = memory_copied(parameter.name, strlen(parameter.name));
+    bool done = world_set_parameter(world, name, value);
+    free(name);
+    describe(world, keys->chosen, text);
+    return done ? PARAMETER_CHANGES : PARAMETER_TELLS;
+}
+
+static ParameterAct step(ParameterKeys *keys, World *world, int steps, Bytes *text) {
+    PetriParameter parameter;
+    petri_parameter(world->session, keys->chosen, &parameter);
+    double to = parameter_stepped(&parameter, steps);
+    if (isnan(to) || to == parameter.number) {
+        describe(world, keys->chosen, text);
+        bytes_format(text, "%s",
+                     isnan(parameter.number) ? ": keys change numbers only"
+                     : isnan(to)             ? ": 0 would be the default"
+                                             : "");
+        return PARAMETER_TELLS;
+    }
+    char value[40];
+    snprintf(value, sizeof value, "%.12g", to);
+    return set(keys, world, to == parameter.fallback_number ? NULL : value, text);
+}
+
+ParameterAct parameter_key(ParameterKeys *keys, World *world, const char *key, Bytes *text) {
+    int by = 0;
+    KeyMeaning meaning = meaning_of(key, &by);
+    if (meaning == MEANS_NOTHING) {
+        return PARAMETER_OTHER;
+    }
+    size_t count = count_parameters(world->session);
+    if (count == 0) {
+        bytes_format(text, "the script has no parameters, such as let SIZE=SIZE or 20");
+        return PARAMETER_TELLS;
+    }
+    bool first = !keys->used || keys->chosen >= count; // it may have been changed
+    keys->used = true;
+    keys->chosen = keys->chosen < count ? keys->chosen : 0;
+    if (meaning == MEANS_CHOICE && !first) {
+        keys->chosen = (keys->chosen + (by > 0 ? 1 : count - 1)) % count;
+    }
+    if (meaning == MEANS_CHOICE || first) { // nobody changes what is not seen
+        describe(world, keys->chosen, text);
+        return PARAMETER_TELLS;
+    }
+    return meaning == MEANS_STEP ? step(keys, world, by, text) : set(keys, world, NULL, text);
+}
+
+void parameter_status(const ParameterKeys *keys, World *world, Bytes *text) {
+    size_t count = count_parameters(world->session);
+    if (count > 0) {
+        bytes_format(text, "\ntab parameter  up down change  0 default\n");
+        describe(world, keys->chosen < count ? keys->chosen : 0, text);
+    }
+}

@@ -1,0 +1,166 @@
+// terminal_keys.c: see terminal_keys.h.
+#include "view/terminal_keys.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/progress.h"
+#include "petri.h"
+#include "view/keys.h"
+
+// Seconds after which an escape that nothing followed was the key.
+static const double ESCAPE_SECONDS = 0.05;
+
+void terminal_input_read(TerminalInput *input, int fd) {
+    size_t room = sizeof input->bytes - input->count;
+    if (room == 0) { // nothing so long means anything
+        input->count = 0;
+        room = sizeof input->bytes;
+    }
+    ssize_t count = read(fd, input->bytes + input->count, room);
+    if (count > 0) {
+        input->since = clock_seconds();
+        input->count += (size_t)count;
+    } else if (count == 0 || errno != EINTR) {
+        input->closed = true;
+    }
+}
+
+static void drop(TerminalInput *input, size_t count) {
+    input->count -= count;
+    memmove(input->bytes, input->bytes + count, input->count);
+}
+
+static Event tap(const char *key) {
+    return (Event){.kind = key == NULL ? EVENT_NONE : EVENT_TAP, .key = key};
+}
+
+static const char *key_of_letter(unsigned char letter) {
+    static const char *const arrows[] = {"up", "down", "right", "left"};
+    static const char *const functions[] = {"f1", "f2", "f3", "f4"};
+    if (letter >= 'A' && letter <= 'D') {
+        return arrows[letter - 'A'];
+    }
+    if (letter >= 'P' && letter <= 'S') {
+        return functions[letter - 'P'];
+    }
+    return letter == 'H' ? "home" : letter == 'F' ? "end" : NULL;
+}
+
+static const char *key_of_number(long number) {
+    static const char *const names[] = {
+        NULL, "home", "insert", "delete", "end", "page_up", "page_down", "home", "end", NULL, NULL,  "f1",  "f2",
+        "f3", "f4",   "f5",     NULL,     "f6",  "f7",      "f8",        "f9",   "f10", NULL, "f11", "f12",
+    };
+    return number > 0 && number < (long)(sizeof names / sizeof names[0]) ? names[number] : NULL;
+}
+
+// A mouse report `<code;column;row` that ends in M (pressed, moved) or m (let go).
+static Event mouse_event(TerminalInput *input, const char *text, char last) {
+    char *end;
+    long code = strtol(text, &end, 10), column = *end == ';' ? strtol(end + 1, &end, 10) : 0,
+         row = *end == ';' ? strtol(end + 1, &end, 10) : 0;
+    static const unsigned buttons[] = {PETRI_BUTTON_LEFT, PETRI_BUTTON_MIDDLE, PETRI_BUTTON_RIGHT, 0};
+    bool moved = (code & 32) != 0, wheel = (code & 64) != 0;
+    if (column < 1 || row < 1 || wheel) {
+        return (Event){.kind = EVENT_NONE};
+    }
+    if (!moved && last == 'M') {
+        input->buttons |= buttons[code & 3];
+    } else if (last == 'm') {
+        input->buttons &= ~buttons[code & 3];
+    }
+    return (Event){.kind = EVENT_POINTER,
+                   .inside = true,
+                   .x = (double)column - 0.5,
+                   .y = (double)row - 0.5,
+                   .buttons = input->buttons};
+}
+
+// A sequence `ESC [ parameters letter`, with its parameters as text.
+static Event sequence_event(TerminalInput *input, const char *parameters, unsigned char last) {
+    switch (last) {
+    case 'M':
+    case 'm':
+        return parameters[0] == '<' ? mouse_event(input, parameters + 1, (char)last) : (Event){.kind = EVENT_NONE};
+    case '~':
+        return tap(key_of_number(strtol(parameters, NULL, 10)));
+    case 'O':
+        input->buttons = 0;
+        return (Event){.kind = EVENT_AWAY};
+    default:
+        return tap(key_of_letter(last));
+    }
+}
+
+// Length of the sequence that begins with ESC [, 0 if its end has not come.
+static size_t sequence_length(const TerminalInput *input) {
+    for (size_t i = 2; i < input->count; i++) {
+        if (input->bytes[i] >= '@' && input->bytes[i] <= '~') {
+            return i + 1;
+        }
+    }
+    return 0;
+}
+
+static Event next_sequence(TerminalInput *input) {
+    char parameters[sizeof input->bytes];
+    size_t length = sequence_length(input);
+    if (length == 0) {
+        return (Event){.kind = EVENT_NONE};
+    }
+    memcpy(parameters, input->bytes + 2, length - 3);
+    parameters[length - 3] = '\0';
+    unsigned char last = input->bytes[length - 1];
+    drop(input, length);
+    return sequence_event(input, parameters, last);
+}
+
+static Event next_escape(TerminalInput *input) {
+    bool late = clock_seconds() - input->since > ESCAPE_SECONDS;
+    if (input->count == 1) {
+        if (late) {
+            drop(input, 1);
+        }
+        return late ? tap("escape") : (Event){.kind = EVENT_NONE};
+    }
+    if (input->bytes[1] == '[') {
+        return next_sequence(input);
+    }
+    if (input->bytes[1] == 'O' && input->count > 2) {
+        unsigned char letter = input->bytes[2];
+        drop(input, 3);
+        return tap(key_of_letter(letter));
+    }
+    if (input->bytes[1] == 'O' && !late) {
+        return (Event){.kind = EVENT_NONE};
+    }
+    drop(input, 1); // a key with Alt, or a second escape
+    return input->bytes[0] == 27 ? tap("escape") : (Event){.kind = EVENT_NONE};
+}
+
+static Event next_character(TerminalInput *input) {
+    unsigned char byte = input->bytes[0];
+    drop(input, 1);
+    if (byte >= 128) { // no key of ours
+        return (Event){.kind = EVENT_NONE};
+    }
+    const char *key = key_of_character((char)byte);
+    if (key == NULL && byte > 0 && byte <= 26) {
+        Event event = tap(key_of_character((char)('a' + byte - 1)));
+        event.control = true;
+        return event;
+    }
+    return tap(key);
+}
+
+Event terminal_input_next(TerminalInput *input) {
+    Event event = {.kind = EVENT_NONE};
+    for (size_t before = 0; input->count > 0 && event.kind == EVENT_NONE && before != input->count;) {
+        before = input->count;
+        event = input->bytes[0] == 27 ? next_escape(input) : next_character(input);
+    }
+    return event;
+}

@@ -1,0 +1,345 @@
+// terminal_view.c: a display that is the terminal: pictures by libchafa, keys and the mouse by escape sequences.
+//
+// While it is open the terminal is on its other screen, tells single keys and the mouse, and shows no cursor. However
+// the process ends, short of SIGKILL, the terminal is given back as it was.
+#include "view/display.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/ioctl.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/cli.h"
+#include "view/terminal_keys.h"
+#include "view/terminal_picture.h"
+
+enum { DEFAULT_COLUMNS = 80, DEFAULT_ROWS = 24 };
+
+// The other screen, no cursor, mouse and focus reports, title put aside; and back.
+static const char ENTER[] = "\033[?1049h\033[?25l\033[?1003h\033[?1006h\033[?1004h\033[22;0t\033[2J";
+static const char LEAVE[] = "\033[0m\033[?1004l\033[?1006l\033[?1003l\033[?25h\033[23;0t\033[?1049l";
+// Kitty's images are taken away by themselves.
+static const char TAKE_AWAY[] = "\033_Ga=d,q=2\033\\";
+// What is between these two is shown at once, where the terminal knows of it.
+static const char BEGIN[] = "\033[?2026h", END[] = "\033[?2026l";
+
+struct Display {
+    TerminalPicture *way;
+    TerminalInput input;
+    TerminalCells cells; // of the picture shown last
+    int columns;         // of the terminal
+    int rows;
+    int left; // cells before the picture
+    int top;
+    Overlay shown;
+    char title[200];
+    bool colour;
+    bool clear; // everything has to be drawn anew
+};
+
+// Signal handlers, and exit, can reach nothing but globals. What has to be given back is here while it has to be.
+static struct {
+    pthread_t owner; // the thread that draws
+    volatile sig_atomic_t entered;
+    volatile sig_atomic_t resized;
+    volatile sig_atomic_t suspended;
+    bool has_settings;
+    struct termios settings;
+} terminal;
+
+static void write_all(const char *text, size_t length) {
+    while (length > 0) {
+        ssize_t written = write(STDOUT_FILENO, text, length);
+        if (written < 0 && errno != EINTR) {
+            return;
+        }
+        if (written > 0) {
+            text += written;
+            length -= (size_t)written;
+        }
+    }
+}
+
+// Safe in signal handlers.
+static void give_back(void) {
+    if (terminal.entered) {
+        terminal.entered = 0;
+        write_all(LEAVE, sizeof LEAVE - 1);
+        if (terminal.has_settings) {
+            tcsetattr(STDIN_FILENO, TCSAFLUSH, &terminal.settings);
+        }
+    }
+}
+
+// A signal from outside may come to any thread, and the one that draws must not go on after the terminal is given back.
+static void on_crash(int number, siginfo_t *info, void *context) {
+    (void)context;
+    if ((info->si_code == SI_USER || number == SIGQUIT) && !pthread_equal(pthread_self(), terminal.owner)) {
+        pthread_kill(terminal.owner, number);
+        return;
+    }
+    give_back();
+    signal(number, SIG_DFL);
+    raise(number);
+}
+
+static void on_resize(int number) {
+    (void)number;
+    terminal.resized = 1;
+}
+
+static void on_suspend(int number) {
+    (void)number;
+    terminal.suspended = 1;
+}
+
+static void on_signal(int number, void (*handler)(int)) {
+    struct sigaction action = {.sa_handler = handler};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+static void catch_crash(int number) {
+    struct sigaction action = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
+    sigemptyset(&action.sa_mask);
+    sigaction(number, &action, NULL);
+}
+
+static void catch_signals(void) {
+    static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
+    for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
+        catch_crash(crashes[i]);
+    }
+    on_signal(SIGWINCH, on_resize);
+    on_signal(SIGTSTP, on_suspend);
+}
+
+static void enter(void) {
+    if (terminal.has_settings) {
+        struct termios raw = terminal.settings;
+        raw.c_lflag &= ~(tcflag_t)(ICANON | ECHO | IEXTEN); // Ctrl-C and Ctrl-Z stay signals
+        raw.c_iflag &= ~(tcflag_t)(IXON | ICRNL);
+        raw.c_cc[VMIN] = 0;
+        raw.c_cc[VTIME] = 0;
+        tcsetattr(STDIN_FILENO, TCSAFLUSH, &raw);
+    }
+    terminal.entered = 1;
+    write_all(ENTER, sizeof ENTER - 1);
+}
+
+static void measure(Display *display) {
+    struct winsize size;
+    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
+    display->columns = known ? size.ws_col : DEFAULT_COLUMNS;
+    display->rows = known ? size.ws_row : DEFAULT_ROWS;
+}
+
+static void terminal_set_title(Display *display, const char *title) {
+    overlay_set(display->title, sizeof display->title, title);
+    Bytes text = {0};
+    bytes_format(&text, "\033]0;%s\033\\", display->title);
+    write_all(text.data, text.length);
+    bytes_free(&text);
+}
+
+static void terminal_close(Display *display) {
+    if (display == NULL) {
+        return;
+    }
+    if (terminal.entered && terminal_picture_is_graphics(display->way)) {
+        write_all(TAKE_AWAY, sizeof TAKE_AWAY - 1);
+    }
+    give_back();
+    terminal_picture_free(display->way);
+    free(display);
+}
+
+static Display *terminal_open(const char *title, int width, int height, bool colour) {
+    (void)width;
+    (void)height;
+    if (!isatty(STDOUT_FILENO)) {
+        message("there is no display, and standard output is no terminal");
+        return NULL;
+    }
+    Display *display = memory_zeroed(sizeof *display);
+    display->way = terminal_picture_new(STDOUT_FILENO, colour);
+    display->colour = colour;
+    display->clear = true;
+    if (display->way == NULL) {
+        message("out of memory");
+        terminal_close(display);
+        return NULL;
+    }
+    terminal.has_settings = isatty(STDIN_FILENO) && tcgetattr(STDIN_FILENO, &terminal.settings) == 0;
+    display->input.closed = !terminal.has_settings; // keys come from terminals only
+    terminal.owner = pthread_self();
+    atexit(give_back);
+    catch_signals();
+    measure(display);
+    enter();
+    terminal_set_title(display, title);
+    return display;
+}
+
+// Ctrl-Z: the shell gets its terminal until it says to go on.
+static void suspend(Display *display) {
+    terminal.suspended = 0;
+    give_back();
+    raise(SIGSTOP);
+    measure(display);
+    enter();
+    terminal_set_title(display, display->title);
+    display->clear = true;
+}
+
+static Event to_pixels(const Display *display, Event event) {
+    if (event.kind == EVENT_POINTER && event.inside) {
+        event.x = (event.x - display->left) * display->cells.width / (display->cells.columns + 1e-9);
+        event.y = (event.y - display->top) * display->cells.height / (display->cells.rows + 1e-9);
+    }
+    return event;
+}
+
+static void wait_for_input(Display *display, double seconds) {
+    struct pollfd input = {.fd = display->input.closed ? -1 : STDIN_FILENO, .events = POLLIN};
+    if (poll(&input, 1, (int)(seconds * 1000)) > 0) {
+        terminal_input_read(&display->input, STDIN_FILENO);
+    }
+}
+
+static Event terminal_next_event(Display *display, double seconds) {
+    if (terminal.suspended) {
+        suspend(display);
+    }
+    Event event = terminal_input_next(&display->input);
+    if (event.kind == EVENT_NONE) {
+        wait_for_input(display, seconds);
+        event = terminal_input_next(&display->input);
+    }
+    if (event.kind == EVENT_NONE && (terminal.resized || display->clear)) {
+        terminal.resized = 0;
+        measure(display);
+        display->clear = true;
+        return (Event){.kind = EVENT_REDRAW};
+    }
+    return to_pixels(display, event);
+}
+
+static void terminal_size(Display *display, int width, int height, int *drawn_width, int *drawn_height) {
+    TerminalCells cells = terminal_picture_fit(display->way, display->columns, display->rows, width, height);
+    display->clear = display->clear || cells.columns != display->cells.columns || cells.rows != display->cells.rows;
+    display->cells = cells;
+    display->left = (display->columns - cells.columns) / 2;
+    display->top = (display->rows - cells.rows) / 2;
+    *drawn_width = cells.width;
+    *drawn_height = cells.height;
+}
+
+// Writes the lines of a text from a row on, each over the whole width.
+static void add_lines(Bytes *out, const char *text, int row, const Display *display, const char *look) {
+    for (const char *line = text; line != NULL && *text != '\0' && row < display->rows; row++) {
+        bytes_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
+        line = strchr(line, '\n');
+        line += line != NULL;
+    }
+}
+
+// What is wrong at the top, the mark at its right, the rest at the bottom.
+static void add_overlay(Bytes *out, const Display *display, const Overlay *overlay) {
+    static const char reverse[] = "\033[7m", careful[] = "\033[38;5;230;48;5;58m";
+    char text[sizeof *overlay];
+    int columns = display->columns - 2, row = display->rows;
+    overlay_fit(text, sizeof text, overlay->trouble, columns);
+    const char *wrong = overlay->mild ? careful : "\033[38;5;224;48;5;52m";
+    add_lines(out, text, 0, display, display->colour ? wrong : reverse);
+    int length = overlay_columns(overlay->mark);
+    if (length > 0 && length + 2 <= display->columns) {
+        bytes_format(out, "\033[1;%dH%s %s \033[0m", display->columns - length - 1, display->colour ? careful : reverse,
+                     overlay->mark);
+    }
+    overlay_fit(text, sizeof text, overlay->status, columns);
+    row -= overlay_lines(text);
+    add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;253;48;5;234m" : reverse);
+    overlay_fit(text, sizeof text, overlay->notice, columns);
+    row -= overlay_lines(text);
+    add_lines(out, text, row < 0 ? 0 : row, display, display->colour ? "\033[38;5;153;48;5;234m" : reverse);
+}
+
+static void add_picture(Bytes *out, const Display *display, const char *text, size_t length) {
+    int row = display->top;
+    for (const char *end = text + length; text < end; row++) {
+        const char *newline = memchr(text, '\n', (size_t)(end - text));
+        size_t part = (size_t)((newline == NULL ? end : newline) - text);
+        bytes_format(out, "\033[%d;%dH", row + 1, display->left + 1);
+        bytes_add(out, text, part);
+        text += part + 1;
+    }
+}
+
+static bool same_lines(const Overlay *a, const Overlay *b) {
+    return overlay_lines(a->trouble) == overlay_lines(b->trouble) &&
+           overlay_lines(a->notice) == overlay_lines(b->notice) &&
+           overlay_lines(a->status) == overlay_lines(b->status) && strcmp(a->mark, b->mark) == 0;
+}
+
+static bool terminal_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
+    (void)width; // what terminal_size said
+    (void)height;
+    size_t length = 0;
+    char *text = terminal_picture_text(display->way, pixels, &display->cells, &length);
+    if (text == NULL) {
+        message("out of memory");
+        return false;
+    }
+    Bytes out = {0};
+    bytes_format(&out, "%s", BEGIN);
+    if (display->clear || !same_lines(overlay, &display->shown)) {
+        bytes_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
+    }
+    if (terminal_picture_is_graphics(display->way)) {
+        bytes_format(&out, "%s", TAKE_AWAY);
+    }
+    add_picture(&out, display, text, length);
+    add_overlay(&out, display, overlay);
+    bytes_format(&out, "\033[0m%s", END);
+    write_all(out.data, out.length);
+    bytes_free(&out);
+    free(text);
+    display->shown = *overlay;
+    display->clear = false;
+    return true;
+}
+
+// A terminal has the size that it has.
+static void terminal_resize(Display *display, int width, int height) {
+    (void)display;
+    (void)width;
+    (void)height;
+}
+
+static void terminal_toggle_full_screen(Display *display) {
+    (void)display;
+}
+
+static const DisplayKind TERMINAL = {
+    .open = terminal_open,
+    .close = terminal_close,
+    .next_event = terminal_next_event,
+    .size = terminal_size,
+    .show = terminal_show,
+    .set_title = terminal_set_title,
+    .resize = terminal_resize,
+    .toggle_full_screen = terminal_toggle_full_screen,
+    .least_seconds = 1.0 / 30,
+    .logs = false,
+};
+
+const DisplayKind *terminal_display(void) {
+    return terminal_picture_possible() ? &TERMINAL : NULL;
+}

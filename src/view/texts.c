@@ -1,0 +1,82 @@
+// texts.c: see view.h.
+#include <inttypes.h>
+#include <math.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/progress.h"
+#include "view/view.h"
+
+// Seconds: how long a notice stays; between two measures of the frame rate.
+static const double NOTICE = 4, MEASURE = 0.5;
+
+static void set_notice(View *view, const char *text, double ends) {
+    view->redraw = overlay_set(view->overlay.notice, sizeof view->overlay.notice, text) || view->redraw;
+    view->notice_ends = ends;
+}
+
+void view_notice(View *view, const char *format, ...) {
+    char text[sizeof view->overlay.notice];
+    va_list arguments;
+    va_start(arguments, format);
+    vsnprintf(text, sizeof text, format, arguments);
+    va_end(arguments);
+    set_notice(view, text, clock_seconds() + NOTICE);
+}
+
+void view_settle_notice(View *view) {
+    set_notice(view, view->paused ? "paused: space goes on, . steps" : "", INFINITY);
+}
+
+// What stops the script comes first; warnings are listed if that is wanted, else a mark tells that there are some.
+void view_update_trouble(View *view) {
+    Overlay *overlay = &view->overlay;
+    const char *trouble = world_trouble(&view->world);
+    char text[sizeof overlay->trouble] = "", mark[sizeof overlay->mark] = "";
+    overlay->mild = trouble[0] == '\0';
+    if (overlay->mild && view->shows_warnings) {
+        warnings_list(&view->world.warnings, text, sizeof text);
+    } else if (overlay->mild) {
+        warnings_mark(&view->world.warnings, mark, sizeof mark);
+    }
+    bool changed = overlay_set(overlay->trouble, sizeof overlay->trouble, overlay->mild ? text : trouble);
+    changed = overlay_set(overlay->mark, sizeof overlay->mark, mark) || changed;
+    view->redraw = changed || view->redraw;
+}
+
+static void add_parameters(View *view, char *text, size_t size) {
+    Bytes more = {0};
+    size_t length = strlen(text);
+    parameter_status(&view->parameters, &view->world, &more);
+    snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
+    bytes_free(&more);
+}
+
+void view_update_status(View *view) {
+    char text[sizeof view->overlay.status] = "";
+    if (view->shows_status) {
+        PetriFrame frame = petri_frame(view->world.session);
+        double seconds = frame.time;
+        snprintf(text, sizeof text,
+                 "%.1f fps  frame %" PRId64 "  %d:%05.2f  beat %.2f\n"
+                 "script %.2f ms  physics %.2f ms  steps %" PRIu64 "\n"
+                 "space pause  . step  r reset  f full screen\n"
+                 "s screenshot  w warnings  h this  q quit",
+                 view->rate, frame.number, (int)(seconds / 60), fmod(seconds, 60), frame.beat,
+                 frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
+        add_parameters(view, text, sizeof text);
+    }
+    view->redraw = overlay_set(view->overlay.status, sizeof view->overlay.status, text) || view->redraw;
+}
+
+void view_measure_rate(View *view) {
+    double now = clock_seconds(), passed = now - view->measured;
+    if (passed < MEASURE) {
+        return;
+    }
+    view->rate = (double)(view->world.frames - view->measured_frames) / passed;
+    view->measured = now;
+    view->measured_frames = view->world.frames;
+    view_update_status(view);
+}

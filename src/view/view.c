@@ -1,0 +1,417 @@
+// view.c: `petri view`: a script's picture, live: the loop between a world (world.h) and a display (display.h).
+#include <inttypes.h>
+#include <math.h>
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/hints.h"
+#include "cli/progress.h"
+#include "view/view.h"
+
+// Seconds: the longest sleep (a saved script is seen after at most that); between two saves of the state.
+static const double LONGEST_SLEEP = 0.05, BETWEEN_SAVES = 5;
+enum { MOST_EVENTS = 256, DEFAULT_SIZE = 512 };
+
+// A signal handler can reach nothing but a global.
+static volatile sig_atomic_t interrupted;
+
+static void on_interrupt(int number) {
+    interrupted = number;
+}
+
+// The first of these closes the view with all that belongs to it; a second one ends the process.
+static void catch_interrupts(void) {
+    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
+    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
+    sigemptyset(&action.sa_mask);
+    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
+        sigaction(numbers[i], &action, NULL);
+    }
+}
+
+// The window's size and title, of which the script may change its mind at any time.
+static void follow_script(View *view) {
+    int width = DEFAULT_SIZE, height = DEFAULT_SIZE;
+    const char *title = view->world.options.script;
+    if (view->world.picture != NULL) {
+        petri_picture_size(view->world.picture, &width, &height);
+        const char *own = petri_picture_title(view->world.picture);
+        title = own[0] != '\0' ? own : title;
+    }
+    bool resized = width != view->width || height != view->height;
+    view->width = width;
+    view->height = height;
+    bool renamed = overlay_set(view->title, sizeof view->title, title);
+    if (view->display != NULL && resized) {
+        view->kind->resize(view->display, width, height);
+    }
+    if (view->display != NULL && renamed) {
+        view->kind->set_title(view->display, view->title);
+    }
+}
+
+static void step(View *view) {
+    world_step(&view->world);
+    view->step_once = view->paused && view->world.early; // what is not seen is no step
+    follow_script(view);
+    view_update_trouble(view);
+    if (view->paused) {
+        view_update_status(view);
+    }
+    view->redraw = true;
+    if (clock_seconds() - view->saved > BETWEEN_SAVES) {
+        world_save(&view->world);
+        view->saved = clock_seconds();
+    }
+}
+
+static bool at_end(const View *view) {
+    const RunOptions *options = &view->world.options;
+    if (view->world.frames >= options->frames) {
+        return true;
+    }
+    if (isnan(options->run_time)) {
+        return false;
+    }
+    double fps = petri_frame(view->world.session).fps;
+    double time = options->realtime ? clock_seconds() - view->start : (double)view->world.frames / fps;
+    return time >= options->run_time;
+}
+
+static bool may_step(const View *view) {
+    return !view->world.halted && (!view->paused || view->step_once);
+}
+
+// Seconds until something is to be done: a step, a picture, the end of a notice.
+static double idle_seconds(const View *view) {
+    double now = clock_seconds(), idle = LONGEST_SLEEP;
+    if (may_step(view)) {
+        idle = fmin(idle, view->step_once ? 0 : petri_due(view->world.session));
+    }
+    if (view->redraw) {
+        idle = fmin(idle, view->drawn + view->kind->least_seconds - now);
+    }
+    return fmax(0, fmin(idle, view->notice_ends - now));
+}
+
+// The pixels that the picture takes in the middle of the display's.
+static void picture_area(const View *view, double *left, double *top, double *width, double *height) {
+    int across, down;
+    view->kind->size(view->display, view->width, view->height, &across, &down);
+    double scale = fmin((double)across / view->width, (double)down / view->height);
+    *width = view->width * scale;
+    *height = view->height * scale;
+    *left = (across - *width) / 2;
+    *top = (down - *height) / 2;
+}
+
+static void report_pointer(View *view, const Event *event) {
+    double left, top, width, height;
+    picture_area(view, &left, &top, &width, &height);
+    PetriPointer pointer = {.x = (event->x - left) / width, .y = (event->y - top) / height, .buttons = event->buttons};
+    pointer.inside = event->inside && pointer.x >= 0 && pointer.x <= 1 && pointer.y >= 0 && pointer.y <= 1;
+    petri_pointer(view->world.session, &pointer);
+}
+
+static void set_paused(View *view, bool paused) {
+    view->paused = paused;
+    petri_hold(view->world.session);
+    view_settle_notice(view);
+    view_update_status(view);
+}
+
+static void take_screenshot(View *view) {
+    char name[300];
+    if (world_screenshot(&view->world, name, sizeof name)) {
+        view_notice(view, "saved %s", name);
+    } else {
+        view_notice(view, "cannot save %s", name);
+        view->world.failed = true;
+    }
+    if (view->kind->logs) {
+        message("%s", view->overlay.notice);
+    }
+}
+
+static void reset(View *view) {
+    world_reset(&view->world);
+    view->step_once = true; // so that the first frame is seen even while paused
+    view_update_trouble(view);
+    view_notice(view, "reset");
+}
+
+// Keys for the script's parameters; what they do is seen at once.
+static void change_parameters(View *view, const char *key) {
+    Bytes text = {0};
+    ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
+    if (act != PARAMETER_OTHER) {
+        view_notice(view, "%s", text.data);
+        view_update_status(view);
+    }
+    if (act == PARAMETER_CHANGES) {
+        view->step_once = view->step_once || view->paused;
+        view_update_trouble(view);
+    }
+    bytes_free(&text);
+}
+
+static void obey(View *view, const char *key) {
+    if (strcmp(key, "q") == 0 || strcmp(key, "escape") == 0) {
+        view->closing = true;
+    } else if (strcmp(key, "space") == 0) {
+        set_paused(view, !view->paused);
+    } else if (strcmp(key, "period") == 0) {
+        set_paused(view, true);
+        view->step_once = true;
+    } else if (strcmp(key, "r") == 0) {
+        reset(view);
+    } else if (strcmp(key, "f") == 0) {
+        view->kind->toggle_full_screen(view->display);
+        view->redraw = true;
+    } else if (strcmp(key, "s") == 0) {
+        take_screenshot(view);
+    } else if (strcmp(key, "w") == 0) {
+        view->shows_warnings = !view->shows_warnings;
+        view_update_trouble(view);
+    } else if (strcmp(key, "h") == 0) {
+        view->shows_status = !view->shows_status;
+        view_update_status(view);
+    } else {
+        change_parameters(view, key);
+    }
+}
+
+// A key that the script asks for is the script's, unless it is pressed with Control.
+static void take_key(View *view, const Event *event) {
+    if (event->key == NULL) {
+        return;
+    }
+    bool pressed = event->kind == EVENT_TAP || event->pressed;
+    bool repeated = event->again && !parameter_key_repeats(event->key);
+    if (pressed && !repeated && (event->control || !petri_key_bound(view->world.session, event->key))) {
+        obey(view, event->key);
+    }
+    petri_key(view->world.session, event->key, pressed);
+    if (event->kind == EVENT_TAP) {
+        petri_key(view->world.session, event->key, false);
+    }
+}
+
+static void take_event(View *view, const Event *event) {
+    switch (event->kind) {
+    case EVENT_CLOSE:
+        view->closing = true;
+        break;
+    case EVENT_KEY:
+    case EVENT_TAP:
+        take_key(view, event);
+        break;
+    case EVENT_POINTER:
+        view->pointer = *event;
+        report_pointer(view, event);
+        break;
+    case EVENT_AWAY:
+        petri_pointer(view->world.session, NULL);
+        break;
+    case EVENT_REDRAW:
+        view->redraw = true;
+        break;
+    case EVENT_NONE:
+        break;
+    }
+}
+
+static void take_events(View *view) {
+    Event event = view->kind->next_event(view->display, idle_seconds(view));
+    for (int i = 0; event.kind != EVENT_NONE && !view->closing && i < MOST_EVENTS; i++) {
+        take_event(view, &event);
+        event = view->kind->next_event(view->display, 0);
+    }
+}
+
+static bool use_pixels(View *view, size_t count) {
+    if (count > view->pixel_count) {
+        free(view->pixels);
+        view->pixels = memory_zeroed(count * sizeof *view->pixels);
+        view->pixel_count = count;
+    }
+    return view->pixels != NULL;
+}
+
+static void blacken(uint32_t *pixels, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        pixels[i] = 0xFF000000;
+    }
+}
+
+// What shines through a picture without a window is black.
+static void make_opaque(uint32_t *pixels, size_t count) {
+    for (size_t i = 0; i < count; i++) {
+        pixels[i] |= 0xFF000000;
+    }
+}
+
+static void draw(View *view) {
+    int width, height;
+    view->kind->size(view->display, view->width, view->height, &width, &height);
+    size_t count = (size_t)width * (size_t)height;
+    if (count == 0 || !use_pixels(view, count)) {
+        return;
+    }
+    PetriStatus status = PETRI_INVALID;
+    if (view->world.picture != NULL && !view->world.unseen) {
+        status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
+                                    (size_t)width * sizeof *view->pixels);
+        petri_picture_tell(view->world.session, view->world.picture);
+        view_update_trouble(view); // what drawing has found wrong
+    }
+    if (status == PETRI_OK) {
+        make_opaque(view->pixels, count);
+    } else {
+        blacken(view->pixels, count);
+    }
+    view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
+    view->redraw = false;
+    view->drawn = clock_seconds();
+}
+
+static void take_changes(View *view) {
+    if (!world_reload(&view->world)) {
+        return;
+    }
+    if (world_trouble(&view->world)[0] == '\0') {
+        view_notice(view, "loaded the changed script");
+        view->step_once = view->paused; // so that the change is seen
+    }
+    view_update_trouble(view);
+}
+
+static void run_loop(View *view) {
+    while (!view->closing && !view->broken && !interrupted && !at_end(view)) {
+        take_events(view);
+        take_changes(view);
+        if (clock_seconds() >= view->notice_ends) {
+            view_settle_notice(view);
+        }
+        if (may_step(view) && (view->step_once || petri_due(view->world.session) <= 0)) {
+            if (view->paused) {
+                petri_hold(view->world.session);
+            }
+            step(view);
+        }
+        // A run that is to end by itself ends when nothing more can come.
+        if (view->world.halted && (view->world.options.frames < INT64_MAX || !isnan(view->world.options.run_time))) {
+            return;
+        }
+        view_measure_rate(view);
+        if (view->redraw && clock_seconds() - view->drawn >= view->kind->least_seconds) {
+            draw(view);
+        }
+    }
+}
+
+// A window if there is a screen for it, else the terminal.
+static bool open_display(View *view) {
+    const RunOptions *options = &view->world.options;
+    bool window = !options->terminal && window_display() != NULL && window_has_screen();
+    if (!window && terminal_display() == NULL) {
+        message(options->terminal || window_display() != NULL
+                    ? "this petri was built without libchafa, so it shows no pictures in terminals"
+                    : "this petri was built without SDL and libchafa, so it has no way to show pictures");
+        return false;
+    }
+    view->kind = window ? window_display() : terminal_display();
+    view->world.mute = !window && isatty(STDERR_FILENO);
+    view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
+    if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
+        view->kind = terminal_display();
+        view->world.mute = isatty(STDERR_FILENO);
+        view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
+    }
+    return view->display != NULL;
+}
+
+// To a person who watches, as the other commands do; on the screen that is there again after the pictures.
+static void report_summary(const View *view) {
+    Verbosity verbosity = view->world.options.verbosity;
+    double seconds = clock_seconds() - view->start;
+    if (verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO))) {
+        message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
+                seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
+    }
+    if (view->world.options.terminal && verbosity == LOG_VERBOSE) {
+        hint_pictures(view->host, view->world.options.script);
+    } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
+        message("it was shown in the terminal, for this petri was built without SDL; './dev build' adds windows");
+    }
+}
+
+static int run_view(View *view) {
+    view->start = view->saved = view->measured = clock_seconds();
+    view->notice_ends = INFINITY;
+    view->redraw = true;
+    if (view->world.options.frames > 0) {
+        step(view); // before anything opens: it tells the size
+    }
+    follow_script(view);
+    catch_interrupts();
+    bool opened = open_display(view);
+    if (opened) {
+        petri_pointer(view->world.session, &(PetriPointer){.inside = false});
+        petri_hold(view->world.session);
+        run_loop(view);
+        view->kind->close(view->display);
+    }
+    world_unmute(&view->world);
+    if (!opened) {
+        return STATUS_FAILED;
+    }
+    if (!view->world.halted) {
+        world_save(&view->world);
+    }
+    report_summary(view);
+    bool failed = view->world.halted || view->world.failed || view->broken;
+    return interrupted ? STATUS_SIGNAL + interrupted : failed ? STATUS_FAILED : STATUS_DONE;
+}
+
+static int view_run(const Host *host, int argc, char **argv) {
+    View *view = memory_zeroed(sizeof *view);
+    view->host = host;
+    int status = run_options_read(&view->world.options, &VIEW_COMMAND, argc, argv);
+    if (status == RUN_OPTIONS_OK) {
+        status = world_open(&view->world, host);
+        if (status == RUN_OPTIONS_OK) {
+            status = run_view(view);
+        }
+        world_close(&view->world);
+    }
+    run_options_free(&view->world.options);
+    free(view->pixels);
+    free(view);
+    return status;
+}
+
+const Command VIEW_COMMAND = {
+    .name = "view",
+    .live = true,
+    .operands = "SCRIPT.fl",
+    .summary = "show a script's picture as it runs, in a window or in the terminal",
+    .details =
+        "Shows what a script draws, or its particles, as it runs: in a window, or in the terminal where there is no\n"
+        "display. Saving the script loads it anew and keeps its state; while it has mistakes they are shown, and the\n"
+        "last good version goes on.\n"
+        "\n"
+        "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
+        "rate and clocks, w lists warnings, whose number a corner shows, q or Escape quits. Tab or ] and [ choose a\n"
+        "parameter of the script (petri help run), up and down or + and - change it (page up and down: ten steps), 0\n"
+        "or backspace sets its default. Those that the script asks for by !key are the script's; with Control they\n"
+        "have the meaning above.",
+    .examples =
+        "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
+        "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
+    .options = VIEW_OPTION_SPECS,
+    .run = view_run,
+};

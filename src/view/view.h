@@ -1,0 +1,55 @@
+// view.h: what the files of `petri view` share.
+#ifndef PETRI_SRC_VIEW_VIEW_H
+#define PETRI_SRC_VIEW_VIEW_H
+
+#include "view/display.h"
+#include "view/parameters.h"
+#include "view/world.h"
+
+typedef struct View {
+    const Host *host;
+    World world;
+    const DisplayKind *kind;
+    Display *display;
+    Overlay overlay;
+    bool paused;
+    bool step_once;
+    bool shows_status;
+    bool shows_warnings;
+    bool redraw;
+    bool closing;
+    bool broken; // the display, or memory for it, is gone
+    double start;
+    double drawn; // when the picture was drawn last
+    double saved;
+    double notice_ends; // INFINITY: it stays
+    // The frame rate
+    double measured;
+    int64_t measured_frames;
+    double rate;
+    // Pixels of the display
+    uint32_t *pixels;
+    size_t pixel_count;
+    // The script's size and title as the display knows them
+    int width;
+    int height;
+    char title[300];
+    Event pointer; // the last that moved
+    ParameterKeys parameters;
+} View;
+
+// texts.c: the texts over the picture, which is drawn again where they change.
+
+// Tells what was done just now, for some seconds.
+__attribute__((format(printf, 2, 3))) void view_notice(View *view, const char *format, ...);
+// Shows what there is when there is nothing to tell.
+void view_settle_notice(View *view);
+// What is wrong with the script, and the number or list of its warnings.
+void view_update_trouble(View *view);
+// Frame rate, clocks and keys.
+void view_update_status(View *view);
+// The same, if it is time to: twice a second is as much as can be read; while paused the numbers are those of the frame
+// that is seen.
+void view_measure_rate(View *view);
+
+#endif

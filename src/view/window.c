@@ -1,0 +1,391 @@
+// window.c: a display that is a window, on SDL.
+#include "view/display.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/cli.h"
+#include "petri.h"
+#include "view/keys.h"
+#include "view/overlay.h"
+#include "view/screen.h"
+#include "view/window_manager.h"
+
+// A way to the screen that the user has chosen, as SDL's users do; NULL: none.
+static const char *chosen_driver(void) {
+    const char *driver = getenv("SDL_VIDEODRIVER");
+    return driver != NULL && driver[0] != '\0' ? driver : NULL;
+}
+
+bool window_has_screen(void) {
+    bool named = chosen_driver() != NULL;
+    for (size_t i = 0; screen_kind(i) != NULL; i++) {
+        named = named || screen_name(screen_kind(i)) != NULL;
+    }
+    return named;
+}
+
+#ifdef HAVE_SDL
+#include <SDL.h>
+
+// A window is never smaller than this, nor larger than this part of the screen.
+enum { LEAST_SIZE = 64 };
+static const double MOST_OF_SCREEN = 0.9;
+
+struct Display {
+    SDL_Window *window;
+    SDL_Renderer *renderer;
+    SDL_Texture *texture;
+    int texture_width;
+    int texture_height;
+    OverlayPainter *overlay;
+    bool filled;    // the screen, by ourselves
+    SDL_Rect usual; // … where the window was before
+};
+
+// As large as the script says, but shrunk to what fits on the screen.
+static void fit_screen(int *width, int *height) {
+    SDL_Rect screen;
+    if (SDL_GetDisplayUsableBounds(0, &screen) != 0) {
+        return;
+    }
+    double across = screen.w * MOST_OF_SCREEN / *width, down = screen.h * MOST_OF_SCREEN / *height;
+    double scale = across < down ? across : down;
+    if (scale < 1) {
+        *width = (int)(*width * scale);
+        *height = (int)(*height * scale);
+    }
+    *width = *width < LEAST_SIZE ? LEAST_SIZE : *width;
+    *height = *height < LEAST_SIZE ? LEAST_SIZE : *height;
+}
+
+static void window_close(Display *display) {
+    if (display == NULL) {
+        return;
+    }
+    overlay_painter_free(display->overlay);
+    if (display->texture != NULL) {
+        SDL_DestroyTexture(display->texture);
+    }
+    if (display->renderer != NULL) {
+        SDL_DestroyRenderer(display->renderer);
+    }
+    if (display->window != NULL) {
+        SDL_DestroyWindow(display->window);
+    }
+    SDL_Quit();
+    free(display);
+}
+
+// Drawing is our own; the renderer only brings the pixels to the screen. Where the graphics card cannot, software does.
+static SDL_Renderer *new_renderer(SDL_Window *window) {
+    SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_PRESENTVSYNC);
+    return renderer != NULL ? renderer : SDL_CreateRenderer(window, -1, SDL_RENDERER_SOFTWARE);
+}
+
+static bool start_on(const Screen *screen) {
+    if (!screen_answers(screen)) {
+        SDL_SetError("nothing answers at %s=%s", screen->variable, screen_name(screen));
+        return false;
+    }
+    SDL_SetHint(SDL_HINT_VIDEODRIVER, screen->driver);
+    return SDL_Init(SDL_INIT_VIDEO) == 0;
+}
+
+// Only what the environment names: a window that SDL opens somewhere else is not where the user is.
+static bool start_video(void) {
+    const char *driver = chosen_driver();
+    bool started = false, tried = false;
+    SDL_SetError("no screen is named");
+    for (size_t i = 0; screen_kind(i) != NULL && !started; i++) {
+        const Screen *screen = screen_kind(i);
+        if (screen_name(screen) != NULL && (driver == NULL || strcmp(driver, screen->driver) == 0)) {
+            tried = true;
+            started = start_on(screen);
+        }
+    }
+    return started || (!tried && driver != NULL && SDL_Init(SDL_INIT_VIDEO) == 0);
+}
+
+static Display *window_open(const char *title, int width, int height, bool colour) {
+    (void)colour;
+    Display *display = calloc(1, sizeof *display);
+    if (display == NULL) {
+        message("out of memory");
+        return NULL;
+    }
+    SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
+    SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
+    SDL_SetMainReady();
+    if (start_video()) {
+        fit_screen(&width, &height);
+        display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
+                                           SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+    }
+    if (display->window != NULL) {
+        SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
+        display->renderer = new_renderer(display->window);
+    }
+    display->overlay = overlay_painter_new();
+    if (display->renderer == NULL || display->overlay == NULL) {
+        message("cannot open a window: %s", display->renderer == NULL ? SDL_GetError() : "out of memory");
+        window_close(display);
+        return NULL;
+    }
+    return display;
+}
+
+static const char *key_name(SDL_Keycode code) {
+    static const struct {
+        SDL_Keycode code;
+        const char *name;
+    } names[] = {
+        {SDLK_RIGHT, "right"},
+        {SDLK_LEFT, "left"},
+        {SDLK_DOWN, "down"},
+        {SDLK_UP, "up"},
+        {SDLK_INSERT, "insert"},
+        {SDLK_PAGEUP, "page_up"},
+        {SDLK_PAGEDOWN, "page_down"},
+        {SDLK_HOME, "home"},
+        {SDLK_END, "end"},
+        {SDLK_DELETE, "delete"},
+        {SDLK_CAPSLOCK, "caps_lock"},
+        {SDLK_SCROLLLOCK, "scroll_lock"},
+        {SDLK_NUMLOCKCLEAR, "num_lock"},
+        {SDLK_PRINTSCREEN, "print_screen"},
+        {SDLK_PAUSE, "pause"},
+        {SDLK_F1, "f1"},
+        {SDLK_F2, "f2"},
+        {SDLK_F3, "f3"},
+        {SDLK_F4, "f4"},
+        {SDLK_F5, "f5"},
+        {SDLK_F6, "f6"},
+        {SDLK_F7, "f7"},
+        {SDLK_F8, "f8"},
+        {SDLK_F9, "f9"},
+        {SDLK_F10, "f10"},
+        {SDLK_F11, "f11"},
+        {SDLK_F12, "f12"},
+        {SDLK_KP_0, "kp_0"},
+        {SDLK_KP_1, "kp_1"},
+        {SDLK_KP_2, "kp_2"},
+        {SDLK_KP_3, "kp_3"},
+        {SDLK_KP_4, "kp_4"},
+        {SDLK_KP_5, "kp_5"},
+        {SDLK_KP_6, "kp_6"},
+        {SDLK_KP_7, "kp_7"},
+        {SDLK_KP_8, "kp_8"},
+        {SDLK_KP_9, "kp_9"},
+        {SDLK_KP_PERIOD, "kp_decimal"},
+        {SDLK_KP_DIVIDE, "kp_divide"},
+        {SDLK_KP_MULTIPLY, "kp_multiply"},
+        {SDLK_KP_MINUS, "kp_subtract"},
+        {SDLK_KP_PLUS, "kp_add"},
+        {SDLK_KP_ENTER, "kp_enter"},
+        {SDLK_KP_EQUALS, "kp_equal"},
+        {SDLK_LSHIFT, "left_shift"},
+        {SDLK_LCTRL, "left_control"},
+        {SDLK_LALT, "left_alt"},
+        {SDLK_LGUI, "left_super"},
+        {SDLK_RSHIFT, "right_shift"},
+        {SDLK_RCTRL, "right_control"},
+        {SDLK_RALT, "right_alt"},
+        {SDLK_RGUI, "right_super"},
+        {SDLK_APPLICATION, "menu"},
+    };
+    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
+        if (names[i].code == code) {
+            return names[i].name;
+        }
+    }
+    return code > 0 && code < 127 ? key_of_character((char)code) : code == SDLK_DELETE ? "delete" : NULL;
+}
+
+// How many pixels a unit of the window has; more than one on screens of high density.
+static void density(const Display *display, double *across, double *down) {
+    int width = 1, height = 1, pixels_across = 1, pixels_down = 1;
+    SDL_GetWindowSize(display->window, &width, &height);
+    SDL_GetRendererOutputSize(display->renderer, &pixels_across, &pixels_down);
+    *across = width > 0 ? (double)pixels_across / width : 1;
+    *down = height > 0 ? (double)pixels_down / height : 1;
+}
+
+static unsigned button_bit(int button) {
+    switch (button) {
+    case SDL_BUTTON_LEFT:
+        return PETRI_BUTTON_LEFT;
+    case SDL_BUTTON_MIDDLE:
+        return PETRI_BUTTON_MIDDLE;
+    case SDL_BUTTON_RIGHT:
+        return PETRI_BUTTON_RIGHT;
+    default:
+        return button > 3 && button <= 8 ? 1U << (button - 1) : 0;
+    }
+}
+
+static Event pointer_event(const Display *display, int x, int y, unsigned state) {
+    Event event = {.kind = EVENT_POINTER, .inside = true};
+    double across, down;
+    density(display, &across, &down);
+    event.x = (x + 0.5) * across;
+    event.y = (y + 0.5) * down;
+    for (int button = 1; button <= 8; button++) {
+        event.buttons |= state & SDL_BUTTON(button) ? button_bit(button) : 0;
+    }
+    return event;
+}
+
+static Event window_event(const SDL_WindowEvent *event) {
+    switch (event->event) {
+    case SDL_WINDOWEVENT_CLOSE:
+        return (Event){.kind = EVENT_CLOSE};
+    case SDL_WINDOWEVENT_EXPOSED:
+    case SDL_WINDOWEVENT_SIZE_CHANGED:
+        return (Event){.kind = EVENT_REDRAW};
+    case SDL_WINDOWEVENT_FOCUS_LOST:
+        return (Event){.kind = EVENT_AWAY};
+    case SDL_WINDOWEVENT_LEAVE:
+        return (Event){.kind = EVENT_POINTER};
+    default:
+        return (Event){.kind = EVENT_NONE};
+    }
+}
+
+static Event translate(const Display *display, const SDL_Event *event) {
+    switch (event->type) {
+    case SDL_QUIT:
+        return (Event){.kind = EVENT_CLOSE};
+    case SDL_WINDOWEVENT:
+        return window_event(&event->window);
+    case SDL_KEYDOWN:
+    case SDL_KEYUP:
+        return (Event){.kind = EVENT_KEY,
+                       .key = key_name(event->key.keysym.sym),
+                       .pressed = event->type == SDL_KEYDOWN,
+                       .again = event->key.repeat != 0,
+                       .control = (event->key.keysym.mod & KMOD_CTRL) != 0};
+    case SDL_MOUSEMOTION:
+        return pointer_event(display, event->motion.x, event->motion.y, event->motion.state);
+    case SDL_MOUSEBUTTONDOWN:
+    case SDL_MOUSEBUTTONUP: {
+        // The button at hand counts as the event says, however soon the next event follows.
+        unsigned bit = button_bit(event->button.button);
+        Event pointer = pointer_event(display, event->button.x, event->button.y, SDL_GetMouseState(NULL, NULL));
+        pointer.buttons = event->type == SDL_MOUSEBUTTONDOWN ? pointer.buttons | bit : pointer.buttons & ~bit;
+        return pointer;
+    }
+    default:
+        return (Event){.kind = EVENT_NONE};
+    }
+}
+
+// Events that mean nothing to us are passed over, without waiting anew.
+static Event window_next_event(Display *display, double seconds) {
+    SDL_Event found;
+    int wait = (int)(seconds * 1000);
+    Event event = {.kind = EVENT_NONE};
+    while (event.kind == EVENT_NONE && (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
+        event = translate(display, &found);
+        wait = 0;
+    }
+    return event;
+}
+
+static void window_size(Display *display, int width, int height, int *drawn_width, int *drawn_height) {
+    (void)width; // the picture is put into the middle of whatever the window is
+    (void)height;
+    if (SDL_GetRendererOutputSize(display->renderer, drawn_width, drawn_height) != 0) {
+        *drawn_width = *drawn_height = LEAST_SIZE;
+    }
+}
+
+static bool use_texture(Display *display, int width, int height) {
+    if (display->texture != NULL && display->texture_width == width && display->texture_height == height) {
+        return true;
+    }
+    if (display->texture != NULL) {
+        SDL_DestroyTexture(display->texture);
+    }
+    display->texture =
+        SDL_CreateTexture(display->renderer, SDL_PIXELFORMAT_ARGB8888, SDL_TEXTUREACCESS_STREAMING, width, height);
+    display->texture_width = width;
+    display->texture_height = height;
+    return display->texture != NULL;
+}
+
+static bool window_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
+    double across, down;
+    density(display, &across, &down);
+    overlay_draw(display->overlay, overlay, across, pixels, width, height);
+    if (!use_texture(display, width, height) || SDL_UpdateTexture(display->texture, NULL, pixels, width * 4) != 0) {
+        message("cannot show the picture: %s", SDL_GetError());
+        return false;
+    }
+    SDL_SetTextureBlendMode(display->texture, SDL_BLENDMODE_NONE);
+    SDL_RenderClear(display->renderer);
+    SDL_RenderCopy(display->renderer, display->texture, NULL, NULL);
+    SDL_RenderPresent(display->renderer);
+    return true;
+}
+
+static void window_set_title(Display *display, const char *title) {
+    SDL_SetWindowTitle(display->window, title);
+}
+
+static void window_resize(Display *display, int width, int height) {
+    if (!display->filled &&
+        (SDL_GetWindowFlags(display->window) & (SDL_WINDOW_FULLSCREEN | SDL_WINDOW_MAXIMIZED)) == 0) {
+        fit_screen(&width, &height);
+        SDL_SetWindowSize(display->window, width, height);
+    }
+}
+
+// Where nobody manages windows, and so nothing but ours is on the screen, they are what we make them.
+static void fill_screen(Display *display) {
+    SDL_Rect screen, *usual = &display->usual;
+    int number = SDL_GetWindowDisplayIndex(display->window);
+    if (SDL_GetDisplayBounds(number < 0 ? 0 : number, &screen) != 0) {
+        return;
+    }
+    SDL_GetWindowPosition(display->window, &usual->x, &usual->y);
+    SDL_GetWindowSize(display->window, &usual->w, &usual->h);
+    SDL_SetWindowPosition(display->window, screen.x, screen.y);
+    SDL_SetWindowSize(display->window, screen.w, screen.h);
+    display->filled = true;
+}
+
+static void window_toggle_full_screen(Display *display) {
+    bool full = (SDL_GetWindowFlags(display->window) & SDL_WINDOW_FULLSCREEN) != 0;
+    if (display->filled) {
+        SDL_SetWindowSize(display->window, display->usual.w, display->usual.h);
+        SDL_SetWindowPosition(display->window, display->usual.x, display->usual.y);
+        display->filled = false;
+    } else if (!full && !window_manager_fills_screen(display->window)) {
+        fill_screen(display);
+    } else {
+        SDL_SetWindowFullscreen(display->window, full ? 0 : SDL_WINDOW_FULLSCREEN_DESKTOP);
+    }
+}
+
+static const DisplayKind WINDOW = {
+    .open = window_open,
+    .close = window_close,
+    .next_event = window_next_event,
+    .size = window_size,
+    .show = window_show,
+    .set_title = window_set_title,
+    .resize = window_resize,
+    .toggle_full_screen = window_toggle_full_screen,
+    .least_seconds = 0,
+    .logs = true,
+};
+
+const DisplayKind *window_display(void) {
+    return &WINDOW;
+}
+#else
+const DisplayKind *window_display(void) {
+    return NULL;
+}
+#endif

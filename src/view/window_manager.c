@@ -1,0 +1,89 @@
+// window_manager.c: see window_manager.h.
+#include "view/window_manager.h"
+
+#ifdef HAVE_SDL
+#include <SDL.h>
+#include <SDL_syswm.h>
+
+#ifdef SDL_VIDEO_DRIVER_X11
+#include <X11/Xatom.h>
+
+// SDL has loaded the library already; to link it as well would make each start slower.
+static const char LIBRARY[] = "libX11.so.6";
+
+typedef struct X11 {
+    Status (*get_attributes)(Display *, Window, XWindowAttributes *);
+    Atom (*intern)(Display *, const char *, Bool);
+    int (*get_property)(Display *, Window, Atom, long, long, Bool, Atom, Atom *, int *, unsigned long *,
+                        unsigned long *, unsigned char **);
+    int (*release)(void *);
+} X11;
+
+static bool find(void *library, const char *name, void *function) {
+    void *address = SDL_LoadFunction(library, name);
+    SDL_memcpy(function, &address, sizeof address);
+    return address != NULL;
+}
+
+static bool find_all(void *library, X11 *x11) {
+    return library != NULL && find(library, "XGetWindowAttributes", &x11->get_attributes) &&
+           find(library, "XInternAtom", &x11->intern) && find(library, "XGetWindowProperty", &x11->get_property) &&
+           find(library, "XFree", &x11->release);
+}
+
+// A window manager is who has asked to be told before windows of the root are changed.
+static bool is_managed(const X11 *x11, Display *display, Window root) {
+    XWindowAttributes attributes;
+    return x11->get_attributes(display, root, &attributes) != 0 &&
+           (attributes.all_event_masks & SubstructureRedirectMask) != 0;
+}
+
+static bool knows_full_screen(const X11 *x11, Display *display, Window root) {
+    enum { MOST_ATOMS = 4096 };
+    Atom supported = x11->intern(display, "_NET_SUPPORTED", True), type;
+    Atom wanted = x11->intern(display, "_NET_WM_STATE_FULLSCREEN", True);
+    int bits = 0;
+    unsigned long count = 0, left = 0;
+    unsigned char *data = NULL;
+    bool known = false;
+    if (supported == None || wanted == None ||
+        x11->get_property(display, root, supported, 0, MOST_ATOMS, False, XA_ATOM, &type, &bits, &count, &left,
+                          &data) != Success) {
+        return false;
+    }
+    for (unsigned long i = 0; bits == 32 && i < count; i++) { // of 32 bits on the wire: each is a long here
+        Atom one;
+        SDL_memcpy(&one, data + i * sizeof one, sizeof one);
+        known = known || one == wanted;
+    }
+    if (data != NULL) {
+        x11->release(data);
+    }
+    return known;
+}
+
+bool window_manager_fills_screen(struct SDL_Window *window) {
+    SDL_SysWMinfo info;
+    SDL_VERSION(&info.version);
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
+        return true;
+    }
+    X11 x11;
+    void *library = SDL_LoadObject(LIBRARY);
+    bool fills = true;
+    if (find_all(library, &x11)) {
+        Window root = DefaultRootWindow(info.info.x11.display);
+        fills = is_managed(&x11, info.info.x11.display, root) && knows_full_screen(&x11, info.info.x11.display, root);
+    }
+    if (library != NULL) {
+        SDL_UnloadObject(library);
+    }
+    return fills;
+}
+#else
+bool window_manager_fills_screen(struct SDL_Window *window) {
+    (void)window;
+    return true;
+}
+#endif
+#endif

@@ -1,0 +1,267 @@
+// world.c: see world.h.
+#include "view/world.h"
+
+#include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/parameters.h"
+#include "cli/script.h"
+
+enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000 };
+
+static void log_text(World *world, const char *text) {
+    if (!world->mute) {
+        fputs(text, stderr);
+    } else if (world->log.length < MOST_LOG) {
+        bytes_add(&world->log, text, strlen(text));
+    }
+}
+
+static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
+    World *world = context;
+    world->wrong_definition = world->wrong_definition || is_wrong_definition(diagnostic);
+    if (diagnostic->level != PETRI_NOTE) { // notes belong to the diagnostic before them
+        world->shown = diagnostic->level == PETRI_ERROR || world->options.verbosity > LOG_QUIET;
+    }
+    if (world->shown) {
+        log_text(world, diagnostic->rendered);
+        warnings_add(&world->warnings, diagnostic);
+    }
+    if (diagnostic->level == PETRI_ERROR && world->trouble.length < MOST_TROUBLE) {
+        bytes_format(&world->trouble, "%s", diagnostic->rendered);
+    }
+}
+
+static void forget_trouble(World *world) {
+    bytes_free(&world->trouble);
+}
+
+static void cut_trouble(World *world, size_t length) {
+    if (world->trouble.length > length) {
+        world->trouble.length = length;
+        world->trouble.data[length] = '\0';
+    }
+}
+
+const char *world_trouble(const World *world) {
+    return world->trouble.length > 0 ? world->trouble.data : "";
+}
+
+// Puts a line before what is wrong, if anything is.
+static void head_trouble(World *world, const char *line) {
+    Bytes whole = {0};
+    bytes_format(&whole, "%s\n%s", line, world_trouble(world));
+    bytes_free(&world->trouble);
+    world->trouble = whole;
+}
+
+// The script, and what it includes and imports as far as that is known.
+static bool watch_sources(World *world) {
+    bool watched = watch_file(world->watch, world->options.script);
+    const char *source;
+    for (size_t i = 0; watched && (source = petri_source(world->session, i)) != NULL; i++) {
+        watched = watch_file(world->watch, source);
+    }
+    return watched;
+}
+
+static int load_first(World *world) {
+    PetriStatus status = script_load(world->session, world->options.script);
+    if (status != PETRI_OK) {
+        if (status == PETRI_MEMORY) {
+            message("out of memory");
+        }
+        return world->wrong_definition ? STATUS_USAGE : STATUS_FAILED;
+    }
+    if (world->options.state_file != NULL) {
+        world->state_lost = petri_restore(world->session, world->options.state_file) != PETRI_OK;
+        if (world->state_lost) {
+            message("the view starts afresh; '%s' is left alone and nothing is saved", world->options.state_file);
+            world->failed = true;
+        }
+    }
+    return RUN_OPTIONS_OK;
+}
+
+int world_open(World *world, const Host *host) {
+    world->host = host;
+    int status = run_options_open(&world->options, host, on_diagnostic, world, &world->session);
+    if (status != RUN_OPTIONS_OK) {
+        return status;
+    }
+    world->watch = watch_new();
+    world->painter = petri_painter_open();
+    if (world->watch == NULL || world->painter == NULL || !watch_sources(world)) {
+        message("out of memory");
+        return STATUS_FAILED;
+    }
+    status = load_first(world);
+    forget_trouble(world);
+    return status;
+}
+
+void world_close(World *world) {
+    petri_picture_free(&world->picture);
+    petri_painter_close(&world->painter);
+    petri_close(&world->session);
+    watch_free(world->watch);
+    bytes_free(&world->log);
+    bytes_free(&world->trouble);
+    warnings_forget(&world->warnings);
+}
+
+// Files that the script's `!record` nodes name.
+static void record(World *world) {
+    for (size_t i = 0;; i++) {
+        const char *file = petri_picture_record(world->picture, i);
+        if (file == NULL) {
+            return;
+        }
+        if (petri_picture_save(world->picture, world->painter, file) != PETRI_OK) {
+            world->failed = true;
+        }
+    }
+}
+
+// Of an early frame, unless there is a picture that can stay for so long, only the size is wanted.
+static void take_picture(World *world) {
+    PetriPictureOptions options = petri_default_picture_options();
+    options.automatic = world->options.automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    world->early = !petri_picture_ready(world->session, &options);
+    if (world->early && world->picture != NULL) {
+        return;
+    }
+    world->unseen = world->early;
+    petri_picture_free(&world->picture);
+    if (petri_picture(world->session, &options, &world->picture) == PETRI_OK && !world->early) {
+        record(world);
+        petri_picture_tell(world->session, world->picture);
+    }
+}
+
+bool world_step(World *world) {
+    size_t before = world->trouble.length;
+    PetriStatus status = petri_step(world->session);
+    PetriFrame frame = petri_frame(world->session);
+    if (status != PETRI_OK) {
+        char line[100];
+        snprintf(line, sizeof line, "stopped in frame %" PRId64 "%s", frame.number,
+                 status == PETRI_MEMORY ? ": out of memory" : "");
+        log_text(world, "petri: ");
+        log_text(world, line);
+        log_text(world, "\n");
+        head_trouble(world, line);
+        world->halted = true;
+        return false;
+    }
+    watch_sources(world); // modules are imported by frames
+    take_picture(world);
+    world->frames += world->early ? 0 : 1;
+    cut_trouble(world, before); // faults of a frame that went on are told on standard error, as in a run
+    if (world->options.verbosity >= LOG_DEBUG) {
+        char line[200];
+        snprintf(line, sizeof line, "petri: frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps\n",
+                 frame.number, frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
+        log_text(world, line);
+    }
+    return true;
+}
+
+// After an attempt to load: what it said counts if it went well, what was said before if not.
+static void choose_warnings(World *world, Warnings *before, bool loaded) {
+    if (loaded) {
+        warnings_forget(before);
+    } else {
+        warnings_forget(&world->warnings);
+        world->warnings = *before;
+    }
+}
+
+bool world_reload(World *world) {
+    if (!watch_changed(world->watch)) {
+        return false;
+    }
+    Warnings before = world->warnings;
+    world->warnings = (Warnings){0};
+    forget_trouble(world);
+    bool loaded = petri_reload(world->session, world->options.script) == PETRI_OK;
+    choose_warnings(world, &before, loaded);
+    if (loaded) {
+        world->halted = world->broken = false;
+        watch_sources(world);
+        forget_trouble(world); // of a load that went well, errors are only warnings to the eye
+    } else {
+        world->broken = true;
+        head_trouble(world, "The script was changed but cannot be loaded. The last good version is running.");
+    }
+    petri_hold(world->session);
+    return true;
+}
+
+bool world_set_parameter(World *world, const char *name, const char *value) {
+    size_t before = world->trouble.length;
+    Warnings known = world->warnings;
+    world->warnings = (Warnings){0};
+    bool done = petri_set_parameter(world->session, name, value) == PETRI_OK;
+    choose_warnings(world, &known, done);
+    if (done) {
+        world->halted = false;
+        cut_trouble(world, world->broken ? before : 0);
+    }
+    petri_hold(world->session);
+    return done;
+}
+
+void world_reset(World *world) {
+    petri_clear(world->session);
+    world->halted = false;
+    if (!world->broken) {
+        forget_trouble(world);
+    }
+}
+
+// The script's name without folders and suffix.
+static void base_name(const char *script, char *name, size_t size) {
+    const char *slash = strrchr(script, '/');
+    snprintf(name, size, "%s", slash == NULL ? script : slash + 1);
+    char *dot = strrchr(name, '.');
+    if (dot != NULL && dot != name) {
+        *dot = '\0';
+    }
+}
+
+bool world_screenshot(World *world, char *name, size_t size) {
+    char base[200];
+    if (world->picture == NULL || world->unseen) {
+        snprintf(name, size, "a picture, for there is none");
+        return false;
+    }
+    base_name(world->options.script, base, sizeof base);
+    int64_t frame = petri_picture_frame(world->picture);
+    snprintf(name, size, "%s-%05" PRId64 ".png", base, frame);
+    for (int i = 2; access(name, F_OK) == 0; i++) {
+        snprintf(name, size, "%s-%05" PRId64 "-%d.png", base, frame, i);
+    }
+    bool saved = petri_picture_save(world->picture, world->painter, name) == PETRI_OK;
+    petri_picture_tell(world->session, world->picture);
+    return saved;
+}
+
+void world_save(World *world) {
+    if (world->options.state_file != NULL && !world->state_lost) {
+        world->state_lost = petri_save(world->session, world->options.state_file) != PETRI_OK;
+        world->failed = world->failed || world->state_lost;
+    }
+}
+
+void world_unmute(World *world) {
+    world->mute = false;
+    if (world->log.length > 0) {
+        fputs(world->log.data, stderr);
+    }
+    bytes_free(&world->log);
+}

@@ -1,0 +1,58 @@
+// world.h: what `petri view` looks at: a script that runs, is loaded anew when it is saved, and has pictures.
+//
+// A script that cannot be loaded, or a frame that cannot be made, is told and changes nothing: the last good program
+// goes on, or waits.
+#ifndef PETRI_SRC_VIEW_WORLD_H
+#define PETRI_SRC_VIEW_WORLD_H
+
+#include "cli/bytes.h"
+#include "cli/watch.h"
+#include "petri.h"
+#include "run/run_options.h"
+#include "view/warnings.h"
+
+typedef struct World {
+    RunOptions options;
+    const Host *host;
+    PetriSession *session;
+    PetriPainter *painter;
+    PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
+    Watch *watch;
+    int64_t frames; // made since the view was opened, without early ones
+    bool early;     // the last frame could not show particles where they are (petri_picture_ready)
+    bool unseen;    // `picture` is of an early frame: it tells its size and is not shown
+    bool halted;    // a frame could not be made; the next load or reset goes on
+    bool broken;    // the script on disk cannot be loaded; an earlier version is running
+    bool failed;    // something could not be read, written or recorded
+    bool state_lost;
+    bool wrong_definition; // the script cannot take a value of -D
+    // Messages
+    bool mute;         // standard error belongs to the display: messages are kept in `log` until it is closed
+    bool shown;        // the last diagnostic that was no note was shown
+    Bytes log;         // bounded
+    Bytes trouble;     // what is wrong now, for the overlay
+    Warnings warnings; // of the program that is running, since it was loaded
+} World;
+
+// Opens and loads; the status to exit with, or RUN_OPTIONS_OK. The options have been read. Close in either case.
+int world_open(World *world, const Host *host);
+void world_close(World *world);
+// One frame and its picture; records what the script asks for. False if it could not be made.
+bool world_step(World *world);
+// If files of the script have changed: loads it, keeping state and clock. True if there was an attempt; then
+// world->trouble tells whether it went well.
+bool world_reload(World *world);
+// Gives a parameter of the script another value, or its default if that is NULL, and goes on; false if it cannot be.
+bool world_set_parameter(World *world, const char *name, const char *value);
+// The last good program starts anew: without state, before frame 0.
+void world_reset(World *world);
+// What is wrong, "" if nothing is. Valid until the next call.
+const char *world_trouble(const World *world);
+// Writes the last frame's picture to a PNG file that did not exist, named after script and frame, in this folder. False
+// if it cannot be written. `name` gets what it is called.
+bool world_screenshot(World *world, char *name, size_t size);
+void world_save(World *world);
+// Writes what was kept while standard error was not ours, and writes there from now on.
+void world_unmute(World *world);
+
+#endif

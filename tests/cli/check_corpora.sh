@@ -1,0 +1,54 @@
+#!/bin/sh
+# check_corpora.sh: `petri check` over every script of the project.
+# usage: tests/cli/check_corpora.sh PATH-OF-PETRI [--update]
+#
+# The rule: samples and benchmarks are good style, so nothing may be said of them. The scripts of tests/golden and
+# tests/conformance try the edges of the language, and for many of them a fault is the very thing that they try: which
+# kind of thing is said of which script stands in check_corpora.txt, one `FILE CODE` a line, and nothing else may be.
+# A script with a NAME.err must be rejected and has no line.
+set -u
+LC_ALL=C
+export LC_ALL
+case $1 in
+/*) petri=$1 ;;
+*) petri=$PWD/$1 ;;
+esac
+cd "$(dirname "$0")/../.." || exit 1
+recorded=tests/cli/check_corpora.txt
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+failed=0
+
+for corpus in samples tests/bench/workloads; do
+    "$petri" check --werror "$corpus" 2>"$work/err"
+    if [ $? -ne 0 ] || [ "$(wc -l <"$work/err")" -ne 1 ]; then
+        echo "FAIL something is said of $corpus:"
+        cat "$work/err"
+        failed=1
+    fi
+done
+
+find tests/golden tests/conformance -name '*.err' | sed 's/err$/fl/' >"$work/rejected"
+"$petri" check tests/golden tests/conformance 2>&1 |
+    sed -n 's/^\([^ :]*\.fl\):[0-9]*:[0-9]*: .* \[\([a-z-]*\)\]$/\1 \2/p' | sort -u >"$work/all"
+if ! grep -q . "$work/all"; then
+    echo "FAIL nothing was checked"
+    exit 1
+fi
+while read -r script; do
+    if ! grep -Fq "$script " "$work/all"; then
+        echo "FAIL $script is not rejected"
+        failed=1
+    fi
+done <"$work/rejected"
+sed 's/$/ /' "$work/rejected" >"$work/patterns"
+grep -Fv -f "$work/patterns" "$work/all" >"$work/told"
+if [ "${2-}" = --update ]; then
+    cp "$work/told" "$recorded"
+elif ! diff "$recorded" "$work/told" >"$work/diff"; then
+    echo "FAIL other things are said than $recorded has (<: are missing, >: are new):"
+    cat "$work/diff"
+    failed=1
+fi
+[ "$failed" -eq 0 ] && echo "ok: $(wc -l <"$work/told") kinds of things are said, as recorded"
+exit "$failed"

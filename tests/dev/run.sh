@@ -1,0 +1,320 @@
+#!/bin/sh
+# run.sh ROOT: what ROOT/dev says and does on a bare machine: packages, questions, root, network, compiler, tests. Nothing
+# is installed or compiled: its PATH has stand-ins that note how they are called and do what the real ones would tell.
+# shellcheck disable=SC2016 # dollars are for the stand-ins
+set -u
+root=$(cd "$1" && pwd)
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+passed=0
+failed=0
+
+# check NAME COMMAND...: the command must succeed.
+check() {
+    name=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+        echo "ok $name"
+    else
+        failed=$((failed + 1))
+        echo "FAIL $name: $* (exit status $status)"
+        sed 's/^/  stdout: /' "$work/out" | tail -n 15
+        sed 's/^/  stderr: /' "$work/err" | tail -n 15
+        sed 's/^/  called: /' "$work/calls" | tail -n 15
+    fi
+}
+status_is() { [ "$status" -eq "$1" ]; }
+has() { grep -Fq -e "$2" "$work/$1"; }
+lacks() { ! has "$@"; }
+empty() { [ ! -s "$work/$1" ]; }
+count_is() { [ "$(grep -Fc -e "$2" "$work/$1")" -eq "$3" ]; }
+lines_at_most() { [ "$(wc -l <"$work/$1")" -le "$2" ]; }
+
+# stand_in NAME: a program with this text.
+stand_in() {
+    rm -f "$work/$1" # it may be a link to the real one
+    { echo '#!/bin/sh' && echo "echo \"${1##*/} \$*\" >>'$work/calls'" && cat; } >"$work/$1"
+    chmod +x "$work/$1"
+}
+
+# machine: a new one, with the project and nothing else; root without a terminal, who has a network.
+machine() {
+    rm -rf "$work/bin" "$work/later" "$work/project" "$work/fonts" "$work/lists"
+    mkdir -p "$work/bin" "$work/later" "$work/project/.ci" "$work/fonts/truetype/dejavu"
+    for tool in awk cat chmod cp cut dirname echo env fold grep head ln mkdir mktemp mv nproc rm sed sh sleep stty tail tee touch \
+        tr true wc xargs; do
+        ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
+    done
+    cp "$root/dev" "$work/project"
+    cp "$root"/.ci/* "$work/project/.ci"
+    sed -i "s|/usr/share/fonts|$work/fonts|; s|:/usr/sbin:/sbin||" "$work/project/dev" "$work/project/.ci"/*
+    : >"$work/calls"
+    uid=0 network=yes breaks=
+    stand_in bin/id <<'END'
+case $1 in -un) echo somebody ;; *) echo "$FAKE_UID" ;; esac
+END
+    stand_in bin/apt-get <<'END'
+[ "$FAKE_UID" = 0 ] || { echo 'E: are you root?'; exit 100; }
+unreachable() { echo "$1: Failed to fetch http://archive.example/x  Temporary failure resolving 'archive.example'"; }
+case " $* " in
+*' update '*)
+    [ "$NETWORK" = yes ] || { unreachable W; exit 0; }
+    touch "$WORK/lists"
+    ;;
+*' install '*)
+    [ -e "$WORK/lists" ] || { echo 'E: Unable to locate package gcc'; echo 'E: Unable to locate package meson'; exit 100; }
+    case " $* " in
+    *' --print-uris '*)
+        echo '0 upgraded, 3 newly installed, 0 to remove and 0 not upgraded.'
+        echo 'Need to get 61.2 MB of archives.'
+        exit ;;
+    esac
+    [ "$NETWORK" = yes ] || { unreachable E; exit 100; }
+    [ "$BREAKS" != dpkg ] || { echo 'E: Sub-process dpkg returned an error code (1)'; exit 100; }
+    for i in 1 2 3; do echo "Get:$i http://archive.example/debian stable/main amd64 part$i amd64 1.0-$i [20.4 MB]"; done
+    for i in 1 2 3; do echo "Unpacking part$i (1.0-$i) ..."; done
+    for i in 1 2 3; do echo "Setting up part$i (1.0-$i) ..."; done
+    for package; do
+        case $package in
+        ninja-build) package=ninja ;;
+        procps) package=pgrep ;;
+        xvfb) package=Xvfb ;;
+        x11-utils) package=xprop ;;
+        imagemagick) package=compare ;;
+        fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
+        fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;
+        esac
+        case $package in
+        lib*-dev) touch "$WORK/later/$package" ;;
+        -* | install) ;;
+        debootstrap) echo '#!/bin/sh' >"$WORK/bin/debootstrap"; chmod +x "$WORK/bin/debootstrap" ;;
+        *) [ -e "$WORK/bin/$package" ] || cp "$WORK/later/$package" "$WORK/bin" 2>/dev/null || {
+               echo '#!/bin/sh' >"$WORK/bin/$package"; chmod +x "$WORK/bin/$package"; } ;;
+        esac
+    done
+    ;;
+esac
+END
+    stand_in later/pkg-config <<'END'
+case $2 in
+cairo) test -e "$WORK/later/libcairo2-dev" ;;
+pangocairo) test -e "$WORK/later/libpango1.0-dev" ;;
+libjpeg) test -e "$WORK/later/libjpeg-dev" ;;
+chafa) test -e "$WORK/later/libchafa-dev" ;;
+libedit) test -e "$WORK/later/libedit-dev" ;;
+sdl2) test -e "$WORK/later/libsdl2-dev" ;;
+cmocka) test -e "$WORK/later/libcmocka-dev" ;;
+x11) test -e "$WORK/later/libx11-dev" ;;
+esac
+END
+    stand_in later/meson <<'END'
+case "$*" in
+setup*--reconfigure*) ;;
+setup*) mkdir -p "$2" && touch "$2/build.ninja" ;;
+test*--list*) printf 'petri:base / quick\npetri:view / slow\npetri:base / other\n' ;;
+test*)
+    echo '1/3 petri:base / quick   OK    0.01s'
+    echo '2/3 petri:base / other   OK    0.01s'
+    if [ "$BREAKS" = tests ]; then
+        echo '3/3 petri:view / slow    FAIL  9.01s   exit status 1'
+        printf '>>> the log of slow\n\nOk:                 2   \nFail:               1   \nTimeout:            0   \n'
+        exit 1
+    fi
+    echo '3/3 petri:view / slow    OK    9.01s'
+    printf '\nOk:                 3   \nFail:               0   \nTimeout:            0   \n'
+    ;;
+esac
+END
+    stand_in later/ninja <<'END'
+mkdir -p "$2/src"
+[ ! -e "$2/src/petri" ] || { echo 'ninja: no work to do.'; exit; }
+echo "ninja: Entering directory"
+for i in 1 2 3; do echo "[$i/4] Compiling part$i.c"; done
+[ "$BREAKS" != compiler ] || { echo 'FAILED: part4.o'; echo 'part4.c:1:1: error: what is this'; exit 1; }
+echo '[4/4] Linking petri'
+cp "$WORK/later/petri" "$2/src/petri"
+END
+    stand_in later/petri <<'END'
+case $1 in
+run) echo "this is petri $*" ;;
+test) echo "ok a.fl"; echo "5 passed, 0 failed" ;;
+esac
+END
+}
+
+# with_sudo WHAT: sudo that lets the user do everything, or nothing.
+with_sudo() {
+    stand_in bin/sudo <<END
+[ $1 = all ] || { echo 'somebody is not in the sudoers file.' >&2; exit 1; }
+[ "\$1" != -n ] || shift
+FAKE_UID=0
+export FAKE_UID
+exec "\$@"
+END
+}
+
+# The environment of the machine.
+on_machine() {
+    env -i PATH="$work/bin" HOME="$work" WORK="$work" FAKE_UID="$uid" NETWORK="$network" BREAKS="$breaks" "$@"
+}
+# dev ARGUMENTS...: without a terminal.
+dev() {
+    : >"$work/calls"
+    on_machine sh "$work/project/dev" "$@" >"$work/out" 2>"$work/err" </dev/null
+    status=$?
+}
+# typed ANSWER ARGUMENTS...: at a terminal of 80 columns; all that is seen is in out.
+script=$(command -v script) || script=
+typed() {
+    answer=$1
+    shift
+    : >"$work/calls"
+    : >"$work/err"
+    (sleep 1; printf '%s\n' "$answer") | on_machine TERM=xterm SHELL=/bin/sh "$script" -qec "stty cols 80; sh '$work/project/dev' $*" \
+        /dev/null >"$work/out" 2>&1
+    status=$?
+}
+
+machine
+dev run dish.fl --every 7
+check "the first command does all" status_is 0
+check "it runs the script with its options" has out "this is petri run --show dish.fl --every 7"
+check "it says how much there is to fetch" has err "packages: 3 to install, 61.2 MB to download"
+check "and how far it is" has err "packages: 3 of 3"
+check "and compiles" has err "compiling: 4 of 4"
+check "all that in few lines" lines_at_most err 20
+check "it asks nothing where nobody is" lacks err "[Y/n]"
+check "it installs the compiler" grep -q 'apt-get .*install.* gcc libc6-dev meson ' "$work/calls"
+check "and what shows pictures in terminals" grep -q 'apt-get .*install.* libchafa-dev' "$work/calls"
+check "nothing that a window needs" lacks calls libsdl2-dev
+check "nothing that only films need" lacks calls ffmpeg
+check "nothing that only tests need" lacks calls libcmocka-dev
+check "it compiles what runs, not the tests" has calls "ninja -C $work/project/build src/petri src/petri-pictures"
+dev run dish.fl
+check "the second time it just runs" has out "this is petri run --show dish.fl"
+check "without a word" empty err
+check "or a package" lacks calls apt-get
+check "or another setup" lacks calls "meson"
+dev build
+check "build is for windows, too" has calls " libsdl2-dev ffmpeg"
+check "but does not install again what is there" lacks calls "gcc"
+check "the folder is set up again, for SDL is there now" grep -q 'meson setup --reconfigure' "$work/calls"
+dev test
+check "test installs what tests need" grep -q ' libcmocka-dev tmux procps .* fonts-dejavu-extra' "$work/calls"
+check "tests pass" status_is 0
+check "the last line counts tests and scripts" [ "$(tail -n 1 "$work/out")" = "3 passed, 0 failed" ]
+mkdir -p "$work/project/samples" "$work/project/tests/golden"
+dev test
+check "scripts are counted as well" [ "$(tail -n 1 "$work/out")" = "13 passed, 0 failed" ]
+check "tests are counted while they run" has err "tests: 3 of 3"
+breaks=tests
+dev test
+check "a test that fails makes it fail" status_is 1
+check "the log of the test is shown" has out ">>> the log of slow"
+check "failures are counted" [ "$(tail -n 1 "$work/out")" = "12 passed, 1 failed" ]
+
+machine
+breaks=compiler
+dev run dish.fl
+check "what does not compile fails" status_is 1
+check "the error is shown" has err "part4.c:1:1: error: what is this"
+check "what compiled is not" lacks err "Compiling part1.c"
+check "the log is named" has err "build/compile.log"
+breaks=
+dev run dish.fl
+check "mended, it goes on" has out "this is petri"
+
+machine
+uid=1000
+dev run dish.fl
+check "without root and sudo it fails" status_is 1
+check "and says that it needs root" has err "needs root"
+check "with the line for an administrator" has err "  apt-get install --no-install-recommends gcc libc6-dev meson"
+check "nothing was tried" lacks calls apt-get
+with_sudo nothing
+dev run dish.fl
+check "sudo that refuses is no sudo" has err "  apt-get install --no-install-recommends gcc"
+check "nothing was tried" lacks calls apt-get
+with_sudo all
+dev run dish.fl
+check "sudo will do" has out "this is petri"
+
+machine
+network=no
+dev run dish.fl
+check "without a network it fails" status_is 1
+check "and says so" has err "no network?"
+check "not as apt-get does" lacks err "E: "
+check "in few lines" lines_at_most err 3
+check "the log is named" has err "build/packages-lists.log"
+check "and there" grep -q 'Unable to locate package meson' "$work/project/build/packages-lists.log"
+touch "$work/lists"
+dev run dish.fl
+check "old lists do not help" has err "no network?"
+check "the log is another" has err "build/packages.log"
+network=yes breaks=dpkg
+dev run dish.fl
+check "what goes wrong otherwise is told" has err "E: Sub-process dpkg returned an error code (1)"
+check "with the log" has err "build/packages.log"
+
+machine
+dev install "$work/some where"
+check "what is installed is compiled before" grep -q 'ninja .*lib/session/libpetri.a' "$work/calls"
+check "it is installed where it was asked for" has calls "meson configure $work/project/build -Dprefix=$work/some where"
+check "by meson" has calls "meson install -C $work/project/build --no-rebuild"
+check "it says that this is not in PATH" has err "$work/some where/bin is not in PATH"
+dev install
+check "root installs for all" has calls "-Dprefix=/usr/local"
+uid=1000
+dev install
+check "a user installs for himself" has calls "-Dprefix=$work/.local"
+
+machine
+for tool in bash dirname mktemp unshare git; do
+    rm -f "$work/bin/$tool"
+    ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
+done
+uid=1000
+dev fresh
+check "a bare machine needs root" status_is 77
+check "and says so" has err "not possible here: it needs root"
+uid=0
+dev fresh
+check "it installs debootstrap" grep -q 'apt-get .* install debootstrap' "$work/calls"
+check "what is no checkout has no HEAD" status_is 77
+check "and says so" has err "not possible here: this is no git checkout"
+(cd "$work/project" && git init -q && git -c user.name=x -c user.email=x@y commit -q --allow-empty -m x)
+echo 'exit 1' | stand_in bin/unshare
+dev fresh
+check "it needs namespaces" status_is 77
+check "and says so" has err "not possible here: no namespaces"
+check "it leaves nothing behind" [ -z "$(find /var/tmp -maxdepth 1 -name 'petri-fresh-run-*' -newer "$work/bin/unshare")" ]
+
+# A bare container has no pseudo-terminals.
+if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null; then
+    machine
+    typed y run dish.fl
+    check "at a terminal it asks" has out "[Y/n]"
+    check "what it will need later, too" has out "xvfb"
+    check "after yes it goes on" has out "this is petri run --show dish.fl"
+    erase=$(printf '\r\033[K')
+    check "packages are counted in one line" has out "${erase}dev: packages: 2 of 3, setting up part2${erase}"
+    check "files that are compiled as well" has out "${erase}dev: compiling: 2 of 4${erase}dev: compiling: 3 of 4${erase}"
+    typed n test
+    check "it asks once for all" lacks out "[Y/n]"
+    check "and takes it as yes" grep -q 'apt-get .* install .*libcmocka-dev' "$work/calls"
+    check "the test that takes long is named" has out "${erase}dev: tests: 2 of 3, slow${erase}"
+    machine
+    typed n run dish.fl
+    check "after no it ends" status_is 1
+    check "with what can be done by hand" has out "apt-get install --no-install-recommends gcc"
+    check "nothing was installed" lacks calls apt-get
+    typed '' run dish.fl
+    check "no is not kept; Enter means yes" has out "this is petri"
+else
+    echo "skipped: the questions, for there are no pseudo-terminals"
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

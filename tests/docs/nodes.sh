@@ -1,0 +1,181 @@
+#!/bin/sh
+# nodes.sh PETRI ROOT: do the references have each node, attribute and default that `petri help nodes` tells of, and no
+# others?
+#
+# A node has a heading of its own, "## `!kind`" of any level; two may share one. Below it stand
+#   | `attribute` | default | …     one row for each attribute, or for several of the same default; "–" for no default
+#   Also: [text](#heading), …       all attributes of the tables under those headings of the same document
+# Rows under other headings count for nodes that name them only.
+set -u
+LC_ALL=C.UTF-8
+export LC_ALL
+if [ $# -ne 2 ]; then
+    echo "usage: nodes.sh PETRI ROOT" >&2
+    exit 2
+fi
+work=$(mktemp -d "${TMPDIR:-/tmp}/petri-nodes.XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 1' INT TERM HUP
+
+# Lines `kind`, and `kind attribute default` for each area.
+"$1" help nodes | awk -v work="$work" '
+    /^[a-z]/ { area = $1 }
+    /^  !/ { kind = $1; sub(/:$/, "", kind); print kind > (work "/" area ".help") }
+    /^      / {
+        name = $1
+        line = $0
+        sub(/^ +[^ ]+ +/, "", line)
+        # The type may hold no parenthesis; what follows the default is its meaning.
+        fallback = "–"
+        if (match(line, /^[^(:]*(:[a-z]+[^(:]*)*\(/)) {
+            rest = substr(line, RLENGTH + 1)
+            depth = 1
+            for (i = 1; i <= length(rest) && depth > 0; i++)
+                depth += (substr(rest, i, 1) == "(") - (substr(rest, i, 1) == ")")
+            fallback = substr(rest, 1, i - 2)
+        }
+        print kind, name, fallback > (work "/" area ".help")
+    }'
+
+# The same from a document.
+read_document() { # FILE
+    awk '
+        function slug(text) {
+            text = tolower(text)
+            gsub(/[^a-z0-9 _-]/, "", text)
+            gsub(/ /, "-", text)
+            return text
+        }
+        /^```/ { code = !code }
+        code { next }
+        /^#+ / {
+            sub(/^#+ /, "")
+            heading = slug($0)
+            headings++
+            order[headings] = heading
+            kinds[headings] = ""
+            text = $0
+            while (match(text, /`![a-z_]+`/)) {
+                kinds[headings] = kinds[headings] " " substr(text, RSTART + 1, RLENGTH - 2)
+                text = substr(text, RSTART + RLENGTH)
+            }
+            next
+        }
+        /^\| `[a-z_0-9]+`(, `[a-z_0-9]+`)* \|/ {
+            split($0, cell, / *\| */)
+            fallback = cell[3]
+            gsub(/`/, "", fallback)
+            text = cell[2]
+            while (match(text, /`[a-z_0-9]+`/)) {
+                rows[heading] = rows[heading] substr(text, RSTART + 1, RLENGTH - 2) " " fallback "\n"
+                text = substr(text, RSTART + RLENGTH)
+            }
+        }
+        /^Also: / {
+            text = $0
+            while (match(text, /\(#[^)]+\)/)) {
+                also[heading] = also[heading] " " substr(text, RSTART + 2, RLENGTH - 3)
+                text = substr(text, RSTART + RLENGTH)
+            }
+        }
+        END {
+            for (h = 1; h <= headings; h++) {
+                count = split(kinds[h], kind, " ")
+                for (k = 1; k <= count; k++) {
+                    print kind[k]
+                    all = rows[order[h]]
+                    others = split(also[order[h]], other, " ")
+                    for (o = 1; o <= others; o++)
+                        all = all rows[other[o]]
+                    lines = split(all, line, "\n")
+                    for (l = 1; l < lines; l++)
+                        print kind[k], line[l]
+                }
+            }
+        }' "$1"
+}
+
+failed=0
+checked=0
+compare() { # AREA DOCUMENT
+    sort "$work/$1.help" >"$work/help"
+    read_document "$2/$3" | sort >"$work/told"
+    checked=$((checked + $(wc -l <"$work/help")))
+    comm -23 "$work/help" "$work/told" >"$work/missing"
+    comm -13 "$work/help" "$work/told" >"$work/surplus"
+    sed "s|^|$3: help has, and the reference has not: |" "$work/missing"
+    sed "s|^|$3: the reference has, and help has not: |" "$work/surplus"
+    failed=$((failed + $(cat "$work/missing" "$work/surplus" | wc -l)))
+}
+compare physics "$2" lib/physics/README.md
+compare canvas "$2" lib/canvas/README.md
+
+# Excerpts "```flitter NAME.png" of the scripts of pictures: their lines follow each other in tests/pictures/NAME.fl.
+awk -v work="$work" '
+    /^```flitter [a-z_]+\.png$/ { name = $2; sub(/\.png$/, "", name); file = work "/" ++count "." name ".excerpt"; next }
+    /^```$/ { file = "" }
+    file != "" { sub(/^ +/, ""); print > file }' "$2/lib/canvas/README.md"
+for excerpt in "$work"/*.excerpt; do
+    name=$(basename "$excerpt" .excerpt)
+    name=${name#*.}
+    checked=$((checked + 1))
+    sed 's/^ *//' "$2/tests/pictures/$name.fl" | awk '
+        FILENAME == ARGV[1] { wanted[++n] = $0; next }
+        { line[++m] = $0 }
+        END {
+            for (from = 0; from <= m - n; from++) {
+                for (i = 1; i <= n && line[from + i] == wanted[i]; i++)
+                    ;
+                if (i > n)
+                    exit 0
+            }
+            exit 1
+        }' "$excerpt" - || {
+        echo "lib/canvas/README.md: the excerpt of $name.fl is not in that script"
+        failed=$((failed + 1))
+    }
+done
+
+# What the references link to beside them must be there.
+for document in lib/physics/README.md lib/canvas/README.md; do
+    folder=$2/$(dirname "$document")
+    for target in $(grep -o '](\([^)#]*\)' "$2/$document" | sed 's/^](//' | sort -u); do
+        checked=$((checked + 1))
+        [ -e "$folder/$target" ] || {
+            echo "$document: no such file: $target"
+            failed=$((failed + 1))
+        }
+    done
+done
+# … and so must headings that they name.
+for document in lib/physics/README.md lib/canvas/README.md; do
+    awk -v document="$document" '
+        function slug(text) {
+            text = tolower(text)
+            gsub(/[^a-z0-9 _-]/, "", text)
+            gsub(/ /, "-", text)
+            return text
+        }
+        /^```/ { code = !code }
+        !code && /^#+ / { sub(/^#+ /, ""); there[slug($0)] = 1 }
+        !code {
+            text = $0
+            while (match(text, /\]\(#[^)]+\)/)) {
+                wanted[substr(text, RSTART + 3, RLENGTH - 4)] = 1
+                text = substr(text, RSTART + RLENGTH)
+            }
+        }
+        END {
+            for (name in wanted)
+                if (!(name in there))
+                    print document ": no such heading: #" name
+        }' "$2/$document"
+done >"$work/anchors"
+cat "$work/anchors"
+failed=$((failed + $(wc -l <"$work/anchors")))
+if [ $checked -lt 250 ]; then
+    echo "found $checked nodes, attributes and links, expected at least 250: has the form changed?"
+    failed=$((failed + 1))
+fi
+echo "$((checked - failed)) passed, $failed failed"
+[ "$failed" -eq 0 ]

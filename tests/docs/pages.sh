@@ -1,0 +1,241 @@
+#!/bin/sh
+# pages.sh PETRI ROOT [--update]: does what README.md and the pages of samples/ tell their readers to do.
+#
+# Each page is read from top to bottom in a folder of its own. That has the samples in it, or, for README.md, what its
+# commands take from the project's root.
+#   ```flitter NAME.fl          a script of that name is written; `petri check --werror` must have nothing to say, nor a
+#                               run of three frames
+#   ```flitter NAME.fl warns    likewise, but it is there to be complained about
+#   ```c NAME.c                 a file of that name is written
+#   ```console                  lines `$ COMMAND` are run; the lines after one are what it writes (a line `...` stands
+#                               for any number of lines)
+#   ![…](PATH/NAME.png)         if a command before made NAME.png, it must have the size of the stored picture and about
+#                               as much in it; --update stores what was made
+#   [text](PATH#HEADING)        there is such a file with such a heading
+# A failure is a line with the place in the page. Too few examples are a failure, too.
+set -u
+LC_ALL=C.UTF-8
+export LC_ALL
+
+pages='README.md samples/README.md samples/TUTORIAL.md samples/RECIPES.md samples/QUESTIONS.md'
+least=90
+
+[ $# -ge 2 ] || { echo "usage: pages.sh PETRI ROOT [--update]" >&2 && exit 2; }
+petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+root=$(cd "$2" && pwd)
+update=${3:-}
+work=$(mktemp -d "${TMPDIR:-/tmp}/petri-pages.XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM HUP
+mkdir "$work/bin"
+ln -s "$petri" "$work/bin/petri"
+PATH=$work/bin:$PATH
+export PATH
+
+can_draw=yes
+printf '!window size=1;1\n    !canvas\n' >"$work/empty.fl"
+petri render "$work/empty.fl" --frames 1 -o "$work/empty.png" >"$work/out" 2>&1 || can_draw=
+can_film=yes
+command -v ffmpeg >/dev/null || can_film=
+
+# A library with sanitizers in it takes options that the page does not have.
+build=$(dirname "$(dirname "$(readlink -f "$petri")")")
+can_link=
+if [ -n "$can_draw" ] && ! nm "$build/lib/session/libpetri.a" 2>/dev/null | grep -q -e __asan -e __ubsan; then
+    can_link=yes
+fi
+
+passed=0
+failed=0
+good() { passed=$((passed + 1)); }
+bad() { # PLACE TEXT
+    failed=$((failed + 1))
+    echo "$1: $2"
+}
+
+# Splits a page into steps: lines `LINE KIND N WORDS…`, in order; N.text has a script, N.command and N.want a command.
+split() { # PAGE FOLDER
+    awk -v folder="$2" '
+        function step(kind, words) { print NR, kind, ++count, words > (folder "/steps") }
+        function finish() { if (wanted) close(wanted); wanted = "" }
+        fence == "" && /^```/ {
+            fence = $1
+            opened = NR
+            if (($1 == "```flitter" || $1 == "```c") && $2 != "") {
+                step($1 == "```c" ? "file" : "script", $2 " " $3)
+                text = folder "/" count ".text"
+                printf "" > text
+            }
+            next
+        }
+        fence != "" && /^```[ \t]*$/ {
+            if (text) close(text)
+            text = fence = ""
+            finish()
+            next
+        }
+        text { print > text }
+        fence == "```console" && /^\$ / {
+            finish()
+            step("command")
+            print substr($0, 3) > (folder "/" count ".command")
+            close(folder "/" count ".command")
+            wanted = folder "/" count ".want"
+            printf "" > wanted
+            next
+        }
+        fence == "```console" && !wanted { step("fault", "output without a command") }
+        fence == "```console" { print > wanted }
+        fence == "" {
+            rest = $0
+            while (match(rest, /!\[[^]]*\]\([^)]*\)/)) {
+                link = substr(rest, RSTART, RLENGTH)
+                rest = substr(rest, RSTART + RLENGTH)
+                sub(/^.*\(/, "", link)
+                sub(/\)$/, "", link)
+                step("picture", link)
+            }
+            rest = $0
+            while (match(rest, /\]\([^)]+/)) {
+                link = substr(rest, RSTART, RLENGTH)
+                rest = substr(rest, RSTART + RLENGTH)
+                if (link !~ /^..https:/)
+                    step("link", substr(link, 3))
+            }
+        }
+        END { if (fence != "") step("fault", "the block of line " opened " is not closed") }' "$1"
+}
+
+# The first line in which a command's output differs from what the page shows; nothing if it does not.
+difference() { # WANT GOT
+    awk 'FILENAME == ARGV[1] { want[++wants] = $0; next }
+         { sub(/[ \t]+$/, ""); got[++gots] = $0 }
+         END {
+             for (i = j = 1; i <= wants; i++) {
+                 if (want[i] == "...") {
+                     if (i == wants)
+                         exit
+                     while (j <= gots && got[j] != want[i + 1])
+                         j++
+                 } else if (j > gots) {
+                     print "expected " want[i] ", got nothing"
+                     exit
+                 } else if (got[j] != want[i]) {
+                     print "expected " want[i] ", got " got[j]
+                     exit
+                 } else {
+                     j++
+                 }
+             }
+             if (j <= gots)
+                 print "expected nothing more, got " got[j]
+         }' "$1" "$2"
+}
+
+run_script() { # PLACE TEXT NAME WARNS
+    cp "$2" "$3"
+    [ -z "${4:-}" ] || return 0
+    if ! petri check --werror "$3" >out 2>&1 </dev/null; then
+        bad "$1" "petri check says: $(head -n 1 out)"
+    elif ! timeout 60 petri run --frames 3 --print error "$3" >out 2>&1 </dev/null || grep -q ': warning: ' out; then
+        bad "$1" "petri run says: $(grep -m 1 warning out || head -n 1 out)"
+    else
+        good
+    fi
+}
+
+run_command() { # PLACE COMMAND WANT
+    case $(cat "$2") in
+    *render*.gif* | *render*.mp4* | *ffmpeg*) [ -n "$can_draw" ] && [ -n "$can_film" ] || return 0 ;;
+    *render*) [ -n "$can_draw" ] || return 0 ;;
+    *libpetri.a* | ./*) [ -n "$can_link" ] || return 0 ;;
+    esac
+    timeout 120 sh "$2" >out 2>&1 </dev/null
+    [ $? -ne 124 ] || bad "$1" "takes too long"
+    fault=$(difference "$3" out)
+    if [ -n "$fault" ]; then bad "$1" "$fault"; else good; fi
+}
+
+# Width and height, as bytes, of a PNG or GIF file.
+size_of() {
+    case $1 in
+    *.gif) od -An -tu1 -j6 -N4 "$1" ;;
+    *) od -An -tu1 -j16 -N8 "$1" ;;
+    esac
+}
+
+compare_picture() { # PLACE LINK FOLDER-OF-PAGE
+    stored=$3/$2
+    made=${2##*/}
+    if [ ! -e "$made" ]; then
+        if [ -e "$stored" ]; then good; else bad "$1" "there is no $2, and no command makes it"; fi
+        return
+    fi
+    if [ "$update" = --update ]; then
+        mkdir -p "$(dirname "$stored")"
+        cp "$made" "$stored"
+    fi
+    new=$(wc -c <"$made")
+    old=$(wc -c <"$stored" || echo 0)
+    if [ "$(size_of "$made")" != "$(size_of "$stored")" ]; then
+        bad "$1" "$made has another size than the stored picture"
+    elif [ "$new" -gt $((2 * old)) ] || [ "$old" -gt $((2 * new)) ]; then
+        bad "$1" "$made has $new bytes, the stored picture $old"
+    elif [ "$old" -gt 1000000 ]; then
+        bad "$1" "$made is larger than a megabyte"
+    else
+        good
+    fi
+}
+
+# The headings of a page as links name them.
+headings() { # PAGE
+    sed -n '/^```/,/^```/d; s/^##* //p' "$1" | tr '[:upper:] ' '[:lower:]-' | tr -d '!-,./:-@[-^`{-~'
+}
+
+follow_link() { # PLACE PAGE LINK
+    target=$(dirname "$2")/${3%%#*}
+    [ "${3%%#*}" ] || target=$2
+    if [ ! -e "$target" ]; then
+        bad "$1" "there is no $3"
+    elif [ "${3#*#}" != "$3" ] && ! headings "$target" | grep -qxF -e "${3#*#}"; then
+        bad "$1" "no heading is called $3"
+    else
+        good
+    fi
+}
+
+for page in $pages; do
+    folder=$work/$page
+    mkdir -p "$folder/steps.d" "$folder/at"
+    case $page in
+    README.md)
+        ln -s "$root/samples" "$root/lib" "$folder/at"
+        ln -s "$build" "$folder/at/build"
+        ;;
+    *) cp -R "$root"/samples/*.fl "$root/samples/lib" "$folder/at" ;;
+    esac
+    split "$root/$page" "$folder/steps.d"
+    [ -e "$folder/steps.d/steps" ] || continue
+    cd "$folder/at" || exit 1
+    while read -r line kind number words; do
+        place=$page:$line
+        base=$folder/steps.d/$number
+        # shellcheck disable=SC2086 # a name and perhaps `warns`
+        case $kind in
+        script) run_script "$place" "$base.text" $words ;;
+        file) cp "$base.text" $words ;;
+        command) run_command "$place" "$base.command" "$base.want" ;;
+        picture) compare_picture "$place" "$words" "$root/$(dirname "$page")" ;;
+        link) follow_link "$place" "$root/$page" "$words" ;;
+        fault) bad "$place" "$words" ;;
+        esac
+    done <"$folder/steps.d/steps"
+done
+
+if [ $((passed + failed)) -lt $least ]; then
+    echo "found $((passed + failed)) examples, expected at least $least: has the form of the blocks changed?"
+    [ -z "$can_draw$can_film" ] || failed=$((failed + 1))
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,52 @@
+#!/bin/sh
+# samples.sh PETRI ROOT: what all samples have in common: `petri check` has nothing to say, there are parameters, each of
+# which says what it is and from where to where it goes, and at both ends of each the sample runs without a message.
+set -u
+LC_ALL=C.UTF-8
+export LC_ALL
+
+petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+cd "$2" || exit 2
+work=$(mktemp -d "${TMPDIR:-/tmp}/petri-samples.XXXXXX") || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM HUP
+
+passed=0
+failed=0
+check() { # NAME COMMAND...
+    name=$1
+    shift
+    if "$@" >"$work/out" 2>&1 </dev/null; then
+        passed=$((passed + 1))
+    else
+        failed=$((failed + 1))
+        echo "FAIL $name: $(head -n 2 "$work/out")"
+    fi
+}
+silent() { # COMMAND...: succeeds without a word
+    "$@" && [ ! -s "$work/out" ]
+}
+
+check "petri check is silent" "$petri" check --werror samples
+for script in samples/*.fl; do
+    "$petri" run --parameters "$script" </dev/null >"$work/parameters" 2>"$work/err"
+    check "$script has parameters" [ -s "$work/parameters" ]
+    while read -r parameter value range comment; do
+        check "$script: $parameter has a comment" [ -n "$comment" ]
+        case $range in
+        *..*) ;;
+        *) check "$script: $parameter has a range" false ;;
+        esac
+        for end in "${range%%..*}" "${range##*..}"; do
+            check "$script with $parameter=$end" \
+                silent "$petri" run --frames 5 -D "$parameter=$end" "$script" --print error
+        done
+        check "$script: the default of $parameter is within its range" \
+            awk -v value="$value" -v range="$range" '
+                BEGIN { split(range, end, /\.\./); exit !(end[1] <= value && value <= end[2]) }'
+    done <"$work/parameters"
+done
+
+[ $passed -ge 100 ] || check "there are samples and parameters enough: $passed checks" false
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

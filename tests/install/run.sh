@@ -1,0 +1,98 @@
+#!/bin/sh
+# run.sh BUILD draws|none SANITIZERS: installs what BUILD holds into a folder, moves that elsewhere, and tries it: the
+# command and the program that it starts, the hints that it gives, the library.
+set -u
+build=$(cd "$1" && pwd)
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cd "$work" || exit 1
+SHELL=/bin/sh # that of `script`
+export SHELL
+passed=0
+failed=0
+
+# check NAME COMMAND...: the command must succeed.
+check() {
+    name=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+        echo "ok $name"
+    else
+        failed=$((failed + 1))
+        echo "FAIL $name: $*"
+        cat out 2>/dev/null
+    fi
+}
+has() { grep -Fq -e "$2" "$1"; }
+helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }
+
+DESTDIR=$work/made meson install -C "$build" --no-rebuild >log 2>&1
+check "meson install" [ $? -eq 0 ]
+binary=$(find made -name petri -type f)
+[ -n "$binary" ] || { cat log; echo "FAIL nothing is installed"; exit 1; }
+mkdir "with blanks"
+mv "$(dirname "$(dirname "$binary")")" "with blanks/prefix"
+prefix="$work/with blanks/prefix"
+check "the command runs" sh -c "'$prefix/bin/petri' run --frames 1 '$prefix/share/petri/samples/hello.fl' >out 2>&1"
+check "it finds what draws, though it was moved" helps "$prefix/bin/petri"
+mkdir links
+ln -s "$prefix/bin/petri" links/dish
+check "and so does a link to it" helps links/dish
+check "nothing but petri is in the way of other commands" [ "$(ls "$prefix/bin")" = petri ]
+
+mkdir lone
+cp "$prefix/bin/petri" lone
+check "a lone copy runs scripts" lone/petri run --frames 1 "$prefix/share/petri/samples/petri.fl"
+lone/petri view x.fl >out 2>&1
+check "but cannot show them" [ $? -eq 1 ]
+check "it names what it lacks" has out petri-pictures
+check "and where it has to be" has out "$work/lone/"
+check "or may be" has out "$work/libexec"
+check "in one line" [ "$(wc -l <out)" -eq 1 ]
+
+# hint PATH [NAME=VALUE]: how the petri that is called so says, at a terminal, that a picture is kept.
+hint() {
+    env ${2:+"$2"} TERM=dumb script -qec "'$1' run --frames 2 dish.fl" /dev/null 2>/dev/null </dev/null |
+        tr -d '\r' | tee out | sed -n 's/.*to keep a picture of it: \(.*\) (or OUT.mp4)/\1/p'
+}
+sh_works() { rm -f OUT.png && sh -c "$1" >out 2>&1 && [ -s OUT.png ]; }
+# A bare container has no pseudo-terminals.
+if [ "$2" = draws ] && script -qec true /dev/null >/dev/null 2>&1 </dev/null; then
+    cp "$prefix/share/petri/samples/petri.fl" dish.fl
+    mkdir -p build/src
+    cp "$build/src/petri" "$build/src/petri-pictures" build/src
+    ln -s src/petri build/petri
+    for way in build/petri ./build/petri "$work/build/petri" "$prefix/bin/petri" links/dish; do
+        check "the hint of $way works" sh_works "$(hint "$way")"
+    done
+    check "of a build folder it is short" [ "$(hint "$work/build/petri")" = "build/petri render dish.fl -o OUT.png" ]
+    cd build/src || exit 1
+    cp ../../dish.fl .
+    check "also beside the program" [ "$(hint "$work/build/src/petri")" = "./petri render dish.fl -o OUT.png" ]
+    cd "$work" || exit 1
+    PATH="$prefix/bin:$PATH"
+    check "of an installed petri it is the name" [ "$(hint petri)" = "petri render dish.fl -o OUT.png" ]
+    check "which works" sh_works "$(hint petri)"
+    cp dish.fl "it's a dish.fl"
+    script -qec "petri run --frames 1 \"it's a dish.fl\"" /dev/null </dev/null 2>/dev/null | tr -d '\r' >out
+    check "the script's name is quoted" has out "petri view 'it'\\''s a dish.fl'"
+else
+    echo "skipped: the hints, for petri does not draw or there are no pseudo-terminals"
+fi
+
+# An embedder's program. The sanitizers' own libraries are none of its business.
+if [ "$3" = none ] && command -v cc >/dev/null; then
+    printf '#include <petri.h>\n#include <stdio.h>\nint main(void) {\n    return puts(petri_version()) < 0;\n}\n' >app.c
+    ln -s "$prefix" moved
+    PKG_CONFIG_PATH=$(dirname "$(find moved/ -name petri.pc)")
+    export PKG_CONFIG_PATH
+    sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH/petri.pc" # it is in another place now
+    # shellcheck disable=SC2046 # options are words
+    cc app.c -o app $(pkg-config --cflags --libs petri) >out 2>&1
+    check "a program with libpetri links" [ $? -eq 0 ]
+    check "and runs" [ "$(./app)" = "$("$prefix/bin/petri" --version | sed 's/petri //')" ]
+fi
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

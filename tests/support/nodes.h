@@ -1,0 +1,17 @@
+// nodes.h: nodes and values of them, made one by one. Programs make theirs in lists (vm/make.c).
+#ifndef PETRI_TESTS_NODES_H
+#define PETRI_TESTS_NODES_H
+
+#include "value/node.h"
+
+static inline Value value_node(Arena *arena, const Node *node) {
+    return value_item(arena, (Item){ITEM_NODE, .as.node = node});
+}
+
+// Appends the nodes of `children`. NULL if the tree would be too high.
+static inline Node *node_append(Arena *arena, const Node *node, Value children) {
+    NodeList list = node_list(arena, children);
+    return node_append_list(arena, node, &list);
+}
+
+#endif

@@ -1,0 +1,103 @@
+// test_program_lower.c: the instructions that expressions come down to, and that these stand alone.
+#include "compiling.h"
+
+static void test_instructions(void **state) {
+    static const CodeRow rows[] = {
+        {"1\n", "move r0 = 1\nreturn r0\n"},
+        {"frame and time\n",
+         "global r1 = frame\nmove r2 = r1\njump false r2 to 4\nglobal r2 = time\nmove r0 = r2\nreturn r0\n"},
+        {"frame<time\n", "global r1 = frame\nglobal r2 = time\nlt r0 = r1 r2\nreturn r0\n"},
+        {"(1;2;3)[frame..2]\n", "compose r1 = (1, 2, 3)\nglobal r2 = frame\nslice r0 = r1 r2 2\nreturn r0\n"},
+        {"(1;2)[frame..2|1]\n",
+         "compose r1 = (1, 2)\nglobal r3 = frame\nrange r2 = r3 2 1\nindex r0 = r1 r2\nreturn r0\n"},
+        {"$(:k;frame)\n", "global r1 = frame\nlookup r0 = (:k, r1) #0\nreturn r0\n"},
+        {"$:a;$:b\n", "lookup r1 = (:a) #0\nlookup r2 = (:b) #1\ncompose r0 = (r1, r2)\nreturn r0\n"},
+        {"let a;b=frame\nb\n", "global r3 = frame\nunpack r0-r1 = r3\nmove r2 = r1\nreturn r2\n"},
+        {"import a;b from 'm.fl'\n", "import r0-r1 = 'm.fl'\nmove r2 = null\nreturn r2\n"},
+        {"if frame\n    1\n",
+         "global r1 = frame\njump false r1 to 4\nmove r0 = 1\njump to 5\nmove r0 = null\nreturn r0\n"},
+    };
+    Desk *desk = *state;
+    desk->options.simplify = false;
+    check_code(desk, rows, COUNT_OF(rows));
+}
+
+// A built-in with as many arguments as it takes needs no matching.
+static void test_calls(void **state) {
+    static const CodeRow rows[] = {
+        {"sin(frame)\n", "global r1 = frame\nbuiltin r0 = (r1) sin\nreturn r0\n"},
+        {"sin(x=frame)\n", "global r1 = frame\ncall r0 = (sin) (r1)\nreturn r0\n"},
+        {"sin(frame, 2)\n", "global r1 = frame\ncall r0 = (sin) (r1, 2)\nreturn r0\n"},
+        {"func f(x, y=frame)\n    x*y\nf(1, y=2)\n",
+         "global r2 = frame\nclosure r0 = (null, r2) f\ncall r1 = r0 (1, 2)\nreturn r1\n\n"
+         "f: parameters=2 captures=0 registers=3\nmul r2 = r0 r1\nreturn r2\n"},
+    };
+    Desk *desk = *state;
+    desk->options.simplify = false;
+    check_code(desk, rows, COUNT_OF(rows));
+    compile(desk, "func f(x)\n    x\nf(1, 2, b=3, c=frame)\n");
+    const Code *code = desk->compiled->code;
+    const CallCode *call = code->instrs[code->count - 2].as.call;
+    assert_int_equal(code->instrs[code->count - 2].op, OP_CALL);
+    assert_int_equal(call->arg_count, 2);
+    assert_int_equal(call->named_count, 2);
+    assert_ptr_equal(call->names[1], name_of(&desk->world, "c"));
+}
+
+// Nodes are made at once where that is what piece by piece comes to; small parts of a loop's body are added one by one.
+static void test_nodes_and_loops(void **state) {
+    static const CodeRow rows[] = {
+        {"!a #t v=frame\n    !b\n", "global r1 = frame\nnode r2 = () none b\nnode r0 = (v=r1) r2 a\nreturn r0\n"},
+        {"!a v=frame v=1\n", "node r1 = () none a\nglobal r2 = frame\ndecorate r0 = r1 (r2, 1) v v\nreturn r0\n"},
+        {"(frame v=1 w=2)\n", "global r1 = frame\ndecorate r0 = r1 (1, 2) v w\nreturn r0\n"},
+        {"frame << !a\n", "global r1 = frame\nnode r2 = () none a\nappend r0 = r1 r2\nreturn r0\n"},
+        {"for i in frame;1\n    !a v=i\n    !b\n",
+         "global r3 = frame\ncompose r2 = (r3, 1)\nfor loop 0 r0 = r2 to 8\nnode r3 = (v=r0) none a\nadd part loop 0 "
+         "r3\n"
+         "node r3 = () none b\nadd part loop 0 r3\nnext loop 0 r0 = to 3\ncollect r1 = loop 0\nreturn r1\n"},
+    };
+    Desk *desk = *state;
+    desk->options.simplify = false;
+    check_code(desk, rows, COUNT_OF(rows));
+}
+
+// Each instruction knows its place, also when nothing else of the source is left (compiling.h overwrites it).
+static void test_places(void **state) {
+    static const struct {
+        Opcode op;
+        uint32_t line, column;
+        uint32_t inner; // column
+    } rows[] = {{OP_GLOBAL, 1, 7, 0}, {OP_GLOBAL, 2, 10, 0}, {OP_SLICE, 2, 6, 10}, {OP_NODE, 2, 1, 0},
+                {OP_LOOKUP, 3, 1, 3}, {OP_COMPOSE, 1, 1, 0}, {OP_RETURN, 1, 1, 0}};
+    Desk *desk = *state;
+    desk->options.lines = true;
+    const Code *code = compile(desk, "let x=frame\n!a v=(x)[frame..2]\n$(x;1)\n")->code;
+    assert_int_equal(code->count, COUNT_OF(rows));
+    for (uint32_t i = 0; i < code->count; i++) {
+        const Instr *instr = &code->instrs[i];
+        SourcePlace place = source_locate(instr->at->source, instr->at->span.start);
+        if (instr->op != rows[i].op || place.line != rows[i].line || place.column != rows[i].column)
+            print_error("%u: %u at %u:%u\n", i, instr->op, place.line, place.column);
+        assert_true(instr->op == rows[i].op && place.line == rows[i].line && place.column == rows[i].column);
+        if (rows[i].inner)
+            assert_int_equal(source_locate(code->source, instr->as.inner->span.start).column, rows[i].inner);
+        assert_true(instr->op == OP_COMPOSE || instr->op == OP_RETURN || code->lines[i] == rows[i].line);
+    }
+}
+
+// What a statement of a loaded program holds: two instructions with their places, a node, its names and constants.
+static void test_memory(void **state) {
+    enum { STATEMENTS = 1000, MOST_BYTES = 600 };
+    Desk *desk = *state;
+    Text script = text_new(&desk->world.arena);
+    for (int i = 0; i < STATEMENTS; i++)
+        text_add_c(&script, "!a v=frame+1\n");
+    compile(desk, text_c(&script));
+    assert_true(desk->program.used < STATEMENTS * MOST_BYTES);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {DESK_TEST(test_instructions), DESK_TEST(test_calls),
+                                       DESK_TEST(test_nodes_and_loops), DESK_TEST(test_places), DESK_TEST(test_memory)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,84 @@
+// test_program_parameters.c: what is a parameter, its default, and the comment behind it.
+#include "compiling.h"
+
+typedef struct ParameterRow {
+    const char *script;
+    const char *parameters; // `name=text` of the default, `:value` if it is static, ` least..most|step`, ` -- comment`
+} ParameterRow;
+
+static const char *parameters_of(Desk *desk, const char *script) {
+    Text out = text_new(&desk->world.arena);
+    const Program *program = compile(desk, script);
+    for (uint32_t i = 0; i < program->parameter_count; i++) {
+        const Parameter *parameter = &program->parameters[i];
+        text_add_format(&out, "%s%.*s=%.*s", i ? ", " : "", (int)parameter->name->name.len, parameter->name->name.bytes,
+                        (int)parameter->fallback.len, parameter->fallback.bytes);
+        if (parameter->is_static) {
+            text_add_char(&out, ':');
+            format_value(&out, &desk->world.symbols, parameter->value);
+        }
+        if (parameter->least > -INFINITY || parameter->most < INFINITY)
+            text_add_format(&out, " %g..%g|%g", parameter->least, parameter->most, parameter->step);
+        if (parameter->comment.len)
+            text_add_format(&out, " -- %.*s", (int)parameter->comment.len, parameter->comment.bytes);
+    }
+    return text_c(&out);
+}
+
+static void test_parameters(void **state) {
+    static const ParameterRow rows[] = {
+        {"let n=n or 5\n!a v=n\n", "n=5:5"},
+        {"let n=n or 2+3*4 -- 0..20|0.5 how many\n", "n=2+3*4:14 0..20|0.5 -- how many"},
+        {"let n=n or 's' m=m or (1;2) -- both\n", "n='s':'s', m=(1;2):1;2 -- both"},
+        {"let k=4\nlet n=n or k+1\n", "n=k+1:5"},
+        {"let n=n or frame\n", "n=frame"},   // not the same in every frame
+        {"let n=n or 1-1\n", "n=1-1"},       // nor known to this calculator
+        {"let n=n or 1 or 2\n", "n=1 or 2"}, // as a whole it is nowhere
+        {"let n=m or 1\nlet sin=sin or 1\nlet n=5\nlet n=n or 1\n", ""},
+        {"if 1\n    let n=n or 1\n", ""}, // only at the top
+    };
+    Desk *desk = *state;
+    for (int simplify = 1; simplify >= 0; simplify--) {
+        desk->options.simplify = simplify;
+        for (size_t i = 0; i < COUNT_OF(rows); i++)
+            assert_text(rows[i].script, parameters_of(desk, rows[i].script), rows[i].parameters);
+    }
+}
+
+// Nobody is told of a parameter's name that has no value, and a definition does not change the default.
+static void test_definitions(void **state) {
+    Desk *desk = *state;
+    assert_text("value", code_of(desk, "let n=n or 5\nn\n"), "move r0 = 5\nmove r1 = 5\nreturn r1\n");
+    assert_text("value", text_c(&desk->told), "");
+    Define define = {.name = name_of(&desk->world, "n"), .value = value_number(7)};
+    desk->options.defines = &define;
+    desk->options.define_count = 1;
+    for (int simplify = 1; simplify >= 0; simplify--) {
+        desk->options.simplify = simplify;
+        assert_text("default", parameters_of(desk, "let n=n or 5\n"), "n=5:5");
+        assert_true(desk->compiled->define_uses[0].read);
+    }
+}
+
+static void test_lint(void **state) {
+    static const ParameterRow rows[] = {
+        {"let n=n or 5 -- 0..3 few\n!a v=n\n",
+         "1:5 the default of 'n' is outside the range in its comment [outside-range]\n"},
+        {"let n=n or (1;2) -- 0..3 few\n!a v=n\n", ""},
+        {"let n=n or frame -- 0..3 few\n!a v=n\n", ""},
+    };
+    Desk *desk = *state;
+    desk->options.lint = true;
+    for (int simplify = 1; simplify >= 0; simplify--) {
+        desk->options.simplify = simplify;
+        for (size_t i = 0; i < COUNT_OF(rows); i++) {
+            compile(desk, rows[i].script);
+            assert_text(rows[i].script, text_c(&desk->told), rows[i].parameters);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {DESK_TEST(test_parameters), DESK_TEST(test_definitions), DESK_TEST(test_lint)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,134 @@
+// test_scene_mirror.c: state and engine agree after an update that broke off, wherever that was.
+//
+// Trees are made by hand and live as long as the test, as those of a program do; an update breaks off where its arena's
+// budget ends.
+#include "values.h"
+
+#include "scene/scene.h"
+
+typedef struct Stage {
+    World *world;
+    Scene *scene;
+    State *state;
+    Arena arena; // of the frame
+    jmp_buf escape;
+    double time;
+} Stage;
+
+static void ignore(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text) {
+    (void)host, (void)level, (void)code, (void)origin, (void)node, (void)key, (void)text;
+}
+
+static const Node *made(World *world, const char *kind, const char *name, Value value) {
+    return node_set_attrs(&world->arena, node_new(&world->arena, name_of(world, kind)),
+                          &(Attr){name_of(world, name), value}, 1);
+}
+
+static Value with(World *world, Value system, const char *kind, const char *name, Value value, const char *vector) {
+    const Node *node = made(world, kind, name, value);
+    node = node_set_attrs(&world->arena, node, &(Attr){name_of(world, vector), value_number(3)}, 1);
+    return value_node(&world->arena,
+                      node_append(&world->arena, system.as.items->as.node, value_node(&world->arena, node)));
+}
+
+// A system in two dimensions: particles 1 … count, and three forces of the same size. A vector of one number takes the
+// frame's memory when it is read.
+static Value system_of(World *world, int count, double force) {
+    const Node *node = made(world, "physics", "state", read_value(world, ":s"));
+    node = node_set_attrs(&world->arena, node, &(Attr){name_of(world, "dimensions"), value_number(2)}, 1);
+    Value tree = value_node(&world->arena, node);
+    for (int i = 1; i <= count; i++)
+        tree = with(world, tree, "particle", "id", value_number(i), "position");
+    for (int i = 0; i < 3; i++)
+        tree = with(world, tree, "constant", "strength", value_number(force), "force");
+    value_keep(tree);
+    return tree;
+}
+
+// One frame; false if it broke off.
+static bool update(Stage *stage, Value tree, size_t budget) {
+    volatile bool whole = false;
+    arena_init(&stage->arena, "frame", budget);
+    stage->arena.escape = &stage->escape;
+    stage->time += 1;
+    if (setjmp(stage->escape) == 0) {
+        SceneFrame frame = {
+            .state = stage->state, .arena = &stage->arena, .time = stage->time, .fps = 4, .lockstep = true};
+        scene_update(stage->scene, tree, &frame);
+        whole = true;
+    }
+    arena_free(&stage->arena);
+    return whole;
+}
+
+static Value entry(const Stage *stage, const char *key) {
+    return state_get(stage->state, read_value(stage->world, key));
+}
+
+static bool has(const Stage *stage, const char *key) {
+    return entry(stage, key).len > 0;
+}
+
+// Frames of `first`, `second`, which may break off, and `third`.
+static bool play(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
+    *stage = (Stage){.world = world, .state = state_new()};
+    stage->scene = scene_new(&world->symbols, (SceneHost){NULL, ignore});
+    assert_true(update(stage, first, SIZE_MAX));
+    assert_true(update(stage, first, SIZE_MAX));
+    assert_true(has(stage, ":s;1") && has(stage, ":s;2") && has(stage, ":s;2;:velocity"));
+    bool whole = budget > 0 && update(stage, second, budget);
+    if (budget == 0)
+        stage->time += 1;
+    assert_true(update(stage, third, SIZE_MAX));
+    return whole;
+}
+
+static void end(Stage *stage) {
+    scene_free(stage->scene);
+    state_free(stage->state);
+}
+
+enum { MOST = 1000, BY = 8, PLACES = 4 }; // budgets; where an update breaks off, at least
+
+// Particles of the last whole tree go from the state with the next whole one.
+static void test_vanished(void **state) {
+    World *world = *state;
+    Value two = system_of(world, 2, 1), one = system_of(world, 1, 1), three = system_of(world, 3, 1);
+    int broken = 0;
+    for (size_t budget = 1; budget < MOST; budget += BY) {
+        Stage stage;
+        broken += !play(&stage, world, two, three, one, budget);
+        assert_true(has(&stage, ":s;1"));
+        assert_false(has(&stage, ":s;2") || has(&stage, ":s;2;:velocity") || has(&stage, ":s;3"));
+        end(&stage);
+    }
+    assert_true(broken >= PLACES && broken < MOST / BY);
+}
+
+// Forces of a tree that was not read to its end do not act.
+static void test_forces(void **state) {
+    World *world = *state;
+    Value pushed = system_of(world, 2, 1), pulled = system_of(world, 2, -5);
+    Stage expected;
+    play(&expected, world, pushed, pulled, pushed, 0);
+    int broken = 0;
+    for (size_t budget = 1; budget < MOST; budget += BY) {
+        Stage stage;
+        if (!play(&stage, world, pushed, pulled, pushed, budget)) {
+            broken++;
+            assert_true(value_equal(entry(&stage, ":s;1"), entry(&expected, ":s;1")));
+            assert_true(value_equal(entry(&stage, ":s;2;:velocity"), entry(&expected, ":s;2;:velocity")));
+        }
+        end(&stage);
+    }
+    end(&expected);
+    assert_true(broken >= PLACES && broken < MOST / BY);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WORLD_TEST(test_vanished),
+        WORLD_TEST(test_forces),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

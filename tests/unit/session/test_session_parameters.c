@@ -1,0 +1,321 @@
+// test_session_parameters.c: the names that a script leaves to its host (`let NAME=NAME or DEFAULT`), and what is said
+// of definitions that it does not take.
+#include "folder.h"
+#include "player.h"
+
+// One line each: `NAME value (default) number least..most|step 'comment' place`.
+static const char *list(Player *player) {
+    PetriParameter row;
+    player->shown.len = 0;
+    note(&player->shown, "", 0);
+    for (size_t i = 0; petri_parameter(player->session, i, &row); i++) {
+        char line[1000];
+        int len = snprintf(line, sizeof line, "%s %s (%s) %g/%g %g..%g|%g '%s' %u:%u%s%s\n", row.name, row.value,
+                           row.fallback, row.number, row.fallback_number, row.least, row.most, row.step, row.comment,
+                           row.line, row.column, row.defined ? " defined" : "", row.settable ? "" : " fixed");
+        note(&player->shown, line, (size_t)len);
+    }
+    return player->shown.text;
+}
+
+static const char *list_of(Player *player, const char *script) {
+    player_forget(player);
+    assert_int_equal(player_load(player, script), PETRI_OK);
+    return list(player);
+}
+
+static void test_which_lets(void **state) {
+    static const struct {
+        const char *script, *wanted;
+        bool quiet;
+    } rows[] = {
+        {"let N=N or 2\n!a v=N\n", "N 2 (2) 2/2 -inf..inf|0 '' 1:5\n", true},
+        {"let stable N=N or 2\n", "N 2 (2) 2/2 -inf..inf|0 '' 1:12\n", true},
+        {"let A=A or 1 B=B or 2 -- both\n    C=C or 3\n",
+         "A 1 (1) 1/1 -inf..inf|0 '' 1:5\nB 2 (2) 2/2 -inf..inf|0 'both' 1:14\nC 3 (3) 3/3 -inf..inf|0 '' 2:5\n", true},
+        {"let N=N or (1;2)\n", "N 1;2 ((1;2)) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let N=(N or 4) -- in brackets\n", "N 4 (4) 4/4 -inf..inf|0 'in brackets' 1:5\n", true},
+        {"let N=N or 'a -- b'-- c\n", "N 'a -- b' ('a -- b') nan/nan -inf..inf|0 'c' 1:5\n", true},
+        {"let N=N or :ring\n", "N :ring (:ring) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let k=3\nlet N=N or k*2\n", "N 6 (k*2) 6/6 -inf..inf|0 '' 2:5\n", true},
+        {"let N=N or beat\n", "N beat (beat) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let N=N or 0 or 5\n", "N 0 or 5 (0 or 5) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let N=N or (1;\n  2)\n", "N 1;2 ((1; 2)) nan/nan -inf..inf|0 '' 1:5\n", true},
+        {"let N=N or beat -- a\033[31m\tb\302\233c\n", "N beat (beat) nan/nan -inf..inf|0 'a [31m b c' 1:5\n", true},
+        {"let N=N or false -- 0..1\n", "N 0 (false) 0/0 0..1|0 '' 1:5\n", true},
+        // The second has a value to begin with.
+        {"let N=N or 1\nlet N=N or 2\n", "N 1 (1) 1/1 -inf..inf|0 '' 1:5\n", true},
+        // None of these.
+        {"let k=3\nlet k=k or 2\n", "", true},
+        {"let beat=beat or 2\n", "", true},
+        {"let sin=sin or 2\n", "", true},
+        {"let N=M or 2\n", "", false},
+        {"let N=N or 1;2\n", "", false},
+        {"let N=N\n", "", false},
+        {"let N;M=N or 1\n", "", false},
+        {"if 1\n    let N=N or 1\n    !a v=N\n", "", false},
+        {"func f(x)\n    let N=N or x\n    N\n!a v=f(1)\n", "", false},
+        {"!a v=N where N=N or 1\n", "", false},
+        {"!a v=(N or 1)\n", "", false},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        assert_text(rows[i].script, list_of(*state, rows[i].script), rows[i].wanted);
+        const char *told = player_told(*state);
+        assert_claim(rows[i].script, rows[i].quiet == (told[0] == 0));
+        assert_claim(rows[i].script, rows[i].quiet || strstr(told, "[unbound-name]") != NULL);
+    }
+}
+
+static void test_comments(void **state) {
+    static const struct {
+        const char *comment, *wanted;
+    } rows[] = {
+        {"-- 1..500 how many cells", "1..500|0 'how many cells'"},
+        {"--1..500", "1..500|0 ''"},
+        {"--- 1..500: cells ", "1..500|0 'cells'"},
+        {"-- -1..1,charge", "-inf..inf|0 '-1..1,charge'"}, // no blank, no range
+        {"-- -1..1, charge", "-1..1|0 'charge'"},
+        {"-- 0.5..2.5|0.25 speed", "0.5..2.5|0.25 'speed'"},
+        {"-- 0.. not negative", "0..inf|0 'not negative'"},
+        {"-- ..9 at the most", "-inf..9|0 'at the most'"},
+        {"-- 1k..2k hertz", "1000..2000|0 'hertz'"},
+        {"-- .. anything", "-inf..inf|0 '.. anything'"},
+        {"-- 5..1 wrong way round", "-inf..inf|0 '5..1 wrong way round'"},
+        {"-- 1..2|0 no step", "-inf..inf|0 '1..2|0 no step'"},
+        {"-- 1..many of them", "-inf..inf|0 '1..many of them'"},
+        {"-- from 1..5", "-inf..inf|0 'from 1..5'"},
+        {"-- ... and so on", "-inf..inf|0 '... and so on'"},
+        {"--", "-inf..inf|0 ''"},
+        {"", "-inf..inf|0 ''"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        char script[200], wanted[200];
+        snprintf(script, sizeof script, "let N=N or 2 %s\n!a v=N\n", rows[i].comment);
+        snprintf(wanted, sizeof wanted, "N 2 (2) 2/2 %s 1:5\n", rows[i].wanted);
+        assert_text(rows[i].comment, list_of(*state, script), wanted);
+    }
+}
+
+// Values are those of the language: a definition that is true goes over the default, and folding changes nothing.
+static void test_values(void **state) {
+    Player *player = *state;
+    static const struct {
+        const char *definition, *tree, *told;
+    } rows[] = {
+        {"X=1", "!a v=3;2\n",
+         "warning the definition of 'X' has no effect: t.fl never reads it; "
+         "its parameter is N [unread-definition]\n"},
+        {"N=4", "!a v=4;2\n", ""},
+        {"N=0", "!a v=3;2\n",
+         "warning t.fl:1:5 N=0 has no effect: 0 is false, so that `or` takes the default 3 "
+         "[unused-definition]\n"},
+        {"N=5;1", "!a v=5;1;2\n", ""},
+        {"N=11", "!a v=11;2\n", "warning t.fl:1:5 N=11 is outside the range 1..10 [outside-range]\n"},
+        {"N=nan", "!a v=nan;2\n", "warning t.fl:1:5 N=nan is outside the range 1..10 [outside-range]\n"},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++)
+        for (int simplify = 1; simplify >= 0; simplify--) {
+            PetriOptions options = player_options(player);
+            options.simplify = simplify;
+            player_reopen(player, &options);
+            assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
+            player_run(player, "let N=N or 3 -- 1..10\n!a v=N;2\n", 1);
+            assert_text(rows[i].definition, player_tree(player), rows[i].tree);
+            assert_text(rows[i].definition, player_told(player), rows[i].told);
+        }
+}
+
+// A definition that does nothing is told, with the place where that is decided.
+static void test_unused(void **state) {
+    static const struct {
+        const char *definition, *script, *told;
+    } rows[] = {
+        {"CELLS=5", "!b\nlet CELLS=200\n!a v=CELLS\n",
+         "warning t.fl:2:5 the definition of 'CELLS' has no effect: the script gives the name its own value here "
+         "[unused-definition]\n"},
+        {"CELLS=5", "for CELLS in ..2\n    !a v=CELLS\n",
+         "warning t.fl:1:5 the definition of 'CELLS' has no effect: the script gives the name its own value here "
+         "[unused-definition]\n"},
+        {"CELL=5", "let CELLS=CELLS or 2\n!a v=CELLS\n",
+         "warning t.fl:1:5 the definition of 'CELL' has no effect: t.fl never reads it [unknown-parameter]\n"},
+        {"fps=5", "!a v=fps\n",
+         "warning the definition of 'fps' has no effect: petri itself gives this name its value [unused-definition]\n"},
+        {"FOO=5", "!a\n", "warning the definition of 'FOO' has no effect: t.fl never reads it [unread-definition]\n"},
+        // Read, be it only at one place, before the script has its own.
+        {"CELLS=5", "!a v=CELLS\nlet CELLS=200\n!a v=CELLS\n", ""},
+        {"CELLS=5", "let CELLS=CELLS*2\n!a v=CELLS\n", ""},
+        {"CELLS=5", "func f()\n    CELLS\n!a v=f()\n", ""},
+        {"sin=5", "!a v=sin\n", ""},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        Player *player = *state;
+        PetriOptions options = player_options(player);
+        player_reopen(player, &options);
+        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
+        player_run(player, rows[i].script, 1);
+        assert_text(rows[i].script, player_told(player), rows[i].told);
+    }
+    Player *player = *state; // of several the last counts, and only that one is spoken of
+    assert_int_equal(petri_define(player->session, "N=77"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "N=3"), PETRI_OK);
+    player_run(player, "let N=N or 2 -- 1..9\n!a v=N;sin\n", 1);
+    assert_text("last", player_told(player), "");
+}
+
+// Hints are a line of the rendered text.
+static void keep_rendered(void *host, const PetriDiagnostic *diagnostic) {
+    Player *player = host;
+    note(&player->told, diagnostic->rendered, strlen(diagnostic->rendered));
+}
+
+static void test_rendered(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.diagnostic = keep_rendered;
+    player_reopen(player, &options);
+    assert_int_equal(petri_define(player->session, "CELS=5"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "DISH=5"), PETRI_OK);
+    assert_int_equal(petri_load_text(player->session, "t.fl", "let CELLS=CELLS or 2 DISH=3\n", PETRI_Z), PETRI_OK);
+    assert_text("rendered", player_told(player),
+                "t.fl:1:5: warning: the definition of 'CELS' has no effect: t.fl never reads it [unknown-parameter]\n"
+                "    let CELLS=CELLS or 2 DISH=3\n"
+                "        ^~~~~\n"
+                "    did you mean 'CELLS'?\n"
+                "t.fl:1:22: warning: the definition of 'DISH' has no effect: the script gives the name its own value "
+                "here [unused-definition]\n"
+                "    let CELLS=CELLS or 2 DISH=3\n"
+                "                         ^~~~\n"
+                "    with `let DISH=DISH or …` it would take the definition\n");
+}
+
+// Where the default is made of numbers, so must be the definition.
+static void test_wrong_values(void **state) {
+    Player *player = *state;
+    static const struct {
+        const char *definition, *fallback, *told;
+    } rows[] = {
+        {"N=12x", "3",
+         "error t.fl:1:5 '12x' is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
+        {"N=", "3", "error t.fl:1:5 '' is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
+        {"N=1;b", "(1;2)",
+         "error t.fl:1:5 'b' is not a number, and 'N' takes numbers: its default is (1;2) [bad-definition]\n"},
+        {"N=:a", "3", "error t.fl:1:5 :a is not a number, and 'N' takes numbers: its default is 3 [bad-definition]\n"},
+        {"N=12x", "'text'", ""},
+        {"N=12x", ":ring", ""},
+        {"N=12x", "beat", ""},
+        {"N=:a", ":ring", ""},
+        {"N=1:30", "3", ""},
+        {"N=2k", "3", ""},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        PetriOptions options = player_options(player);
+        char script[100];
+        snprintf(script, sizeof script, "let N=N or %s\n!a v=N\n", rows[i].fallback);
+        player_reopen(player, &options);
+        assert_int_equal(petri_define(player->session, rows[i].definition), PETRI_OK);
+        bool wrong = rows[i].told[0] != 0;
+        assert_int_equal(player_load(player, script), wrong ? PETRI_INVALID : PETRI_OK);
+        assert_text(rows[i].definition, player_told(player), rows[i].told);
+    }
+    static const char *const bad[] = {"5=3", "a b=3", " a=3", "a-b=3", "'=3", "a'b=3"};
+    for (size_t i = 0; i < COUNT_OF(bad); i++)
+        assert_claim(bad[i], petri_define(player->session, bad[i]) == PETRI_INVALID);
+    static const char *const good[] = {"a=3", "_=3", "é2=3", "a'=3", "if=3"};
+    for (size_t i = 0; i < COUNT_OF(good); i++)
+        assert_claim(good[i], petri_define(player->session, good[i]) == PETRI_OK);
+}
+
+static const char DISH[] = "let N=N or 3 -- 1..5|2 rounds\n"
+                           "let S=S or 'a'\n"
+                           "!unbound v=nowhere\n"
+                           "!a v=N;S f=frame\n"
+                           "!counter state=:c rate=60\n";
+
+// Another value, while the world goes on.
+static void test_set(void **state) {
+    Player *player = *state;
+    assert_int_equal(petri_set_parameter(player->session, "N", "4"), PETRI_INVALID); // nothing is loaded
+    player_run(player, DISH, 3);
+    player_forget(player);
+    assert_int_equal(petri_set_parameter(player->session, "N", "5"), PETRI_OK);
+    assert_text("what was told stays told", player_told(player), "");
+    assert_text("set", list(player),
+                "N 5 (3) 5/3 1..5|2 'rounds' 1:5 defined\nS 'a' ('a') nan/nan -inf..inf|0 '' 2:5\n");
+    player_step(player, 1);
+    assert_text("it is there in the next frame", player_tree(player),
+                "!unbound\n!a v=5;'a' f=3\n!counter state=:c rate=60\n");
+    assert_text("the state goes on", player_state(player), "$:c = 3\n$(:c;:time) = 0.05\n");
+    assert_int_equal(petri_set_parameter(player->session, "S", "b c"), PETRI_OK);
+    assert_int_equal(petri_set_parameter(player->session, "N", NULL), PETRI_OK);
+    player_step(player, 1);
+    assert_text("the default again", player_tree(player), "!unbound\n!a v=3;'b c' f=4\n!counter state=:c rate=60\n");
+    uint64_t number = petri_config_number(player->session);
+    assert_int_equal(petri_set_parameter(player->session, "N", "x"), PETRI_INVALID);
+    assert_text("wrong", player_told(player),
+                "error t.fl:1:5 'x' is not a number, and 'N' takes numbers: its default "
+                "is 3 [bad-definition]\n");
+    assert_int_equal(petri_set_parameter(player->session, "M", "1"), PETRI_INVALID);
+    assert_int_equal(petri_set_parameter(player->session, "", "1"), PETRI_INVALID);
+    assert_true(number <= petri_config_number(player->session));
+    player_step(player, 1);
+    assert_text("a failure changes nothing", player_tree(player),
+                "!unbound\n!a v=3;'b c' f=5\n!counter state=:c rate=60\n");
+    // The value stays while the script is changed.
+    assert_int_equal(petri_set_parameter(player->session, "N", "4"), PETRI_OK);
+    player_run(player, DISH, 1);
+    assert_text("reloaded", player_tree(player), "!unbound\n!a v=4;'b c' f=0\n!counter state=:c rate=60\n");
+}
+
+// Going back takes the value back as well.
+static void test_rewind(void **state) {
+    Player *player = *state;
+    player_run(player, DISH, 2);
+    PetriSnapshot *before = petri_snapshot(player->session);
+    assert_int_equal(petri_set_parameter(player->session, "N", "5"), PETRI_OK);
+    player_step(player, 1);
+    assert_int_equal(petri_rewind(player->session, before), PETRI_OK);
+    player_step(player, 1);
+    assert_text("as it was", player_tree(player), "!unbound\n!a v=3;'a' f=2\n!counter state=:c rate=60\n");
+    petri_snapshot_free(before);
+}
+
+// Modules see no definitions (L13.2); what is included is the script.
+static void test_files(void **state) {
+    Player *player = *state;
+    Folder folder;
+    folder_open(&folder);
+    folder_write(&folder, "inner.fl", "let DEEP=DEEP or 1\n");
+    folder_write(&folder, "m.fl",
+                 "import DEEP from 'inner.fl'\nlet SIZE=SIZE or 3 -- 1..9 large\n"
+                 "func f(x)\n    x*SIZE*DEEP\n");
+    folder_write(&folder, "part.fl", "let PART=PART or 7 -- in a part\n!part v=PART\n");
+    folder_write(&folder, "main.fl",
+                 "%include 'part.fl'\nimport f from 'm.fl'\nimport f from 'none.fl'\n"
+                 "let N=N or 2\nimport f from 'm.fl'\n!a v=f(N)\n");
+    assert_int_equal(petri_define(player->session, "PART=8"), PETRI_OK);
+    assert_int_equal(petri_define(player->session, "SIZE=4"), PETRI_OK);
+    assert_int_equal(petri_load(player->session, folder_file(&folder, "main.fl")), PETRI_OK);
+    const char *told = player_told(player);
+    assert_non_null(strstr(told, "m.fl:2:5 the definition of 'SIZE' has no effect: modules see no definitions"));
+    assert_null(strstr(told, "PART"));
+    assert_text("files", list(player),
+                "PART 8 (7) 8/7 -inf..inf|0 'in a part' 1:5 defined\n"
+                "N 2 (2) 2/2 -inf..inf|0 '' 4:5\n"
+                "SIZE 3 (3) 3/3 1..9|0 'large' 2:5 fixed\n"
+                "DEEP 1 (1) 1/1 -inf..inf|0 '' 1:5 fixed\n");
+    assert_int_equal(petri_set_parameter(player->session, "SIZE", "4"), PETRI_INVALID);
+    player_forget(player);
+    player_step(player, 2);
+    assert_text("values", player_tree(player), "!part v=8\n!a v=6\n");
+    assert_null(strstr(player_told(player), "unbound")); // SIZE on the right is null, and meant so
+    folder_close(&folder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_which_lets), PLAYER_TEST(test_comments), PLAYER_TEST(test_values),
+        PLAYER_TEST(test_unused),     PLAYER_TEST(test_rendered), PLAYER_TEST(test_wrong_values),
+        PLAYER_TEST(test_set),        PLAYER_TEST(test_rewind),   PLAYER_TEST(test_files),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,72 @@
+// test_syntax_foreign.c: files that are no scripts get one message; scripts keep all of theirs.
+#include "parsing.h"
+
+// All messages of a file with this name, a line each.
+static const char *told(World *world, const char *name, const char *path, Str bytes) {
+    const Source *source = source_new(&world->arena, str_from(name), str_from(path), bytes);
+    DiagSink diags = diag_sink_new(&world->arena, 50);
+    const Ast *ast = parse_program(&world->arena, &world->symbols, source, &diags);
+    assert_true((ast == NULL) == (diags.error_count > 0));
+    Text out = text_new(&world->arena);
+    for (uint32_t i = 0; i < diags.count; i++) {
+        const Diag *diag = &diags.items[i];
+        if (diag->source)
+            text_add_format(&out, "%u: ", source_locate(diag->source, diag->span.start).line);
+        text_add_format(&out, "%.*s\n", (int)diag->text.len, diag->text.bytes);
+    }
+    diag_sink_free(&diags);
+    return text_c(&out);
+}
+
+static void check_bytes(World *world, Str bytes, const char *wanted) {
+    assert_text(wanted, told(world, "x.fl", "/x.fl", bytes), wanted);
+}
+
+static void test_encodings(void **state) {
+    World *world = *state;
+    check_bytes(world, STR("\xff\xfe!\0n\0\n\0"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
+    check_bytes(world, STR("\xfe\xff\0!\0n\0\n"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
+    check_bytes(world, STR("!\0n\0 \0a\0=\0001\0\n\0"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
+    check_bytes(world, STR("\0!\0n\0 \0a\0=\0001\0\n"), "'x.fl' is UTF-16 text: save it as UTF-8\n");
+    check_bytes(world, STR("\xff\xfe\0\0!\0\0\0"), "'x.fl' is UTF-32 text: save it as UTF-8\n");
+    check_bytes(world, STR("\xef\xbb\xbf!n a=1\n"), "");
+}
+
+static void test_binary(void **state) {
+    World *world = *state;
+    check_bytes(world,
+                STR("\x7f"
+                    "ELF\2\1\1\0\0\0\x80\xff\n\0"),
+                "'x.fl' is a binary file, not a script\n");
+    check_bytes(world, STR("!n\0\n!m\0\n!k\0\n"), "'x.fl' is a binary file, not a script\n");
+    check_bytes(world, STR("-- a\0b\n!n a='x\0y'\n"), ""); // where any character may stand
+}
+
+static void test_other_texts(void **state) {
+    World *world = *state;
+    Str table = STR("root:x:0\nbin:y:1\n\nmail:z:2\n");
+    const char *sum = "1: this does not look like a Flitter script: 3 of 3 lines are wrong, the first with: "
+                      "unexpected symbol :x\n";
+    assert_text("a table", told(world, "passwd", "/etc/passwd", table), sum);
+    assert_text("a stream", told(world, "<stdin>", "<stdin>", table), sum);
+    const char *all = told(world, "p.fl", "/p.fl", table);
+    assert_non_null(strstr(all, "1: unexpected symbol :x\n"));
+    assert_non_null(strstr(all, "2: unexpected symbol :y\n"));
+    assert_text("a prompt", told(world, "prompt", "prompt", table), all);
+    Str begun = STR("#!/usr/bin/env petri\n)\n)\n)\n");
+    assert_text("it says what it is", told(world, "tool", "/bin/tool", begun),
+                "2: unexpected ')'\n3: unexpected ')'\n4: unexpected ')'\n");
+    Str few = STR("!a\n!b )\n!c\n!d )\n!e\n!f )\n!g\n!h\n!i )\n");
+    assert_text("half is not most", told(world, "old.fl.bak", "/old.fl.bak", STR("!a )\n!b )\n!c\n")),
+                "1: unexpected ')', expected end of line or '<<'\n2: unexpected ')', expected end of line or '<<'\n");
+    assert_non_null(strstr(told(world, "old", "/old", few), "9: unexpected ')'"));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        WORLD_TEST(test_encodings),
+        WORLD_TEST(test_binary),
+        WORLD_TEST(test_other_texts),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,181 @@
+// runner.h: scripts run by the machine alone: parsed, compiled, evaluated, without a session around it.
+#ifndef PETRI_TESTS_RUNNER_H
+#define PETRI_TESTS_RUNNER_H
+
+#include "values.h"
+
+#include "builtin/files.h"
+#include "builtin/noise.h"
+#include "syntax/parse.h"
+#include "vm/machine.h"
+
+// Another file that a script may import.
+typedef struct ModuleText {
+    const char *path;
+    const char *text;
+} ModuleText;
+
+typedef struct Runner {
+    World world; // the symbols, and what the tests make
+    Arena program;
+    Arena scratch;
+    Arena frame;
+    State *state;
+    FileCache *files;
+    NoiseCache *noise;
+    Vm vm;
+    Vm ahead;
+    bool simplify;
+    const ModuleText *modules;
+    size_t module_count;
+    const Program *compiled;
+    Value result;
+    Text told; // `line:column text [code]` of each diagnostic, one a line
+    Text log;
+} Runner;
+
+static inline void runner_tell(void *host, const Diag *diag) {
+    Runner *runner = host;
+    SourcePlace place = source_locate(diag->source, diag->span.start);
+    text_add_format(&runner->told, "%u:%u %.*s [%s]\n", place.line, place.column, (int)diag->text.len, diag->text.bytes,
+                    diag->code);
+}
+
+static inline void runner_hear_nothing(void *host, const Diag *diag) {
+    (void)host;
+    (void)diag;
+}
+
+static inline void runner_log(void *host, Str text) {
+    Runner *runner = host;
+    text_add_format(&runner->log, "> %.*s\n", (int)text.len, text.bytes);
+}
+
+// The simplifier's machine is the same with another arena: what it makes lives as long as the program.
+static inline bool runner_evaluate(void *host, const Code *code, Value *value) {
+    Runner *runner = host;
+    return vm_run_static(&runner->ahead, &runner->program, code, value);
+}
+
+static inline const Program *runner_compile_text(Runner *runner, const char *path, const char *text, bool module) {
+    const Source *source = source_new(&runner->program, str_from(path), str_copy(&runner->program, str_from(path)),
+                                      str_copy(&runner->program, str_from(text)));
+    DiagSink sink = diag_sink_new(&runner->program, 50);
+    const Ast *ast = parse_program(&runner->scratch, &runner->world.symbols, source, &sink);
+    CompileOptions options = {
+        .module = module, .simplify = runner->simplify, .host = {.host = runner, .evaluate = runner_evaluate}};
+    const Program *program = NULL;
+    if (ast)
+        program =
+            program_compile(&runner->program, &runner->scratch, &runner->world.symbols, source, ast, &options, &sink);
+    for (uint32_t i = 0; i < sink.count; i++)
+        runner_tell(runner, &sink.items[i]);
+    diag_sink_free(&sink);
+    // Whatever the program still needed of this would be garbage from here on.
+    for (ArenaBlock *block = runner->scratch.first; block && !ARENA_POISONS; block = block->next)
+        memset(block->bytes, 0xdb, block->capacity);
+    arena_free(&runner->scratch);
+    return program;
+}
+
+static inline const Program *runner_module(void *host, Str path, Str *why) {
+    Runner *runner = host;
+    for (size_t i = 0; i < runner->module_count; i++)
+        if (str_equal(path, str_from(runner->modules[i].path)))
+            return runner_compile_text(runner, runner->modules[i].path, runner->modules[i].text, true);
+    *why = STR("there is no such file");
+    return NULL;
+}
+
+static inline int runner_setup(void **state) {
+    enum { STACK_BYTES = 4 << 20 };
+    Runner *runner = calloc(1, sizeof *runner);
+    World *world = &runner->world;
+    arena_init(&world->arena, "test", (size_t)1 << 30);
+    world->symbols = symbol_table_new(&world->arena);
+    arena_init(&runner->program, "program", (size_t)1 << 30);
+    arena_init(&runner->scratch, "compiler", (size_t)1 << 30);
+    arena_init(&runner->frame, "frame", (size_t)2 << 30);
+    runner->state = state_new();
+    runner->files = file_cache_new();
+    runner->noise = noise_cache_new();
+    vm_init(&runner->vm, &runner->frame, &world->symbols, (VmHost){runner, runner_tell, runner_log, runner_module},
+            STACK_BYTES, false);
+    vm_init(&runner->ahead, &runner->frame, &world->symbols,
+            (VmHost){runner, runner_hear_nothing, runner_log, runner_module}, STACK_BYTES, true);
+    runner->vm.state = runner->state;
+    runner->vm.builtins.files = runner->files;
+    runner->vm.builtins.noise = runner->ahead.builtins.noise = runner->noise;
+    runner->simplify = true;
+    runner->told = text_new(&world->arena);
+    runner->log = text_new(&world->arena);
+    *state = runner;
+    return 0;
+}
+
+static inline int runner_teardown(void **state) {
+    Runner *runner = *state;
+    vm_free(&runner->vm);
+    vm_free(&runner->ahead);
+    noise_cache_free(runner->noise);
+    file_cache_free(runner->files);
+    state_free(runner->state);
+    arena_free(&runner->frame);
+    arena_free(&runner->scratch);
+    arena_free(&runner->program);
+    symbol_table_free(&runner->world.symbols);
+    arena_free(&runner->world.arena);
+    free(runner);
+    return 0;
+}
+
+#define RUNNER_TEST(function) cmocka_unit_test_setup_teardown(function, runner_setup, runner_teardown)
+
+// A frame of the program that was loaded last.
+static inline void runner_frame(Runner *runner, double number) {
+    runner->vm.globals[ENGINE_FRAME] = value_number(number);
+    arena_reset(&runner->frame);
+    runner->log.len = 0;
+    runner->result = vm_run(&runner->vm, runner->compiled, NULL, NULL);
+}
+
+// False if the script does not parse.
+static inline bool runner_load(Runner *runner, const char *script) {
+    runner->told.len = 0;
+    runner->compiled = runner_compile_text(runner, "t.fl", script, false);
+    return runner->compiled != NULL;
+}
+
+// Loads a script that must parse and makes frames.
+static inline void runner_run(Runner *runner, const char *script, int frames) {
+    assert_claim(script, runner_load(runner, script));
+    for (int i = 0; i < frames; i++)
+        runner_frame(runner, i);
+}
+
+// The nodes of the last frame.
+static inline const char *runner_tree(Runner *runner) {
+    Text text = text_new(&runner->world.arena);
+    for (uint32_t i = 0; runner->result.kind == VALUE_MIXED && i < runner->result.len; i++)
+        if (runner->result.as.items[i].type == ITEM_NODE)
+            format_tree(&text, &runner->world.symbols, runner->result.as.items[i].as.node, 0);
+    return text_c(&text);
+}
+
+typedef struct ScriptRow {
+    const char *script;
+    const char *wanted;
+} ScriptRow;
+
+// The tree of the last of `frames` frames of each script, which is the same without the simplifier.
+static inline void check_trees(Runner *runner, const ScriptRow *rows, size_t count, int frames) {
+    for (int simplify = 1; simplify >= 0; simplify--) {
+        runner->simplify = simplify;
+        for (size_t i = 0; i < count; i++) {
+            runner_run(runner, rows[i].script, frames);
+            assert_text(rows[i].script, runner_tree(runner), rows[i].wanted);
+        }
+    }
+}
+
+#endif

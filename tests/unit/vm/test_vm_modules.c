@@ -1,0 +1,53 @@
+// test_vm_modules.c: imports (language.md L13): what a module sees, what its importer gets, and what is said.
+#include "runner.h"
+
+static const ModuleText modules[] = {
+    {"m.fl", "let a=1 b=a+1\nfunc f(x, y=b)\n    x+y\nlet a=10\n"},
+    {"state.fl", "let s=$:k\nlet t=frame\n"},
+    {"outer.fl", "import a from 'm.fl'\nlet c=a*2\n"},
+    {"round.fl", "import again from 'round.fl'\nlet again=3\n"},
+};
+
+typedef struct ImportRow {
+    const char *script;
+    const char *tree;
+    const char *told;
+} ImportRow;
+
+static void test_imports(void **state) {
+    static const ImportRow rows[] = {
+        {"import a;b;f from 'm.fl'\n!r v=a;b;f(5);f(5, 1)\n", "!r v=10;2;7;6\n", ""},
+        {"import c from 'outer.fl'\n!r v=c\n", "!r v=20\n", ""},
+        {"import a from 'm';'.fl'\n!r v=a\n", "!r v=10\n", ""},
+        {"if frame==0\n    import a from 'm.fl'\n    !r v=a\n", "!r v=10\n", ""},
+        {"import f from 'm.fl'\nlet g=f\nimport f from 'm.fl'\n!r v=f==g\n", "!r v=0\n",
+         ""}, // each import is a new run
+        // Neither the state nor the names of the engine are in sight of a module.
+        {"import s;t from 'state.fl'\n!r v=$:k s=s t=t\n", "!r v=5\n",
+         "2:7 unbound name 'frame' is null [unbound-name]\n"},
+        {"import a;none;b;nothing from 'm.fl'\n!r v=a;b;none\n", "!r v=10;2\n",
+         "1:1 'm.fl' does not bind 'none' 'nothing' [no-such-name]\n"},
+        {"import a from 'gone.fl'\n!r v=a\n", "!r\n",
+         "1:1 cannot import 'gone.fl': there is no such file [cannot-import]\n"},
+        {"import a from null\n!r v=a\n", "!r\n", "1:1 cannot import '': no file name [cannot-import]\n"},
+        {"import again from 'round.fl'\n!r v=again\n", "!r v=3\n",
+         "1:1 circular import of 'round.fl' [circular-import]\n"},
+    };
+    Runner *runner = *state;
+    runner->modules = modules;
+    runner->module_count = COUNT_OF(modules);
+    assert_true(state_set(runner->state, read_value(&runner->world, ":k"), value_number(5)));
+    for (int simplify = 1; simplify >= 0; simplify--) {
+        runner->simplify = simplify;
+        for (size_t i = 0; i < COUNT_OF(rows); i++) {
+            runner_run(runner, rows[i].script, 1);
+            assert_text(rows[i].script, runner_tree(runner), rows[i].tree);
+            assert_text(rows[i].script, text_c(&runner->told), rows[i].told);
+        }
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {RUNNER_TEST(test_imports)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

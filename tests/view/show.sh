@@ -1,0 +1,58 @@
+#!/bin/sh
+# show.sh: `petri run --show`, which `./dev run` calls: the picture for those who sit at a terminal, what is printed for all
+# others.
+# usage: tests/view/show.sh PATH-OF-PETRI chafa|none
+# shellcheck source=tests/view/support.sh
+. "$(dirname "$0")/support.sh"
+# shellcheck source=tests/view/tmux.sh
+. "$(dirname "$0")/tmux.sh"
+
+cat >dish.fl <<'END'
+!physics state=:cells dimensions=2 time=beat
+    for i in ..40
+        !particle id=i position=100*normal(:p;i)[..2] radius=9
+    !drag strength=0.01
+END
+printf 'debug("only text")\n' >text.fl
+# typed COMMAND: on a screen that has nothing else; `status N` is on it afterwards.
+typed() {
+    wipe
+    type_keys "clear; $*; echo status \$?" Enter
+}
+
+typed "'$petri' run --show dish.fl"
+check "the picture is there, on the other screen" started
+type_keys q
+check "it can be ended before its time" soon shows 'status 0'
+typed "'$petri' run --show --frames 30 dish.fl"
+check "it ends by itself" soon shows 'status 0'
+check "with a line that sums up" shows 'petri: 30 frames in '
+check "it says how to see more of it" shows 'petri: to see it: '
+check "and how to keep it" shows 'petri: to keep a picture of it: '
+mkdir -p build/src
+cp "$petri" "$(dirname "$petri")/petri-pictures" build/src
+ln -s src/petri build/petri
+typed "$work/build/petri run --show --frames 2 -D X=7 dish.fl"
+check "from the folder of the project the hint is short" soon shows 'petri: to see it: build/petri view dish.fl'
+hint=$(screen | sed -n 's/^petri: to see it: //p')
+typed "$hint --frames 3"
+check "and works" soon shows 'petri: 3 frames in '
+
+typed "'$petri' run --show --frames 2 --print state --every 1 dish.fl | head -n 1"
+check "into a pipe goes text" soon shows '@0 time=0'
+typed "'$petri' run --show --frames 2 --print tree text.fl"
+check "what asks for text gets text" soon shows '@1 time='
+typed "'$petri' run --show --frames 2 --print=state --every 100 dish.fl"
+check "even where there is something to see" soon shows '@0 time=0'
+typed "'$petri' run --show --frames 2 text.fl"
+check "what has no picture prints what it prints" soon shows "> 'only text'"
+typed "'$petri' run --show --frames 2 missing.fl"
+check "what is wrong is told" soon shows 'status 1'
+check "once" [ "$(screen | grep -c missing.fl)" -eq 1 ]
+typed "TERM=dumb '$petri' run --show --frames 2 --verbose dish.fl"
+check "a terminal that can nothing is shown nothing" soon shows 'physics step'
+"$petri" run --show --frames 2 --print log text.fl >out 2>err </dev/null
+check "without a terminal it is as without --show" has out "> 'only text'"
+check "in silence" [ ! -s err ]
+
+finish
