@@ -15,7 +15,7 @@ static const double LEAST_RADIUS = 2; // pixels
 // The eye is 0.45 radians to the right and 0.35 above.
 static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
 static const double COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
-static const double EYE = 4;          // its distance, in halves of the frame
+static const double EYE = 4; // its distance, in halves of the frame
 
 // Where a system is drawn.
 typedef struct Panel {

@@ -1,6 +1,6 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
-#include "maths/many.h"
 #include "base/number.h"
+#include "maths/many.h"
 #include "physics/internal.h"
 #include "physics/kernels.h"
 #include "physics/threads.h"
