@@ -6,8 +6,9 @@
 //              is below 3 |a3| d^2 u < 2^-68 f for atan, in the row 0 2^-69
 //   a0, a1 d   exact but for 2^-104
 //   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
-// atan (c ≤ 1) and asin (c ≤ 1/16): s is at most 2^-16 f: in row 0 it is d^3/6 or d^3/3, else |a2| ≤ c and f ≥ c - d;
-// cut off: |a9| ≤ 1/9, 2^-75; for asin |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f.
+// atan (c ≤ 1): s is at most 2^-15 f: in row 0 it is d^3/3, else |a2| ≤ c and f ≥ c - d (c = 1/128 is the worst); cut
+// off: |a9| ≤ 1/9, 2^-75. Together below 2^-64.8 f. asin (c ≤ 1/16): |a2| ≤ 0.51 c, s is at most 2^-16 f, there is no
+// rest; cut off: |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f.
 //
 // asin (1/16 ≤ x ≤ 15/16), |d| ≤ 2^-7 (1 - c), cut after d^9: |a10 d^10| ≤ 0.013 · 2^-70; s is below 2^-16 f (asserted
 // by the generator): the same bound. d is exact, as c has 11 bits and a - c no bit below those of a.
@@ -25,6 +26,7 @@
 #include "maths/fast_turn.h"
 
 #define ARC_ERROR 0x1.2p-66
+#define ATAN_ERROR 0x1.4p-65
 #define ACOS_ERROR 0x1.8p-70
 #define HALF_PI_ERROR 0x1p-102 // of its two parts, and of the sum with what is lower
 #define TAN_ERROR 0x1.3p-66
@@ -150,7 +152,7 @@ KERNEL bool atan2_fast(double y, double x, double *result) {
         return false;
     atan_parts(small, large, &high, &low);
     const double *plan = plans[a < b][double_is_negative(x)];
-    bool good = arc_decide(plan[0], plan[1], plan[2] * high, plan[2] * low, high * ARC_ERROR, result);
+    bool good = arc_decide(plan[0], plan[1], plan[2] * high, plan[2] * low, high * ATAN_ERROR, result);
     *result = double_with_sign(*result, y);
     return good;
 }
