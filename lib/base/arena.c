@@ -1,6 +1,7 @@
 // arena.c: see arena.h.
 #include "base/arena.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -66,11 +67,56 @@ ArenaMark arena_mark(const Arena *arena) {
     return (ArenaMark){arena->current, arena->current ? arena->current->fill : 0, arena->used};
 }
 
-_Noreturn void arena_exhausted(Arena *arena) {
+_Noreturn void arena_leave(const Arena *arena, ArenaEnd end) {
     if (arena->escape)
-        longjmp(*arena->escape, 1);
+        longjmp(*arena->escape, (int)end);
     fprintf(stderr, "petri: out of memory (%s)\n", arena->name);
     abort();
+}
+
+_Noreturn void arena_exhausted(const Arena *arena) {
+    arena_leave(arena, ARENA_MEMORY);
+}
+
+ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context) {
+    jmp_buf escape, *outer[ARENA_MOST_PROTECTED];
+    assert(count <= ARENA_MOST_PROTECTED);
+    for (size_t i = 0; i < count; i++)
+        if (arenas[i]) {
+            outer[i] = arenas[i]->escape;
+            arenas[i]->escape = &escape;
+        }
+    ArenaEnd end = ARENA_DONE;
+    switch (setjmp(escape)) {
+    case 0:
+        call(context);
+        break;
+    case ARENA_MEMORY:
+        end = ARENA_MEMORY;
+        break;
+    default:
+        end = ARENA_BUDGET;
+    }
+    for (size_t i = count; i-- > 0;) // backwards: one may be there twice
+        if (arenas[i])
+            arenas[i]->escape = outer[i];
+    return end;
+}
+
+typedef struct Attempt {
+    Arena *arena;
+    size_t size;
+    void *bytes;
+} Attempt;
+
+static void attempt(void *context) {
+    Attempt *this = context;
+    this->bytes = arena_alloc(this->arena, this->size);
+}
+
+void *arena_try_alloc(Arena *arena, size_t size) {
+    Attempt this = {arena, size, NULL};
+    return arena_protect(&arena, 1, attempt, &this) == ARENA_DONE ? this.bytes : NULL;
 }
 
 // Makes `current` a block with room for `size` bytes: the next kept one that is large enough, or a new one after it.
@@ -102,7 +148,7 @@ static void arena_next_block(Arena *arena, size_t size) {
 
 void *arena_alloc_slow(Arena *arena, size_t size) {
     if (size > SIZE_MAX / 2 || size > arena->budget || arena->used > arena->budget - size)
-        arena_exhausted(arena);
+        arena_leave(arena, ARENA_BUDGET);
     size_t rounded = (size + ARENA_ALIGNMENT - 1) & ~(size_t)(ARENA_ALIGNMENT - 1);
     ArenaBlock *block = arena->current;
     if (!block || block->capacity - block->fill < rounded) {
@@ -118,7 +164,7 @@ void *arena_alloc_slow(Arena *arena, size_t size) {
 
 void *arena_alloc_array(Arena *arena, size_t count, size_t size) {
     if (size && count > SIZE_MAX / size)
-        arena_exhausted(arena);
+        arena_leave(arena, ARENA_BUDGET);
     return arena_alloc(arena, count * size);
 }
 

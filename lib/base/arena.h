@@ -2,12 +2,13 @@
 //
 // A frame, a program and a session are regions: what they allocate is dropped as a whole. Nobody frees a single
 // value. An allocation never returns NULL: when the budget or the machine's memory is used up, control leaves through
-// the arena's escape (a jump to the frame or load boundary), where the host turns it into one diagnostic. An arena
-// without an escape aborts, so every arena that a script can fill has one while the script runs.
+// the arena's escape, a jump to the arena_protect at the boundary of a frame, a load or another public call, where it
+// becomes a status. An arena without an escape aborts: that is a bug of ours.
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
 #include <setjmp.h>
+#include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -52,6 +53,21 @@ typedef struct ArenaMark {
     size_t used;
 } ArenaMark;
 
+// How a protected call ended.
+typedef enum ArenaEnd {
+    ARENA_DONE,
+    ARENA_MEMORY, // the machine's memory is used up
+    ARENA_BUDGET, // or what the arena may hand out
+} ArenaEnd;
+
+enum { ARENA_MOST_PROTECTED = 8 };
+// Calls `call`; if one of the arenas (NULL: none) runs out meanwhile, what it was doing is given up and this returns.
+// Within another protected call the inner one has precedence. What the call knows of heap blocks must be reachable from
+// `context`, so that the caller can free them.
+ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context);
+// Allocates like arena_alloc, but returns NULL when memory or budget is used up.
+void *arena_try_alloc(Arena *arena, size_t size);
+
 // Prepares an empty arena that may hand out `budget` bytes between resets. `name` must outlive it.
 void arena_init(Arena *arena, const char *name, size_t budget);
 
@@ -86,8 +102,10 @@ void *arena_copy(Arena *arena, const void *bytes, size_t size);
 // Extends the most recent allocation in place if it is `bytes` and there is room, else returns a larger copy.
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
-// What arena_alloc does when nothing is left; for other allocations that belong to the arena's region.
-_Noreturn void arena_exhausted(Arena *arena);
+// What arena_alloc does when the machine has nothing left; for other allocations that belong to the arena's region.
+_Noreturn void arena_exhausted(const Arena *arena);
+// The same in the way in which an inner protected call has ended.
+_Noreturn void arena_leave(const Arena *arena, ArenaEnd end);
 
 ArenaMark arena_mark(const Arena *arena);
 // Drops what was allocated since the mark. Pointers into it dangle from here on.

@@ -29,12 +29,13 @@ bool diag_report(DiagSink *sink, const Diag *diag) {
             arena_grow(sink->arena, sink->items, sink->capacity * sizeof *sink->items, capacity * sizeof *sink->items);
         sink->capacity = capacity;
     }
-    if (!index_add(&sink->index, hash, sink->count))
-        return false;
-    Diag *kept = &sink->items[sink->count++];
+    Diag *kept = &sink->items[sink->count];
     *kept = *diag;
     kept->text = str_copy(sink->arena, diag->text);
     kept->hint = str_copy(sink->arena, diag->hint);
+    if (!index_add(&sink->index, hash, sink->count))
+        arena_exhausted(sink->arena);
+    sink->count++;
     sink->error_count += diag->level == DIAG_ERROR;
     return true;
 }

@@ -5,6 +5,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <limits.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -16,6 +17,11 @@ static Str version_of(Arena *arena, const struct stat *info) {
                       (long long)info->st_size, (unsigned long long)info->st_ino);
 }
 
+bool file_exists(const char *path) {
+    struct stat info;
+    return stat(path, &info) == 0;
+}
+
 bool file_version(Arena *arena, const char *path, Str *version) {
     struct stat info;
     if (stat(path, &info) != 0)
@@ -24,33 +30,37 @@ bool file_version(Arena *arena, const char *path, Str *version) {
     return true;
 }
 
+typedef struct Reading {
+    Arena *arena;
+    int file;
+    size_t expected;
+    size_t limit;
+    Str bytes;
+    const char *problem; // NULL: all was read
+} Reading;
+
 // Reads to the end of the file, or to just beyond the limit.
-static bool read_all(Arena *arena, int file, size_t expected, size_t limit, Str *bytes, const char **problem) {
-    size_t capacity = expected + 1, len = 0;
-    char *buffer = arena_alloc(arena, capacity);
+static void read_all(void *context) {
+    Reading *reading = context;
+    size_t capacity = reading->expected + 1, len = 0;
+    char *buffer = arena_alloc(reading->arena, capacity);
     for (;;) {
         if (len + 1 >= capacity) {
-            buffer = arena_grow(arena, buffer, capacity, capacity * 2);
+            buffer = arena_grow(reading->arena, buffer, capacity, capacity * 2);
             capacity *= 2;
         }
-        ssize_t got = read(file, buffer + len, capacity - len - 1);
+        ssize_t got = read(reading->file, buffer + len, capacity - len - 1);
         if (got < 0 && errno == EINTR)
             continue;
-        if (got < 0) {
-            *problem = strerror(errno);
-            return false;
-        }
-        len += (size_t)got;
-        if (len > limit) {
-            *problem = "it is too large";
-            return false;
-        }
-        if (got == 0)
+        if (got < 0)
+            reading->problem = strerror(errno);
+        else if ((len += (size_t)got) > reading->limit)
+            reading->problem = "it is too large";
+        if (got <= 0 || reading->problem)
             break;
     }
     buffer[len] = 0;
-    *bytes = (Str){buffer, len};
-    return true;
+    reading->bytes = (Str){buffer, len};
 }
 
 bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
@@ -63,20 +73,27 @@ bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *
             close(file);
         return false;
     }
-    bool done = false;
+    Reading reading = {arena, file, info.st_size > 0 ? (size_t)info.st_size + 1 : 4096, limit, {0}, NULL};
+    ArenaEnd end = ARENA_DONE;
+    if (version)
+        *version = (Str){0};
     if (S_ISDIR(info.st_mode)) {
-        *problem = "it is a directory";
+        reading.problem = "it is a directory";
     } else if (regular && !S_ISREG(info.st_mode)) {
-        *problem = "it is not a regular file";
+        reading.problem = "it is not a regular file";
     } else if (info.st_size > 0 && (size_t)info.st_size > limit) {
-        *problem = "it is too large";
+        reading.problem = "it is too large";
     } else {
-        if (version)
-            *version = version_of(arena, &info);
-        done = read_all(arena, file, info.st_size > 0 ? (size_t)info.st_size + 1 : 4096, limit, bytes, problem);
+        end = arena_protect(&arena, 1, read_all, &reading);
     }
     close(file);
-    return done;
+    if (end != ARENA_DONE)
+        arena_leave(arena, end); // now that the file is closed
+    if (version && !reading.problem)
+        *version = version_of(arena, &info);
+    *bytes = reading.bytes;
+    *problem = reading.problem;
+    return !reading.problem;
 }
 
 static bool write_all(int file, Str bytes) {
@@ -92,9 +109,8 @@ static bool write_all(int file, Str bytes) {
 }
 
 // The directory entry must reach the disk too; some file systems refuse to sync a directory, which is no failure.
-static void sync_directory(Arena *arena, const char *path) {
-    Str directory = path_directory(str_from(path));
-    int file = open(directory.len ? str_to_c(arena, directory) : ".", O_RDONLY | O_CLOEXEC | O_DIRECTORY);
+static void sync_directory(const char *directory) {
+    int file = open(directory, O_RDONLY | O_CLOEXEC | O_DIRECTORY);
     if (file >= 0) {
         fsync(file);
         close(file);
@@ -103,7 +119,9 @@ static void sync_directory(Arena *arena, const char *path) {
 
 bool file_replace(Arena *arena, const char *path, Str bytes, const char **problem) {
     Str canonical = file_canonical(arena, path); // a symbolic link stays one
-    const char *target = str_to_c(arena, canonical);
+    const char *target = canonical.bytes;
+    Str folder = path_directory(canonical);
+    const char *directory = folder.len ? str_to_c(arena, folder) : "."; // all memory is had before anything is done
     char *beside = str_to_c(arena, str_format(arena, "%s.%ld.tmp", target, (long)getpid()));
     int file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) {
@@ -120,7 +138,7 @@ bool file_replace(Arena *arena, const char *path, Str bytes, const char **proble
         error = errno;
     }
     if (written && rename(beside, target) == 0) {
-        sync_directory(arena, target);
+        sync_directory(directory);
         return true;
     }
     *problem = strerror(written ? errno : error);
@@ -129,8 +147,6 @@ bool file_replace(Arena *arena, const char *path, Str bytes, const char **proble
 }
 
 Str file_canonical(Arena *arena, const char *path) {
-    char *resolved = realpath(path, NULL);
-    Str canonical = str_copy(arena, str_from(resolved ? resolved : path));
-    free(resolved);
-    return canonical;
+    char resolved[PATH_MAX];
+    return str_copy(arena, str_from(realpath(path, resolved) ? resolved : path));
 }

@@ -21,7 +21,7 @@ int str_compare(Str a, Str b) {
 }
 
 Str str_copy(Arena *arena, Str text) {
-    return (Str){arena_copy(arena, text.bytes, text.len), text.len};
+    return (Str){str_to_c(arena, text), text.len};
 }
 
 char *str_to_c(Arena *arena, Str text) {

@@ -20,8 +20,8 @@ Str str_from(const char *text);
 bool str_equal(Str a, Str b);
 // -1, 0 or 1 by bytes, which for UTF-8 is the order of code points; a prefix comes first.
 int str_compare(Str a, Str b);
+// A copy, followed by a NUL byte.
 Str str_copy(Arena *arena, Str text);
-// A NUL-terminated copy.
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);

@@ -49,7 +49,9 @@ struct FileCache {
 FileCache *file_cache_new(void) {
     Arena arena;
     arena_init(&arena, "files", SIZE_MAX);
-    FileCache *cache = arena_alloc(&arena, sizeof *cache);
+    FileCache *cache = arena_try_alloc(&arena, sizeof *cache);
+    if (!cache)
+        return NULL;
     *cache = (FileCache){.arena = arena};
     cache->empty = arena_mark(&cache->arena);
     return cache;

@@ -8,6 +8,7 @@
 
 #include "builtin/builtin.h"
 
+// NULL if memory is used up.
 FileCache *file_cache_new(void);
 void file_cache_free(FileCache *cache);
 

@@ -30,7 +30,9 @@ struct NoiseCache {
 NoiseCache *noise_cache_new(void) {
     Arena arena;
     arena_init(&arena, "noise", SIZE_MAX);
-    NoiseCache *cache = arena_alloc(&arena, sizeof *cache);
+    NoiseCache *cache = arena_try_alloc(&arena, sizeof *cache);
+    if (!cache)
+        return NULL;
     memset(cache, 0, sizeof *cache);
     cache->arena = arena;
     return cache;

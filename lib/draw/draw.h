@@ -6,25 +6,9 @@
 
 #include "draw/paint.h"
 
-// The part of the graphics state that Cairo does not keep: how things look. It is inherited down the tree.
-typedef struct Look {
-    double color[4];
-    const DrawNode *source; // a gradient in place of the colour, or NULL
-    double stroke_width;
-    uint8_t join;
-    uint8_t cap;
-    uint8_t composite;
-    uint8_t fill_type;
-    bool antialias;
-    uint8_t slant;
-    uint16_t weight;
-    double font_size;
-    const char *family;
-} Look;
-
 typedef struct Picture Picture; // of an image file: images.c
 
-struct CanvasPainter {
+struct PetriPainter {
     Arena arena; // reset with each picture
     PangoFontMap *fonts;
     PangoContext *text_context;
@@ -36,7 +20,7 @@ struct CanvasPainter {
 
 // A picture being drawn.
 typedef struct Canvas {
-    CanvasPainter *painter;
+    PetriPainter *painter;
     const CanvasPicture *picture;
     cairo_t *cr;
     DiagSink *faults;
@@ -54,7 +38,6 @@ __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel 
                                                       const char *format, ...);
 
 // tree.c
-extern const Look DRAW_FIRST_LOOK;
 void draw_tree(Canvas *canvas, const DrawNode *canvas_node);
 
 // looks.c
@@ -84,13 +67,13 @@ void draw_clip(Canvas *canvas, const Look *look);   // the path is kept
 void draw_paint(Canvas *canvas, int composite, double alpha);
 
 // text.c
-bool draw_text_open(CanvasPainter *painter);
-void draw_text_close(CanvasPainter *painter);
+bool draw_text_open(PetriPainter *painter);
+void draw_text_close(PetriPainter *painter);
 void draw_text(Canvas *canvas, const DrawNode *node, const Look *look);
 
 // images.c
 void draw_image(Canvas *canvas, const DrawNode *node, const Look *look);
-void draw_images_close(CanvasPainter *painter);
+void draw_images_close(PetriPainter *painter);
 // The pixels of a JPEG file; NULL with a reason.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
 

@@ -26,7 +26,7 @@ static void picture_free(Picture *picture) {
     free(picture);
 }
 
-void draw_images_close(CanvasPainter *painter) {
+void draw_images_close(PetriPainter *painter) {
     for (Picture *picture = painter->images, *next; picture; picture = next) {
         next = picture->next;
         picture_free(picture);
@@ -35,7 +35,7 @@ void draw_images_close(CanvasPainter *painter) {
 }
 
 // Forgets an image, and the oldest if there are many.
-static void forget(CanvasPainter *painter, const char *path) {
+static void forget(PetriPainter *painter, const char *path) {
     int count = 0;
     for (Picture **at = &painter->images; *at;) {
         Picture *picture = *at;
@@ -87,7 +87,7 @@ static cairo_surface_t *decode(Str bytes, const char **problem) {
     return NULL;
 }
 
-static Picture *load(CanvasPainter *painter, const char *path, Str version) {
+static Picture *load(PetriPainter *painter, const char *path, Str version) {
     Picture *picture = calloc(1, sizeof *picture);
     if (!picture)
         arena_exhausted(&painter->arena);
@@ -105,7 +105,7 @@ static Picture *load(CanvasPainter *painter, const char *path, Str version) {
     return picture;
 }
 
-static const Picture *find(CanvasPainter *painter, const char *path) {
+static const Picture *find(PetriPainter *painter, const char *path) {
     Str version = STR("");
     file_version(&painter->arena, path, &version);
     for (Picture *picture = painter->images; picture; picture = picture->next)
@@ -132,10 +132,10 @@ typedef struct Box {
 // False if it would be nothing.
 static bool find_box(const DrawNode *node, double width, double height, Box *box) {
     double point[2], size[2];
-    draw_pair(node, NAME_POINT, point);
+    draw_pair(node, ATTR_POINT, point);
     *box = (Box){.x = point[0], .y = point[1], .scale_x = 1, .scale_y = 1};
-    bool fill = draw_pair(node, NAME_FILL, size);
-    if (fill || draw_pair(node, NAME_FIT, size)) {
+    bool fill = draw_pair(node, ATTR_FILL, size);
+    if (fill || draw_pair(node, ATTR_FIT, size)) {
         double wide = size[0] / width, high = size[1] / height, scale = fill ? fmax(wide, high) : fmin(wide, high);
         box->scale_x = box->scale_y = scale;
         box->x += (size[0] - width * scale) / 2;
@@ -143,7 +143,7 @@ static bool find_box(const DrawNode *node, double width, double height, Box *box
         box->cut = fill;
         box->width = size[0];
         box->height = size[1];
-    } else if (draw_pair(node, NAME_SIZE, size)) {
+    } else if (draw_pair(node, ATTR_SIZE, size)) {
         box->scale_x = size[0] / width;
         box->scale_y = size[1] / height;
     }
@@ -182,7 +182,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
 }
 
 void draw_image(Canvas *canvas, const DrawNode *node, const Look *look) {
-    const DrawAttr *name = draw_attr(node, NAME_FILENAME);
+    const AttrValue *name = draw_attr(node, ATTR_FILENAME);
     if (!name || name->as.text.len == 0)
         return;
     Arena *arena = &canvas->painter->arena;
@@ -195,7 +195,7 @@ void draw_image(Canvas *canvas, const DrawNode *node, const Look *look) {
     }
     Box box;
     double point[2];
-    draw_pair(node, NAME_POINT, point);
+    draw_pair(node, ATTR_POINT, point);
     if (find_box(node, cairo_image_surface_get_width(picture->surface),
                  cairo_image_surface_get_height(picture->surface), &box))
         paint_image(canvas, picture->surface, &box, point, look);

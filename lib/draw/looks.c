@@ -7,39 +7,16 @@ static const double TURN = 6.283185307179586;
 
 void draw_take_look(Look *look, const DrawNode *node) {
     for (uint32_t i = 0; i < node->attr_count; i++) {
-        const DrawAttr *attr = &node->attrs[i];
-        switch ((DrawName)attr->name) {
-        case NAME_COLOR:
-            for (int k = 0; k < 4; k++)
-                look->color[k] = attr->as.numbers[k];
+        schema_store(&node->attrs[i], look);
+        if (node->attrs[i].name == ATTR_COLOR)
             look->source = NULL;
-            break;
-        case NAME_STROKE_WIDTH:
-            look->stroke_width = attr->as.numbers[0];
-            break;
-        case NAME_STROKE_JOIN:
-            look->join = (uint8_t)attr->as.word;
-            break;
-        case NAME_STROKE_CAP:
-            look->cap = (uint8_t)attr->as.word;
-            break;
-        case NAME_COMPOSITE:
-            look->composite = (uint8_t)attr->as.word;
-            break;
-        case NAME_ANTIALIAS:
-            look->antialias = attr->as.flag;
-            break;
-        case NAME_FILL_TYPE:
-            look->fill_type = (uint8_t)attr->as.word;
-            break;
-        default:
-            break;
-        }
     }
+    if (node->kind == KIND_FONT) // it does not paint
+        return;
     for (uint32_t i = 0; i < node->child_count; i++)
-        if (node->children[i]->kind == DRAW_GRADIENT)
+        if (node->children[i]->kind == KIND_GRADIENT)
             look->source = node->children[i];
-        else if (node->children[i]->kind == DRAW_COLOR)
+        else if (node->children[i]->kind == KIND_COLOR)
             draw_take_look(look, node->children[i]);
 }
 
@@ -48,13 +25,13 @@ static bool is_invertible(const cairo_matrix_t *m) {
     return isfinite(determinant) && determinant != 0 && isfinite(m->x0) && isfinite(m->y0);
 }
 
-static void apply(cairo_matrix_t *m, const DrawAttr *attr) {
+static void apply(cairo_matrix_t *m, const AttrValue *attr) {
     const double *n = attr->as.numbers;
-    if (attr->name == NAME_TRANSLATE)
+    if (attr->name == ATTR_TRANSLATE)
         cairo_matrix_translate(m, n[0], n[1]);
-    else if (attr->name == NAME_SCALE)
+    else if (attr->name == ATTR_SCALE)
         cairo_matrix_scale(m, n[0], n[1]);
-    else if (attr->name == NAME_ROTATE)
+    else if (attr->name == ATTR_ROTATE)
         cairo_matrix_rotate(m, (n[0] - floor(n[0])) * TURN);
 }
 

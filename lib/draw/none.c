@@ -3,28 +3,29 @@
 
 #include <stdlib.h>
 
-struct CanvasPainter {
+struct PetriPainter {
     char nothing;
 };
 
-CanvasPainter *canvas_painter_new(void) {
-    return calloc(1, sizeof(CanvasPainter));
+PetriPainter *petri_painter_open(void) {
+    return calloc(1, sizeof(PetriPainter));
 }
 
-void canvas_painter_free(CanvasPainter *painter) {
-    free(painter);
+void petri_painter_close(PetriPainter **handle) {
+    free(*handle);
+    *handle = NULL;
 }
 
-static CanvasResult missing(DiagSink *faults) {
+static PetriStatus missing(DiagSink *faults) {
     diag_report(faults, &(Diag){.level = DIAG_ERROR,
                                 .code = "cannot-draw",
                                 .text = STR("this build of petri cannot draw: it was made without Cairo, Pango and "
                                             "libjpeg (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
-    return CANVAS_MISSING;
+    return PETRI_MISSING;
 }
 
-CanvasResult canvas_draw(CanvasPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
-                         size_t stride, DiagSink *faults) {
+PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                        size_t stride, DiagSink *faults) {
     (void)painter, (void)picture;
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++)
@@ -32,8 +33,8 @@ CanvasResult canvas_draw(CanvasPainter *painter, const CanvasPicture *picture, u
     return missing(faults);
 }
 
-CanvasResult canvas_encode(CanvasPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width,
-                           int height, Arena *arena, Str *bytes, DiagSink *faults) {
+PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
+                        Arena *arena, Str *bytes, DiagSink *faults) {
     (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)arena;
     *bytes = STR("");
     return missing(faults);

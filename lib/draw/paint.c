@@ -9,18 +9,20 @@
 #include <stdlib.h>
 #include <string.h>
 
-CanvasPainter *canvas_painter_new(void) {
-    CanvasPainter *painter = calloc(1, sizeof *painter);
+PetriPainter *petri_painter_open(void) {
+    PetriPainter *painter = calloc(1, sizeof *painter);
     if (!painter)
         return NULL;
     arena_init(&painter->arena, "painter", SIZE_MAX);
     if (draw_text_open(painter))
         return painter;
-    canvas_painter_free(painter);
+    petri_painter_close(&painter);
     return NULL;
 }
 
-void canvas_painter_free(CanvasPainter *painter) {
+void petri_painter_close(PetriPainter **handle) {
+    PetriPainter *painter = *handle;
+    *handle = NULL;
     if (!painter)
         return;
     draw_text_close(painter);
@@ -48,7 +50,7 @@ static void fit(cairo_t *cr, double width, double height, double box_width, doub
 static void draw_sheet(Canvas *canvas, const DrawNode *node) {
     double size[2];
     cairo_save(canvas->cr);
-    if (draw_pair(node, NAME_SIZE, size) && size[0] > 0 && size[1] > 0)
+    if (draw_pair(node, ATTR_SIZE, size) && size[0] > 0 && size[1] > 0)
         fit(canvas->cr, size[0], size[1], canvas->picture->width, canvas->picture->height);
     draw_tree(canvas, node);
     cairo_restore(canvas->cr);
@@ -56,10 +58,9 @@ static void draw_sheet(Canvas *canvas, const DrawNode *node) {
 
 // The first canvas can be drawn directly where it begins with nothing; the others are each drawn apart.
 static void draw_window(Canvas *canvas, const DrawNode *window) {
-    const DrawAttr *composite = draw_attr(window, NAME_COMPOSITE);
     bool direct = !canvas->vector || !canvas->picture->opaque;
     for (uint32_t i = 0; i < window->child_count; i++) {
-        if (window->children[i]->kind != DRAW_CANVAS)
+        if (window->children[i]->kind != KIND_CANVAS)
             continue;
         if (direct) {
             draw_sheet(canvas, window->children[i]);
@@ -67,7 +68,7 @@ static void draw_window(Canvas *canvas, const DrawNode *window) {
             cairo_push_group(canvas->cr);
             draw_sheet(canvas, window->children[i]);
             cairo_pop_group_to_source(canvas->cr);
-            draw_paint(canvas, composite ? composite->as.word : COMPOSITE_OVER, 1);
+            draw_paint(canvas, draw_word(window, ATTR_COMPOSITE), 1);
         }
         direct = false;
     }
@@ -97,27 +98,25 @@ static bool draw_picture(Canvas *canvas, double width, double height) {
     return status == CAIRO_STATUS_SUCCESS && !canvas->failed;
 }
 
-static CanvasResult result_of(cairo_status_t status) {
-    return status == CAIRO_STATUS_SUCCESS     ? CANVAS_DONE
-           : status == CAIRO_STATUS_NO_MEMORY ? CANVAS_MEMORY
-                                              : CANVAS_FAILED;
+static PetriStatus result_of(cairo_status_t status) {
+    return status == CAIRO_STATUS_SUCCESS ? PETRI_OK : status == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;
 }
 
 // Draws on a surface, within the painter's escape for used-up memory.
-static CanvasResult draw_on(CanvasPainter *painter, const CanvasPicture *picture, cairo_surface_t *surface, bool vector,
-                            double width, double height, DiagSink *faults) {
+static PetriStatus draw_on(PetriPainter *painter, const CanvasPicture *picture, cairo_surface_t *surface, bool vector,
+                           double width, double height, DiagSink *faults) {
     jmp_buf escape;
     cairo_t *volatile cr = cairo_create(surface);
-    CanvasResult result = result_of(cairo_status(cr));
-    if (result == CANVAS_DONE) {
+    PetriStatus result = result_of(cairo_status(cr));
+    if (result == PETRI_OK) {
         painter->arena.escape = faults->arena->escape = &escape;
         if (setjmp(escape) == 0) {
             Canvas canvas = {
                 .painter = painter, .picture = picture, .cr = cr, .faults = faults, .vector = vector, .rows = height};
             if (!draw_picture(&canvas, width, height))
-                result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? CANVAS_MEMORY : CANVAS_FAILED;
+                result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;
         } else {
-            result = CANVAS_MEMORY;
+            result = PETRI_MEMORY;
         }
         painter->arena.escape = faults->arena->escape = NULL;
     }
@@ -140,15 +139,15 @@ static void clear(uint32_t *pixels, int width, int height, size_t stride) {
         memset((unsigned char *)pixels + (size_t)y * stride, 0, (size_t)width * sizeof *pixels);
 }
 
-CanvasResult canvas_draw(CanvasPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
-                         size_t stride, DiagSink *faults) {
+PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                        size_t stride, DiagSink *faults) {
     clear(pixels, width, height, stride);
     cairo_surface_t *surface =
         cairo_image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, width, height, (int)stride);
-    CanvasResult result = draw_on(painter, picture, surface, false, width, height, faults);
+    PetriStatus result = draw_on(painter, picture, surface, false, width, height, faults);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
-    if (result != CANVAS_DONE)
+    if (result != PETRI_OK)
         clear(pixels, width, height, stride);
     else if (picture->opaque)
         make_opaque(pixels, width, height, stride);
@@ -160,14 +159,14 @@ static cairo_status_t collect(void *closure, const unsigned char *bytes, unsigne
     return CAIRO_STATUS_SUCCESS;
 }
 
-static CanvasResult encode_png(CanvasPainter *painter, const CanvasPicture *picture, int width, int height, Text *out,
-                               DiagSink *faults) {
+static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Text *out,
+                              DiagSink *faults) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
-    CanvasResult result = result_of(cairo_surface_status(surface));
-    if (result == CANVAS_DONE)
-        result = canvas_draw(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width, height,
+    PetriStatus result = result_of(cairo_surface_status(surface));
+    if (result == PETRI_OK)
+        result = draw_pixels(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width, height,
                              (size_t)cairo_image_surface_get_stride(surface), faults);
-    if (result == CANVAS_DONE) {
+    if (result == PETRI_OK) {
         cairo_surface_mark_dirty(surface);
         result = result_of(cairo_surface_write_to_png_stream(surface, collect, out));
     }
@@ -175,28 +174,28 @@ static CanvasResult encode_png(CanvasPainter *painter, const CanvasPicture *pict
     return result;
 }
 
-static CanvasResult encode_vector(CanvasPainter *painter, const CanvasPicture *picture, bool pdf, int width, int height,
-                                  Text *out, DiagSink *faults) {
+static PetriStatus encode_vector(PetriPainter *painter, const CanvasPicture *picture, bool pdf, int width, int height,
+                                 Text *out, DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(collect, out, width, height)
                                    : cairo_svg_surface_create_for_stream(collect, out, width, height);
     if (pdf) // the same bytes each time
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-    CanvasResult result = draw_on(painter, picture, surface, true, width, height, faults);
+    PetriStatus result = draw_on(painter, picture, surface, true, width, height, faults);
     cairo_surface_finish(surface);
-    if (result == CANVAS_DONE)
+    if (result == PETRI_OK)
         result = result_of(cairo_surface_status(surface));
     cairo_surface_destroy(surface);
     return result;
 }
 
-CanvasResult canvas_encode(CanvasPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width,
-                           int height, Arena *arena, Str *bytes, DiagSink *faults) {
+PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
+                        Arena *arena, Str *bytes, DiagSink *faults) {
     Text out = text_new(arena);
-    CanvasResult result = format == CANVAS_PNG
-                              ? encode_png(painter, picture, width, height, &out, faults)
-                              : encode_vector(painter, picture, format == CANVAS_PDF, width, height, &out, faults);
+    PetriStatus result = format == CANVAS_PNG
+                             ? encode_png(painter, picture, width, height, &out, faults)
+                             : encode_vector(painter, picture, format == CANVAS_PDF, width, height, &out, faults);
     *bytes = text_str(&out);
     return result;
 }

@@ -1,15 +1,15 @@
-// paint.h: drawings become pixels and files. What draws is Cairo; without it everything here says CANVAS_MISSING.
+// paint.h: drawings become pixels and files. What draws is Cairo; without it everything here says PETRI_MISSING.
 //
 // A picture is plain data that nobody changes while it is drawn. A painter holds what is worth keeping from picture to
 // picture: fonts and images. Both are used by one thread at a time; there is nothing global.
 #ifndef PETRI_DRAW_PAINT_H
 #define PETRI_DRAW_PAINT_H
 
-#include "base/diag.h"
-#include "draw/automatic.h"
-#include "canvas/drawing.h"
+#include "petri-draw.h"
 
-typedef struct CanvasPainter CanvasPainter;
+#include "base/diag.h"
+#include "canvas/drawing.h"
+#include "draw/automatic.h"
 
 // One of `window` and `automatic` is there.
 typedef struct CanvasPicture {
@@ -21,19 +21,14 @@ typedef struct CanvasPicture {
     Str directory; // what relative file names start from
 } CanvasPicture;
 
-typedef enum CanvasResult { CANVAS_DONE, CANVAS_FAILED, CANVAS_MISSING, CANVAS_MEMORY } CanvasResult;
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_FORMAT_COUNT } CanvasFormat;
 
-// NULL if memory is used up.
-CanvasPainter *canvas_painter_new(void);
-void canvas_painter_free(CanvasPainter *painter);
-
-// Draws into premultiplied ARGB32 pixels. Whatever is wrong is reported to `faults`; after CANVAS_FAILED one of them
+// Draws into premultiplied ARGB32 pixels. Whatever is wrong is reported to `faults`; after PETRI_INVALID one of them
 // is an error.
-CanvasResult canvas_draw(CanvasPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
-                         size_t stride, DiagSink *faults);
+PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                        size_t stride, DiagSink *faults);
 // The bytes of a file that shows the picture, width x height pixels large, in the arena.
-CanvasResult canvas_encode(CanvasPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width,
-                           int height, Arena *arena, Str *bytes, DiagSink *faults);
+PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
+                        Arena *arena, Str *bytes, DiagSink *faults);
 
 #endif

@@ -7,7 +7,7 @@
 cairo_operator_t draw_operator(int composite) {
     static const cairo_operator_t operators[] = {
 #define COMPOSITE(id, operator) operator,
-#include "canvas/composite_list.h"
+#include "schema/composite_list.h"
     };
     return operators[composite];
 }
@@ -23,23 +23,23 @@ static void add_stops(cairo_pattern_t *pattern, const DrawNode *gradient) {
     for (uint32_t i = 0; i < count; i++) {
         const DrawNode *stop = gradient->children[i];
         double even = count > 1 ? (double)i / (count - 1) : 0;
-        const DrawAttr *color = draw_attr(stop, NAME_COLOR);
-        static const double white[4] = {1, 1, 1, 1};
-        const double *c = color ? color->as.numbers : white;
-        cairo_pattern_add_color_stop_rgba(pattern, draw_number(stop, NAME_OFFSET, even), c[0], c[1], c[2], c[3]);
+        const AttrValue *color = draw_attr(stop, ATTR_COLOR);
+        double grey = schema_row(KIND_STOP, ATTR_COLOR)->fallback.value, offset = draw_number(stop, ATTR_OFFSET);
+        const double *c = color ? color->as.numbers : (const double[4]){grey, grey, grey, 1};
+        cairo_pattern_add_color_stop_rgba(pattern, isnan(offset) ? even : offset, c[0], c[1], c[2], c[3]);
     }
 }
 
 static void set_gradient(Canvas *canvas, const DrawNode *gradient) {
     double start[2], end[2], middle[2];
-    draw_pair(gradient, NAME_START, start);
-    draw_pair(gradient, NAME_POINT, middle);
-    double radius = draw_number(gradient, NAME_RADIUS, -1);
+    draw_pair(gradient, ATTR_START, start);
+    draw_pair(gradient, ATTR_POINT, middle);
+    double radius = draw_number(gradient, ATTR_RADIUS); // nan: it has none
     cairo_pattern_t *pattern;
     if (radius >= 0) {
         pattern = cairo_pattern_create_radial(middle[0], middle[1], 0, middle[0], middle[1], radius);
     } else {
-        draw_pair(gradient, NAME_END, end);
+        draw_pair(gradient, ATTR_END, end);
         pattern = cairo_pattern_create_linear(start[0], start[1], end[0], end[1]);
     }
     add_stops(pattern, gradient);

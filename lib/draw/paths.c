@@ -79,9 +79,9 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
 
 static void add_curve(Canvas *canvas, const DrawNode *node) {
     double p[2], c1[2], c2[2];
-    if (!draw_pair(node, NAME_POINT, p))
+    if (!draw_pair(node, ATTR_POINT, p))
         return;
-    bool first = draw_pair(node, NAME_C1, c1), second = draw_pair(node, NAME_C2, c2);
+    bool first = draw_pair(node, ATTR_C1, c1), second = draw_pair(node, ATTR_C2, c2);
     if (first && second) {
         if (!cairo_has_current_point(canvas->cr))
             move_to(canvas, c1[0], c1[1]);
@@ -96,19 +96,22 @@ static void add_curve(Canvas *canvas, const DrawNode *node) {
 
 static void add_arc(Canvas *canvas, const DrawNode *node) {
     double p[2], r[2];
-    draw_pair(node, NAME_POINT, p);
-    if (!draw_pair(node, NAME_RADIUS, r))
+    draw_pair(node, ATTR_POINT, p);
+    if (!draw_pair(node, ATTR_RADIUS, r))
         return;
-    double start = draw_number(node, NAME_START, 0), sweep = draw_number(node, NAME_SWEEP, 1);
-    draw_ellipse_path(canvas, p[0], p[1], r[0], r[1], start, draw_number(node, NAME_END, start + sweep) - start, true);
+    double start = draw_number(node, ATTR_START), sweep = draw_number(node, ATTR_SWEEP);
+    double end = draw_number(node, ATTR_END);
+    if (isnan(end))
+        end = start + sweep;
+    draw_ellipse_path(canvas, p[0], p[1], r[0], r[1], start, end - start, true);
 }
 
 static void add_rect(Canvas *canvas, const DrawNode *node) {
     double p[2], size[2], r[2];
-    draw_pair(node, NAME_POINT, p);
-    if (!draw_pair(node, NAME_SIZE, size))
+    draw_pair(node, ATTR_POINT, p);
+    if (!draw_pair(node, ATTR_SIZE, size))
         return;
-    draw_pair(node, NAME_RADIUS, r);
+    draw_pair(node, ATTR_RADIUS, r);
     double left = p[0], top = p[1], right = p[0] + size[0], bottom = p[1] + size[1];
     // Radii that do not fit shrink together: a large one makes half circles at the shorter sides.
     double part = fmin(1, fmin(size[0] / (2 * r[0]), size[1] / (2 * r[1])));
@@ -129,8 +132,8 @@ static void add_rect(Canvas *canvas, const DrawNode *node) {
 
 static void add_ellipse(Canvas *canvas, const DrawNode *node) {
     double p[2], r[2];
-    draw_pair(node, NAME_POINT, p);
-    if (!draw_pair(node, NAME_RADIUS, r))
+    draw_pair(node, ATTR_POINT, p);
+    if (!draw_pair(node, ATTR_RADIUS, r))
         return;
     draw_ellipse_path(canvas, p[0], p[1], r[0], r[1], 0, 1, false);
     cairo_close_path(canvas->cr);
@@ -150,13 +153,13 @@ static void add_corner(Canvas *canvas, const double *before, const double *at, c
 }
 
 static void add_line(Canvas *canvas, const DrawNode *node) {
-    const DrawAttr *attr = draw_attr(node, NAME_POINTS);
+    const AttrValue *attr = draw_attr(node, ATTR_POINTS);
     uint32_t count = attr ? attr->count / 2 : 0;
     if (count == 0)
         return;
     const double *points = attr->as.list;
-    double curve = fmin(fmax(draw_number(node, NAME_CURVE, 0), 0), 1);
-    bool close = draw_flag(node, NAME_CLOSE, false) && count > 2;
+    double curve = fmin(fmax(draw_number(node, ATTR_CURVE), 0), 1);
+    bool close = draw_flag(node, ATTR_CLOSE) && count > 2;
     if (curve == 0 || count < 3) {
         for (uint32_t i = 0; i < count; i++)
             (i ? line_to : move_to)(canvas, points[2 * i], points[2 * i + 1]);
@@ -169,37 +172,37 @@ static void add_line(Canvas *canvas, const DrawNode *node) {
         if (!close)
             line_to(canvas, points[2 * count - 2], points[2 * count - 1]);
     }
-    if (draw_flag(node, NAME_CLOSE, false))
+    if (draw_flag(node, ATTR_CLOSE))
         cairo_close_path(canvas->cr);
 }
 
 bool draw_add_path(Canvas *canvas, const DrawNode *node) {
     double p[2];
-    switch ((DrawKind)node->kind) {
-    case DRAW_MOVE_TO:
-        if (draw_pair(node, NAME_POINT, p))
+    switch ((NodeKind)node->kind) {
+    case KIND_MOVE_TO:
+        if (draw_pair(node, ATTR_POINT, p))
             move_to(canvas, p[0], p[1]);
         return true;
-    case DRAW_LINE_TO:
-        if (draw_pair(node, NAME_POINT, p))
+    case KIND_LINE_TO:
+        if (draw_pair(node, ATTR_POINT, p))
             line_to(canvas, p[0], p[1]);
         return true;
-    case DRAW_CURVE_TO:
+    case KIND_CURVE_TO:
         add_curve(canvas, node);
         return true;
-    case DRAW_ARC:
+    case KIND_ARC:
         add_arc(canvas, node);
         return true;
-    case DRAW_RECT:
+    case KIND_RECT:
         add_rect(canvas, node);
         return true;
-    case DRAW_ELLIPSE:
+    case KIND_ELLIPSE:
         add_ellipse(canvas, node);
         return true;
-    case DRAW_LINE:
+    case KIND_LINE:
         add_line(canvas, node);
         return true;
-    case DRAW_CLOSE:
+    case KIND_CLOSE:
         cairo_close_path(canvas->cr);
         return true;
     default:

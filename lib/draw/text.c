@@ -10,7 +10,7 @@
 enum { LONGEST_TEXT = 10000 };           // bytes
 static const double LARGEST_FONT = 4000; // pixels
 
-bool draw_text_open(CanvasPainter *painter) {
+bool draw_text_open(PetriPainter *painter) {
     painter->fonts = pango_cairo_font_map_new();
     if (!painter->fonts)
         return false;
@@ -27,7 +27,7 @@ bool draw_text_open(CanvasPainter *painter) {
     return true;
 }
 
-void draw_text_close(CanvasPainter *painter) {
+void draw_text_close(PetriPainter *painter) {
     if (painter->layout)
         g_object_unref(painter->layout);
     if (painter->text_context)
@@ -46,7 +46,7 @@ static bool is_generic(const char *name) {
     return false;
 }
 
-static bool is_installed(CanvasPainter *painter, const char *name) {
+static bool is_installed(PetriPainter *painter, const char *name) {
     PangoFontFamily **families;
     int count;
     bool found = is_generic(name);
@@ -81,7 +81,7 @@ static void check_family(Canvas *canvas, const char *list) {
 
 static void set_font(Canvas *canvas, const Look *look) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
-    CanvasPainter *painter = canvas->painter;
+    PetriPainter *painter = canvas->painter;
     const Look *last = &painter->font;
     if (painter->family == look->family && last->font_size == look->font_size && last->weight == look->weight &&
         last->slant == look->slant)
@@ -129,7 +129,7 @@ static void add_letters(Canvas *canvas, const double point[2]) {
 }
 
 static void draw_letters(Canvas *canvas, const DrawNode *node, const Look *look, const double point[2]) {
-    bool fill = draw_flag(node, NAME_FILL, true), stroke = draw_flag(node, NAME_STROKE, false);
+    bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {
         add_letters(canvas, point);
         return;
@@ -144,9 +144,9 @@ static void draw_letters(Canvas *canvas, const DrawNode *node, const Look *look,
 }
 
 void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
-    const DrawAttr *text = draw_attr(node, NAME_TEXT);
+    const AttrValue *text = draw_attr(node, ATTR_TEXT);
     double point[2];
-    draw_pair(node, NAME_POINT, point);
+    draw_pair(node, ATTR_POINT, point);
     if (!text || text->as.text.len == 0 || !has_drawable_size(canvas, look))
         return;
     if (text->as.text.len > LONGEST_TEXT) {
@@ -157,6 +157,6 @@ void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
     set_font(canvas, look);
     pango_cairo_update_layout(canvas->cr, layout);
     pango_layout_set_text(layout, text->as.text.bytes, (int)text->as.text.len);
-    place(layout, draw_flag(node, NAME_CENTER, true), point);
+    place(layout, draw_flag(node, ATTR_CENTER), point);
     draw_letters(canvas, node, look, point);
 }

@@ -3,14 +3,6 @@
 // Trees may be thousands of nodes deep, and whoever draws may have a small stack: so the walk keeps its own.
 #include "draw/draw.h"
 
-const Look DRAW_FIRST_LOOK = {.color = {1, 1, 1, 1},
-                              .stroke_width = 1,
-                              .composite = COMPOSITE_OVER,
-                              .antialias = true,
-                              .weight = 400,
-                              .font_size = 14,
-                              .family = "sans"};
-
 enum { MOST_LAYERS = 64 }; // open at a time
 static const double MOST_LAYER_PIXELS = 1 << 27;
 
@@ -32,16 +24,6 @@ typedef struct Walk {
     uint32_t depth;
     uint32_t capacity;
 } Walk;
-
-static void take_font(Look *look, const DrawNode *node) {
-    const DrawAttr *family = draw_attr(node, NAME_FAMILY), *slant = draw_attr(node, NAME_SLANT);
-    if (family)
-        look->family = family->as.text.bytes;
-    if (slant)
-        look->slant = (uint8_t)slant->as.word;
-    look->font_size = draw_number(node, NAME_SIZE, look->font_size);
-    look->weight = (uint16_t)draw_number(node, NAME_WEIGHT, look->weight);
-}
 
 static Level *push(Walk *walk, const DrawNode *node, const Look *look) {
     if (walk->depth == walk->capacity) {
@@ -83,7 +65,7 @@ static bool begin_layer(Canvas *canvas, Level *level) {
 
 static void end_layer(Canvas *canvas, const Level *level) {
     cairo_pop_group_to_source(canvas->cr);
-    draw_paint(canvas, level->composite, draw_number(level->node, NAME_ALPHA, 1));
+    draw_paint(canvas, level->composite, draw_number(level->node, ATTR_ALPHA));
     canvas->layers--;
     canvas->layer_pixels -= level->pixels;
 }
@@ -92,8 +74,8 @@ static void enter_layer(Walk *walk, const DrawNode *node, const Look *look, Kept
     Canvas *canvas = walk->canvas;
     double size[2], origin[2];
     draw_set_edges(canvas, look);
-    if (draw_pair(node, NAME_SIZE, size)) {
-        draw_pair(node, NAME_ORIGIN, origin);
+    if (draw_pair(node, ATTR_SIZE, size)) {
+        draw_pair(node, ATTR_ORIGIN, origin);
         double x1 = origin[0], y1 = origin[1], x2 = x1 + size[0], y2 = y1 + size[1];
         draw_tame(canvas, &x1, &y1);
         draw_tame(canvas, &x2, &y2);
@@ -111,17 +93,14 @@ static void enter_layer(Walk *walk, const DrawNode *node, const Look *look, Kept
 static void enter(Walk *walk, const DrawNode *node, const Look *inherited) {
     cairo_t *cr = walk->canvas->cr;
     Look look = *inherited;
-    if (node->kind == DRAW_FONT)
-        take_font(&look, node);
-    else
-        draw_take_look(&look, node);
-    if (node->kind == DRAW_PATH) {
-        look.fill_type = draw_attr(node, NAME_FILL_TYPE) ? look.fill_type : FILL_WINDING;
+    draw_take_look(&look, node);
+    if (node->kind == KIND_PATH) {
+        look.fill_type = draw_word(node, ATTR_FILL_TYPE);
         KeptPath kept = draw_keep_path(walk->canvas);
         keep(push(walk, node, &look), kept);
         return;
     }
-    bool layer = node->kind == DRAW_LAYER;
+    bool layer = node->kind == KIND_LAYER;
     KeptPath kept = layer ? draw_keep_path(walk->canvas) : (KeptPath){NULL, 0}; // in the transform that it returns to
     cairo_save(cr);
     if (!draw_transform(cr, node)) {
@@ -141,7 +120,7 @@ static void leave(Walk *walk) {
     cairo_t *cr = walk->canvas->cr;
     if (level->layer)
         end_layer(walk->canvas, level);
-    if (level->node->kind != DRAW_PATH)
+    if (level->node->kind != KIND_PATH)
         cairo_restore(cr);
     if (level->keeps_path)
         draw_put_back_path(walk->canvas, level->kept);
@@ -149,7 +128,7 @@ static void leave(Walk *walk) {
 
 // A shape that is drawn at once leaves the current path alone.
 static void draw_shape(Canvas *canvas, const DrawNode *node, const Look *inherited) {
-    bool fill = draw_flag(node, NAME_FILL, false), stroke = draw_flag(node, NAME_STROKE, false);
+    bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
     if (!fill && !stroke) {
         draw_add_path(canvas, node);
         return;
@@ -168,20 +147,20 @@ static void draw_shape(Canvas *canvas, const DrawNode *node, const Look *inherit
 static void draw_leaf(Canvas *canvas, const DrawNode *node, const Look *inherited) {
     Look look = *inherited;
     draw_take_look(&look, node);
-    switch ((DrawKind)node->kind) {
-    case DRAW_FILL:
+    switch ((NodeKind)node->kind) {
+    case KIND_FILL:
         draw_fill(canvas, &look);
         break;
-    case DRAW_STROKE:
+    case KIND_STROKE:
         draw_stroke(canvas, &look);
         break;
-    case DRAW_CLIP:
+    case KIND_CLIP:
         draw_clip(canvas, &look);
         break;
-    case DRAW_TEXT:
+    case KIND_TEXT:
         draw_text(canvas, node, &look);
         break;
-    case DRAW_IMAGE:
+    case KIND_IMAGE:
         draw_image(canvas, node, &look);
         break;
     default: // a gradient or colour: its parent has taken it
@@ -190,18 +169,18 @@ static void draw_leaf(Canvas *canvas, const DrawNode *node, const Look *inherite
 }
 
 static void draw_node(Walk *walk, const DrawNode *node, const Look *look) {
-    switch ((DrawKind)node->kind) {
-    case DRAW_GROUP:
-    case DRAW_TRANSFORM:
-    case DRAW_PAINT:
-    case DRAW_FONT:
-    case DRAW_LAYER:
-    case DRAW_PATH:
+    switch ((NodeKind)node->kind) {
+    case KIND_CANVAS_GROUP:
+    case KIND_TRANSFORM:
+    case KIND_PAINT:
+    case KIND_FONT:
+    case KIND_LAYER:
+    case KIND_PATH:
         enter(walk, node, look);
         break;
-    case DRAW_RECT:
-    case DRAW_ELLIPSE:
-    case DRAW_LINE:
+    case KIND_RECT:
+    case KIND_ELLIPSE:
+    case KIND_LINE:
         draw_shape(walk->canvas, node, look);
         break;
     default:
@@ -212,7 +191,10 @@ static void draw_node(Walk *walk, const DrawNode *node, const Look *look) {
 
 void draw_tree(Canvas *canvas, const DrawNode *canvas_node) {
     Walk walk = {.canvas = canvas};
-    Look look = DRAW_FIRST_LOOK;
+    Look look = {.source = NULL};
+    schema_defaults(KIND_PAINT, &look);
+    schema_defaults(KIND_FONT, &look);
+    schema_defaults(KIND_PATH, &look);
     draw_take_look(&look, canvas_node);
     cairo_save(canvas->cr);
     cairo_new_path(canvas->cr);

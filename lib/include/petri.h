@@ -29,8 +29,8 @@ typedef enum PetriStatus {
     PETRI_OK,
     PETRI_INVALID,     // the script cannot be loaded, a definition cannot be read; diagnostics tell why
     PETRI_LIMIT,       // a limit was reached: the frame was given up and changed nothing
-    PETRI_MEMORY,      // memory is used up
-    PETRI_MISSING,     // this libpetri was built without the library that it takes; a diagnostic tells which
+    PETRI_MEMORY,      // memory is used up: nothing has changed (but see petri_step)
+    PETRI_MISSING,     // this build lacks the library that it takes; a diagnostic tells which
     PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
 } PetriStatus;
 
@@ -65,8 +65,9 @@ typedef struct PetriOptions {
     size_t memory_bytes;        // for the values of one frame. Default 2 GiB
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
-    // Keep a copy of the state while a frame is made, so that petri_interrupt can give up a frame whose systems are
-    // being updated; a frame that is given up does not count then. Default false: only evaluation is interrupted.
+    // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
+    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
+    // only evaluation is interrupted.
     bool interruptible;
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
@@ -105,7 +106,9 @@ PetriStatus petri_check(PetriSession *session, const char *file);
 // The same for a text; `name` stands for the file.
 PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
-// Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded.
+// Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded. PETRI_MEMORY while
+// systems are updated changes nothing with PetriOptions.interruptible; without, the frame counts, and each system has
+// made it or stays as it was.
 PetriStatus petri_step(PetriSession *session);
 
 // In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
@@ -205,7 +208,7 @@ void petri_config_use(PetriSession *session, PetriConfig *config);
 // A number that is another whenever the configuration is; modules that changed on disk count as well.
 uint64_t petri_config_number(const PetriSession *session);
 
-// A copy of all that decides how a session goes on: state, systems, clock and configuration. Free it before the
+// A copy of all that decides how a session goes on: state, systems, input, clock and configuration. Free it before the
 // session.
 typedef struct PetriSnapshot PetriSnapshot;
 // NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
@@ -216,7 +219,8 @@ size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a con
 // long as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
-// Writes the state dictionary, the frame number and what the systems need to go on to a file, which is replaced as a
+// Writes the state dictionary, the frame number and what the systems need to go on (not what the user's hands do) to a
+// file, which is replaced as a
 // whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
 PetriStatus petri_save(PetriSession *session, const char *file);
 // Takes a saved state back, after petri_load: the next frame is the one after that which was saved, and goes on from it
@@ -225,7 +229,8 @@ PetriStatus petri_save(PetriSession *session, const char *file);
 PetriStatus petri_restore(PetriSession *session, const char *file);
 
 // The particle systems of the last frame, for drawing and measuring. Numbers count from 0 in order of declaration; each
-// function is false beyond the last. Texts and vectors are valid until the next of these calls, steps or loads.
+// function is false beyond the last, and if memory is used up. Texts and vectors are valid until the next of these
+// calls, steps or loads; names of systems until the next step or load.
 typedef struct PetriSystem {
     const char *name; // its state prefix in printed form, such as ":cells"
     uint32_t dimensions;
@@ -246,23 +251,9 @@ typedef struct PetriParticle {
                          // made or without PetriOptions.keep_forces
 } PetriParticle;
 
-typedef enum PetriForceKind {
-    PETRI_COLLISION,
-    PETRI_GRAVITY,
-    PETRI_ELECTROSTATIC,
-    PETRI_ADHESION,
-    PETRI_DISTANCE,
-    PETRI_CONSTANT,
-    PETRI_RANDOM,
-    PETRI_FIELD,
-    PETRI_DRAG,
-    PETRI_BUOYANCY,
-    PETRI_BARRIER,
-} PetriForceKind;
-
 // A force applier or barrier: what can be seen of it.
 typedef struct PetriForce {
-    PetriForceKind kind;
+    const char *kind;       // its node, without the `!`, such as "distance"; lives as long as the library
     double strength;        // before easing in
     uint32_t from;          // distance: the particles that it joins
     uint32_t to;            //
@@ -274,75 +265,9 @@ bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
 bool petri_particle(PetriSession *session, size_t system, uint32_t number, PetriParticle *particle);
 bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
-// Pictures. petri_picture copies what the last frame shows: the tree of a `!window` or `!offscreen`, or the data of the
-// automatic picture. The copy is independent of the session, so it can be drawn by another thread while the session
-// steps on. A painter keeps fonts and images between pictures. A picture and a painter are each used by one thread at a
-// time; a painter outlives nothing and may be closed before or after its pictures.
-typedef struct PetriPicture PetriPicture;
-typedef struct PetriPainter PetriPainter;
-
-// The automatic picture shows the particle systems themselves.
-typedef enum PetriAutomatic {
-    PETRI_AUTO_IF_NEEDED, // where the script has physics but no window with a canvas
-    PETRI_AUTO_ALWAYS,
-    PETRI_AUTO_NEVER,
-} PetriAutomatic;
-
-typedef struct PetriPictureOptions {
-    int width; // in pixels; 0, 0: what the script says. Otherwise the drawing is scaled to fit, and centred
-    int height;
-    double scale; // pixels for each unit of the script's size. Default 1
-    int window;   // which of the frame's windows, from 0; -1 (the default): the first that has something to draw
-    PetriAutomatic automatic;
-} PetriPictureOptions;
-
-PetriPictureOptions petri_default_picture_options(void);
-
-enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
-
-// Whether the last frame has anything to draw: a window with a canvas, or physics.
+// Whether the last frame has anything to draw: a window with a canvas, or physics. A library of its own draws it
+// (petri-draw.h).
 bool petri_drawable(PetriSession *session);
-// Whether the picture of the last frame shows particles where they are. A system stores nothing in frame 0, and what it
-// stores is seen by the frame after; so a script that draws what its systems have stored finds nothing in frames 0 and
-// 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
-// a state that was restored, and in each frame from 2 on, whatever systems do then.
-bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
-// Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
-bool petri_records(const PetriSession *session);
-
-// The picture of the last frame in *picture, for the caller to free. PETRI_INVALID (with a diagnostic) if nothing is
-// loaded or there is nothing to draw, if the size makes no sense; PETRI_MEMORY. *picture is then NULL.
-PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **picture);
-// Frees a picture and sets the handle to NULL. NULL is fine.
-void petri_picture_free(PetriPicture **picture);
-// Its size in pixels.
-void petri_picture_size(const PetriPicture *picture, int *width, int *height);
-// The title of its window, or "". Valid as long as the picture.
-const char *petri_picture_title(const PetriPicture *picture);
-// The number of the frame that it shows.
-int64_t petri_picture_frame(const PetriPicture *picture);
-// The files that `!record` nodes in its window name, with the script's folder before them; NULL beyond the last.
-const char *petri_picture_record(const PetriPicture *picture, size_t index);
-
-// NULL if memory is used up.
-PetriPainter *petri_painter_open(void);
-void petri_painter_close(PetriPainter **painter);
-
-// Draws into width x height pixels, rows `stride` bytes apart (a multiple of 4): 32 bits each, alpha in the highest
-// byte, then red, green, blue, multiplied by alpha. The picture is scaled to fit and centred. A window's pixels are
-// opaque, those of `!offscreen` may be not. PETRI_MISSING without Cairo, PETRI_INVALID if it could not be drawn,
-// PETRI_MEMORY; the pixels are then cleared.
-PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
-                               size_t stride);
-// Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
-bool petri_picture_format(const char *file);
-// Writes a file as a whole: the old bytes or the new ones are there, never a part; they grow in FILE.PID.tmp. The same
-// picture gives the same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be
-// written.
-PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
-// Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
-// called by the thread that uses the session, when no other uses the picture.
-void petri_picture_tell(PetriSession *session, PetriPicture *picture);
 
 // The kinds of nodes that do something, with their attributes, for help and completion. Indices count from 0; false
 // beyond the last. Texts live as long as the library.
@@ -357,6 +282,7 @@ typedef struct PetriNodeAttribute {
     const char *type;     // as words, such as "number" or ":butt, :round or :square"
     const char *fallback; // the default, as words; "" for none
     const char *help;     // "" where the name says all
+    const char *unit;     // as words, such as "turns"; "" for none
 } PetriNodeAttribute;
 
 bool petri_node_kind(size_t kind, PetriNodeKind *out);
@@ -403,16 +329,18 @@ typedef struct PetriPrompted {
     uint32_t nodes; // statements that begin with a node, or an `if` or `for` around one: kept likewise, and their nodes
                     // are added to those of the script; they are written, too, as they are now
     const char *hidden; // a name bound that the script's top level binds, too: the script goes on with its own; or
-                        // NULL. Valid until the next call
+                        // NULL. Valid as long as the session
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.
 PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
                          PetriPrompted *done);
-// Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were.
+// Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were; none if
+// memory is used up.
 uint32_t petri_drop(PetriSession *session, bool bindings);
-// A statement that the prompt has kept, by number from 0; NULL beyond the last. Valid until the next prompt or drop.
-const char *petri_kept(PetriSession *session, size_t number);
+// A statement that is evaluated in each frame, by number from 0; NULL beyond the last. Valid until the next call that
+// changes the configuration.
+const char *petri_prompt_statement(const PetriSession *session, size_t number);
 
 typedef struct PetriResult {
     bool is_true;
@@ -428,7 +356,8 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
 PetriStatus petri_preview(PetriSession *session);
 
 // A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
-const char *petri_name(PetriSession *session, size_t number);
+// Valid as long as the session.
+const char *petri_name(const PetriSession *session, size_t number);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code.

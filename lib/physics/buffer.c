@@ -3,18 +3,6 @@
 
 #include <string.h>
 
-// An arena whose first block has at least `size` bytes, or false.
-static bool arena_with_block(Arena *arena, uint64_t size, void **bytes) {
-    jmp_buf escape;
-    arena_init(arena, "physics", SIZE_MAX);
-    arena->escape = &escape;
-    if (setjmp(escape))
-        return false; // the block is the arena's only one, so there is nothing to free
-    *bytes = arena_alloc(arena, size);
-    arena->escape = NULL;
-    return true;
-}
-
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size) {
     if (system->failed)
         return false;
@@ -33,7 +21,9 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;
     Buffer larger = {.capacity = capacity};
-    if (!arena_with_block(&larger.arena, capacity, &larger.bytes)) {
+    arena_init(&larger.arena, "physics", SIZE_MAX);
+    larger.bytes = arena_try_alloc(&larger.arena, capacity); // its only block: without it there is nothing to free
+    if (!larger.bytes) {
         system->bytes = others + buffer->capacity;
         system->failed = true;
         return false;

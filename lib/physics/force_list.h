@@ -11,8 +11,8 @@
 //       vectors  how many of PhysForce.vector and .vector2 it reads
 //       need     SECTION: radius^(n-1); VOLUME: radius^n; STREAM: random numbers; or NOTHING
 //
-// The order of the rows is that of the public kinds (petri.h) and of nothing else: forces act in the order in which the
-// script has them.
+// The order of the rows means nothing: forces act in the order in which the script has them. What a node says of a force
+// is in schema/schema_list.h, under the same KIND.
 #ifndef PETRI_PHYSICS_FORCE_LIST_H
 #define PETRI_PHYSICS_FORCE_LIST_H
 

@@ -16,16 +16,14 @@ enum { ROW_VECTORS = 2 }; // position, velocity
 
 PhysSystem *phys_new(void) {
     Arena home;
-    jmp_buf escape;
-    arena_init(&home, "physics", SIZE_MAX);
-    home.escape = &escape;
-    if (setjmp(escape))
-        return NULL;
     struct {
         PhysSystem system;
         Neighbours lists[PHYS_MOST_LISTS];
-    } *memory = arena_alloc(&home, sizeof *memory); // one block, so that nothing is left if there is none
-    home.escape = NULL;
+    } * memory;
+    arena_init(&home, "physics", SIZE_MAX);
+    memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing is left if there is none
+    if (!memory)
+        return NULL;
     PhysSystem *system = &memory->system;
     Neighbours *lists = memory->lists;
     *system = (PhysSystem){.home = home, .lists = lists};

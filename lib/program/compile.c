@@ -17,7 +17,7 @@ Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const 
     return expr;
 }
 
-static const Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
+Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value) {
     Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
     expr->as.value = value;
     return expr;
@@ -35,49 +35,18 @@ static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast)
     return compile_expr_new(compiler, kind, ast, children, ast->count);
 }
 
-// The row of a kind whose expression is just the same kind over the same children, or EXPR_CONST if there is none.
-static ExprKind plain_kind(AstKind kind) {
-    switch (kind) {
-    case AST_COMPOSE:
-        return EXPR_COMPOSE;
-    case AST_APPEND:
-        return EXPR_APPEND;
-    case AST_OR:
-        return EXPR_OR;
-    case AST_XOR:
-        return EXPR_XOR;
-    case AST_AND:
-        return EXPR_AND;
-    case AST_NOT:
-        return EXPR_NOT;
-    case AST_EQ:
-        return EXPR_EQ;
-    case AST_NE:
-        return EXPR_NE;
-    case AST_LT:
-        return EXPR_LT;
-    case AST_GT:
-        return EXPR_GT;
-    case AST_LE:
-        return EXPR_LE;
-    case AST_GE:
-        return EXPR_GE;
-    case AST_IN:
-        return EXPR_IN;
-    case AST_NEG:
-        return EXPR_NEG;
-    case AST_POS:
-        return EXPR_POS;
-    case AST_INDEX:
-        return EXPR_INDEX;
-    default:
-        return EXPR_CONST;
-    }
+// All children in order, where the expression is of the same kind as the syntax tree.
+static Expr *compile_same(Compiler *compiler, const Ast *ast) {
+    static const ExprKind kinds[] = {
+#define EXPR(kind)
+#define SAME(kind) [AST_##kind] = EXPR_##kind,
+#include "program/expr_list.h"
+    };
+    return compile_children(compiler, kinds[ast->kind], ast);
 }
 
-static const Expr *compile_arith(Compiler *compiler, const Ast *ast, ArithOp op) {
-    Expr *expr = compile_children(compiler, EXPR_ARITH, ast);
-    expr->slot = op;
+static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
+    const Expr *expr = compile_same(compiler, ast);
     lint_arith(compiler, ast, expr);
     return expr;
 }
@@ -85,7 +54,7 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast, ArithOp op)
 // A name compared with itself is one object, of which not even a nan is out of order (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
-    Expr *expr = compile_children(compiler, plain_kind(ast->kind), ast);
+    Expr *expr = compile_same(compiler, ast);
     expr->slot = left->kind == AST_NAME && right->kind == AST_NAME && left->name == right->name;
     return expr;
 }
@@ -93,7 +62,8 @@ static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_range(Compiler *compiler, const Ast *ast) {
     const Expr *parts[3];
     for (int i = 0; i < 3; i++)
-        parts[i] = ast->children[i] ? compile_expr(compiler, ast->children[i]) : constant(compiler, ast, VALUE_NULL);
+        parts[i] =
+            ast->children[i] ? compile_expr(compiler, ast->children[i]) : compile_constant(compiler, ast, VALUE_NULL);
     return compile_expr_new(compiler, EXPR_RANGE, ast, parts, 3);
 }
 
@@ -252,7 +222,8 @@ const Expr *compile_closure(Compiler *compiler, const Ast *ast) {
     for (uint32_t i = 0; i < params->count; i++) {
         const Ast *param = params->children[i];
         names[i] = param->name;
-        defaults[i] = param->count ? compile_expr(compiler, param->children[0]) : constant(compiler, param, VALUE_NULL);
+        defaults[i] =
+            param->count ? compile_expr(compiler, param->children[0]) : compile_constant(compiler, param, VALUE_NULL);
     }
     FunctionScope function;
     compile_function_open(compiler, &function, ast->name);
@@ -343,7 +314,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     if (include.fault.len)
         compile_report(compiler, include.place, DIAG_WARNING, "cannot-include", include.fault, (Str){0});
     if (!include.ast)
-        return constant(compiler, ast, VALUE_NULL);
+        return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
     compiler->source = include.source;
     compiler->depth--; // its statements stand at the depth of the directive
@@ -356,7 +327,7 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
 static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     switch (ast->kind) {
     case AST_LITERAL:
-        return constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
+        return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
     case AST_NODE:
         return compile_node(compiler, ast);
     case AST_NAME:
@@ -387,27 +358,21 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     case AST_RANGE:
         return compile_range(compiler, ast);
     case AST_ADD:
-        return compile_arith(compiler, ast, ARITH_ADD);
     case AST_SUB:
-        return compile_arith(compiler, ast, ARITH_SUB);
     case AST_MUL:
-        return compile_arith(compiler, ast, ARITH_MUL);
     case AST_DIV:
-        return compile_arith(compiler, ast, ARITH_DIV);
     case AST_FLOORDIV:
-        return compile_arith(compiler, ast, ARITH_FLOORDIV);
     case AST_MOD:
-        return compile_arith(compiler, ast, ARITH_MOD);
     case AST_POW:
-        return compile_arith(compiler, ast, ARITH_POW);
+        return compile_arith(compiler, ast);
     case AST_APPEND:
         compiler->subject = ast->children[0];
-        return compile_children(compiler, EXPR_APPEND, ast);
+        return compile_same(compiler, ast);
     case AST_LOOKUP:
         compiler->key = ast->children[0];
-        return compile_children(compiler, EXPR_LOOKUP, ast);
+        return compile_same(compiler, ast);
     case AST_IF: {
-        const Expr *expr = compile_children(compiler, EXPR_IF, ast);
+        const Expr *expr = compile_same(compiler, ast);
         lint_branches(compiler, expr);
         return expr;
     }
@@ -417,14 +382,14 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     case AST_NOT:
         for (uint32_t i = 0; i < ast->count; i++)
             lint_negation(compiler, ast->children[i]);
-        return compile_children(compiler, plain_kind(ast->kind), ast);
+        return compile_same(compiler, ast);
     case AST_LT:
     case AST_GT:
     case AST_LE:
     case AST_GE:
         return compile_order(compiler, ast);
     default:
-        return compile_children(compiler, plain_kind(ast->kind), ast);
+        return compile_same(compiler, ast);
     }
 }
 

@@ -83,6 +83,7 @@ const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_cou
 // FUNC as a value, whether it has a name or not.
 const Expr *compile_closure(Compiler *compiler, const Ast *ast);
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count);
+Expr *compile_constant(Compiler *compiler, const Ast *ast, Value value);
 void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *code, Str text, Str hint);
 
 ScopeMark compile_scope_open(Compiler *compiler);

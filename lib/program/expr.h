@@ -5,12 +5,11 @@
 #define PETRI_PROGRAM_EXPR_H
 
 #include "program/code.h"
-#include "value/ops.h"
 
 typedef enum ExprKind {
 #define EXPR(kind) EXPR_##kind,
 #include "program/expr_list.h"
-#undef EXPR
+    EXPR_COUNT
 } ExprKind;
 
 // What DECORATE adds, and where its attributes stand.

@@ -139,17 +139,10 @@ void lint_branches(Compiler *compiler, const Expr *expr) {
         }
 }
 
-static bool is_engine_name(Str name) {
-    for (int i = 0; i < ENGINE_NAME_COUNT; i++)
-        if (str_equal(name, str_from(engine_name_text((EngineName)i))))
-            return true;
-    return false;
-}
-
 // `!x` where x is a name: negated, as they say elsewhere?
 void lint_negation(Compiler *compiler, const Ast *ast) {
     if (wanted(compiler) && ast->kind == AST_NODE &&
-        (compile_find_binding(compiler, ast->name) || is_engine_name(ast->name->name)))
+        (compile_find_binding(compiler, ast->name) || engine_name_exists(ast->name->name)))
         warn_negation(compiler, ast->span, ast->name->name);
 }
 

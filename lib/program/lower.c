@@ -111,21 +111,25 @@ static void emit_move(Lowering *lowering, int32_t d, int32_t a, const Expr *at) 
     move->a = a;
 }
 
-static void emit_unary(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
+// An instruction over the values of one or two children.
+static void emit_operator(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
-    Instr *instr = lower_emit(lowering, op, expr);
-    instr->d = d;
-    instr->a = a;
-}
-
-static void emit_binary(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
-    int32_t a = lower_operand(lowering, expr->children[0]);
-    int32_t b = lower_operand(lowering, expr->children[1]);
+    int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : 0;
     Instr *instr = lower_emit(lowering, op, expr);
     instr->d = d;
     instr->a = a;
     instr->b = b;
     instr->c = (int32_t)expr->slot;
+}
+
+static void emit_plain(Lowering *lowering, const Expr *expr, int32_t d) {
+    static const Opcode opcodes[EXPR_COUNT] = {
+#define EXPR(kind)
+#define SAME(kind)
+#define PLAIN(kind) [EXPR_##kind] = OP_##kind,
+#include "program/expr_list.h"
+    };
+    emit_operator(lowering, opcodes[expr->kind], expr, d);
 }
 
 static void emit_load(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
@@ -303,7 +307,7 @@ static void subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     bool slice = range->kind == EXPR_RANGE && range->children[2]->kind == EXPR_CONST &&
                  value_is_null(range->children[2]->as.value);
     if (!slice) {
-        emit_binary(lowering, OP_INDEX, expr, d);
+        emit_operator(lowering, OP_INDEX, expr, d);
         return;
     }
     int32_t a = lower_operand(lowering, expr->children[0]);
@@ -327,30 +331,6 @@ static void range(Lowering *lowering, const Expr *expr, int32_t d) {
     instr->a = parts[0];
     instr->b = parts[1];
     instr->c = parts[2];
-}
-
-static Opcode binary_opcode(const Expr *expr) {
-    static const Opcode arith[] = {OP_ADD, OP_SUB, OP_MUL, OP_DIV, OP_FLOORDIV, OP_MOD, OP_POW};
-    switch (expr->kind) {
-    case EXPR_XOR:
-        return OP_XOR;
-    case EXPR_EQ:
-        return OP_EQ;
-    case EXPR_NE:
-        return OP_NE;
-    case EXPR_LT:
-        return OP_LT;
-    case EXPR_GT:
-        return OP_GT;
-    case EXPR_LE:
-        return OP_LE;
-    case EXPR_GE:
-        return OP_GE;
-    case EXPR_IN:
-        return OP_IN;
-    default:
-        return arith[expr->slot];
-    }
 }
 
 static void value(Lowering *lowering, const Expr *expr, int32_t d) {
@@ -401,15 +381,6 @@ static void value(Lowering *lowering, const Expr *expr, int32_t d) {
     case EXPR_AND:
         short_circuit(lowering, expr, d);
         return;
-    case EXPR_NOT:
-        emit_unary(lowering, OP_NOT, expr, d);
-        return;
-    case EXPR_NEG:
-        emit_unary(lowering, OP_NEG, expr, d);
-        return;
-    case EXPR_POS:
-        emit_unary(lowering, OP_POS, expr, d);
-        return;
     case EXPR_RANGE:
         range(lowering, expr, d);
         return;
@@ -420,7 +391,7 @@ static void value(Lowering *lowering, const Expr *expr, int32_t d) {
         lookup(lowering, expr, d);
         return;
     default:
-        emit_binary(lowering, binary_opcode(expr), expr, d);
+        emit_plain(lowering, expr, d);
     }
 }
 

@@ -52,12 +52,6 @@ void compile_function_close(Compiler *compiler, FunctionScope *function) {
     compiler->function = function->outer;
 }
 
-static Expr *constant(Compiler *compiler, const Ast *ast, Value value) {
-    Expr *expr = compile_expr_new(compiler, EXPR_CONST, ast, NULL, 0);
-    expr->as.value = value;
-    return expr;
-}
-
 static Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, uint32_t slot) {
     Expr *expr = compile_expr_new(compiler, kind, ast, NULL, 0);
     expr->slot = slot;
@@ -111,7 +105,7 @@ static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, 
     Binding *binding = find_binding(function->scope, ast->name);
     if (binding) {
         binding->used = true;
-        return binding->known ? constant(compiler, ast, binding->constant)
+        return binding->known ? compile_constant(compiler, ast, binding->constant)
                               : slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
     }
     if (function->self == ast->name)
@@ -161,17 +155,17 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     for (uint32_t i = options->module ? 0 : options->define_count; i > 0; i--)
         if (options->defines[i - 1].name == ast->name) {
             compiler->define_uses[i - 1].read = true;
-            return constant(compiler, ast, options->defines[i - 1].value);
+            return compile_constant(compiler, ast, options->defines[i - 1].value);
         }
     Value value;
     if (builtin_constant(name, &value))
-        return constant(compiler, ast, value);
+        return compile_constant(compiler, ast, value);
     const Builtin *builtin = builtin_find(name);
     if (!builtin)
         return NULL;
     Function *function = arena_alloc(compiler->arena, sizeof *function);
     *function = (Function){.name = str_from(builtin->name), .builtin = builtin};
-    Expr *expr = constant(compiler, ast, value_function(compiler->arena, function));
+    Expr *expr = compile_constant(compiler, ast, value_function(compiler->arena, function));
     expr->dynamic = !builtin->pure;
     return expr;
 }
@@ -243,7 +237,7 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
 static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     if (ast == compiler->parameter_use)
-        return constant(compiler, ast, VALUE_NULL);
+        return compile_constant(compiler, ast, VALUE_NULL);
     if (compiler->options->module) {
         Expr *expr = compile_expr_new(compiler, EXPR_UNBOUND, ast, NULL, 0);
         expr->as.name = ast->name;
@@ -252,7 +246,7 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
     compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
                    str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
                    unbound_hint(compiler, ast));
-    return constant(compiler, ast, VALUE_NULL);
+    return compile_constant(compiler, ast, VALUE_NULL);
 }
 
 const Expr *compile_name(Compiler *compiler, const Ast *ast) {

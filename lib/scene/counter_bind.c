@@ -5,29 +5,6 @@
 #include "base/number.h"
 #include "scene/systems.h"
 
-// A numeric attribute of any length, or the fallback.
-static Value numbers_or(const Reader *reader, AttrRow row, double fallback) {
-    Value v = attr_value(reader, row);
-    if (value_is_numeric(v))
-        return v;
-    if (v.len > 0)
-        attr_float(reader, row); // reports the shape
-    return value_number(fallback);
-}
-
-// The first well-formed of two attributes, or null.
-static Value bound(const Reader *reader, AttrRow full, AttrRow brief) {
-    const AttrRow rows[] = {full, brief};
-    for (int i = 0; i < 2; i++) {
-        Value v = attr_value(reader, rows[i]);
-        if (value_is_numeric(v))
-            return v;
-        if (v.len > 0)
-            attr_float(reader, rows[i]); // reports the shape
-    }
-    return VALUE_NULL;
-}
-
 static double element(Value v, uint32_t i) {
     return value_numbers(&v)[i % v.len];
 }
@@ -41,22 +18,20 @@ static uint32_t longest(const Value *values, uint32_t count) {
 }
 
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
-    Reader reader = {&scene->schema, frame->arena, node, 1};
-    reader_check_names(&reader, KIND_COUNTER);
-    Value key = attr_value(&reader, ROW_COUNTER_STATE);
+    Reader reader = {scene->schema, frame->arena, node, KIND_COUNTER, 1};
+    CounterAttrs attrs;
+    schema_defaults(KIND_COUNTER, &attrs);
+    attrs.time = value_number(frame->time);
+    reader_fill(&reader, &attrs);
+    Value key = attrs.state, time = attrs.time, rate = attrs.rate, initial = attrs.initial;
+    Value low = attrs.minimum, high = attrs.maximum;
     if (key.len == 0 || !state_key_valid(key)) {
         reader_report(&reader, "skipped-system", "", STR("no usable state key; the counter is skipped"));
         return;
     }
     Value time_key = scene_key(frame->arena, key, VALUE_NULL, scene->key_time);
     Value stored = state_get(frame->state, key), last = state_get(frame->state, time_key);
-    Value time = numbers_or(&reader, ROW_COUNTER_TIME, frame->time);
-    Value rate = numbers_or(&reader, ROW_COUNTER_RATE, 1);
-    Value initial = numbers_or(&reader, ROW_COUNTER_INITIAL, 0);
-    Value low = bound(&reader, ROW_COUNTER_MINIMUM, ROW_COUNTER_MIN);
-    Value high = bound(&reader, ROW_COUNTER_MAXIMUM, ROW_COUNTER_MAX);
-    bool start =
-        !value_is_numeric(stored) || !value_is_numeric(last) || value_true(attr_value(&reader, ROW_COUNTER_RESET));
+    bool start = !value_is_numeric(stored) || !value_is_numeric(last) || value_true(attrs.reset);
     Value parts[] = {initial, rate, low, high, time, start ? VALUE_NULL : stored};
     uint32_t len = longest(parts, sizeof parts / sizeof parts[0]);
     double *values = arena_alloc_array(frame->arena, len, sizeof *values);

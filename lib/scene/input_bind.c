@@ -82,7 +82,8 @@ static const char *const key_names[] = {
 
 static const char short_names[] = "abcdefghijklmnopqrstuvwxyz0123456789";
 
-enum { LONG_KEYS = sizeof key_names / sizeof key_names[0], KEYS = LONG_KEYS + sizeof short_names - 1 };
+enum { LONG_KEYS = sizeof key_names / sizeof key_names[0] };
+_Static_assert(LONG_KEYS + sizeof short_names - 1 == INPUT_KEYS, "every key has its switch");
 
 static const char *const button_names[INPUT_BUTTONS] = {
     "left", "middle", "right", "button_4", "button_5", "button_6", "button_7", "button_8",
@@ -102,33 +103,33 @@ int input_key_number(Str name) {
 
 static const InputSwitch NEVER_PRESSED = {.pushed = NAN, .released = NAN};
 
-bool input_init(Input *input, SymbolTable *symbols) {
-    *input = (Input){.keys = calloc(KEYS, sizeof *input->keys)};
-    arena_init(&input->arena, "input", SIZE_MAX);
-    if (!input->keys)
-        return false;
-    for (int i = 0; i < KEYS; i++)
-        input->keys[i] = NEVER_PRESSED;
+void input_forget(InputHands *hands, InputBindings *bindings) {
+    *hands = (InputHands){.heard = false};
+    *bindings = (InputBindings){.count = 0};
+    arena_init(&bindings->arena, "input", SIZE_MAX);
+    for (int i = 0; i < INPUT_KEYS; i++)
+        hands->keys[i] = NEVER_PRESSED;
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        input->buttons[i] = NEVER_PRESSED;
-    input->window = symbol_intern(symbols, STR("window"));
+        hands->buttons[i] = NEVER_PRESSED;
+}
+
+void input_init(Input *input, SymbolTable *symbols) {
+    input_forget(&input->hands, &input->bindings);
     for (int i = 0; i < INPUT_BUTTONS; i++)
         input->button_words[i] = symbol_know(symbols, str_from(button_names[i]));
     input->pushed = symbol_know(symbols, STR("pushed"));
     input->released = symbol_know(symbols, STR("released"));
     input->toggled = symbol_know(symbols, STR("toggled"));
     input->beat = symbol_know(symbols, STR("beat"));
-    return true;
 }
 
 void input_free(Input *input) {
-    arena_free(&input->arena);
-    free(input->keys);
+    arena_free(&input->bindings.arena);
 }
 
 bool input_key_bound(const Input *input, int key) {
-    for (uint32_t i = 0; i < input->binding_count; i++)
-        if (input->bindings[i].key == key)
+    for (uint32_t i = 0; i < input->bindings.count; i++)
+        if (input->bindings.items[i].key == key)
             return key != INPUT_KEY_NONE;
     return false;
 }
@@ -139,30 +140,30 @@ static void press(InputSwitch *item, bool pressed) {
 }
 
 void input_key(Input *input, int key, bool pressed) {
-    input->heard = true;
-    press(&input->keys[key], pressed);
+    input->hands.heard = true;
+    press(&input->hands.keys[key], pressed);
 }
 
 void input_pointer(Input *input, const double *position, uint32_t buttons) {
-    input->heard = true;
-    input->inside = position != NULL;
+    InputHands *hands = &input->hands;
+    hands->heard = true;
+    hands->inside = position != NULL;
     if (position)
-        memcpy(input->position, position, sizeof input->position);
+        memcpy(hands->position, position, sizeof hands->position);
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        press(&input->buttons[i], buttons >> i & 1);
+        press(&hands->buttons[i], buttons >> i & 1);
 }
 
 void input_let_go(Input *input) {
-    for (int i = 0; i < KEYS; i++)
-        press(&input->keys[i], false);
+    for (int i = 0; i < INPUT_KEYS; i++)
+        press(&input->hands.keys[i], false);
     input_pointer(input, NULL, 0);
 }
 
 // The key that a `!key` names, by a symbol or a string.
-static int named_key(const Reader *reader) {
-    Value name = attr_value(reader, ROW_KEY_NAME);
+static int named_key(const SymbolTable *symbols, Value name) {
     const Symbol *symbol =
-        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(reader->schema->symbols, name.as.number) : NULL;
+        name.kind == VALUE_NUMBERS && name.len == 1 ? symbol_of_number(symbols, name.as.number) : NULL;
     Str word = {0};
     if (symbol)
         word = symbol->name;
@@ -171,8 +172,7 @@ static int named_key(const Reader *reader) {
     return input_key_number(word);
 }
 
-static void report_key(const Reader *reader) {
-    Value name = attr_value(reader, ROW_KEY_NAME);
+static void report_key(const Reader *reader, Value name) {
     Text out = text_new(reader->arena);
     text_add_c(&out, name.len ? "there is no key called " : "it names no key");
     if (name.len > 8)
@@ -183,45 +183,48 @@ static void report_key(const Reader *reader) {
     reader_report(reader, "skipped-input", "name", text_str(&out));
 }
 
-static void bind_node(Input *input, Reader *reader, SceneKind kind, uint32_t *capacity) {
-    reader_check_names(reader, kind);
-    Value state = attr_value(reader, kind == KIND_KEY ? ROW_KEY_STATE : ROW_POINTER_STATE);
-    InputBinding binding = {.key = kind == KIND_KEY ? named_key(reader) : INPUT_KEY_NONE};
-    if (state.len == 0 || !state_key_valid(state)) {
-        reader_report(reader, "skipped-input", "state", STR("no usable state key; skipped"));
-        return;
+void input_add_binding(InputBindings *bindings, Value state, int key) {
+    InputBinding binding = {value_copy(&bindings->arena, state), key};
+    if (bindings->count == bindings->capacity) {
+        size_t old = bindings->capacity * sizeof binding;
+        bindings->capacity = bindings->capacity ? bindings->capacity * 2 : 8;
+        bindings->items = arena_grow(&bindings->arena, bindings->items, old, bindings->capacity * sizeof binding);
     }
-    if (kind == KIND_KEY && binding.key == INPUT_KEY_NONE) {
-        report_key(reader);
-        return;
-    }
-    binding.state = value_copy(&input->arena, state);
-    if (input->binding_count == *capacity) {
-        size_t old = *capacity * sizeof binding;
-        *capacity = *capacity ? *capacity * 2 : 8;
-        input->bindings = arena_grow(&input->arena, input->bindings, old, *capacity * sizeof binding);
-    }
-    input->bindings[input->binding_count++] = binding;
+    bindings->items[bindings->count++] = binding;
 }
 
-void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena) {
-    uint32_t capacity = 0;
-    arena_reset(&input->arena);
-    input->arena.escape = arena->escape;
-    input->bindings = NULL;
-    input->binding_count = 0;
+static void bind_node(InputBindings *bindings, const Reader *reader) {
+    InputAttrs attrs;
+    schema_defaults(reader->kind, &attrs);
+    reader_fill(reader, &attrs);
+    bool names_key = reader->kind == KIND_KEY;
+    int key = names_key ? named_key(reader->schema->symbols, attrs.name) : INPUT_KEY_NONE;
+    if (attrs.state.len == 0 || !state_key_valid(attrs.state))
+        reader_report(reader, "skipped-input", "state", STR("no usable state key; skipped"));
+    else if (names_key && key == INPUT_KEY_NONE)
+        report_key(reader, attrs.name);
+    else
+        input_add_binding(bindings, attrs.state, key);
+}
+
+void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
+    InputBindings *bindings = &input->bindings;
+    arena_reset(&bindings->arena);
+    bindings->arena.escape = arena->escape;
+    bindings->items = NULL;
+    bindings->count = bindings->capacity = 0;
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         const Node *window = tree.as.items[i].type == ITEM_NODE ? tree.as.items[i].as.node : NULL;
-        if (!window || window->kind != input->window)
+        if (!window || window->kind != schema->kinds[KIND_WINDOW])
             continue;
         for (uint32_t j = 0; j < window->child_count; j++) {
-            Reader reader = {schema, arena, window->children[j], 1};
-            SceneKind kind = schema_kind(schema, reader.node);
+            NodeKind kind = schema_window_kind(schema, window->children[j]);
+            Reader reader = {schema, arena, window->children[j], kind, 1};
             if (kind == KIND_POINTER || kind == KIND_KEY)
-                bind_node(input, &reader, kind, &capacity);
+                bind_node(bindings, &reader);
         }
     }
-    input->arena.escape = NULL;
+    bindings->arena.escape = NULL;
 }
 
 // Turns what was reported into what the frame of this beat sees.
@@ -238,27 +241,37 @@ static void show(InputSwitch *item, double beat) {
 
 typedef struct Writer {
     State *state;
-    Arena *arena; // temporaries
+    Arena *arena;
+    InputUndo *undo;
 } Writer;
+
+struct InputChange {
+    const InputChange *before;
+    Value key;
+    Value was;
+};
 
 // Writes a value under state;first;second, of which the words may be NULL. Null removes it.
 static void write_word(const Writer *writer, Value prefix, const Symbol *first, const Symbol *second, Value value) {
-    ArenaMark mark = arena_mark(writer->arena);
     Vector key = vector_new(writer->arena);
     vector_add(&key, prefix);
     if (first)
         vector_add_number(&key, first->number);
     if (second)
         vector_add_number(&key, second->number);
-    state_set(writer->state, vector_finish(&key), value);
-    arena_rewind(writer->arena, mark);
+    InputChange *change = arena_alloc(writer->arena, sizeof *change);
+    *change = (InputChange){writer->undo->last, vector_finish(&key), VALUE_NULL};
+    change->was = value_copy(writer->arena, state_get(writer->state, change->key));
+    writer->undo->last = change;
+    state_set(writer->state, change->key, value);
 }
 
 static void write_pointer(const Writer *writer, const Input *input, Value prefix) {
-    Value position = input->inside ? value_numbers_view(input->position, 2) : VALUE_NULL;
+    const InputHands *hands = &input->hands;
+    Value position = hands->inside ? value_numbers_view(hands->position, 2) : VALUE_NULL;
     write_word(writer, prefix, NULL, NULL, position);
     for (int i = 0; i < INPUT_BUTTONS; i++) {
-        const InputSwitch *button = &input->buttons[i];
+        const InputSwitch *button = &hands->buttons[i];
         if (i < USUAL_BUTTONS || !isnan(button->pushed))
             write_word(writer, prefix, input->button_words[i], NULL, value_number(button->shown));
     }
@@ -277,19 +290,30 @@ static void write_key(const Writer *writer, const Input *input, Value prefix, co
     write_word(writer, prefix, input->released, input->beat, beat_value(key->released));
 }
 
-void input_write(Input *input, State *state, Arena *arena, double beat) {
-    const Writer writer = {state, arena};
-    if (!input->heard)
+void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo) {
+    const Writer writer = {state, arena, undo};
+    InputHands *hands = &input->hands;
+    undo->last = NULL;
+    undo->heard = hands->heard;
+    if (!hands->heard)
         return;
-    for (int i = 0; i < KEYS; i++)
-        show(&input->keys[i], beat);
+    undo->hands = *hands;
+    for (int i = 0; i < INPUT_KEYS; i++)
+        show(&hands->keys[i], beat);
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        show(&input->buttons[i], beat);
-    for (uint32_t i = 0; i < input->binding_count; i++) {
-        const InputBinding *binding = &input->bindings[i];
+        show(&hands->buttons[i], beat);
+    for (uint32_t i = 0; i < input->bindings.count; i++) {
+        const InputBinding *binding = &input->bindings.items[i];
         if (binding->key == INPUT_KEY_NONE)
             write_pointer(&writer, input, binding->state);
         else
-            write_key(&writer, input, binding->state, &input->keys[binding->key]);
+            write_key(&writer, input, binding->state, &hands->keys[binding->key]);
     }
+}
+
+void input_unwrite(Input *input, State *state, const InputUndo *undo) {
+    for (const InputChange *change = undo->last; change; change = change->before)
+        state_set(state, change->key, change->was);
+    if (undo->heard)
+        input->hands = undo->hands;
 }

@@ -6,10 +6,10 @@
 #ifndef PETRI_SCENE_INPUT_BIND_H
 #define PETRI_SCENE_INPUT_BIND_H
 
-#include "scene/attrs.h"
+#include "schema/reader.h"
 #include "state/state.h"
 
-enum { INPUT_BUTTONS = 8, INPUT_KEY_NONE = -1 };
+enum { INPUT_BUTTONS = 8, INPUT_KEYS = 105, INPUT_KEY_NONE = -1 };
 
 // Something that is pressed and let go.
 typedef struct InputSwitch {
@@ -21,23 +21,32 @@ typedef struct InputSwitch {
     double released; // beat of the frame that saw the last release; nan: there was none
 } InputSwitch;
 
-// A node of the last frame's tree: where its input goes. Keys of the state live in the input's arena.
+// A node of the last frame's tree: where its input goes.
 typedef struct InputBinding {
     Value state;
     int key; // INPUT_KEY_NONE: a pointer
 } InputBinding;
 
-typedef struct Input {
-    Arena arena; // bindings
-    InputBinding *bindings;
-    uint32_t binding_count;
-    InputSwitch *keys; // by number of their names
+typedef struct InputBindings {
+    Arena arena; // of the keys of the state, too
+    InputBinding *items;
+    uint32_t count;
+    uint32_t capacity;
+} InputBindings;
+
+// What has been reported and shown.
+typedef struct InputHands {
+    InputSwitch keys[INPUT_KEYS]; // by number of their names
     InputSwitch buttons[INPUT_BUTTONS];
     bool heard; // the host has reported something
     bool inside;
     double position[2];
-    // Kinds and the words of state keys
-    const Symbol *window;
+} InputHands;
+
+typedef struct Input {
+    InputBindings bindings;
+    InputHands hands;
+    // Words of state keys
     const Symbol *button_words[INPUT_BUTTONS];
     const Symbol *pushed;
     const Symbol *released;
@@ -45,8 +54,9 @@ typedef struct Input {
     const Symbol *beat;
 } Input;
 
-// False if memory is used up.
-bool input_init(Input *input, SymbolTable *symbols);
+// Puts them to before anything was reported or bound.
+void input_forget(InputHands *hands, InputBindings *bindings);
+void input_init(Input *input, SymbolTable *symbols);
 void input_free(Input *input);
 
 // The number of a key's name; INPUT_KEY_NONE if there is no such key.
@@ -61,9 +71,19 @@ void input_pointer(Input *input, const double *position, uint32_t buttons);
 // Everything is let go and the pointer is outside.
 void input_let_go(Input *input);
 
+// Adds a binding; the key of the state is copied.
+void input_add_binding(InputBindings *bindings, Value state, int key);
 // Takes the bindings from the windows of a frame's tree; `arena` is for messages, and its escape the one to use.
-void input_bind(Input *input, const Schema *schema, Value tree, Arena *arena);
-// Writes the state before the frame of this beat is evaluated; `arena` is for temporaries.
-void input_write(Input *input, State *state, Arena *arena, double beat);
+void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
+// What a write has changed, for when the frame is given up.
+typedef struct InputChange InputChange;
+typedef struct InputUndo {
+    const InputChange *last; // in the write's arena
+    bool heard;
+    InputHands hands;
+} InputUndo;
+// Writes the state before the frame of this beat is evaluated; `arena` is that of the frame.
+void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo);
+void input_unwrite(Input *input, State *state, const InputUndo *undo);
 
 #endif

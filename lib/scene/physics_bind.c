@@ -100,7 +100,7 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
 
 bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFrame *frame) {
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
-    if (!system || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
+    if (!system || !system->engine || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
         return false;
     system->seen = scene->frame_number; // the next update is that of the frame after
     return true;
@@ -110,32 +110,19 @@ static void set_number(const SceneFrame *frame, StateSlot slot, double x) {
     state_slot_set(frame->state, slot, value_number(x));
 }
 
-// The system's own attributes.
-typedef struct Settings {
-    double dimensions;
-    double time;
-    double resolution;
-    double run;
-    double speed_of_light;
-} Settings;
-
-static bool read_settings(const Reader *reader, const SceneFrame *frame, Settings *settings) {
-    *settings = (Settings){
-        .dimensions = floor(attr_float(reader, ROW_PHYSICS_DIMENSIONS)),
-        .time = attr_time(reader, ROW_PHYSICS_TIME, frame->time),
-        .resolution = attr_float_or(reader, ROW_PHYSICS_RESOLUTION, 1 / frame->fps),
-        .run = floor(attr_float(reader, ROW_PHYSICS_RUN)),
-        .speed_of_light = attr_float(reader, ROW_PHYSICS_SPEED_OF_LIGHT),
-    };
+static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemAttrs *settings) {
+    schema_defaults(KIND_PHYSICS, settings);
+    settings->time = frame->time;
+    settings->resolution = 1 / frame->fps;
+    reader_fill(reader, settings);
     if (frame->resolution > 0)
         settings->resolution = frame->resolution;
     if (!isfinite(settings->run))
         settings->run = 0;
-    Value prefix = attr_value(reader, ROW_PHYSICS_STATE);
     const char *why = NULL;
-    if (prefix.len == 0)
+    if (settings->state.len == 0)
         why = "no state prefix; the system is skipped";
-    else if (!state_key_valid(prefix))
+    else if (!state_key_valid(settings->state))
         why = "state cannot be a key; the system is skipped";
     else if (!(settings->dimensions >= 1))
         why = "dimensions must be at least 1; the system is skipped";
@@ -158,7 +145,7 @@ static uint64_t count_nodes(const Node *node) {
     return count;
 }
 
-static bool fits_in_memory(const Reader *reader, const Settings *settings) {
+static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     enum { MAX_UNCOUNTED = 64, COPIES = 16 };
     if (settings->dimensions <= MAX_UNCOUNTED)
         return true;
@@ -171,7 +158,7 @@ static bool fits_in_memory(const Reader *reader, const Settings *settings) {
 }
 
 // Step 6: simulates up to `settings->time`; returns the clock afterwards.
-static double simulate(PhysicsTree *tree, const Reader *reader, const Settings *settings, double last, double clock,
+static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last, double clock,
                        uint64_t *steps) {
     PhysTime time = {.last = last,
                      .now = settings->time,
@@ -204,7 +191,7 @@ static void describe(PhysicsTree *tree) {
     mirror_remove_vanished(tree);
 }
 
-static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader, const Settings *settings,
+static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader, const SystemAttrs *settings,
                        const SceneFrame *frame) {
     State *state = frame->state;
     double clock = scene_number(state, system->clock, 0);
@@ -228,15 +215,15 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
                         .frame = frame,
                         .root = reader->node,
                         .dimensions = reader->dimensions,
-                        .prefix = attr_value(reader, ROW_PHYSICS_STATE),
+                        .prefix = settings->state,
                         .engine = system->engine,
                         .from_state = iteration > 0,
                         .run = settings->run,
                         .iteration = iteration};
-    uint64_t reports = scene->reports;
+    uint64_t reports = scene->schema->reports;
     if (!physics_reuse(&tree))
         describe(&tree);
-    bool faultless = scene->reports == reports;
+    bool faultless = scene->schema->reports == reports;
     uint64_t steps = 0;
     if (settings->time > last) {
         clock = simulate(&tree, reader, settings, last, clock, &steps);
@@ -246,6 +233,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     }
     if (!faultless)
         system->mirror.state = MIRROR_STALE; // mistakes are reported in each frame
+    scene->exhausted |= tree.failed;
     physics_remember(&tree);
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
@@ -264,17 +252,17 @@ static void keep_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
 }
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {
-    Reader reader = {&scene->schema, frame->arena, node, 1};
-    Settings settings;
-    reader_check_names(&reader, KIND_PHYSICS);
+    Reader reader = {scene->schema, frame->arena, node, KIND_PHYSICS, 1};
+    SystemAttrs settings;
     if (!read_settings(&reader, frame, &settings) || !fits_in_memory(&reader, &settings)) {
-        keep_skipped(scene, attr_value(&reader, ROW_PHYSICS_STATE), frame);
+        keep_skipped(scene, settings.state, frame);
         return 0;
     }
     reader.dimensions = (uint32_t)settings.dimensions;
-    PhysicsSystem *system = find_system(scene, attr_value(&reader, ROW_PHYSICS_STATE), frame);
+    PhysicsSystem *system = find_system(scene, settings.state, frame);
     if (!system || !system->engine) {
         reader_report(&reader, "physics-memory", "", STR("not enough memory; the system is skipped"));
+        scene->exhausted = true;
         return 0;
     }
     if (system->occurrence == 1)

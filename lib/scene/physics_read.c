@@ -1,5 +1,6 @@
 // physics_read.c: a `!physics` tree to the engine's terms (spec physics.md sections 1, 3 and 4.2).
 #include "maths/random.h"
+#include "physics/forces.h"
 #include "scene/systems.h"
 
 #include "value/format.h"
@@ -9,12 +10,24 @@
 #include <stdlib.h>
 #include <string.h>
 
-static Reader reader_of(const PhysicsTree *tree, const Node *node) {
-    return (Reader){&tree->scene->schema, tree->frame->arena, node, tree->dimensions};
+static Reader reader_of(const PhysicsTree *tree, const Node *node, NodeKind kind) {
+    return (Reader){tree->scene->schema, tree->frame->arena, node, kind, tree->dimensions};
 }
 
-static double clamp(double x, double low, double high) {
-    return x < low ? low : x > high ? high : x;
+void physics_take_defaults(Scene *scene) {
+    schema_defaults(KIND_PARTICLE, &scene->bodies_before[false]);
+    schema_defaults(KIND_ANCHOR, &scene->bodies_before[true]);
+    scene->bodies_before[true].numbers.anchor = true;
+    for (int kind = 0; kind < PHYS_FORCE_KINDS; kind++) {
+        schema_defaults(schema_kind_of_force((PhysForceKind)kind), &scene->forces_before[kind]);
+        scene->forces_before[kind].force.kind = (PhysForceKind)kind;
+    }
+}
+
+void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, BodyAttrs *body) {
+    const Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
+    *body = tree->scene->bodies_before[anchor];
+    reader_fill(&reader, body);
 }
 
 // The system's own keys are prefix;:last and so on: a particle of that id fights with them.
@@ -55,7 +68,7 @@ static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, Stat
 // Adds a body; false if it has no usable id or one that was seen already (reported), or memory is used up.
 static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor) {
     double numbers[PHYSICS_KEY_NUMBERS];
-    Reader reader = reader_of(tree, node);
+    Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
     StateSlot slot = id.len ? state_slot(tree->frame->state, physics_key(tree, id, false, numbers)) : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT) {
         reader_report(&reader, "missing-id", "",
@@ -76,26 +89,26 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
 }
 
 __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, bool anchor, uint32_t group) {
-    Value id;
-    PhysParticle numbers;
+    BodyAttrs body;
     double position, velocity;
-    physics_read_particle(tree, node, anchor, &id, &numbers);
-    if (!add_body(tree, node, id, anchor))
+    physics_read_particle(tree, node, anchor, &body);
+    if (!add_body(tree, node, body.id, anchor))
         return;
-    Reader reader = reader_of(tree, node);
-    reader_lint(&reader, anchor ? KIND_ANCHOR : KIND_PARTICLE);
+    PhysParticle *numbers = &body.numbers;
     if (!anchor) {
         const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)(tree->body_count - 1);
-        numbers.position = mirror_start(tree, slots[0], numbers.position, &position, &numbers.position_from_attribute);
-        numbers.velocity = mirror_start(tree, slots[1], numbers.velocity, &velocity, &numbers.velocity_from_attribute);
+        numbers->position =
+            mirror_start(tree, slots[0], numbers->position, &position, &numbers->position_from_attribute);
+        numbers->velocity =
+            mirror_start(tree, slots[1], numbers->velocity, &velocity, &numbers->velocity_from_attribute);
     }
-    phys_add_particle(tree->engine, group, &numbers);
+    phys_add_particle(tree->engine, group, numbers);
 }
 
 static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t group) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
-        switch (schema_kind(&tree->scene->schema, child)) {
+        switch (schema_kind(tree->scene->schema, child)) {
         case KIND_PARTICLE:
             read_body(tree, child, false, group);
             break;
@@ -118,21 +131,6 @@ void physics_read_bodies(PhysicsTree *tree) {
     tree->scene->body_count = tree->body_count;
     tree->scene->marked = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;
-}
-
-static PhysForce pair_force(const Reader *reader, PhysForceKind kind, AttrRow strength, AttrRow ease,
-                            AttrRow max_distance) {
-    return (PhysForce){.kind = kind,
-                       .strength = attr_float(reader, strength),
-                       .ease = attr_float(reader, ease),
-                       .power = 1,
-                       .max_distance = attr_float(reader, max_distance)};
-}
-
-// Bounds of !distance and !barrier: `fixed` gives both, else the long name wins over the short one.
-static void read_bounds(const Reader *reader, PhysForce *force, const AttrRow lower[3], const AttrRow upper[3]) {
-    force->has_minimum = attr_first(reader, lower, 3, &force->minimum);
-    force->has_maximum = attr_first(reader, upper, 3, &force->maximum);
 }
 
 // The ends of a distance force; those of the force at this place in the last frame are tried first.
@@ -158,80 +156,21 @@ static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool 
     return true;
 }
 
-static bool read_distance(PhysicsTree *tree, const Reader *reader, PhysForce *force) {
-    static const AttrRow lower[] = {ROW_DISTANCE_FIXED, ROW_DISTANCE_MINIMUM, ROW_DISTANCE_MIN};
-    static const AttrRow upper[] = {ROW_DISTANCE_FIXED, ROW_DISTANCE_MAXIMUM, ROW_DISTANCE_MAX};
-    Value from = attr_value(reader, ROW_DISTANCE_FROM), to = attr_value(reader, ROW_DISTANCE_TO);
+// What links two particles has ids of them.
+static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs *read, PhysForce *force) {
     Link link;
     bool first = false;
-    if (!find_ends(tree, from, to, &link, &first)) {
-        Text text = text_new(reader->arena);
-        text_add_format(&text, "%s=", first ? "to" : "from");
-        format_value(&text, reader->schema->symbols, first ? to : from);
-        text_add_c(&text, " names no particle; ignored");
-        reader_report_attr(reader, "no-such-particle",
-                           reader->schema->attrs[first ? ROW_DISTANCE_TO : ROW_DISTANCE_FROM], text_str(&text));
-        return false;
+    if (find_ends(tree, read->from, read->to, &link, &first)) {
+        force->from = link.from;
+        force->to = link.to;
+        return true;
     }
-    *force = (PhysForce){.kind = PHYS_DISTANCE,
-                         .strength = attr_float(reader, ROW_DISTANCE_STRENGTH),
-                         .ease = attr_float(reader, ROW_DISTANCE_EASE),
-                         .power = attr_float(reader, ROW_DISTANCE_POWER),
-                         .from = link.from,
-                         .to = link.to};
-    read_bounds(reader, force, lower, upper);
-    return true;
-}
-
-// normal / sqrt(Σ normal_k²); NULL (reported) if that is no direction.
-static const double *unit_normal(const Reader *reader) {
-    const double *normal = attr_vector(reader, ROW_BARRIER_NORMAL);
-    double sum = 0;
-    for (uint32_t k = 0; normal && k < reader->dimensions; k++)
-        sum += normal[k] * normal[k];
-    double length = sqrt(sum);
-    if (!(length > 0) || !isfinite(length)) {
-        reader_report_attr(reader, "bad-normal", reader->schema->attrs[ROW_BARRIER_NORMAL],
-                           STR("normal is no direction; the barrier is ignored"));
-        return NULL;
-    }
-    double *unit = arena_alloc_array(reader->arena, reader->dimensions, sizeof *unit);
-    for (uint32_t k = 0; k < reader->dimensions; k++)
-        unit[k] = normal[k] / length;
-    return unit;
-}
-
-static bool read_barrier(const Reader *reader, PhysForce *force) {
-    static const AttrRow lower[] = {ROW_BARRIER_FIXED, ROW_BARRIER_MINIMUM, ROW_BARRIER_MIN};
-    static const AttrRow upper[] = {ROW_BARRIER_FIXED, ROW_BARRIER_MAXIMUM, ROW_BARRIER_MAX};
-    const double *normal = unit_normal(reader);
-    if (!normal)
-        return false;
-    *force = (PhysForce){.kind = PHYS_BARRIER,
-                         .strength = attr_float(reader, ROW_BARRIER_STRENGTH),
-                         .ease = attr_float(reader, ROW_BARRIER_EASE),
-                         .power = attr_float(reader, ROW_BARRIER_POWER),
-                         .restitution = clamp(attr_float(reader, ROW_BARRIER_RESTITUTION), 0, 1),
-                         .vector = attr_vector(reader, ROW_BARRIER_POSITION),
-                         .vector2 = normal};
-    read_bounds(reader, force, lower, upper);
-    return true;
-}
-
-static PhysForce read_buoyancy(const Reader *reader) {
-    const double *gravity = attr_vector(reader, ROW_BUOYANCY_GRAVITY);
-    if (!gravity) {
-        // The default points down along the last axis.
-        double *down = arena_alloc_array(reader->arena, reader->dimensions, sizeof *down);
-        for (uint32_t k = 0; k < reader->dimensions; k++)
-            down[k] = k + 1 == reader->dimensions ? -1 : 0;
-        gravity = down;
-    }
-    return (PhysForce){.kind = PHYS_BUOYANCY,
-                       .strength = attr_float(reader, ROW_BUOYANCY_STRENGTH),
-                       .ease = attr_float(reader, ROW_BUOYANCY_EASE),
-                       .density = attr_float(reader, ROW_BUOYANCY_DENSITY),
-                       .vector = gravity};
+    Text text = text_new(reader->arena);
+    text_add_format(&text, "%s=", first ? "to" : "from");
+    format_value(&text, reader->schema->symbols, first ? read->to : read->from);
+    text_add_c(&text, " names no particle; ignored");
+    reader_report_attr(reader, "no-such-particle", first ? ATTR_TO : ATTR_FROM, text_str(&text));
+    return false;
 }
 
 // The seed of a !random: prefix;run;iteration and a 0 for each !random before it (spec 4.2).
@@ -246,94 +185,50 @@ uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before) {
     return key;
 }
 
+// Bounds: `fixed` gives both.
+static bool take_bound(double fixed, double *bound) {
+    *bound = isnan(fixed) ? *bound : fixed;
+    bool given = !isnan(*bound);
+    *bound = given ? *bound : 0;
+    return given;
+}
+
 // Fills `force` from a force applier or barrier; false if it is to be ignored.
-static bool read_force(PhysicsTree *tree, const Reader *reader, SceneKind kind, uint32_t randoms, PhysForce *force) {
-    switch (kind) {
-    case KIND_CONSTANT:
-        *force = (PhysForce){.kind = PHYS_CONSTANT,
-                             .strength = attr_float(reader, ROW_CONSTANT_STRENGTH),
-                             .ease = attr_float(reader, ROW_CONSTANT_EASE),
-                             .vector = attr_vector(reader, ROW_CONSTANT_FORCE),
-                             .vector2 = attr_vector(reader, ROW_CONSTANT_ACCELERATION)};
-        return true;
-    case KIND_RANDOM:
-        *force = (PhysForce){.kind = PHYS_RANDOM,
-                             .strength = attr_float(reader, ROW_RANDOM_STRENGTH),
-                             .ease = attr_float(reader, ROW_RANDOM_EASE),
-                             .key = physics_random_key(tree, randoms)};
-        return true;
-    case KIND_FIELD:
-        *force = (PhysForce){.kind = PHYS_FIELD,
-                             .strength = attr_float(reader, ROW_FIELD_STRENGTH),
-                             .ease = attr_float(reader, ROW_FIELD_EASE),
-                             .vector = attr_vector(reader, ROW_FIELD_DIRECTION)};
-        return true;
-    case KIND_DRAG:
-        *force = (PhysForce){.kind = PHYS_DRAG,
-                             .strength = attr_float(reader, ROW_DRAG_STRENGTH),
-                             .ease = attr_float(reader, ROW_DRAG_EASE),
-                             .vector = attr_vector(reader, ROW_DRAG_FLOW)};
-        return true;
-    case KIND_BUOYANCY:
-        *force = read_buoyancy(reader);
-        return true;
-    case KIND_COLLISION:
-        *force =
-            pair_force(reader, PHYS_COLLISION, ROW_COLLISION_STRENGTH, ROW_COLLISION_EASE, ROW_COLLISION_MAX_DISTANCE);
-        force->power = attr_float(reader, ROW_COLLISION_POWER);
-        return true;
-    case KIND_GRAVITY:
-        *force = pair_force(reader, PHYS_GRAVITY, ROW_GRAVITY_STRENGTH, ROW_GRAVITY_EASE, ROW_GRAVITY_MAX_DISTANCE);
-        return true;
-    case KIND_ELECTROSTATIC:
-        *force = pair_force(reader, PHYS_ELECTROSTATIC, ROW_ELECTROSTATIC_STRENGTH, ROW_ELECTROSTATIC_EASE,
-                            ROW_ELECTROSTATIC_MAX_DISTANCE);
-        return true;
-    case KIND_ADHESION:
-        *force = pair_force(reader, PHYS_ADHESION, ROW_ADHESION_STRENGTH, ROW_ADHESION_EASE, ROW_ADHESION_MAX_DISTANCE);
-        force->overlap = clamp(attr_float(reader, ROW_ADHESION_OVERLAP), 0, 1);
-        return true;
-    case KIND_DISTANCE:
-        return read_distance(tree, reader, force);
-    case KIND_BARRIER:
-        return read_barrier(reader, force);
-    default:
+static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
+    ForceAttrs read = tree->scene->forces_before[schema_force(reader->kind)];
+    reader_fill(reader, &read);
+    *force = read.force;
+    force->has_minimum = take_bound(read.fixed, &force->minimum);
+    force->has_maximum = take_bound(read.fixed, &force->maximum);
+    ForceRow row = phys_force_row(force->kind);
+    if (row.need == NEED_STREAM)
+        force->key = physics_random_key(tree, randoms);
+    if (row.stage == STAGE_LINK)
+        return bind_ends(tree, reader, &read, force);
+    if (row.stage == STAGE_BARRIER && !force->vector2) {
+        reader_report_attr(reader, "bad-normal", ATTR_NORMAL, STR("normal is no direction; the barrier is ignored"));
         return false;
     }
+    return true;
 }
 
 static void report_unknown_kind(const Reader *reader) {
-    const Symbol *nearest = NULL;
-    int least = 4;
-    for (int kind = KIND_PARTICLE; kind <= KIND_BARRIER; kind++) {
-        int distance = str_distance(reader->node->kind->name, reader->schema->kinds[kind]->name);
-        if (distance < least) {
-            least = distance;
-            nearest = reader->schema->kinds[kind];
-        }
-    }
     Text out = text_new(reader->arena);
     text_add_c(&out, "no such node inside !physics; ignored");
-    if (nearest)
-        text_add_format(&out, ", did you mean !%.*s?", (int)nearest->name.len, nearest->name.bytes);
+    schema_add_nearest_kind(&out, reader->node->kind->name, PLACE_PHYSICS, "!", "");
     reader_report(reader, "unknown-node", "", text_str(&out));
 }
 
-static bool is_inside_physics(SceneKind kind) {
-    return kind > KIND_PHYSICS && kind <= KIND_BARRIER;
-}
-
 // One child of a group that is no particle and no group. Kept out of the recursion, whose frames must stay small.
-__attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, SceneKind kind, uint32_t group,
+__attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node *node, NodeKind kind, uint32_t group,
                                                    uint32_t randoms) {
-    Reader reader = reader_of(tree, node);
+    Reader reader = reader_of(tree, node, kind);
     PhysForce force;
-    if (!is_inside_physics(kind)) {
+    if (schema_force(kind) == PHYS_FORCE_KINDS) {
         report_unknown_kind(&reader);
         return;
     }
-    reader_check_names(&reader, kind);
-    if (!read_force(tree, &reader, kind, randoms, &force))
+    if (!read_force(tree, &reader, randoms, &force))
         return;
     uint32_t number = phys_add_force(tree->engine, group, &force);
     PhysicsSystem *system = tree->system;
@@ -349,7 +244,7 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
 static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t group, uint32_t randoms) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
-        SceneKind kind = schema_kind(&tree->scene->schema, child);
+        NodeKind kind = schema_kind(tree->scene->schema, child);
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {

@@ -16,17 +16,16 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     bool comparable = node->program_lifetime && system->generation == tree->frame->generation;
     if (comparable && body < system->node_count && system->nodes[body] == node)
         return true;
-    Value id;
-    PhysParticle numbers;
-    physics_read_particle(tree, node, anchor, &id, &numbers);
-    if (!physics_has_id(tree, body, id))
+    BodyAttrs read;
+    physics_read_particle(tree, node, anchor, &read);
+    if (!physics_has_id(tree, body, read.id))
         return false;
     PhysPreserve preserve = {false, false};
     if (!anchor) {
         preserve = mirror_preserve(tree, body);
-        numbers.position_from_attribute = numbers.velocity_from_attribute = true; // if not preserved
+        read.numbers.position_from_attribute = read.numbers.velocity_from_attribute = true; // if not preserved
     }
-    phys_update_particle(tree->engine, body, &numbers, preserve);
+    phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)
         system->nodes[body] = NULL;
     physics_keep_node(tree, body, node);
@@ -36,7 +35,7 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
 static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
-        SceneKind kind = schema_kind(&tree->scene->schema, child);
+        NodeKind kind = schema_kind(tree->scene->schema, child);
         if (kind == KIND_GROUP) {
             uint32_t number = tree->next_group++;
             if (number >= phys_group_count(tree->engine) || phys_group_parent(tree->engine, number) != group ||

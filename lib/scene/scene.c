@@ -6,22 +6,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-static void report(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text) {
-    Scene *scene = host;
-    scene->reports++;
-    scene->host.report(scene->host.host, level, code, origin, node, key, text);
-}
-
-Scene *scene_new(SymbolTable *symbols, SceneHost host) {
-    Scene *scene = calloc(1, sizeof *scene);
-    if (!scene)
-        return NULL;
-    scene->host = host;
-    schema_init(&scene->schema, symbols, (SceneHost){scene, report});
-    if (!input_init(&scene->input, symbols)) {
-        scene_free(scene);
-        return NULL;
-    }
+Scene *scene_new(Arena *arena, Schema *schema) {
+    SymbolTable *symbols = schema->symbols;
+    Scene *scene = arena_alloc(arena, sizeof *scene);
+    *scene = (Scene){.schema = schema};
+    physics_take_defaults(scene);
+    input_init(&scene->input, symbols);
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
@@ -38,10 +28,6 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
-void scene_lint(Scene *scene) {
-    scene->schema.lint = true;
-}
-
 static void free_system(PhysicsSystem *system) {
     phys_free(system->engine);
     mirror_free(&system->mirror);
@@ -51,25 +37,42 @@ static void free_system(PhysicsSystem *system) {
     free(system);
 }
 
-void scene_reset(Scene *scene, State *state) {
-    for (PhysicsSystem *system = scene->systems, *next; system; system = next) {
+void scene_free_systems(PhysicsSystem *systems) {
+    for (PhysicsSystem *system = systems, *next; system; system = next) {
         next = system->next;
-        if (state)
-            mirror_leave(&system->mirror, state);
         free_system(system);
     }
+}
+
+PhysicsSystem *scene_set_aside(Scene *scene) {
+    PhysicsSystem *systems = scene->systems;
     scene->systems = NULL;
     scene->marked = NULL;
+    return systems;
+}
+
+void scene_bring_back(Scene *scene, PhysicsSystem *systems) {
+    scene_reset(scene);
+    scene->systems = systems;
+}
+
+void scene_reset(Scene *scene) {
+    scene_free_systems(scene_set_aside(scene));
 }
 
 void scene_free(Scene *scene) {
-    if (scene) {
-        scene_reset(scene, NULL);
-        phys_threads_free(scene->physics.pool);
-        free(scene->bodies);
-        input_free(&scene->input);
-    }
-    free(scene);
+    if (!scene)
+        return;
+    scene_reset(scene);
+    phys_threads_free(scene->physics.pool);
+    free(scene->bodies);
+    input_free(&scene->input);
+}
+
+bool scene_take_exhausted(Scene *scene) {
+    bool was = scene->exhausted;
+    scene->exhausted = false;
+    return was;
 }
 
 Input *scene_input(Scene *scene) {
@@ -114,11 +117,11 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     }
 }
 
-static uint64_t update_kind(Scene *scene, SceneKind kind, Value tree, uint32_t from, const SceneFrame *frame) {
+static uint64_t update_kind(Scene *scene, NodeKind kind, Value tree, uint32_t from, const SceneFrame *frame) {
     uint64_t steps = 0;
     for (uint32_t i = from; i < tree.len; i++) {
         const Item *item = &tree.as.items[i];
-        if (item->type != ITEM_NODE || schema_kind(&scene->schema, item->as.node) != kind)
+        if (item->type != ITEM_NODE || schema_kind(scene->schema, item->as.node) != kind)
             continue;
         if (frame->interrupt && atomic_load_explicit(frame->interrupt, memory_order_relaxed))
             break;
@@ -131,20 +134,20 @@ static uint64_t update_kind(Scene *scene, SceneKind kind, Value tree, uint32_t f
 }
 
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
-    bool done[KIND_COUNT_OF] = {false};
+    bool done[KIND_COUNT] = {false};
     uint64_t steps = 0;
     scene->frame_number++;
     tidy_state(scene, frame);
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         if (tree.as.items[i].type != ITEM_NODE)
             continue;
-        SceneKind kind = schema_kind(&scene->schema, tree.as.items[i].as.node);
+        NodeKind kind = schema_kind(scene->schema, tree.as.items[i].as.node);
         if ((kind != KIND_PHYSICS && kind != KIND_COUNTER) || done[kind])
             continue;
         done[kind] = true;
         steps += update_kind(scene, kind, tree, i, frame);
     }
-    input_bind(&scene->input, &scene->schema, tree, frame->arena);
+    input_bind(&scene->input, scene->schema, tree, frame->arena);
     return steps;
 }
 

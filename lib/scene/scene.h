@@ -23,16 +23,19 @@ typedef struct SceneFrame {
     const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
 } SceneFrame;
 
-// NULL if memory is used up. The symbol table must outlive the scene.
-Scene *scene_new(SymbolTable *symbols, SceneHost host);
+// The arena and the schema must outlive the scene.
+Scene *scene_new(Arena *arena, Schema *schema);
 void scene_free(Scene *scene);
 // How the physics of new systems is computed (not what: results do not depend on it).
 void scene_set_physics(Scene *scene, const PhysOptions *options);
-// Reports what is hardly meant from now on, too.
-void scene_lint(Scene *scene);
-// Forgets what was in the last frame's tree (for when the state dictionary is replaced). `state` is the dictionary that
-// was used so far, which keeps its entries; NULL: it is not needed any more, or gone already.
-void scene_reset(Scene *scene, State *state);
+// Forgets what was in the last frame's tree (for when the state dictionary is cleared).
+void scene_reset(Scene *scene);
+// Sets the systems aside while others are restored, with another dictionary; they are brought back, in place of those,
+// if that has failed, and freed, after their dictionary, if it has not.
+typedef struct PhysicsSystem PhysicsSystem;
+PhysicsSystem *scene_set_aside(Scene *scene);
+void scene_bring_back(Scene *scene, PhysicsSystem *systems);
+void scene_free_systems(PhysicsSystem *systems);
 // For saving: the systems and the state keys of the particles in their last frame's trees, which decide what a later
 // frame removes. `*cursor` starts at NULL; false at the end. Slots come in pairs: position, velocity.
 typedef struct SceneSystem {
@@ -62,5 +65,7 @@ Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uin
 Input *scene_input(Scene *scene);
 // Updates all systems from the node elements of `tree`; returns the simulation steps made.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
+// Whether a system could not be updated since this was asked last because memory was used up.
+bool scene_take_exhausted(Scene *scene);
 
 #endif

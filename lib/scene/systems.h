@@ -19,7 +19,6 @@ typedef struct Link {
 } Link;
 
 // What a system keeps from frame to frame. It is the same system as long as its prefix is the same.
-typedef struct PhysicsSystem PhysicsSystem;
 struct PhysicsSystem {
     PhysicsSystem *next;
     StateSlot start;     // slot of the prefix itself: what identifies the system
@@ -51,9 +50,10 @@ struct PhysicsSystem {
 };
 
 struct Scene {
-    SceneHost host;
-    uint64_t reports; // given so far
-    Schema schema;
+    Schema *schema;
+    BodyAttrs bodies_before[2]; // the defaults of a particle and of an anchor
+    ForceAttrs forces_before[PHYS_FORCE_KINDS];
+    bool exhausted; // see scene_take_exhausted
     Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;
@@ -97,10 +97,11 @@ double scene_number(const State *state, StateSlot slot, double fallback);
 // Makes room for one more element; false if memory is used up.
 bool scene_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
-// physics_particle.c: the attributes of a !particle or !anchor; what is wrong is reported. Vectors are borrowed.
-void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, Value *id, PhysParticle *numbers);
-
-// physics_read.c: fills the engine from the tree: groups and particles, then forces.
+// physics_read.c
+void physics_take_defaults(Scene *scene);
+// The attributes of a !particle or !anchor; what is wrong is reported. Vectors are borrowed.
+void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, BodyAttrs *body);
+// Fills the engine from the tree: groups and particles, then forces.
 void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
 // The key of the stream of a random force in this frame.

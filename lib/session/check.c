@@ -5,16 +5,17 @@
 
 // Any node may stand at the top, and means nothing there; one that is nearly spelled like one that does is a mistake.
 // Empty if this is none.
-static Str nearly(const PetriSession *session, Str kind) {
-    const Str known[] = {str_from(schema_kind_name(KIND_PHYSICS)), str_from(schema_kind_name(KIND_COUNTER)),
-                         session->canvas.kinds[DRAW_WINDOW]->name, session->canvas.kinds[DRAW_OFFSCREEN]->name};
+static Str nearly(Str kind) {
     Str nearest = {0};
     int least = 3;
-    for (size_t i = 0; i < sizeof known / sizeof known[0] && least > 0; i++) {
-        int distance = str_distance(kind, known[i]);
+    for (int i = 0; i < KIND_COUNT && least > 0; i++) {
+        if (schema_kinds[i].place != PLACE_SCENE && schema_kinds[i].place != PLACE_TOP)
+            continue;
+        Str known = str_from(schema_kinds[i].name);
+        int distance = str_distance(kind, known);
         if (distance < least && 3 * distance <= (int)kind.len) {
             least = distance;
-            nearest = distance > 0 ? known[i] : (Str){0};
+            nearest = distance > 0 ? known : (Str){0};
         }
     }
     return nearest;
@@ -22,42 +23,37 @@ static Str nearly(const PetriSession *session, Str kind) {
 
 void session_look_at_top(PetriSession *session) {
     const Symbol *last = NULL; // a loop makes many of a kind
-    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
-        const Item *item = &session->tree.as.items[i];
+    for (uint32_t i = 0; session->frame.tree.kind == VALUE_MIXED && i < session->frame.tree.len; i++) {
+        const Item *item = &session->frame.tree.as.items[i];
         if (item->type != ITEM_NODE || item->as.node->kind == last)
             continue;
         last = item->as.node->kind;
-        Str kind = last->name, nearest = nearly(session, kind);
+        Str kind = last->name, nearest = nearly(kind);
         if (!nearest.len)
             continue;
         Origin place = node_place(item->as.node, NULL);
-        session_tell(
-            session,
-            &(Diag){.level = DIAG_WARNING,
-                    .source = place.source,
-                    .span = place.span,
-                    .text = str_format(&session->scene_arena, "'!%.*s' does nothing", (int)kind.len, kind.bytes),
-                    .hint = str_format(&session->scene_arena, "did you mean '!%.*s'?", (int)nearest.len, nearest.bytes),
-                    .code = "unknown-node"});
+        session_tell(session, &(Diag){.level = DIAG_WARNING,
+                                      .source = place.source,
+                                      .span = place.span,
+                                      .text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing",
+                                                         (int)kind.len, kind.bytes),
+                                      .hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?",
+                                                         (int)nearest.len, nearest.bytes),
+                                      .code = "unknown-node"});
     }
 }
 
 // Reads all windows, as if they were to be drawn.
-static void look_at_windows(PetriSession *session) {
-    jmp_buf escape;
-    session->scene_arena.escape = &escape;
-    if (setjmp(escape) == 0)
-        for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
-            const Item *item = &session->tree.as.items[i];
-            DrawKind kind = item->type == ITEM_NODE ? canvas_kind(&session->canvas, item->as.node) : DRAW_KIND_COUNT;
-            if (kind == DRAW_WINDOW || kind == DRAW_OFFSCREEN)
-                canvas_read(&session->canvas, &session->scene_arena, item->as.node);
-        }
-    session->scene_arena.escape = NULL;
+static void look_at_windows(PetriSession *session, void *context) {
+    const Node *window;
+    (void)context;
+    for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at)) != NULL;)
+        canvas_read(&session->schema, &session->frame.systems_arena, window);
 }
 
 // What the scratch session has to say. Its stages each see the whole script; people read it from top to bottom.
 typedef struct Heard {
+    PetriSession *scratch;
     Arena arena;
     PetriDiagnostic *items;
     size_t count;
@@ -72,6 +68,7 @@ static void hear(void *host, const PetriDiagnostic *diagnostic) {
     if (diagnostic->code && strcmp(diagnostic->code, "undrawn-node") == 0)
         return; // the script is right, petri shows less of it
     size_t size = heard->count * sizeof *heard->items;
+    heard->arena.escape = heard->scratch->arena.escape; // within the call that tells it
     heard->items = arena_grow(&heard->arena, heard->items, size, size + sizeof *heard->items);
     PetriDiagnostic *item = &heard->items[heard->count++];
     *item = *diagnostic;
@@ -95,34 +92,30 @@ static void tell_in_order(PetriSession *session, Heard *heard) {
             heard->items[at] = heard->items[at - 1];
         heard->items[at] = item;
     }
-    for (size_t i = 0; i < heard->count; i++) {
-        session->counts[heard->items[i].level]++;
-        if (session->options.diagnostic)
-            session->options.diagnostic(session->options.host, &heard->items[i]);
-    }
+    for (size_t i = 0; i < heard->count; i++)
+        diagnostics_pass_on(session, &heard->items[i]);
 }
 
-static PetriSession *open_scratch(PetriSession *session, Heard *heard) {
+static void open_scratch(PetriSession *session, Heard *heard) {
     PetriOptions options = session->options;
     options.realtime = options.profile = options.interruptible = options.keep_forces = false;
     options.threads = 1;
     options.diagnostic = hear;
     options.host = heard;
-    PetriSession *scratch = petri_open(&options);
-    for (uint32_t i = 0; scratch && i < session->define_count; i++)
-        petri_define(scratch, session->defines[i].text);
-    return scratch;
+    heard->scratch = petri_open(&options);
+    for (uint32_t i = 0; heard->scratch && i < session->config.define_count; i++)
+        if (petri_define(heard->scratch, session->config.defines[i].text) == PETRI_MEMORY)
+            petri_close(&heard->scratch);
 }
 
 static PetriStatus look_over(PetriSession *scratch, const char *file, const char *text, size_t length) {
-    scratch->lint = scratch->canvas.lint = true;
-    scene_lint(scratch->scene);
+    scratch->loader.lint = scratch->schema.lint = true;
     PetriStatus status = text ? petri_load_text(scratch, file, text, length) : petri_load(scratch, file);
-    scratch->lint = false; // modules, which the frame loads, are checked for themselves
+    scratch->loader.lint = false; // modules, which the frame loads, are checked for themselves
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)
-        look_at_windows(scratch);
+        status = session_protect(scratch, NULL, look_at_windows, NULL);
     return status;
 }
 
@@ -131,10 +124,10 @@ static PetriStatus check(PetriSession *session, const char *file, const char *te
     Heard heard = {0};
     PetriStatus status = PETRI_MEMORY;
     arena_init(&heard.arena, "check", SIZE_MAX);
-    PetriSession *scratch = open_scratch(session, &heard);
-    if (scratch)
-        status = look_over(scratch, file, text, length);
-    petri_close(&scratch);
+    open_scratch(session, &heard);
+    if (heard.scratch)
+        status = look_over(heard.scratch, file, text, length);
+    petri_close(&heard.scratch);
     tell_in_order(session, &heard);
     arena_free(&heard.arena);
     return status;

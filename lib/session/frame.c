@@ -1,17 +1,11 @@
-// frame.c: one frame: clocks, evaluation, systems. The only place where state goes round (spec language.md L16).
+// frame.c: one frame: evaluation, then systems. The only place where state goes round (spec language.md L16).
 #include "session/session.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
-#include <time.h>
 
 enum { TEMPO = 120, QUANTUM = 4 }; // without pragmas
-
-static double now(clockid_t clock) {
-    struct timespec time;
-    clock_gettime(clock, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
 
 // The value of a pragma: a number, or a string that reads as one (L12); tempo and fps must be above 0. Of several the
 // last counts, even if that is bad and means the default.
@@ -36,19 +30,23 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
 }
 
 void session_clear_frame(PetriSession *session) {
-    session->tree = VALUE_NULL;
-    session->evaluated = false;
-    session->values = NULL;
-    session->value_count = session->value_capacity = 0;
-    diag_sink_free(&session->log);
-    diag_sink_free(&session->errors);
-    arena_reset(&session->frame_arena);
-    arena_reset(&session->scene_arena);
+    SessionFrame *frame = &session->frame;
+    frame->tree = VALUE_NULL;
+    frame->evaluated = false;
+    frame->values = NULL;
+    frame->value_count = 0;
+    frame->system_names = NULL;
+    frame->system_name_count = 0;
+    diag_sink_free(&frame->log);
+    diag_sink_free(&frame->errors);
+    arena_reset(&frame->arena);
+    arena_reset(&frame->systems_arena);
     arena_reset(&session->text_arena);
+    arena_reset(&session->view_arena);
     session_free_retired(session);
 }
 
-static ClockRates rates_of(PetriSession *session, const Program *program) {
+ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
     ClockRates rates = {session->options.fps, TEMPO, QUANTUM};
     for (uint32_t i = 0; i < program->pragma_count; i++) {
         const Pragma *pragma = &program->pragmas[i];
@@ -64,199 +62,97 @@ static ClockRates rates_of(PetriSession *session, const Program *program) {
 
 // Before frame 0 at the session's rates.
 static void rewind_clock(PetriSession *session) {
-    session->frame = (PetriFrame){.number = -1, .fps = session->frame.fps, .tempo = session->frame.tempo};
-    session->base = (ClockBase){0};
-    memset(session->auto_frames, 0, sizeof session->auto_frames);
-    session->delta = 0;
-    session->wall = (WallClock){.performance = session->options.realtime ? 1 : 2};
-    session->profiled_physics = 0;
-    session->profiled_frames = 0;
+    clock_rewind(&session->clock);
+    if (session->drawing)
+        memset(session->drawing, 0, session->drawing_size);
+    session->frame.profiled_physics = 0;
+    session->frame.profiled_frames = 0;
+    session->frame.physics_steps = 0;
+    session->frame.evaluation_seconds = session->frame.physics_seconds = 0;
     if (session->vm.profile)
         vm_profile_clear(session->vm.profile);
 }
 
-void session_start(PetriSession *session, const Program *program) {
-    session->said = rates_of(session, program);
-    session->frame.fps = session->said.fps;
-    session->frame.tempo = session->said.tempo;
-    session->quantum = session->said.quantum;
+void session_start(PetriSession *session, const ClockRates *rates) {
+    session->config.pragma_rates = *rates;
+    clock_set_rates(&session->clock, rates);
     rewind_clock(session);
     session_change_config(session, false);
 }
 
-// What is due and what the beat is stay as they are; what comes is counted from here.
-static void rebase_clock(PetriSession *session) {
-    const PetriFrame *frame = &session->frame;
-    if (frame->number >= 0)
-        session->base = (ClockBase){frame->number, frame->time, frame->beat};
-}
-
-static void set_fps(PetriSession *session, double fps) {
-    rebase_clock(session);
-    session->frame.fps = fps;
-}
-
-static void set_tempo(PetriSession *session, double tempo) {
-    rebase_clock(session);
-    session->frame.tempo = tempo;
-}
-
-void session_set_rates(PetriSession *session, const ClockRates *rates) {
-    if (rates->fps != session->frame.fps)
-        set_fps(session, rates->fps);
-    if (rates->tempo != session->frame.tempo)
-        set_tempo(session, rates->tempo);
-    session->quantum = rates->quantum;
-}
-
-void session_take_rates(PetriSession *session, const Program *program) {
-    ClockRates before = session->said, rates = {session->frame.fps, session->frame.tempo, session->quantum};
-    const ClockRates *said = &session->said;
-    session->said = rates_of(session, program);
+void session_take_rates(PetriSession *session, const ClockRates *said) {
+    ClockRates before = session->config.pragma_rates, rates = session->clock.rates;
+    session->config.pragma_rates = *said;
     rates.fps = said->fps != before.fps ? said->fps : rates.fps;
     rates.tempo = said->tempo != before.tempo ? said->tempo : rates.tempo;
     rates.quantum = said->quantum != before.quantum ? said->quantum : rates.quantum;
-    session_set_rates(session, &rates);
+    clock_set_rates(&session->clock, &rates);
+    session_change_config(session, false);
 }
 
-static bool is_rate(double x) {
-    return x > 0 && isfinite(x);
+static PetriStatus set_rates(PetriSession *session, ClockRates rates, double changed) {
+    if (!(changed > 0) || !isfinite(changed))
+        return PETRI_INVALID;
+    clock_set_rates(&session->clock, &rates);
+    session_change_config(session, true);
+    return PETRI_OK;
 }
 
 PetriStatus petri_set_tempo(PetriSession *session, double tempo) {
-    if (!is_rate(tempo))
-        return PETRI_INVALID;
-    set_tempo(session, tempo);
-    session_change_config(session, true);
-    return PETRI_OK;
+    ClockRates rates = session->clock.rates;
+    rates.tempo = tempo;
+    return set_rates(session, rates, tempo);
 }
 
 PetriStatus petri_set_fps(PetriSession *session, double fps) {
-    if (!is_rate(fps))
-        return PETRI_INVALID;
-    set_fps(session, fps);
-    session_change_config(session, true);
-    return PETRI_OK;
+    ClockRates rates = session->clock.rates;
+    rates.fps = fps;
+    return set_rates(session, rates, fps);
 }
 
 PetriStatus petri_set_resolution(PetriSession *session, double resolution) {
     if (!(resolution >= 0) || !isfinite(resolution))
         return PETRI_INVALID;
-    session->resolution = resolution;
+    session->config.resolution = resolution;
     session_change_config(session, true);
     return PETRI_OK;
 }
 
 double petri_resolution(const PetriSession *session) {
-    return session->resolution;
+    return session->config.resolution;
 }
 
 void petri_clear(PetriSession *session) {
+    session->torn = false; // what it would go back to is gone
     state_clear(session->state);
-    scene_reset(session->scene, NULL);
+    scene_reset(session->scene);
     session_clear_frame(session);
     rewind_clock(session);
     session_change_config(session, false);
 }
 
-void session_resume(PetriSession *session, int64_t number) {
-    PetriFrame *frame = &session->frame;
-    session->base = (ClockBase){0};
-    session->wall.running = false;
-    session_change_config(session, false);
-    frame->number = number;
-    frame->time = (double)number / frame->fps;
-    frame->beat = frame->time / (60 / frame->tempo);
-}
-
-static double wall_time(const PetriSession *session) {
-    return now(CLOCK_MONOTONIC) - session->wall.origin;
-}
-
-// A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
-static const double LATEST = 0.1;
-
-static double lockstep_time(const PetriSession *session) {
-    return session->base.time + (double)(session->frame.number - session->base.frame) / session->frame.fps;
-}
-
-// The first frame has the time that it has in lockstep: 0, or where a restored state goes on.
-static double start_wall_clock(PetriSession *session) {
-    double time = lockstep_time(session);
-    session->wall.running = true;
-    session->wall.origin = now(CLOCK_MONOTONIC) - time;
-    session->wall.due = time + 1 / session->frame.fps;
-    return time;
-}
-
-// In real time: sleeps until the frame is due and returns the time.
-static double wait_for_frame(PetriSession *session) {
-    WallClock *wall = &session->wall;
-    if (!wall->running)
-        return start_wall_clock(session);
-    double at = wall_time(session), spare = wall->due - at;
-    wall->slow_frame = spare < 0;
-    wall->performance += spare > 0.001 ? 0.001 : -0.01;
-    wall->performance = fmin(2, fmax(0.5, wall->performance));
-    if (spare > 0) {
-        struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
-        nanosleep(&pause, NULL);
-    }
-    wall->due = fmax(wall->due, at - LATEST) + 1 / session->frame.fps;
-    return wall_time(session);
-}
-
 double petri_due(const PetriSession *session) {
-    bool waits = session->options.realtime && session->wall.running;
-    return waits ? fmax(0, session->wall.due - wall_time(session)) : 0;
-}
-
-// The clock is put to where the next frame is due.
-static void follow_frame(PetriSession *session) {
-    session->wall.due = session->frame.time + 1 / session->frame.fps;
-    session->wall.origin = now(CLOCK_MONOTONIC) - session->wall.due;
+    return clock_due(&session->clock);
 }
 
 void petri_hold(PetriSession *session) {
-    if (!session->options.realtime || !session->wall.running)
-        return;
-    double due = session->frame.time + 1 / session->frame.fps;
-    if (wall_time(session) > due)
-        follow_frame(session);
-    session->wall.due = due;
-}
-
-void session_rewind_wall_clock(PetriSession *session) {
-    session->wall.running = session->wall.running && session->frame.number >= 0;
-    if (session->wall.running)
-        follow_frame(session);
-}
-
-static void advance_clocks(PetriSession *session) {
-    PetriFrame *frame = &session->frame;
-    const ClockBase *base = &session->base;
-    double last_beat = frame->beat, beat_length = 60 / frame->tempo;
-    frame->number++;
-    frame->time = session->options.realtime ? wait_for_frame(session) : lockstep_time(session);
-    frame->beat = base->beat + (frame->time - base->time) / beat_length;
-    session->delta = frame->number == 0 ? 0 : frame->beat - last_beat;
+    clock_hold(&session->clock);
 }
 
 void session_set_globals(const PetriSession *session, Vm *vm) {
-    const PetriFrame *frame = &session->frame;
-    bool realtime = session->options.realtime;
+    const Clock *clock = &session->clock;
     const double values[ENGINE_NAME_COUNT] = {
-        [ENGINE_FRAME] = (double)frame->number,
-        [ENGINE_FPS] = frame->fps,
-        [ENGINE_TIME] = frame->time,
-        [ENGINE_BEAT] = frame->beat,
-        [ENGINE_DELTA] = session->delta,
-        [ENGINE_TEMPO] = frame->tempo,
-        [ENGINE_QUANTUM] = session->quantum,
-        [ENGINE_PERFORMANCE] = session->wall.performance,
-        [ENGINE_SLOW_FRAME] = session->wall.slow_frame,
-        [ENGINE_CLOCK] = realtime ? now(CLOCK_REALTIME) : 0,
-        [ENGINE_REALTIME] = realtime,
+        [ENGINE_FRAME] = (double)clock->number,
+        [ENGINE_FPS] = clock->rates.fps,
+        [ENGINE_TIME] = clock->time,
+        [ENGINE_BEAT] = clock->beat,
+        [ENGINE_DELTA] = clock->delta,
+        [ENGINE_TEMPO] = clock->rates.tempo,
+        [ENGINE_QUANTUM] = clock->rates.quantum,
+        [ENGINE_PERFORMANCE] = clock->wall.performance,
+        [ENGINE_SLOW_FRAME] = clock->wall.slow_frame,
+        [ENGINE_CLOCK] = clock->realtime ? clock_of_day() : 0,
+        [ENGINE_REALTIME] = clock->realtime,
         [ENGINE_OFFSCREEN] = 1,
     };
     for (int i = 0; i < ENGINE_NAME_COUNT; i++)
@@ -265,90 +161,75 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
-static void report_memory(PetriSession *session) {
-    Diag diag = {.level = DIAG_ERROR,
-                 .text =
-                     str_format(&session->text_arena, "the frame needs more than its %zu MiB of memory; it is given up",
-                                session->options.memory_bytes >> 20),
-                 .code = "memory-limit"};
-    session_tell(session, &diag);
-}
-
-static uint32_t export_count(const PetriSession *session) {
-    uint32_t count = session->program->program->export_count;
-    for (uint32_t i = 0; i < session->prompt_count; i++)
-        count += session->prompts[i].program->export_count;
-    return count;
+static void report_memory(PetriSession *session, PetriStatus status) {
+    char text[80] = "not enough memory for the frame; it is given up";
+    if (status == PETRI_LIMIT)
+        snprintf(text, sizeof text, "the frame needs more than its %zu MiB of memory; it is given up",
+                 session->options.memory_bytes >> 20);
+    session_tell_text(session, DIAG_ERROR, "memory-limit", str_from(text));
 }
 
 // One program, with the values so far as its parameters; its own follow them.
 static Value run_program(PetriSession *session, const Program *program) {
-    Value result = vm_run(&session->vm, program, session->values, session->values + session->value_count);
-    session->value_count += program->export_count;
+    SessionFrame *frame = &session->frame;
+    Value result = vm_run(&session->vm, program, frame->values, frame->values + frame->value_count);
+    frame->value_count += program->export_count;
     return result;
 }
 
 bool session_evaluate(PetriSession *session) {
+    SessionFrame *frame = &session->frame;
+    const PromptList *list = session->config.prompts;
     session->vm.state = session->state;
     session->vm.interrupt = &session->interrupt;
-    session->value_count = 0;
-    session->value_capacity = export_count(session);
-    session->values = arena_alloc_array(&session->frame_arena, session->value_capacity, sizeof(Value));
-    session->in_frame = true;
-    session->tree = run_program(session, session->program->program);
-    for (uint32_t i = 0; i < session->prompt_count && !session->vm.stopped; i++) {
-        const Prompt *prompt = &session->prompts[i];
-        Value more = run_program(session, prompt->program);
-        if (!prompt->adds)
+    frame->value_count = 0;
+    frame->values = arena_alloc_array(&frame->arena, list->names.count, sizeof(Value));
+    frame->working = true;
+    Value tree = run_program(session, session->config.program->program);
+    for (uint32_t i = 0; i < list->count && !session->vm.stopped; i++) {
+        Value more = run_program(session, list->statements[i].program);
+        if (!list->statements[i].adds)
             continue;
-        Vector tree = vector_new(&session->frame_arena);
-        vector_add(&tree, session->tree);
-        vector_add(&tree, more);
-        session->tree = vector_finish(&tree);
+        Vector both = vector_new(&frame->arena);
+        vector_add(&both, tree);
+        vector_add(&both, more);
+        tree = vector_finish(&both);
     }
-    session->in_frame = false;
-    session->evaluated = !session->vm.stopped;
-    return session->evaluated;
+    frame->working = false;
+    frame->tree = tree;
+    frame->evaluated = !session->vm.stopped;
+    return frame->evaluated;
 }
 
-static void evaluate(PetriSession *session) {
-    input_write(scene_input(session->scene), session->state, &session->frame_arena, session->frame.beat);
+static void evaluate(PetriSession *session, void *context) {
+    InputUndo *undo = context;
+    SessionFrame *frame = &session->frame;
+    double start = clock_monotonic();
+    input_write(scene_input(session->scene), session->state, &frame->arena, session->clock.beat, undo);
+    if (state_take_exhausted(session->state))
+        arena_exhausted(&frame->arena);
     session_evaluate(session);
+    frame->evaluation_seconds = clock_monotonic() - start;
 }
 
-static void update_systems(PetriSession *session) {
-    if (session->unseen)
+static void update_systems(PetriSession *session, void *context) {
+    (void)context;
+    SessionFrame *made = &session->frame;
+    double start = clock_monotonic();
+    if (made->unseen)
         session_look_at_top(session);
-    session->unseen = false;
+    made->unseen = false;
     SceneFrame frame = {.state = session->state,
-                        .arena = &session->scene_arena,
-                        .time = session->frame.time,
-                        .fps = session->frame.fps,
-                        .performance = session->wall.performance,
-                        .lockstep = !session->options.realtime,
-                        .generation = session->generation,
-                        .resolution = session->resolution,
+                        .arena = &made->systems_arena,
+                        .time = session->clock.time,
+                        .fps = session->clock.rates.fps,
+                        .performance = session->clock.wall.performance,
+                        .lockstep = !session->clock.realtime,
+                        .generation = session->loader.generation,
+                        .resolution = session->config.resolution,
                         .interrupt = session->options.interruptible ? &session->interrupt : NULL};
-    session->frame.physics_steps = scene_update(session->scene, session->tree, &frame);
-}
-
-// Runs one stage; false if it used up the frame's memory.
-static bool run_stage(PetriSession *session, void (*stage)(PetriSession *)) {
-    jmp_buf escape;
-    session->frame_arena.escape = session->scene_arena.escape = &escape;
-    if (setjmp(escape) != 0)
-        return false;
-    stage(session);
-    return true;
-}
-
-static bool guarded(PetriSession *session, void (*stage)(PetriSession *), double *seconds) {
-    double start = now(CLOCK_MONOTONIC);
-    bool done = run_stage(session, stage);
-    session->frame_arena.escape = session->scene_arena.escape = NULL;
-    session->in_frame = false;
-    *seconds = now(CLOCK_MONOTONIC) - start;
-    return done;
+    made->physics_steps = scene_update(session->scene, made->tree, &frame);
+    made->physics_seconds = clock_monotonic() - start;
 }
 
 void petri_interrupt(PetriSession *session) {
@@ -359,49 +240,75 @@ bool petri_interrupted(PetriSession *session) {
     return atomic_exchange(&session->interrupt, false);
 }
 
-static PetriStatus make_frame(PetriSession *session) {
-    session_clear_frame(session);
-    advance_clocks(session);
+// Evaluates the next frame. What input has done to the state is taken back if the frame does not count.
+static PetriStatus evaluate_frame(PetriSession *session) {
+    InputUndo undo = {.last = NULL};
     session_set_globals(session, &session->vm);
     session->frame.physics_steps = 0;
-    if (!guarded(session, evaluate, &session->frame.evaluation_seconds)) {
-        session_clear_frame(session);
-        session->loading = NULL;
-        report_memory(session);
-        return PETRI_LIMIT;
-    }
+    PetriStatus status = session_protect(session, NULL, evaluate, &undo);
     // A frame that was cut short would look to the systems as if everything had vanished.
-    if (session->vm.stopped)
-        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
-    if (!guarded(session, update_systems, &session->frame.physics_seconds))
-        return PETRI_MEMORY;
-    session->profiled_physics += session->frame.physics_seconds;
-    session->profiled_frames++;
-    if (!session->options.interruptible || !petri_interrupted(session))
-        return PETRI_OK;
-    return session_put_back(session, &session->undo) ? PETRI_INTERRUPTED : PETRI_MEMORY;
+    if (status == PETRI_OK && session->vm.stopped)
+        status = petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
+    else if (status != PETRI_OK)
+        report_memory(session, status);
+    bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
+    if (!counts)
+        input_unwrite(scene_input(session->scene), session->state, &undo);
+    if (status != PETRI_OK && (!counts || !session->vm.stopped))
+        session_clear_frame(session);
+    return status;
+}
+
+// Updates the systems of an evaluated frame.
+static PetriStatus update_frame(PetriSession *session) {
+    SessionFrame *frame = &session->frame;
+    PetriStatus status = session_protect(session, NULL, update_systems, NULL);
+    bool exhausted = scene_take_exhausted(session->scene);
+    if (state_take_exhausted(session->state) || exhausted || status != PETRI_OK)
+        status = PETRI_MEMORY;
+    frame->profiled_physics += frame->physics_seconds;
+    frame->profiled_frames++;
+    if (!session->options.interruptible)
+        return status;
+    if (status == PETRI_OK && petri_interrupted(session))
+        status = PETRI_INTERRUPTED;
+    if (status != PETRI_OK)
+        session_heal(session);
+    return status;
 }
 
 PetriStatus petri_step(PetriSession *session) {
-    if (!session->program)
+    if (!session->config.program)
         return PETRI_INVALID;
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
-    if (session->options.interruptible && !session_take(session, &session->undo))
+    if (session->torn && !session_heal(session))
         return PETRI_MEMORY;
-    PetriFrame frame = session->frame;
-    double delta = session->delta;
-    WallClock wall = session->wall;
-    PetriStatus status = make_frame(session);
-    if (status == PETRI_INTERRUPTED || (status == PETRI_LIMIT && session->options.interruptible)) {
-        session_clear_frame(session);
-        session->frame = frame;
-        session->delta = delta;
-        session->wall = wall;
+    if (session->options.interruptible && !checkpoint_take(&session->undo, session))
+        return PETRI_MEMORY;
+    Clock clock = session->clock;
+    session_clear_frame(session);
+    clock_advance(&session->clock);
+    PetriStatus status = evaluate_frame(session);
+    bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
+    if (status == PETRI_OK) {
+        status = update_frame(session);
+        counts = status == PETRI_OK || !session->options.interruptible;
     }
+    if (!counts)
+        session->clock = clock;
     return status;
 }
 
 PetriFrame petri_frame(const PetriSession *session) {
-    return session->frame;
+    const Clock *clock = &session->clock;
+    const SessionFrame *frame = &session->frame;
+    return (PetriFrame){.number = clock->number,
+                        .time = clock->time,
+                        .beat = clock->beat,
+                        .fps = clock->rates.fps,
+                        .tempo = clock->rates.tempo,
+                        .physics_steps = frame->physics_steps,
+                        .evaluation_seconds = frame->evaluation_seconds,
+                        .physics_seconds = frame->physics_seconds};
 }

@@ -13,26 +13,32 @@ enum { MOST_ERRORS = 50 };
 static Unit *unit_new(PetriSession *session) {
     Unit *unit = calloc(1, sizeof *unit);
     if (!unit)
-        return NULL;
+        arena_exhausted(&session->arena);
     unit->references = 1;
     arena_init(&unit->arena, "program", UNIT_BUDGET);
     arena_init(&unit->scratch, "compiler", UNIT_BUDGET);
-    unit->arena.escape = unit->scratch.escape = session->frame_arena.escape;
+    unit_arena(session, unit);
     return unit;
+}
+
+Arena *unit_arena(const PetriSession *session, Unit *unit) {
+    unit->arena.escape = unit->scratch.escape = session->arena.escape;
+    return &unit->arena;
 }
 
 void unit_free(Unit *unit) {
     if (!unit || --unit->references > 0)
         return;
+    diag_sink_free(&unit->parse_sink);
     diag_sink_free(&unit->sink);
     arena_free(&unit->scratch);
     arena_free(&unit->arena);
     free(unit);
 }
 
-static void unit_tell(PetriSession *session, Unit *unit) {
-    session_tell_all(session, &unit->sink);
-    diag_sink_free(&unit->sink);
+static void tell_and_free(PetriSession *session, DiagSink *sink) {
+    session_tell_all(session, sink);
+    diag_sink_free(sink);
 }
 
 // True if this is the first %include of the path in the unit.
@@ -47,17 +53,15 @@ static bool take_include(Unit *unit, Str path) {
 }
 
 static const Ast *parse(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
-    DiagSink outer = unit->sink; // an included file is parsed while its includer is compiled
-    unit->sink = diag_sink_new(&unit->arena, MOST_ERRORS);
-    const Ast *ast = parse_program(arena, &session->symbols, source, &unit->sink);
-    unit_tell(session, unit);
-    unit->sink = outer;
+    unit->parse_sink = diag_sink_new(unit_arena(session, unit), MOST_ERRORS);
+    const Ast *ast = parse_program(arena, &session->symbols, source, &unit->parse_sink);
+    tell_and_free(session, &unit->parse_sink);
     return ast;
 }
 
 static const Ast *host_include(void *host, Str path, const Source **source, Str *why) {
     PetriSession *session = host;
-    Unit *unit = session->loading;
+    Unit *unit = session->loader.compiling;
     const char *file = str_to_c(&unit->arena, path);
     Str canonical = file_canonical(&unit->arena, file), text;
     const char *problem;
@@ -85,28 +89,31 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
 // Memory that evaluating one expression ahead may take.
 #define STATIC_BUDGET ((size_t)1 << 29)
 
-// The escape of the unit's arena leads here: what does not fit is left for the frames.
-static bool evaluate_ahead(PetriSession *session, const Code *code, Value *value) {
-    jmp_buf escape;
-    Arena *arena = &session->loading->arena;
-    arena->escape = &escape;
-    if (setjmp(escape) != 0)
-        return false;
-    return vm_run_static(&session->static_vm, arena, code, value);
+typedef struct Ahead {
+    const Code *code;
+    Value value;
+    bool done;
+} Ahead;
+
+static void evaluate_ahead(PetriSession *session, void *context) {
+    Ahead *ahead = context;
+    ahead->done = vm_run_static(&session->static_vm, &session->loader.compiling->arena, ahead->code, &ahead->value);
 }
 
+// What does not fit is left for the frames.
 static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
-    Arena *arena = &session->loading->arena;
-    jmp_buf *escape = arena->escape;
+    Arena *arena = &session->loader.compiling->arena;
     size_t budget = arena->budget;
+    Ahead ahead = {.code = code};
     if (arena->budget - arena->used > STATIC_BUDGET)
         arena->budget = arena->used + STATIC_BUDGET;
-    bool done = evaluate_ahead(session, code, value);
-    arena->escape = escape;
+    PetriStatus status = session_protect(session, arena, evaluate_ahead, &ahead);
     arena->budget = budget;
-    if (!done)
-        *value = VALUE_NULL;
+    if (status == PETRI_MEMORY)
+        arena_exhausted(arena);
+    bool done = status == PETRI_OK && ahead.done;
+    *value = done ? ahead.value : VALUE_NULL;
     return done;
 }
 
@@ -122,25 +129,24 @@ static void sort_by_place(DiagSink *sink) {
     }
 }
 
-const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, uint32_t param_count) {
-    unit->sink = diag_sink_new(&unit->arena, MOST_ERRORS);
+const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params) {
+    unit->sink = diag_sink_new(unit_arena(session, unit), MOST_ERRORS);
     CompileOptions options = {.module = module,
-                              .lint = session->lint,
+                              .lint = session->loader.lint,
                               .simplify = session->options.simplify,
                               .lines = session->options.profile,
-                              .defines = session->defines,
-                              .define_count = session->define_count,
-                              .params = session->names,
-                              .param_count = param_count,
+                              .defines = session->config.defines,
+                              .define_count = session->config.define_count,
+                              .params = params.items,
+                              .param_count = params.count,
                               .host = {session, host_include, host_evaluate}};
-    Unit *outer = session->loading;
-    session->loading = unit;
-    unit->scratch.escape = unit->arena.escape;
+    Unit *outer = session->loader.compiling;
+    session->loader.compiling = unit;
     const Program *program =
         program_compile(&unit->arena, &unit->scratch, &session->symbols, unit->source, ast, &options, &unit->sink);
-    session->loading = outer;
+    session->loader.compiling = outer;
     sort_by_place(&unit->sink);
-    unit_tell(session, unit);
+    tell_and_free(session, &unit->sink);
     return program;
 }
 
@@ -149,7 +155,7 @@ static void load_text(PetriSession *session, Unit *unit, Str name, Str text, boo
     const Ast *ast = parse(session, unit, &unit->scratch, unit->source);
     unit->empty = ast && ast->count == 0;
     if (ast)
-        unit->program = unit_compile(session, unit, ast, module, 0);
+        unit->program = unit_compile(session, unit, ast, module, (Names){0});
     else
         unit->why = STR("it does not parse");
     arena_free(&unit->scratch);
@@ -158,34 +164,29 @@ static void load_text(PetriSession *session, Unit *unit, Str name, Str text, boo
 }
 
 Unit *unit_parse(PetriSession *session, Str name, Str text) {
-    Unit *unit = session->fresh = unit_new(session);
-    if (unit) {
-        unit->path = name;
-        unit->source = source_new(&unit->arena, name, name, text);
-        unit->ast = parse(session, unit, &unit->arena, unit->source);
-    }
+    Unit *unit = session->loader.begun = unit_new(session);
+    unit->path = name;
+    unit->source = source_new(&unit->arena, name, name, text);
+    unit->ast = parse(session, unit, &unit->arena, unit->source);
     return unit;
 }
 
 Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version) {
-    Unit *unit = session->fresh = unit_new(session);
-    if (unit) {
-        unit->path = str_copy(&unit->arena, path);
-        unit->version = str_copy(&unit->arena, version);
-        load_text(session, unit, name, text, false);
-    }
+    Unit *unit = session->loader.begun = unit_new(session);
+    unit->path = str_copy(&unit->arena, path);
+    unit->version = str_copy(&unit->arena, version);
+    load_text(session, unit, name, text, false);
     return unit;
 }
 
 Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
     Unit *unit = unit_new(session);
-    if (!unit)
-        return NULL;
-    if (module) { // on the list at once: an escape while loading must not lose it
-        unit->next = session->modules;
-        session->modules = unit;
+    if (module) { // on the list at once, so that an escape while loading does not lose it
+        unit->next = session->loader.modules;
+        session->loader.modules = unit;
+        unit->retired = true; // until it is whole
     } else {
-        session->fresh = unit;
+        session->loader.begun = unit;
     }
     Str text;
     const char *problem;
@@ -194,12 +195,13 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
         load_text(session, unit, str_from(file), text, module);
     else
         unit->why = str_copy(&unit->arena, str_from(problem));
+    unit->retired = false;
     return unit;
 }
 
 // The cached module at a canonical path, if its file has not changed since.
 static Unit *cached_module(PetriSession *session, Str path, Str version) {
-    for (Unit *unit = session->modules; unit; unit = unit->next) {
+    for (Unit *unit = session->loader.modules; unit; unit = unit->next) {
         if (unit->retired || !str_equal(unit->path, path))
             continue;
         if (str_equal(unit->version, version))
@@ -211,44 +213,40 @@ static Unit *cached_module(PetriSession *session, Str path, Str version) {
 }
 
 Unit *session_put(PetriSession *session, Unit *unit) {
-    session->generation++;
+    session->loader.generation++;
     return unit;
 }
 
 const Program *session_module(void *host, Str path, Str *why) {
     PetriSession *session = host;
-    const char *file = str_to_c(&session->frame_arena, path);
+    const char *file = str_to_c(&session->frame.arena, path);
     Str version;
-    if (!file_version(&session->frame_arena, file, &version)) {
+    if (!file_version(&session->frame.arena, file, &version)) {
         *why = STR("there is no such file");
         return NULL;
     }
-    Unit *unit = cached_module(session, file_canonical(&session->frame_arena, file), version);
+    Unit *unit = cached_module(session, file_canonical(&session->frame.arena, file), version);
     if (!unit)
         unit = session_put(session, unit_load_file(session, file, true));
-    if (!unit) {
-        *why = STR("out of memory");
-        return NULL;
-    }
     *why = unit->why;
     return unit->program;
 }
 
 const char *petri_source(PetriSession *session, size_t number) {
-    for (Unit *unit = session->program; unit; unit = unit == session->program ? session->modules : unit->next) {
+    for (Unit *unit = session->config.program; unit;
+         unit = unit == session->config.program ? session->loader.modules : unit->next) {
         if (unit->retired || !unit->version.len) // a text, or a file that could not be read
             continue;
         if (number <= unit->included_count)
-            return str_to_c(&session->text_arena, number == 0 ? unit->path : unit->included[number - 1]);
+            return (number == 0 ? unit->path : unit->included[number - 1]).bytes;
         number -= unit->included_count + 1;
     }
     return NULL;
 }
 
 void session_free_retired(PetriSession *session) {
-    for (Unit **link = &session->modules; *link;) {
+    for (Unit **link = &session->loader.modules; *link;) {
         Unit *unit = *link;
-        unit->arena.escape = NULL;
         if (!unit->retired) {
             link = &unit->next;
             continue;

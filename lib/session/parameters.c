@@ -32,15 +32,10 @@ static void collect_modules(PetriSession *session, const Program *program, Modul
     }
 }
 
-// Modules that do not fit into memory are left out.
+// Within a protected call.
 static void find_modules(PetriSession *session, const Program *program, ModuleList *list) {
-    jmp_buf escape, *outer = session->frame_arena.escape;
     list->count = 0;
-    session->frame_arena.escape = &escape;
-    if (setjmp(escape) == 0)
-        collect_modules(session, program, list);
-    session->frame_arena.escape = outer;
-    session->loading = NULL;
+    collect_modules(session, program, list);
 }
 
 static const Parameter *find_in_modules(const ModuleList *list, const Symbol *name) {
@@ -237,8 +232,8 @@ static void check_unread(const Check *check) {
 
 // Of several definitions of a name the last counts.
 static bool is_last(const PetriSession *session, uint32_t number) {
-    for (uint32_t i = number + 1; i < session->define_count; i++)
-        if (session->defines[i].name == session->defines[number].name)
+    for (uint32_t i = number + 1; i < session->config.define_count; i++)
+        if (session->config.defines[i].name == session->config.defines[number].name)
             return false;
     return true;
 }
@@ -247,30 +242,31 @@ static bool check_one(const Check *check) {
     const Parameter *parameter = program_find_parameter(check->unit->program, check->define->name);
     if (parameter)
         return check_parameter(check, parameter);
-    if (!check->use->read && !check->session->lint) // a check has definitions for some of many scripts
+    if (!check->use->read && !check->session->loader.lint) // a check has definitions for some of many scripts
         check_unread(check);
     return true;
 }
 
 bool session_check_definitions(PetriSession *session, Unit *unit) {
-    bool good = true, outer = session->tell_again;
+    bool good = true, outer = diagnostics_repeat(&session->diagnostics, true);
     // What is set by hand is told each time, what was told at the load is not.
     uint32_t first = session->again ? session->told_defines : 0;
-    session->tell_again = outer || session->again;
-    for (uint32_t i = first; i < session->define_count && !unit->empty; i++)
+    diagnostics_repeat(&session->diagnostics, outer || session->again);
+    for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
         if (is_last(session, i))
-            good = check_one(&(Check){session, unit, &session->defines[i], &unit->program->define_uses[i]}) && good;
-    session->tell_again = outer;
+            good =
+                check_one(&(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) && good;
+    diagnostics_repeat(&session->diagnostics, outer);
     if (good)
-        session->told_defines = session->define_count;
+        session->told_defines = session->config.define_count;
     return good;
 }
 
 // The definition of a name that counts, or NULL.
 static const Define *find_define(const PetriSession *session, const Symbol *name) {
-    for (uint32_t i = session->define_count; i > 0; i--)
-        if (session->defines[i - 1].name == name)
-            return &session->defines[i - 1];
+    for (uint32_t i = session->config.define_count; i > 0; i--)
+        if (session->config.defines[i - 1].name == name)
+            return &session->config.defines[i - 1];
     return NULL;
 }
 
@@ -315,57 +311,82 @@ static void describe(PetriSession *session, const Parameter *parameter, bool set
     };
 }
 
-bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
-    if (!session->program)
-        return false;
-    const Program *program = session->program->program;
+typedef struct Request {
+    size_t number;
+    PetriParameter *out;
+    bool found;
+} Request;
+
+static void find_parameter(PetriSession *session, void *context) {
+    Request *request = context;
+    const Program *program = session->config.program->program;
+    size_t number = request->number;
+    ModuleList modules;
     arena_reset(&session->text_arena);
     if (number < program->parameter_count) {
-        describe(session, &program->parameters[number], true, parameter);
-        return true;
+        describe(session, &program->parameters[number], true, request->out);
+        request->found = true;
+        return;
     }
     number -= program->parameter_count;
-    ModuleList modules;
     find_modules(session, program, &modules);
     for (uint32_t i = 0; i < modules.count; i++) {
         const Program *module = modules.items[i];
         if (number < module->parameter_count) {
-            describe(session, &module->parameters[number], false, parameter);
-            return true;
+            describe(session, &module->parameters[number], false, request->out);
+            request->found = true;
+            return;
         }
         number -= module->parameter_count;
     }
-    return false;
 }
 
-// All definitions but those of a name.
-static void leave_out(PetriSession *session, const Symbol *name) {
-    Define *defines = arena_alloc_array(&session->arena, session->define_count + 1, sizeof *defines);
+bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
+    Request request = {number, parameter, false};
+    return session->config.program && session_protect(session, NULL, find_parameter, &request) == PETRI_OK &&
+           request.found;
+}
+
+typedef struct Setting {
+    const char *name;
+    const char *value; // NULL: the default
+    PetriStatus status;
+} Setting;
+
+// Replaces the definitions of a name.
+static void redefine(PetriSession *session, void *context) {
+    Setting *setting = context;
+    Config *config = &session->config;
+    const Symbol *symbol = symbol_intern(&session->symbols, str_from(setting->name));
+    if (!config->program || !program_find_parameter(config->program->program, symbol)) {
+        setting->status = PETRI_INVALID;
+        return;
+    }
+    Define *defines = arena_alloc_array(&session->arena, config->define_count + 1, sizeof *defines);
     uint32_t count = 0;
-    for (uint32_t i = 0; i < session->define_count; i++)
-        if (session->defines[i].name != name)
-            defines[count++] = session->defines[i];
-    session->defines = defines;
-    session->define_count = count;
+    for (uint32_t i = 0; i < config->define_count; i++)
+        if (config->defines[i].name != symbol)
+            defines[count++] = config->defines[i];
+    config->defines = defines;
+    config->define_count = session->told_defines = count;
+    if (setting->value)
+        setting->status = session_define(session, symbol->name, str_from(setting->value));
 }
 
 PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
-    const Symbol *symbol = symbol_intern(&session->symbols, str_from(name));
-    if (!session->program || !program_find_parameter(session->program->program, symbol))
-        return PETRI_INVALID;
-    const Define *before = session->defines;
-    uint32_t count = session->define_count;
-    leave_out(session, symbol);
-    session->told_defines = session->define_count;
-    PetriStatus status = PETRI_OK;
-    if (value)
-        status = session_define(session, symbol->name, str_from(value));
+    Setting setting = {name, value, PETRI_OK};
+    const Define *defines = session->config.defines;
+    uint32_t count = session->config.define_count, told = session->told_defines;
+    uint64_t number = session->config_number;
+    PetriStatus status = session_protect(session, NULL, redefine, &setting);
     if (status == PETRI_OK)
-        status = petri_reload(session, NULL);
+        status = setting.status == PETRI_OK ? petri_reload(session, NULL) : setting.status;
     if (status != PETRI_OK) {
-        session->defines = before;
-        session->define_count = session->told_defines = count;
+        session->config.defines = defines;
+        session->config.define_count = count;
+        session->told_defines = told;
         session_change_config(session, true);
+        session->config_number = number;
     }
     return status;
 }

@@ -44,16 +44,16 @@ static void add_number(Text *out, double x) {
     text_add(out, (Str){digits, number_format(x, digits)});
 }
 
-static void print_header(Output *out, const PetriFrame *frame) {
-    text_add_format(&out->text, "@%lld time=", (long long)frame->number);
-    add_number(&out->text, frame->time);
+static void print_header(Output *out, const Clock *clock) {
+    text_add_format(&out->text, "@%lld time=", (long long)clock->number);
+    add_number(&out->text, clock->time);
     text_add_c(&out->text, " beat=");
-    add_number(&out->text, frame->beat);
+    add_number(&out->text, clock->beat);
     output_line_end(out);
 }
 
 static void print_tree(Output *out, PetriSession *session) {
-    Value tree = session->tree;
+    Value tree = session->frame.tree;
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len && !out->stopped; i++)
         if (tree.as.items[i].type == ITEM_NODE) {
             format_tree(&out->text, &session->symbols, tree.as.items[i].as.node, 0);
@@ -109,38 +109,66 @@ static void print_lines(Output *out, const DiagSink *sink, const char *mark, boo
     }
 }
 
-PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host) {
-    Output out = output_new(session, write, host);
-    print_header(&out, &session->frame);
+// One of the texts of a session on its way.
+typedef struct Printing {
+    void (*print)(Output *out, PetriSession *session, unsigned what);
+    unsigned what;
+    PetriWrite *write;
+    void *host;
+    PetriStatus status;
+} Printing;
+
+static void print(PetriSession *session, void *context) {
+    Printing *printing = context;
+    Output out = output_new(session, printing->write, printing->host);
+    printing->print(&out, session, printing->what);
+    printing->status = output_finish(&out);
+}
+
+static PetriStatus print_protected(PetriSession *session, Printing printing) {
+    PetriStatus status = session_protect(session, NULL, print, &printing);
+    return status == PETRI_OK ? printing.status : status;
+}
+
+static void print_log(Output *out, PetriSession *session, unsigned sections) {
+    (void)sections;
+    print_lines(out, &session->frame.log, "> ", false);
+}
+
+static void print_frame(Output *out, PetriSession *session, unsigned sections) {
+    print_header(out, &session->clock);
     if (sections & PETRI_PRINT_TREE)
-        print_tree(&out, session);
+        print_tree(out, session);
     if (sections & PETRI_PRINT_STATE)
-        print_state(&out, session);
+        print_state(out, session);
     if (sections & PETRI_PRINT_LOG)
-        print_lines(&out, &session->log, "> ", false);
+        print_log(out, session, sections);
     if (sections & PETRI_PRINT_ERROR)
-        print_lines(&out, &session->errors, "? ", true);
-    return output_finish(&out);
+        print_lines(out, &session->frame.errors, "? ", true);
+}
+
+PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host) {
+    return print_protected(session, (Printing){print_frame, sections, write, host, PETRI_OK});
 }
 
 PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host) {
-    Output out = output_new(session, write, host);
-    print_lines(&out, &session->log, "> ", false);
-    return output_finish(&out);
+    return print_protected(session, (Printing){print_log, 0, write, host, PETRI_OK});
+}
+
+static void print_code(Output *out, PetriSession *session, unsigned what) {
+    const Unit *unit = session->config.program;
+    if (what == PETRI_DUMP_CODE) {
+        program_print(&out->text, &session->symbols, unit->program);
+    } else { // the tree was dropped when the program was compiled
+        DiagSink nowhere = diag_sink_new(out->text.arena, 0);
+        const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &nowhere);
+        ast_print(&out->text, &session->symbols, unit->source, ast);
+        diag_sink_free(&nowhere);
+    }
 }
 
 PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host) {
-    if (!session->program)
+    if (!session->config.program)
         return PETRI_INVALID;
-    Output out = output_new(session, write, host);
-    const Unit *unit = session->program;
-    if (what == PETRI_DUMP_CODE) {
-        program_print(&out.text, &session->symbols, unit->program);
-    } else { // the tree was dropped when the program was compiled
-        DiagSink nowhere = diag_sink_new(out.text.arena, 0);
-        const Ast *ast = parse_program(out.text.arena, &session->symbols, unit->source, &nowhere);
-        ast_print(&out.text, &session->symbols, unit->source, ast);
-        diag_sink_free(&nowhere);
-    }
-    return output_finish(&out);
+    return print_protected(session, (Printing){print_code, what, write, host, PETRI_OK});
 }

@@ -54,23 +54,38 @@ static void add_row(Text *out, const Row *row, double total, double frames) {
                     row->source->name.bytes, row->line, (int)text.len, text.bytes);
 }
 
-PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host) {
+typedef struct Request {
+    double output_seconds;
+    PetriWrite *write;
+    void *host;
+    bool stopped;
+} Request;
+
+static void print(PetriSession *session, void *context) {
+    Request *request = context;
     const Profile *profile = session->vm.profile;
-    if (!profile)
-        return PETRI_INVALID;
+    const SessionFrame *frame = &session->frame;
     arena_reset(&session->text_arena);
     Text out = text_new(&session->text_arena);
     Row *rows = arena_alloc_array(&session->text_arena, line_count(profile) + 2, sizeof *rows);
     uint32_t count = add_lines(rows, profile);
-    rows[count++] = (Row){.seconds = session->profiled_physics, .what = "physics"};
-    rows[count++] = (Row){.seconds = output_seconds, .what = "output"};
+    rows[count++] = (Row){.seconds = frame->profiled_physics, .what = "physics"};
+    rows[count++] = (Row){.seconds = request->output_seconds, .what = "output"};
     qsort(rows, count, sizeof *rows, compare_rows);
-    double total = 0, frames = session->profiled_frames ? (double)session->profiled_frames : 1;
+    double total = 0, frames = frame->profiled_frames ? (double)frame->profiled_frames : 1;
     for (uint32_t i = 0; i < count; i++)
         total += rows[i].seconds;
     text_add_format(&out, "   share   ms/frame   times/frame of %.4f ms a frame in %.0f frames\n", 1e3 * total / frames,
-                    (double)session->profiled_frames);
+                    (double)frame->profiled_frames);
     for (uint32_t i = 0; i < count; i++)
         add_row(&out, &rows[i], total, frames);
-    return write(host, out.bytes, out.len) ? PETRI_OK : PETRI_INVALID;
+    request->stopped = !request->write(request->host, out.bytes, out.len);
+}
+
+PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host) {
+    Request request = {output_seconds, write, host, false};
+    if (!session->vm.profile)
+        return PETRI_INVALID;
+    PetriStatus status = session_protect(session, NULL, print, &request);
+    return status == PETRI_OK && request.stopped ? PETRI_INVALID : status;
 }

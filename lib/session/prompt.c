@@ -1,8 +1,8 @@
-// prompt.c: text typed by a person: what it means in the present frame, and what of it is kept (petri.h).
+// prompt.c: text typed by a person: what it means in the present frame, and which of it stays (petri.h).
 //
-// Each statement is a program of its own whose parameters are the names in sight: the exports of the script and of the
-// statements kept before it. Their values are those of the last evaluation (session_evaluate); what a kept statement
-// binds is added to them. Expressions are evaluated in an arena of their own and leave nothing behind.
+// Each statement is a program of its own whose parameters are the names in sight (prompt.h). Their values are those of
+// the last evaluation (session_evaluate); what a statement that stays binds is added to them. Expressions are evaluated
+// in an arena of their own and leave nothing behind.
 #include "session/session.h"
 
 #include "syntax/parse.h"
@@ -11,9 +11,16 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <time.h>
 
 enum { MOST_LINES = 10000, PIECE = 64 << 10 };
+
+// Text on its way to the host.
+typedef struct Writing {
+    PetriWrite *write;
+    void *host;
+    Text text;
+    bool stopped;
+} Writing;
 
 // One statement at work. What is known after an escape is here, not in locals.
 typedef struct Job {
@@ -27,181 +34,170 @@ typedef struct Job {
     double seconds;
     bool stopped;
     DiagSink log; // what debug() said
-    struct Writing *out;
-    bool shown;           // the value is written, too
+    Writing out;
+    bool binds;
+    bool adds;
+    // If it stays: what the frame and the prompt have then
+    PromptList *list;
+    Value *values;
+    Value tree;
     const Symbol *hidden; // bound by the script as well
 } Job;
 
-// Text on its way to the host.
-typedef struct Writing {
-    PetriWrite *write;
-    void *host;
-    Text text;
-    bool stopped;
-} Writing;
-
-static bool guarded(PetriSession *session, void (*stage)(PetriSession *, Job *), Job *job) {
-    jmp_buf escape;
-    session->frame_arena.escape = session->prompt_arena.escape = &escape;
-    if (job->unit)
-        job->unit->arena.escape = &escape;
-    bool escaped = setjmp(escape) != 0;
-    if (!escaped)
-        stage(session, job);
-    session->frame_arena.escape = session->prompt_arena.escape = NULL;
-    if (job->unit)
-        job->unit->arena.escape = NULL;
-    session->vm.arena = session->vm.builtins.arena = &session->frame_arena;
-    session->loading = NULL;
-    session->in_frame = false;
-    return !escaped;
+static PetriStatus tell_memory(PetriSession *session, PetriStatus status) {
+    if (status != PETRI_OK)
+        session_tell_text(session, DIAG_ERROR, "memory-limit", STR("not enough memory; given up"));
+    return status;
 }
 
-static PetriStatus memory_status(PetriSession *session) {
-    session_tell_text(session, DIAG_ERROR, "memory-limit", STR("not enough memory; given up"));
-    return PETRI_LIMIT;
+// --- lists
+
+static const Symbol **name_items(const PromptList *list, uint32_t count) {
+    return (const Symbol **)(void *)(list->statements + count);
 }
 
-static bool add_name(PetriSession *session, const Symbol *name) {
-    if (session->name_count == session->name_capacity) {
-        uint32_t capacity = session->name_capacity ? session->name_capacity * 2 : 64;
-        const Symbol **larger = realloc(session->names, capacity * sizeof *larger);
-        if (!larger)
-            return false;
-        session->names = larger;
-        session->name_capacity = capacity;
-    }
-    session->names[session->name_count++] = name;
-    return true;
+// The list before (NULL: none) with room for so many statements and the names of the program after its own.
+static PromptList *make_list(const PromptList *before, uint32_t count, const Program *program) {
+    uint32_t old = before ? before->names.count : 0, more = program ? program->export_count : 0;
+    PromptList *list = malloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
+    if (!list)
+        return NULL;
+    const Symbol **names = name_items(list, count);
+    for (uint32_t i = 0; i < old; i++)
+        names[i] = before->names.items[i];
+    for (uint32_t i = 0; i < more; i++)
+        names[old + i] = program->exports[i].name;
+    list->references = 1;
+    list->count = count;
+    list->names = (Names){names, old + more};
+    return list;
 }
 
-static void add_names(PetriSession *session, const Program *program) {
-    for (uint32_t i = 0; i < program->export_count; i++)
-        if (!add_name(session, program->exports[i].name))
-            return;
+PromptList *prompt_list_new(const Program *script) {
+    return make_list(NULL, 0, script);
 }
 
-void session_collect_names(PetriSession *session) {
-    session->name_count = 0;
-    if (session->program)
-        add_names(session, session->program->program);
-    for (uint32_t i = 0; i < session->prompt_count; i++)
-        add_names(session, session->prompts[i].program);
+PromptList *prompt_list_add(const PromptList *before, const PromptStatement *statement) {
+    PromptList *list = make_list(before, before->count + 1, statement->program);
+    if (!list)
+        return NULL;
+    for (uint32_t i = 0; i < before->count; i++)
+        list->statements[i] = before->statements[i];
+    list->statements[before->count] = *statement;
+    for (uint32_t i = 0; i < list->count; i++)
+        list->statements[i].unit->references++;
+    return list;
 }
 
-static void compile(PetriSession *session, Job *job) {
-    job->program = unit_compile(session, job->unit, job->ast, false, session->name_count);
-    arena_free(&job->unit->scratch);
+void prompt_list_free(PromptList *list) {
+    if (!list || --list->references > 0)
+        return;
+    for (uint32_t i = 0; i < list->count; i++)
+        unit_free(list->statements[i].unit);
+    free(list);
 }
 
-// A statement that does not fit in memory any more is dropped.
-void session_compile_prompts(PetriSession *session) {
-    uint32_t count = session->prompt_count, kept = 0;
-    session->prompt_count = 0;
-    session_collect_names(session);
-    session_set_globals(session, &session->static_vm);
-    for (uint32_t i = 0; i < count; i++) {
-        Prompt prompt = session->prompts[i];
-        Job job = {.unit = prompt.unit, .ast = prompt.ast};
-        if (!guarded(session, compile, &job)) {
-            unit_free(prompt.unit);
+void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
+                         PromptList **made) {
+    *made = prompt_list_new(script);
+    for (uint32_t i = 0; *made && i < list->count; i++) {
+        PromptStatement statement = list->statements[i];
+        if (choice == PROMPT_NONE || (choice == PROMPT_BINDINGS && statement.adds))
             continue;
-        }
-        prompt.program = job.program;
-        session->prompts[kept++] = prompt;
-        add_names(session, prompt.program);
+        statement.program = unit_compile(session, statement.unit, statement.ast, false, (*made)->names);
+        arena_free(&statement.unit->scratch);
+        PromptList *shorter = *made;
+        *made = prompt_list_add(shorter, &statement);
+        prompt_list_free(shorter);
     }
-    session->prompt_count = kept;
+    if (!*made)
+        arena_exhausted(&session->arena);
 }
 
-void session_free_prompts(PetriSession *session) {
-    for (uint32_t i = 0; i < session->prompt_count; i++)
-        unit_free(session->prompts[i].unit);
-    free(session->prompts);
-    session->prompts = NULL;
-    session->prompt_count = 0;
-}
+// --- one text
 
-static void probe(PetriSession *session, Job *job) {
-    Arena *arena = &session->prompt_arena;
+static void probe(PetriSession *session, void *context) {
+    Job *job = context;
+    Arena *arena = &session->prompt.arena;
     const Source *source = source_new(arena, STR("prompt"), STR("prompt"), job->text);
     job->value = value_number(parse_need(arena, &session->symbols, source));
 }
 
 PetriInput petri_input(PetriSession *session, const char *text, size_t length) {
     Job job = {.text = {text, length == PETRI_Z ? strlen(text) : length}};
-    arena_reset(&session->prompt_arena);
-    bool done = guarded(session, probe, &job);
-    arena_reset(&session->prompt_arena);
-    return done ? (PetriInput)job.value.as.number : PETRI_INPUT_WHOLE;
+    arena_reset(&session->prompt.arena);
+    PetriStatus status = session_protect(session, NULL, probe, &job);
+    arena_reset(&session->prompt.arena);
+    return status == PETRI_OK ? (PetriInput)job.value.as.number : PETRI_INPUT_WHOLE;
 }
 
-static void evaluate_script(PetriSession *session, Job *job) {
+static void preview(PetriSession *session, void *context) {
+    Job *job = context;
     job->stopped = !session_evaluate(session);
 }
 
 PetriStatus petri_preview(PetriSession *session) {
-    if (session->evaluated)
+    if (session->frame.evaluated)
         return PETRI_OK;
-    if (!session->program)
+    if (!session->config.program)
         return PETRI_INVALID;
-    Job job = {0};
-    PetriFrame frame = session->frame;
-    if (frame.number < 0)
-        session->frame.number = 0;
+    Job job = {.stopped = false};
+    int64_t number = session->clock.number;
+    if (number < 0)
+        session->clock.number = 0;
     session_set_globals(session, &session->vm);
-    session->frame = frame;
-    if (!guarded(session, evaluate_script, &job))
-        return memory_status(session);
-    if (!job.stopped)
-        return PETRI_OK;
-    return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
-}
-
-static double seconds_now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
-static void run(PetriSession *session, Job *job) {
-    session->vm.state = session->state;
-    session->vm.interrupt = &session->interrupt;
-    session->vm.arena = session->vm.builtins.arena = job->arena;
-    uint32_t count = job->program->export_count;
-    job->exports = arena_alloc_array(job->arena, count, sizeof *job->exports);
-    double start = seconds_now();
-    job->value = vm_run(&session->vm, job->program, session->values, job->exports);
-    job->seconds = seconds_now() - start;
-    job->stopped = session->vm.stopped;
+    session->clock.number = number;
+    PetriStatus status = session_protect(session, NULL, preview, &job);
+    if (status == PETRI_OK && job.stopped)
+        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
+    return tell_memory(session, status);
 }
 
 // Compiles and runs a statement in the names in sight.
-static PetriStatus take_statement(PetriSession *session, Job *job) {
+static void run(PetriSession *session, void *context) {
+    Job *job = context;
     session_set_globals(session, &session->static_vm);
-    if (!guarded(session, compile, job) || !guarded(session, run, job))
-        return memory_status(session);
-    if (job->stopped)
-        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
-    return PETRI_OK;
+    job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
+    arena_free(&job->unit->scratch);
+    session->vm.state = session->state;
+    session->vm.interrupt = &session->interrupt;
+    session->vm.arena = session->vm.builtins.arena = job->arena;
+    job->exports = arena_alloc_array(job->arena, job->program->export_count, sizeof *job->exports);
+    double start = clock_monotonic();
+    job->value = vm_run(&session->vm, job->program, session->frame.values, job->exports);
+    job->seconds = clock_monotonic() - start;
+    job->stopped = session->vm.stopped;
+    session->vm.arena = session->vm.builtins.arena = &session->frame.arena;
 }
 
-static void parse(PetriSession *session, Job *job) {
+// `most` lines of debug() are taken out of the frame's.
+static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t most) {
+    DiagSink log = session->frame.log;
+    session->frame.log = diag_sink_new(&session->prompt.arena, most);
+    PetriStatus status = session_protect(session, NULL, run, job);
+    job->log = session->frame.log;
+    session->frame.log = log;
+    if (status == PETRI_OK && job->stopped)
+        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
+    return tell_memory(session, status);
+}
+
+static void parse(PetriSession *session, void *context) {
+    Job *job = context;
     job->unit = unit_parse(session, STR("prompt"), job->text);
 }
 
 // Parses the text into a unit; the names in sight have values from then on.
 static PetriStatus begin(PetriSession *session, const char *text, size_t length, Job *job) {
-    *job = (Job){.text = {text, length == PETRI_Z ? strlen(text) : length}};
+    job->text = (Str){text, length == PETRI_Z ? strlen(text) : length};
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
-    session->fresh = NULL;
-    if (!guarded(session, parse, job) || !job->unit) {
-        unit_free(session->fresh);
-        job->unit = NULL;
-        return memory_status(session);
+    session->loader.begun = NULL;
+    PetriStatus status = session_protect(session, NULL, parse, job);
+    if (status != PETRI_OK) {
+        unit_free(session->loader.begun);
+        return tell_memory(session, status);
     }
-    job->unit->arena.escape = NULL;
     return job->unit->ast ? petri_preview(session) : PETRI_INVALID;
 }
 
@@ -231,17 +227,16 @@ static void write_value(PetriSession *session, Writing *out, Value v) {
     flush(out);
 }
 
-// What a statement has said and what it is worth.
-static void write_all(PetriSession *session, Job *job) {
-    Writing *out = job->out;
-    out->text = text_new(&session->prompt_arena);
+// What a statement has said.
+static void write_log(PetriSession *session, void *context) {
+    Job *job = context;
+    Writing *out = &job->out;
+    out->text = text_new(&session->prompt.arena);
     for (uint32_t i = 0; i < job->log.count; i++) {
         text_add_c(&out->text, "> ");
         text_add(&out->text, job->log.items[i].text);
         text_add_char(&out->text, '\n');
     }
-    if (job->shown)
-        write_value(session, out, job->value);
     flush(out);
 }
 
@@ -276,68 +271,83 @@ static bool makes_nodes(const Ast *ast) {
     }
 }
 
-// Keeps a statement that has been run, and puts what it binds in sight.
-static bool keep(PetriSession *session, const Job *job, bool adds) {
-    Prompt *prompts = realloc(session->prompts, (session->prompt_count + 1) * sizeof *prompts);
-    if (!prompts)
-        return false;
-    session->prompts = prompts;
-    prompts[session->prompt_count++] = (Prompt){session_put(session, job->unit), job->ast, job->program, adds};
-    job->unit->references++;
-    add_names(session, job->program);
-    session_change_config(session, true);
-    return true;
+static const char *statement_text(PetriSession *session, const Job *job) {
+    Str text = job->unit->source->text;
+    Span span = job->ast->span;
+    return str_copy(unit_arena(session, job->unit), str_trim((Str){text.bytes + span.start, span.end - span.start}))
+        .bytes;
 }
 
-// Makes what a kept statement has given part of the present frame.
-static void show_in_frame(PetriSession *session, Job *job) {
-    Arena *arena = &session->frame_arena;
-    uint32_t count = job->program->export_count, before = session->value_count;
-    Value *values = arena_alloc_array(arena, before + count, sizeof *values);
+// Makes what the prompt and the frame have if the statement stays.
+static void prepare(PetriSession *session, Job *job) {
+    const SessionFrame *frame = &session->frame;
+    uint32_t count = job->program->export_count, before = frame->value_count;
+    PromptStatement statement = {job->unit, statement_text(session, job), job->ast, job->program, job->adds};
+    job->tree = frame->tree;
+    job->values = arena_alloc_array(job->arena, before + count, sizeof *job->values);
     if (before)
-        memcpy(values, session->values, before * sizeof *values);
+        memcpy(job->values, frame->values, before * sizeof *job->values);
     if (count)
-        memcpy(values + before, job->exports, count * sizeof *values);
-    session->values = values;
-    session->value_count = before + count;
+        memcpy(job->values + before, job->exports, count * sizeof *job->values);
     if (makes_nodes(job->ast)) {
-        Vector tree = vector_new(arena);
-        vector_add(&tree, session->tree);
+        Vector tree = vector_new(job->arena);
+        vector_add(&tree, frame->tree);
         vector_add(&tree, job->value);
-        session->tree = vector_finish(&tree);
+        job->tree = vector_finish(&tree);
     }
+    job->list = prompt_list_add(session->config.prompts, &statement);
+    if (!job->list)
+        arena_exhausted(job->arena);
+}
+
+static void finish(PetriSession *session, void *context) {
+    Job *job = context;
+    if (job->binds || job->adds)
+        prepare(session, job);
+    write_log(session, job);
+    if (!job->binds)
+        write_value(session, &job->out, job->value);
+}
+
+static void keep(PetriSession *session, Job *job) {
+    session_put(session, job->unit);
+    session_set_prompts(session, job->list);
+    session_change_config(session, true);
+    session->frame.values = job->values;
+    session->frame.value_count += job->program->export_count;
+    session->frame.tree = job->tree;
 }
 
 static void note_hidden(const PetriSession *session, Job *job) {
-    const Program *script = session->program->program;
+    const Program *script = session->config.program->program;
     for (uint32_t i = 0; i < job->program->export_count; i++)
         if (program_find_export(script, job->program->exports[i].name))
             job->hidden = job->program->exports[i].name;
 }
 
-static PetriStatus prompt_statement(PetriSession *session, Job *job, Writing *out, PetriPrompted *done) {
-    bool is_binding = binds(job->ast->children[0]), adds = !is_binding && makes_nodes(job->ast->children[0]);
-    bool is_kept = is_binding || adds;
-    arena_reset(&session->prompt_arena);
-    job->arena = is_kept ? &session->frame_arena : &session->prompt_arena;
-    DiagSink log = session->log;
-    session->log = diag_sink_new(&session->prompt_arena, MOST_LINES);
-    PetriStatus status = take_statement(session, job);
-    job->log = session->log;
-    session->log = log;
-    job->out = out;
-    job->shown = status == PETRI_OK && !is_binding;
-    if (!guarded(session, write_all, job) && status == PETRI_OK)
-        status = memory_status(session);
+static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPrompted *done) {
+    job->binds = binds(job->ast->children[0]);
+    job->adds = !job->binds && makes_nodes(job->ast->children[0]);
+    bool stays = job->binds || job->adds;
+    arena_reset(&session->prompt.arena);
+    job->arena = stays ? &session->frame.arena : &session->prompt.arena;
+    job->list = NULL;
+    PetriStatus status = run_statement(session, job, MOST_LINES);
+    if (status == PETRI_OK)
+        status = tell_memory(session, session_protect(session, NULL, finish, job));
+    else if (status != PETRI_MEMORY)
+        session_protect(session, NULL, write_log, job);
     diag_sink_free(&job->log);
-    if (status != PETRI_OK)
+    if (status != PETRI_OK) {
+        prompt_list_free(job->list);
         return status;
-    if (is_kept && (!keep(session, job, adds) || !guarded(session, show_in_frame, job)))
-        return memory_status(session);
+    }
+    if (stays)
+        keep(session, job);
     note_hidden(session, job);
-    done->bindings += is_binding;
-    done->nodes += adds;
-    done->values += !is_kept;
+    done->bindings += job->binds;
+    done->nodes += job->adds;
+    done->values += !stays;
     return PETRI_OK;
 }
 
@@ -353,26 +363,31 @@ static bool refuse_pragmas(PetriSession *session, const Unit *unit) {
     return true;
 }
 
+// The statement of a number, as a suite of its own.
+static void pick(PetriSession *session, void *context) {
+    Job *job = context;
+    const Ast *statement = job->ast;
+    Ast *children[] = {(Ast *)statement};
+    job->ast = ast_new(unit_arena(session, job->unit), AST_SUITE, statement->span, NULL, children, 1);
+}
+
 PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
                          PetriPrompted *done) {
-    Job job;
-    Writing out = {.write = write, .host = host};
+    Job job = {.out = {.write = write, .host = host}};
     *done = (PetriPrompted){0};
-    session->tell_again = true;
+    diagnostics_repeat(&session->diagnostics, true);
     PetriStatus status = begin(session, text, length, &job);
     if (status == PETRI_OK && refuse_pragmas(session, job.unit))
         status = PETRI_INVALID;
     for (uint32_t i = 0; status == PETRI_OK && i < job.unit->ast->count; i++) {
-        const Ast *statement = job.unit->ast->children[i];
-        Ast *children[] = {(Ast *)statement};
-        job.ast = ast_new(&job.unit->arena, AST_SUITE, statement->span, NULL, children, 1);
-        status = prompt_statement(session, &job, &out, done);
+        job.ast = job.unit->ast->children[i];
+        status = tell_memory(session, session_protect(session, NULL, pick, &job));
+        if (status == PETRI_OK)
+            status = prompt_statement(session, &job, done);
     }
-    session->tell_again = false;
-    if (job.hidden) {
-        arena_reset(&session->text_arena);
-        done->hidden = str_to_c(&session->text_arena, job.hidden->name);
-    }
+    diagnostics_repeat(&session->diagnostics, false);
+    if (job.hidden)
+        done->hidden = job.hidden->name.bytes;
     unit_free(job.unit);
     return status;
 }
@@ -390,28 +405,24 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     return false;
 }
 
-static void write_line(PetriSession *session, Job *job) {
-    Writing *out = job->out;
-    out->text = text_new(&session->prompt_arena);
-    format_value(&out->text, &session->symbols, job->value);
-    flush(out);
+static void write_line(PetriSession *session, void *context) {
+    Job *job = context;
+    job->out.text = text_new(&session->prompt.arena);
+    format_value(&job->out.text, &session->symbols, job->value);
+    flush(&job->out);
 }
 
 PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
                            PetriWrite *write, void *host) {
-    Job job;
+    Job job = {.arena = &session->prompt.arena, .out = {.write = write, .host = host}};
     PetriStatus status = begin(session, text, length, &job);
     if (status == PETRI_OK && !is_expression(session, job.unit))
         status = PETRI_INVALID;
     if (status == PETRI_OK) {
         job.ast = job.unit->ast;
-        job.arena = &session->prompt_arena;
-        arena_reset(&session->prompt_arena);
-        DiagSink log = session->log; // what debug() says here is not the frame's
-        session->log = diag_sink_new(&session->prompt_arena, 0);
-        status = take_statement(session, &job);
-        diag_sink_free(&session->log);
-        session->log = log;
+        arena_reset(&session->prompt.arena);
+        status = run_statement(session, &job, 0); // what debug() says here is not the frame's
+        diag_sink_free(&job.log);
     }
     if (status == PETRI_OK) {
         bool one = job.value.kind == VALUE_NUMBERS && job.value.len == 1;
@@ -419,53 +430,55 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
                                 .length = job.value.len,
                                 .number = one ? job.value.as.number : NAN,
                                 .seconds = job.seconds};
-        Writing out = {.write = write, .host = host};
-        job.out = &out;
-        if (write && !guarded(session, write_line, &job))
-            status = memory_status(session);
+        if (write)
+            status = tell_memory(session, session_protect(session, NULL, write_line, &job));
     }
     unit_free(job.unit);
     return status;
 }
 
+typedef struct Drop {
+    PromptChoice choice;
+    PromptList *list;
+} Drop;
+
+static void drop(PetriSession *session, void *context) {
+    Drop *dropped = context;
+    const Unit *script = session->config.program;
+    prompt_list_compile(session, session->config.prompts, script ? script->program : NULL, dropped->choice,
+                        &dropped->list);
+}
+
 uint32_t petri_drop(PetriSession *session, bool bindings) {
-    uint32_t kept = 0, count = session->prompt_count;
-    session_clear_frame(session); // its tree may lie in what goes
-    for (uint32_t i = 0; i < count; i++) {
-        Prompt prompt = session->prompts[i];
-        if (bindings || prompt.adds)
-            unit_free(prompt.unit);
-        else
-            session->prompts[kept++] = prompt;
-    }
-    session->prompt_count = kept;
-    if (kept == count)
+    Drop dropped = {.choice = bindings ? PROMPT_NONE : PROMPT_BINDINGS};
+    const PromptList *list = session->config.prompts;
+    uint32_t dropped_count = 0;
+    for (uint32_t i = 0; i < list->count; i++)
+        dropped_count += bindings || list->statements[i].adds;
+    if (dropped_count == 0)
         return 0;
+    if (tell_memory(session, session_protect(session, NULL, drop, &dropped)) != PETRI_OK) {
+        prompt_list_free(dropped.list);
+        return 0;
+    }
+    session_clear_frame(session); // its tree may lie in what goes
+    session_set_prompts(session, dropped.list);
     session_change_config(session, false);
-    session_compile_prompts(session);
-    return count - kept;
+    return dropped_count;
 }
 
-const char *petri_kept(PetriSession *session, size_t number) {
-    if (number >= session->prompt_count)
-        return NULL;
-    arena_reset(&session->text_arena);
-    const Prompt *prompt = &session->prompts[number];
-    Str text = prompt->unit->source->text;
-    Span span = prompt->ast->span;
-    return str_to_c(&session->text_arena, str_trim((Str){text.bytes + span.start, span.end - span.start}));
+const char *petri_prompt_statement(const PetriSession *session, size_t number) {
+    const PromptList *list = session->config.prompts;
+    return number < list->count ? list->statements[number].text : NULL;
 }
 
-const char *petri_name(PetriSession *session, size_t number) {
-    const Symbol *name = NULL;
-    if (number < session->name_count)
-        name = session->names[number];
-    else if (number - session->name_count < session->define_count)
-        name = session->defines[number - session->name_count].name;
-    else if (number - session->name_count - session->define_count < ENGINE_NAME_COUNT)
-        return engine_name_text((EngineName)(number - session->name_count - session->define_count));
-    else
-        return NULL;
-    arena_reset(&session->text_arena);
-    return str_to_c(&session->text_arena, name->name);
+const char *petri_name(const PetriSession *session, size_t number) {
+    Names names = session->config.prompts->names;
+    if (number < names.count)
+        return names.items[number]->name.bytes;
+    number -= names.count;
+    if (number < session->config.define_count)
+        return session->config.defines[number].name->name.bytes;
+    number -= session->config.define_count;
+    return number < ENGINE_NAME_COUNT ? engine_name_text((EngineName)number) : NULL;
 }

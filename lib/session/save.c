@@ -13,9 +13,9 @@
 // file that was cut short or edited from a good one; a bad one is never overwritten.
 #include "session/session.h"
 
+#include "ast/literal.h"
 #include "base/file.h"
 #include "base/number.h"
-#include "ast/literal.h"
 #include "value/format.h"
 
 #include <inttypes.h>
@@ -55,25 +55,36 @@ static void add_systems(Text *out, const PetriSession *session) {
     }
 }
 
-static void complain(PetriSession *session, const char *what, const char *file, Str why) {
+static void complain(PetriSession *session, const char *what, const char *file, const char *why) {
     session_tell_text(session, DIAG_ERROR, "state-file",
-                      str_format(&session->text_arena, "%s '%s': %.*s", what, file, (int)why.len, why.bytes));
+                      str_format(&session->text_arena, "%s '%s': %s", what, file, why));
 }
 
-PetriStatus petri_save(PetriSession *session, const char *file) {
-    ArenaMark mark = arena_mark(&session->text_arena);
+typedef struct Saving {
+    const char *file;
+    bool done;
+} Saving;
+
+static void save(PetriSession *session, void *context) {
+    Saving *saving = context;
     Text out = text_new(&session->text_arena);
     text_add_c(&out, HEADER);
-    text_add_format(&out, "frame %lld\n", (long long)session->frame.number);
+    text_add_format(&out, "frame %lld\n", (long long)session->clock.number);
     add_entries(&out, session);
     add_systems(&out, session);
     text_add_format(&out, "end %016" PRIx64 "\n", hash_bytes(0, out.bytes, out.len));
     const char *problem = NULL;
-    bool done = file_replace(&session->text_arena, file, text_str(&out), &problem);
-    if (!done)
-        complain(session, "cannot write the state to", file, str_from(problem));
+    saving->done = file_replace(&session->text_arena, saving->file, text_str(&out), &problem);
+    if (!saving->done)
+        complain(session, "cannot write the state to", saving->file, problem);
+}
+
+PetriStatus petri_save(PetriSession *session, const char *file) {
+    Saving saving = {.file = file};
+    ArenaMark mark = arena_mark(&session->text_arena);
+    PetriStatus status = session_protect(session, NULL, save, &saving);
     arena_rewind(&session->text_arena, mark);
-    return done ? PETRI_OK : PETRI_INVALID;
+    return status == PETRI_OK && !saving.done ? PETRI_INVALID : status;
 }
 
 // A file being read back.
@@ -82,6 +93,7 @@ typedef struct Restore {
     Arena *arena;
     Str rest;
     State *state; // the new dictionary
+    Incoming *incoming;
     int64_t frame;
 } Restore;
 
@@ -199,8 +211,8 @@ static bool read_system(Restore *restore) {
         system.slot_count += 2;
     }
     system.slots = slots;
-    SceneFrame frame = {.state = restore->state, .arena = restore->arena};
-    return scene_restore_system(restore->session->scene, &system, &frame);
+    checkpoint_restore_system(restore->session, restore->incoming, &system);
+    return true;
 }
 
 // Splits off the last line and compares its hash with that of everything before.
@@ -229,50 +241,35 @@ static bool read_body(Restore *restore) {
     return restore->rest.len == 0;
 }
 
-// The scene has been told of the file's systems while the new dictionary was read; both change hands together.
-static void adopt(Restore *restore) {
-    PetriSession *session = restore->session;
-    state_free(session->state);
-    session->state = restore->state;
-    session_resume(session, restore->frame);
+// NULL if it was taken, else why not.
+static const char *restore_text(Restore *restore) {
+    if (!str_starts_with(restore->rest, STR("petri-state ")))
+        return "it is no state file of petri";
+    if (!str_starts_with(restore->rest, STR(HEADER)))
+        return "it was written by another version of petri";
+    return hash_matches(&restore->rest) && read_body(restore) ? NULL : "it is cut short or damaged";
 }
 
-static bool restore_text(Restore *restore, const char **why) {
-    *why = "it is cut short or damaged";
-    if (!str_starts_with(restore->rest, STR("petri-state "))) {
-        *why = "it is no state file of petri";
-        return false;
-    }
-    if (!str_starts_with(restore->rest, STR(HEADER))) {
-        *why = "it was written by another version of petri";
-        return false;
-    }
-    if (!hash_matches(&restore->rest))
-        return false;
-    scene_reset(restore->session->scene, restore->session->state);
-    if (read_body(restore))
-        return true;
-    scene_reset(restore->session->scene, restore->session->state);
-    return false;
+static void take_file(PetriSession *session, Incoming *incoming, void *context) {
+    const char *file = context, *why = NULL;
+    Arena *arena = &incoming->arena;
+    Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
+    if (file_read(arena, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why))
+        why = restore_text(&restore);
+    if (state_take_exhausted(incoming->state)) // what looks like a damaged file
+        arena_exhausted(arena);
+    incoming->good = !why;
+    if (why)
+        complain(session, "cannot take the state from", file, why);
+    else
+        clock_resume(&incoming->clock, restore.frame);
 }
 
 PetriStatus petri_restore(PetriSession *session, const char *file) {
-    Str version;
-    Arena arena;
-    arena_init(&arena, "restored state", SIZE_MAX);
-    Restore restore = {.session = session, .arena = &arena};
-    const char *why = NULL;
-    bool missing = !file_version(&arena, file, &version), done = missing;
-    if (!missing && file_read(&arena, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why)) {
-        restore.state = state_new();
-        done = restore.state && restore_text(&restore, &why);
-        if (done)
-            adopt(&restore);
-        else
-            state_free(restore.state);
-    }
-    if (!done)
-        complain(session, "cannot take the state from", file, str_from(why));
-    arena_free(&arena);
-    return done ? PETRI_OK : PETRI_INVALID;
+    if (!file_exists(file))
+        return PETRI_OK;
+    PetriStatus status = checkpoint_replace(session, take_file, (void *)file);
+    if (status == PETRI_OK)
+        session_change_config(session, false);
+    return status;
 }

@@ -3,46 +3,74 @@
 
 #include "value/format.h"
 
-// The public kinds are those of the engine: a row of force_list.h that petri.h lacks does not compile.
-#define SAME(KIND, ...) _Static_assert((int)PETRI_##KIND == (int)PHYS_##KIND, "petri.h has other kinds of forces");
-PHYS_FORCES(SAME, SAME, SAME, SAME)
-#undef SAME
-
-static const char *printed(PetriSession *session, Value v) {
-    Text text = text_new(&session->text_arena);
+static const char *printed(PetriSession *session, Arena *arena, Value v) {
+    Text text = text_new(arena);
     format_value(&text, &session->symbols, v);
-    return str_to_c(&session->text_arena, text_str(&text));
+    return str_to_c(arena, text_str(&text));
 }
 
-static bool view_of(PetriSession *session, size_t number, SceneView *view) {
-    arena_reset(&session->text_arena);
-    return scene_view(session->scene, session->state, number, view);
+// One of the three requests. `found` is false until everything is there.
+typedef struct Request {
+    size_t system;
+    uint32_t number;
+    void *out;
+    bool found;
+} Request;
+
+static bool ask(PetriSession *session, SessionCall *call, size_t system, uint32_t number, void *out) {
+    Request request = {system, number, out, false};
+    arena_reset(&session->view_arena);
+    return session_protect(session, NULL, call, &request) == PETRI_OK && request.found;
 }
 
-bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
+// The printed prefix, made once a frame.
+static const char *name_of(PetriSession *session, size_t number, Value prefix) {
+    SessionFrame *frame = &session->frame;
+    Arena *arena = &frame->systems_arena;
+    if (number >= frame->system_name_count) {
+        size_t count = number + 8;
+        const char **names = arena_alloc_array(arena, count, sizeof *names);
+        for (size_t i = 0; i < count; i++)
+            names[i] = i < frame->system_name_count ? frame->system_names[i] : NULL;
+        frame->system_names = names;
+        frame->system_name_count = count;
+    }
+    if (!frame->system_names[number])
+        frame->system_names[number] = printed(session, arena, prefix);
+    return frame->system_names[number];
+}
+
+static void find_system(PetriSession *session, void *context) {
+    Request *request = context;
     SceneView view;
-    if (!view_of(session, number, &view))
-        return false;
-    *system = (PetriSystem){
-        .name = printed(session, view.prefix),
+    if (!scene_view(session->scene, session->state, request->system, &view))
+        return;
+    *(PetriSystem *)request->out = (PetriSystem){
+        .name = name_of(session, request->system, view.prefix),
         .dimensions = view.dimensions,
         .particle_count = view.particle_count,
         .force_count = phys_force_count(view.engine),
         .steps = view.steps,
     };
-    return true;
+    request->found = true;
 }
 
-bool petri_particle(PetriSession *session, size_t number, uint32_t particle, PetriParticle *out) {
+bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
+    return ask(session, find_system, number, 0, system);
+}
+
+static void find_particle(PetriSession *session, void *context) {
+    Request *request = context;
+    uint32_t particle = request->number;
     SceneView view;
     PhysParticle described;
-    if (!view_of(session, number, &view) || particle >= view.particle_count ||
+    if (!scene_view(session->scene, session->state, request->system, &view) || particle >= view.particle_count ||
         !phys_get_particle(view.engine, particle, &described))
-        return false;
-    Arena *arena = &session->text_arena;
+        return;
+    Arena *arena = &session->view_arena;
     double *force = arena_alloc_array(arena, view.dimensions, sizeof *force);
-    *out = (PetriParticle){
-        .id = printed(session, scene_view_id(arena, session->state, &view, particle)),
+    *(PetriParticle *)request->out = (PetriParticle){
+        .id = printed(session, arena, scene_view_id(arena, session->state, &view, particle)),
         .anchor = described.anchor,
         .radius = described.radius,
         .mass = described.mass,
@@ -51,20 +79,26 @@ bool petri_particle(PetriSession *session, size_t number, uint32_t particle, Pet
         .velocity = described.velocity,
         .force = phys_force_on(view.engine, particle, force) ? force : NULL,
     };
-    return true;
+    request->found = true;
 }
 
-bool petri_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
+bool petri_particle(PetriSession *session, size_t number, uint32_t particle, PetriParticle *out) {
+    return ask(session, find_particle, number, particle, out);
+}
+
+static void find_force(PetriSession *session, void *context) {
+    Request *request = context;
     SceneView view;
     PhysForce force;
-    if (!view_of(session, number, &view) || !phys_get_force(view.engine, index, &force))
-        return false;
+    if (!scene_view(session->scene, session->state, request->system, &view) ||
+        !phys_get_force(view.engine, request->number, &force))
+        return;
     bool barrier = force.kind == PHYS_BARRIER;
-    double *zero = arena_alloc_array(&session->text_arena, view.dimensions, sizeof *zero);
+    double *zero = arena_alloc_array(&session->view_arena, view.dimensions, sizeof *zero);
     for (uint32_t k = 0; k < view.dimensions; k++)
         zero[k] = 0;
-    *out = (PetriForce){
-        .kind = (PetriForceKind)force.kind,
+    *(PetriForce *)request->out = (PetriForce){
+        .kind = schema_kinds[schema_kind_of_force(force.kind)].name,
         .strength = force.strength,
         .from = force.from,
         .to = force.to,
@@ -75,5 +109,9 @@ bool petri_force(PetriSession *session, size_t number, uint32_t index, PetriForc
                   : force.vector2 ? force.vector2
                                   : zero,
     };
-    return true;
+    request->found = true;
+}
+
+bool petri_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
+    return ask(session, find_force, number, index, out);
 }

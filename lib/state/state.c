@@ -25,6 +25,7 @@ struct State {
     Arena keys;
     bool *disturbed; // by lender
     uint32_t lender_count;
+    bool exhausted; // see state_take_exhausted
 };
 
 static void start_keys(Arena *keys) {
@@ -38,15 +39,27 @@ State *state_new(void) {
     return state;
 }
 
+typedef struct KeyCopy {
+    Arena *keys;
+    Value key;
+} KeyCopy;
+
+static void copy_key(void *context) {
+    KeyCopy *copy = context;
+    copy->key = value_copy(copy->keys, copy->key);
+}
+
+static bool exhausted(State *state) {
+    state->exhausted = true;
+    return false;
+}
+
 // A copy of a key; false if memory is used up.
 static bool own_key(Arena *keys, Value *copy, Value key) {
-    jmp_buf escape;
-    keys->escape = &escape;
-    if (setjmp(escape))
-        return false;
-    *copy = value_copy(keys, key);
-    keys->escape = NULL;
-    return true;
+    KeyCopy made = {keys, key};
+    bool done = arena_protect(&keys, 1, copy_key, &made) == ARENA_DONE;
+    *copy = made.key;
+    return done;
 }
 
 // A mixed vector is kept as one heap block: items, then Strings, then their bytes.
@@ -184,16 +197,16 @@ StateSlot state_slot(State *state, Value key) {
         uint32_t capacity = state->capacity ? state->capacity * 2 : 16;
         StateEntry *entries = realloc(state->entries, capacity * sizeof *entries);
         if (!entries)
-            return STATE_NO_SLOT;
+            return exhausted(state), STATE_NO_SLOT;
         state->entries = entries;
         state->capacity = capacity;
     }
     StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
     if (!index_add(&state->index, hash, state->count))
-        return STATE_NO_SLOT;
+        return exhausted(state), STATE_NO_SLOT;
     if (!own_key(&state->keys, &entry.key, key)) {
         index_remove(&state->index, hash, state->count);
-        return STATE_NO_SLOT;
+        return exhausted(state), STATE_NO_SLOT;
     }
     state->entries[state->count] = entry;
     return state->count++;
@@ -239,7 +252,7 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
     }
     Value copy;
     if (!own(&copy, value.len ? value : VALUE_NULL))
-        return false;
+        return exhausted(state);
     replace(state, entry, copy);
     return true;
 }
@@ -247,7 +260,7 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
 StateLender state_add_lender(State *state) {
     bool *larger = realloc(state->disturbed, (state->lender_count + 1) * sizeof *larger);
     if (!larger)
-        return 0;
+        return exhausted(state), 0;
     state->disturbed = larger;
     larger[state->lender_count] = false;
     return ++state->lender_count;
@@ -282,7 +295,7 @@ bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
     Value copy;
     if (!own(&copy, entry->value)) {
         replace(state, entry, VALUE_NULL);
-        return false;
+        return exhausted(state);
     }
     entry->value = copy;
     entry->lender = 0;
@@ -367,4 +380,10 @@ bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value) 
 
 uint32_t state_count(const State *state) {
     return state->live;
+}
+
+bool state_take_exhausted(State *state) {
+    bool was = state->exhausted;
+    state->exhausted = false;
+    return was;
 }

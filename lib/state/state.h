@@ -64,4 +64,7 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value);
 uint32_t state_count(const State *state);
 
+// Whether anything failed because memory was used up since this was asked last.
+bool state_take_exhausted(State *state);
+
 #endif

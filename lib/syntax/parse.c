@@ -318,24 +318,49 @@ static bool check_text(ParseContext *context) {
     return !context->failed;
 }
 
-static void parse_text(ParseContext *context, Layout *layout) {
-    layout_init(layout, context->source);
-    gr_pstate *parser = gr_pstate_new();
+// A text at work; the parser lies on the heap.
+typedef struct Parsing {
+    ParseContext *context;
+    Layout *layout;
+    gr_pstate *parser;
+    ParseNeed need; // what probe has found
+} Parsing;
+
+// Runs a parse and frees the parser, also if memory is used up meanwhile.
+static void with_parser(Parsing *parsing, void (*call)(void *parsing)) {
+    ParseContext *context = parsing->context;
+    Arena *arenas[] = {context->arena, context->symbols->arena, context->diags->arena};
+    layout_init(parsing->layout, context->source);
+    parsing->parser = gr_pstate_new();
+    ArenaEnd end =
+        parsing->parser ? arena_protect(arenas, sizeof arenas / sizeof *arenas, call, parsing) : ARENA_MEMORY;
+    if (parsing->parser)
+        gr_pstate_delete(parsing->parser);
+    if (end != ARENA_DONE)
+        arena_leave(context->arena, end);
+}
+
+static void parse_tokens(void *context) {
+    Parsing *parsing = context;
+    Layout *layout = parsing->layout;
     int status = YYPUSH_MORE;
-    while (parser && status == YYPUSH_MORE && !context->too_deep) {
+    while (status == YYPUSH_MORE && !parsing->context->too_deep) {
         Token token = layout_next(layout);
-        resolve_keyword(context, layout, parser, &token);
-        status = push(context, layout, parser, &token);
+        resolve_keyword(parsing->context, layout, parsing->parser, &token);
+        status = push(parsing->context, layout, parsing->parser, &token);
         if (status == 1 && token.kind != END) {
             // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
-            gr_pstate_delete(parser);
-            parser = gr_pstate_new();
+            gr_pstate_delete(parsing->parser);
+            parsing->parser = gr_pstate_new();
+            if (!parsing->parser)
+                arena_exhausted(parsing->context->arena);
             status = token.kind == NEWLINE || skip_line(layout) == NEWLINE ? YYPUSH_MORE : 1;
         }
     }
-    if (!parser)
-        arena_exhausted(context->arena);
-    gr_pstate_delete(parser);
+}
+
+static void parse_text(ParseContext *context, Layout *layout) {
+    with_parser(&(Parsing){.context = context, .layout = layout}, parse_tokens);
 }
 
 // Does a statement that begins with this token like to have lines indented below it?
@@ -380,21 +405,20 @@ static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser)
     }
 }
 
+static void probe_tokens(void *context) {
+    Parsing *parsing = context;
+    parsing->need = probe(parsing->context, parsing->layout, parsing->parser);
+}
+
 ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source) {
     DiagSink nowhere = diag_sink_new(arena, 0);
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = &nowhere};
-    ParseNeed need = PARSE_WHOLE;
+    Parsing parsing = {.context = &context, .need = PARSE_WHOLE};
     if (utf8_find_error(source->text) == source->text.len) {
-        Layout *layout = arena_alloc(arena, sizeof *layout);
-        layout_init(layout, source);
-        gr_pstate *parser = gr_pstate_new();
-        if (!parser)
-            arena_exhausted(arena);
-        need = probe(&context, layout, parser);
-        gr_pstate_delete(parser);
+        parsing.layout = arena_alloc(arena, sizeof *parsing.layout);
+        with_parser(&parsing, probe_tokens);
     }
-    diag_sink_free(&nowhere);
-    return need;
+    return parsing.need;
 }
 
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {

@@ -28,12 +28,12 @@ static int wrong_line(const Args *args, const char *word, const char *nearest) {
 static const char *find_elsewhere(const Args *args, const char *name) {
     static const struct {
         const char *command;
-        const OptionSpec *options;
-    } others[] = {{"run", RUN_OPTION_SPECS}, {"render", RENDER_OPTION_SPECS}, {"view", VIEW_OPTION_SPECS}};
+        unsigned options;
+    } others[] = {{"run", FOR_RUN}, {"render", FOR_RENDER}, {"view", FOR_VIEW}};
     for (size_t i = 0; i < sizeof others / sizeof others[0]; i++) {
-        for (const OptionSpec *spec = others[i].options; spec->name != NULL; spec++) {
+        for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
             bool same = strcmp(name, spec->name) == 0 || (name[0] == spec->letter && name[1] == '\0');
-            if (same && others[i].options != args->command->options) {
+            if (same && spec->commands & others[i].options && !(others[i].options & args->command->options)) {
                 return others[i].command;
             }
         }
@@ -44,8 +44,8 @@ static const char *find_elsewhere(const Args *args, const char *name) {
 static int unknown_option(const Args *args, const char *word, const char *name) {
     const char *nearest = NULL;
     size_t best = SIZE_MAX;
-    for (const OptionSpec *spec = args->command->options; spec->name != NULL; spec++) {
-        if (is_nearer(name, spec->name, &best)) {
+    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+        if (spec->commands & args->command->options && is_nearer(name, spec->name, &best)) {
             nearest = spec->name;
         }
     }
@@ -70,7 +70,7 @@ static int take_value(Args *args, const char *shown) {
         return ARG_WRONG;
     }
     args->value = args->argv[args->next++];
-    return args->option->id;
+    return ARG_OPTION;
 }
 
 static int long_option(Args *args, const char *word) {
@@ -86,8 +86,8 @@ static int long_option(Args *args, const char *word) {
     if ((strcmp(name, "help") == 0 || args->version) && equals == NULL) {
         return ARG_HELP;
     }
-    const OptionSpec *spec = args->command->options;
-    while (spec->name != NULL && strcmp(spec->name, name) != 0) {
+    const OptionSpec *spec = OPTIONS;
+    while (spec->name != NULL && !(spec->commands & args->command->options && strcmp(spec->name, name) == 0)) {
         spec++;
     }
     if (spec->name == NULL) {
@@ -100,11 +100,11 @@ static int long_option(Args *args, const char *word) {
         return ARG_WRONG;
     }
     if (spec->value == NULL) {
-        return spec->id;
+        return ARG_OPTION;
     }
     if (equals != NULL) {
         args->value = equals + 1;
-        return spec->id;
+        return ARG_OPTION;
     }
     return take_value(args, word);
 }
@@ -114,8 +114,8 @@ static int short_option(Args *args, const char *word) {
     if ((word[1] == 'h' || args->version) && word[2] == '\0') {
         return ARG_HELP;
     }
-    const OptionSpec *spec = args->command->options;
-    while (spec->name != NULL && spec->letter != word[1]) {
+    const OptionSpec *spec = OPTIONS;
+    while (spec->name != NULL && !(spec->commands & args->command->options && spec->letter == word[1])) {
         spec++;
     }
     // No flag has a short form, so a letter is always followed by a value.
@@ -125,7 +125,7 @@ static int short_option(Args *args, const char *word) {
     args->option = spec;
     if (word[2] != '\0') {
         args->value = word + 2;
-        return spec->id;
+        return ARG_OPTION;
     }
     return take_value(args, word);
 }

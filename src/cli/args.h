@@ -9,7 +9,7 @@
 
 #include "cli/cli.h"
 
-enum { ARG_END = 0, ARG_OPERAND = -1, ARG_HELP = -2, ARG_WRONG = -3 };
+enum { ARG_END = 0, ARG_OPTION = 1, ARG_OPERAND = -1, ARG_HELP = -2, ARG_WRONG = -3 };
 
 typedef struct Args {
     const Command *command;
@@ -23,7 +23,7 @@ typedef struct Args {
 } Args;
 
 Args args_start(const Command *command, int argc, char **argv);
-// The id of the next option, or one of the constants above. After ARG_WRONG the message has been given.
+// What comes next. After ARG_WRONG the message has been given.
 int args_next(Args *args);
 // After ARG_HELP: prints what was asked for, the command's help or the version. Returns the exit status.
 int args_help(const Args *args);

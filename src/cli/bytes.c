@@ -8,9 +8,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "cli/cli.h"
 
 enum { READ_BLOCK = 1 << 16 };
@@ -95,46 +95,13 @@ bool bytes_read_file(Bytes *text, const char *path) {
     return done;
 }
 
-static bool write_all(int fd, const char *data, size_t length) {
-    while (length > 0) {
-        ssize_t written = write(fd, data, length);
-        if (written < 0 && errno != EINTR) {
-            return false;
-        }
-        if (written > 0) {
-            data += written;
-            length -= (size_t)written;
-        }
-    }
-    return true;
-}
-
-// The permissions of the file that is replaced, or those of a new file.
-static mode_t wanted_mode(const char *path) {
-    struct stat old;
-    if (stat(path, &old) == 0) {
-        return old.st_mode & 0777;
-    }
-    return 0644;
-}
-
-bool bytes_replace_file(const Bytes *text, const char *path) {
-    Bytes beside = {0};
-    bytes_format(&beside, "%s.XXXXXX", path);
-    int fd = mkstemp(beside.data);
-    bool done = false;
-    if (fd >= 0) {
-        done = write_all(fd, text->data, text->length) && fchmod(fd, wanted_mode(path)) == 0;
-        done = close(fd) == 0 && done;
-        done = done && rename(beside.data, path) == 0;
-        if (!done) {
-            int error = errno;
-            unlink(beside.data);
-            errno = error;
-        }
-    }
-    bytes_free(&beside);
-    return done;
+const char *bytes_replace_file(const Bytes *text, const char *path) {
+    Arena names;
+    const char *problem = NULL;
+    arena_init(&names, "names of files", (size_t)1 << 20);
+    file_replace(&names, path, (Str){text->data, text->length}, &problem);
+    arena_free(&names);
+    return problem;
 }
 
 void bytes_free(Bytes *text) {

@@ -21,8 +21,8 @@ __attribute__((format(printf, 2, 3))) void bytes_format(Bytes *text, const char 
 // Adds all that can be read from the descriptor, or from the file; false with errno set.
 bool bytes_read(Bytes *text, int fd);
 bool bytes_read_file(Bytes *text, const char *path);
-// Replaces the file at once: who reads it sees the old text or the new. False with errno set.
-bool bytes_replace_file(const Bytes *text, const char *path);
+// Replaces the file at once: who reads it sees the old text or the new. NULL, or what is wrong.
+const char *bytes_replace_file(const Bytes *text, const char *path);
 void bytes_free(Bytes *text);
 
 #endif

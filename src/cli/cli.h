@@ -5,21 +5,27 @@
 #include <stdbool.h>
 #include <stddef.h>
 
+struct Args;
+struct Options;
+
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 }; // plus its number
 
-// One option of a command. Tables end with an entry without a name.
+// Which commands an option is for.
+enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32 };
+
+// One option.
 typedef struct OptionSpec {
+    unsigned commands; // FOR_…
     const char *name;  // without the dashes
     char letter;       // short form, or 0
-    int id;            // what args_next returns for it, above 0
     const char *value; // how help names the value; NULL for a flag
     const char *help;
+    bool (*read)(const struct Args *args, struct Options *options, void *field);
+    size_t field; // where it is in Options
 } OptionSpec;
 
-// Those of the commands that run scripts.
-extern const OptionSpec RUN_OPTION_SPECS[];
-extern const OptionSpec RENDER_OPTION_SPECS[];
-extern const OptionSpec VIEW_OPTION_SPECS[];
+// All options; the last has no name.
+extern const OptionSpec OPTIONS[];
 
 // What main found out about the process, for all commands.
 typedef struct Host {
@@ -34,8 +40,11 @@ typedef struct Command {
     const char *summary;  // one line, for the list of commands
     const char *details;  // a few sentences, for the command's own help
     const char *examples; // lines to try, for its own help; NULL: none
-    const OptionSpec *options;
-    bool live;                                           // follows the wall clock and goes on until it is stopped
+    unsigned options;     // FOR_…
+    const char *needed;   // what is said where there is no operand; NULL: none is needed, or the command says it itself
+    const char *no_stdin; // what is said of `-`; NULL: it stands for a script on standard input
+    bool many;            // takes many scripts and folders
+    bool live;            // follows the wall clock and goes on until it is stopped
     int (*run)(const Host *host, int argc, char **argv); // without the command's name; returns the exit status
 } Command;
 

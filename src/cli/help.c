@@ -81,11 +81,13 @@ int help_for(const Command *command) {
     if (output == NULL) {
         return STATUS_FAILED;
     }
-    output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name,
-                  command->options->name == NULL ? "" : " [options]", command->operands, command->details);
-    for (const OptionSpec *spec = command->options; spec->name != NULL; spec++) {
-        output_format(output, "%s", spec == command->options ? "\n" : "");
-        help_option(output, spec);
+    output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name, command->options == 0 ? "" : " [options]",
+                  command->operands, command->details);
+    output_format(output, "%s", command->options == 0 ? "" : "\n");
+    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+        if (spec->commands & command->options) {
+            help_option(output, spec);
+        }
     }
     if (command->examples != NULL) {
         output_format(output, "\nExamples:\n%s", command->examples);

@@ -33,6 +33,9 @@ static void write_attributes(Output *output, size_t kind) {
         char head[48];
         snprintf(head, sizeof head, "      %s", attribute.name);
         output_format(output, "%-*s  %s", ATTRIBUTE_COLUMN, head, attribute.type);
+        if (attribute.unit[0] != '\0') {
+            output_format(output, ", in %s", attribute.unit);
+        }
         if (attribute.fallback[0] != '\0') {
             output_format(output, " (%s)", attribute.fallback);
         }
@@ -63,7 +66,10 @@ static int help_nodes(void) {
 static bool tell_option(Output *output, const char *word) {
     bool found = false, is_long = word[1] == '-';
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        for (const OptionSpec *spec = COMMANDS[i]->options; spec->name != NULL; spec++) {
+        for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+            if (!(spec->commands & COMMANDS[i]->options)) {
+                continue;
+            }
             if (is_long ? strcmp(spec->name, word + 2) == 0 : spec->letter != '\0' && spec->letter == word[1]) {
                 output_format(output, "petri %s\n", COMMANDS[i]->name);
                 help_option(output, spec);
@@ -136,8 +142,6 @@ static int help_run(const Host *host, int argc, char **argv) {
     return argc == 0 ? help_overview() : help_topic(argv[0]);
 }
 
-static const OptionSpec HELP_OPTIONS[] = {{0}};
-
 const Command HELP_COMMAND = {
     .name = "help",
     .operands = "[TOPIC]",
@@ -150,6 +154,5 @@ const Command HELP_COMMAND = {
         "too)\n"
         "  tempo, let, radius  a value that petri gives, a word of the language, an attribute\n"
         "  --frames, .step     an option, a command of the prompt",
-    .options = HELP_OPTIONS,
     .run = help_run,
 };

@@ -98,8 +98,6 @@ static int new_run(const Host *host, int argc, char **argv) {
     return start_script(host, name);
 }
 
-static const OptionSpec NEW_OPTIONS[] = {{0}};
-
 const Command NEW_COMMAND = {
     .name = "new",
     .operands = "NAME",
@@ -107,6 +105,5 @@ const Command NEW_COMMAND = {
     .details =
         "Writes NAME.fl, a dish of drops that a spoon stirs, with comments that say what is what. A file that is\n"
         "there already is left alone.",
-    .options = NEW_OPTIONS,
     .run = new_run,
 };

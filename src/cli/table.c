@@ -4,21 +4,14 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/str.h"
+
 Table table_new(size_t columns) {
     return (Table){.columns = columns, .width = memory_zeroed(columns * sizeof(size_t))};
 }
 
-// Characters of UTF-8.
-static size_t width_of(const char *text) {
-    size_t width = 0;
-    for (; *text != '\0'; text++) {
-        width += ((unsigned char)*text & 0xc0) != 0x80;
-    }
-    return width;
-}
-
 void table_add(Table *table, const char *cell) {
-    size_t width = width_of(cell), *widest = &table->width[table->count++ % table->columns];
+    size_t width = utf8_length(str_from(cell)), *widest = &table->width[table->count++ % table->columns];
     *widest = width > *widest ? width : *widest;
     bytes_add(&table->cells, cell, strlen(cell) + 1);
 }
@@ -32,7 +25,7 @@ void table_write(const Table *table, Output *output) {
             output_format(output, "%*s%s", (int)due, "", cell);
             due = 0;
         }
-        due += table->width[column] - width_of(cell) + 2;
+        due += table->width[column] - utf8_length(str_from(cell)) + 2;
         if (column + 1 == table->columns) {
             output_write(output, "\n", 1);
             due = 0;

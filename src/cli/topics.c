@@ -43,6 +43,13 @@ static bool tell_builtin(Output *output, const char *name) {
     return false;
 }
 
+// What an attribute takes, and in which unit.
+static void add_type(Table *table, const PetriNodeAttribute *attribute) {
+    char type[160];
+    snprintf(type, sizeof type, "%s%s%s", attribute->type, attribute->unit[0] != '\0' ? ", in " : "", attribute->unit);
+    table_add(table, type);
+}
+
 static void tell_attributes(Output *output, size_t kind) {
     Table table = table_new(4);
     PetriNodeAttribute attribute;
@@ -53,7 +60,7 @@ static void tell_attributes(Output *output, size_t kind) {
             snprintf(fallback, sizeof fallback, "default %s", attribute.fallback);
         }
         table_add(&table, head);
-        table_add(&table, attribute.type);
+        add_type(&table, &attribute);
         table_add(&table, fallback);
         table_add(&table, attribute.help);
     }
@@ -87,7 +94,7 @@ static bool tell_owners(Output *output, const char *name) {
                 char head[80];
                 snprintf(head, sizeof head, "    !%s", kind.name);
                 table_add(&table, head);
-                table_add(&table, attribute.type);
+                add_type(&table, &attribute);
                 table_add(&table, attribute.help);
             }
         }

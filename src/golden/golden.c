@@ -134,10 +134,10 @@ bool golden_update(const Golden *golden, const char *path, const Bytes *output, 
         bytes_add(&updated, "\n", 1);
     }
     bytes_add(&updated, output->data, output->length);
-    bool done = bytes_replace_file(&updated, path);
-    if (!done) {
-        bytes_format(trouble, "cannot write %s: %s", path, strerror(errno));
+    const char *problem = bytes_replace_file(&updated, path);
+    if (problem != NULL) {
+        bytes_format(trouble, "cannot write %s: %s", path, problem);
     }
     bytes_free(&updated);
-    return done;
+    return problem == NULL;
 }

@@ -6,6 +6,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/str.h"
+
 // An indent is white space at the start of a line, where its width means something.
 typedef enum TokenKind { TOKEN_END, TOKEN_INDENT, TOKEN_SIGN, TOKEN_WORD, TOKEN_NUMBER, TOKEN_STRING } TokenKind;
 
@@ -101,20 +103,6 @@ static uint32_t read_hex(const char *text, size_t digits) {
     return value;
 }
 
-static size_t encode(uint32_t c, char *out) {
-    if (c < 0x80) {
-        out[0] = (char)c;
-        return 1;
-    }
-    size_t more = c < 0x800 ? 1 : c < 0x10000 ? 2 : 3;
-    static const uint32_t lead[] = {0, 0xC0, 0xE0, 0xF0};
-    out[0] = (char)(lead[more] | (c >> (6 * more)));
-    for (size_t i = 1; i <= more; i++) {
-        out[i] = (char)(0x80U | ((c >> (6 * (more - i))) & 0x3FU));
-    }
-    return more + 1;
-}
-
 // The bytes that one escape or one plain byte of a string stands for: 1 to 4 of them. Moves `text` on.
 static size_t next_bytes(const char **text, const char *end, char *out) {
     char c = *(*text)++;
@@ -127,7 +115,7 @@ static size_t next_bytes(const char **text, const char *end, char *out) {
     if (digits > 0 && (size_t)(end - *text) >= digits) {
         uint32_t value = read_hex(*text, digits);
         *text += digits;
-        return encode(value, out);
+        return utf8_encode(value, out);
     }
     out[0] = escape == 'n' ? '\n' : escape == 'r' ? '\r' : escape == 't' ? '\t' : escape;
     return 1;

@@ -1,7 +1,6 @@
 // report.c: how results of tests are told.
 #include "golden/report.h"
 
-#include <errno.h>
 #include <string.h>
 
 #include "cli/cli.h"
@@ -65,10 +64,10 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
         add_result(&out, results[i]);
     }
     bytes_format(&out, "</testsuite>\n");
-    bool done = bytes_replace_file(&out, path);
-    if (!done) {
-        message("cannot write %s: %s", path, strerror(errno));
+    const char *problem = bytes_replace_file(&out, path);
+    if (problem != NULL) {
+        message("cannot write %s: %s", path, problem);
     }
     bytes_free(&out);
-    return done;
+    return problem == NULL;
 }

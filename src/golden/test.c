@@ -5,30 +5,15 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include "cli/args.h"
 #include "cli/child.h"
+#include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
-#include "cli/script.h"
-#include "cli/scripts.h"
 #include "golden/golden.h"
 #include "golden/rejection.h"
 #include "golden/report.h"
 
-enum { OPT_UPDATE = 1, OPT_FILTER, OPT_JUNIT, OPT_JOBS, OPT_THREADS, OPT_NEIGHBOURS, OPT_NOSIMPLIFY };
-
-enum { MOST_JOBS = 256 };
-
-static const OptionSpec OPTIONS[] = {
-    {"update", 0, OPT_UPDATE, NULL, "record what the scripts print now in their goldens"},
-    {"filter", 0, OPT_FILTER, "TEXT", "only scripts with TEXT in their path below PATH"},
-    {"junit", 0, OPT_JUNIT, "FILE", "also write the results to FILE, in the form that CI systems read"},
-    {"jobs", 0, OPT_JOBS, "N", "run N scripts at a time (as many as CPUs)"},
-    {"threads", 0, OPT_THREADS, "N", "as with run, for all scripts"},
-    {"neighbours", 0, OPT_NEIGHBOURS, "WHEN", "as with run, for all scripts"},
-    {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
-    {0},
-};
+enum { MOST_CPUS = 256 };
 
 // A script, what it is compared with while it runs, and the verdict.
 typedef struct Case {
@@ -43,17 +28,9 @@ typedef struct Case {
 
 typedef struct Suite {
     const Host *host;
-    ScriptList scripts;
+    Options options;
     Case *cases;
     size_t count;
-    const char *filter;
-    const char *junit;
-    int64_t jobs;
-    bool update;
-    const char *threads;    // NULL: what the goldens ask for
-    const char *neighbours; // likewise
-    bool nosimplify;
-    bool unreadable; // some path could not be read
     size_t reported; // cases whose result was printed
     Output output;
 } Suite;
@@ -74,7 +51,7 @@ static char *file_beside(const char *script, const char *ending) {
 }
 
 static void add_case(Suite *suite, const Script *script) {
-    if (suite->filter != NULL && strstr(script->path + script->below, suite->filter) == NULL) {
+    if (suite->options.filter != NULL && strstr(script->path + script->below, suite->options.filter) == NULL) {
         return;
     }
     char *golden = file_beside(script->path, ".golden");
@@ -117,9 +94,9 @@ static void start_child(Suite *suite, Case *item) {
     for (int i = 0; i < golden->option_count; i++) {
         argv[argc++] = golden->options[i];
     }
-    add_override(argv, &argc, &threads, "threads", suite->threads);
-    add_override(argv, &argc, &neighbours, "neighbours", suite->neighbours);
-    if (suite->nosimplify) {
+    add_override(argv, &argc, &threads, "threads", suite->options.as_threads);
+    add_override(argv, &argc, &neighbours, "neighbours", suite->options.as_neighbours);
+    if (suite->options.unsimplified) {
         argv[argc++] = "--nosimplify";
     }
     argv[argc++] = "--";
@@ -152,7 +129,7 @@ static void judge(const Suite *suite, Case *item, int status, const Bytes *outpu
         result->passed = rejection_check(item->recorded, name, status, errors, &result->trouble);
     } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         child_describe(status, errors, &result->trouble);
-    } else if (suite->update) {
+    } else if (suite->options.update) {
         result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->trouble);
     } else {
         result->passed = golden_compare(&item->golden, output, &result->trouble);
@@ -190,14 +167,14 @@ static void report_done(Suite *suite, size_t started) {
 
 // Nobody waits for results that nobody reads.
 static bool is_wanted(const Suite *suite) {
-    return suite->output.error == 0 || suite->junit != NULL;
+    return suite->output.error == 0 || suite->options.junit != NULL;
 }
 
 static void run_cases(Suite *suite) {
     size_t started = 0;
     int64_t running = 0;
     while ((started < suite->count && is_wanted(suite)) || running > 0) {
-        if (started < suite->count && running < suite->jobs && is_wanted(suite)) {
+        if (started < suite->count && running < suite->options.jobs && is_wanted(suite)) {
             Case *item = &suite->cases[started++];
             start_case(suite, item);
             running += item->done ? 0 : 1;
@@ -223,20 +200,22 @@ static bool write_junit(const Suite *suite) {
     for (size_t i = 0; i < suite->count; i++) {
         results[i] = &suite->cases[i].result;
     }
-    bool done = report_junit(suite->junit, results, suite->count);
+    bool done = report_junit(suite->options.junit, results, suite->count);
     free(results);
     return done;
 }
 
 static int run_suite(Suite *suite) {
-    scripts_sort(&suite->scripts);
-    suite->cases = memory_zeroed(suite->scripts.count * sizeof *suite->cases);
-    for (size_t i = 0; i < suite->scripts.count; i++) {
-        add_case(suite, &suite->scripts.items[i]);
+    if (suite->options.scripts.count == 0 && suite->options.unreadable) {
+        return STATUS_FAILED;
+    }
+    suite->cases = memory_zeroed(suite->options.scripts.count * sizeof *suite->cases);
+    for (size_t i = 0; i < suite->options.scripts.count; i++) {
+        add_case(suite, &suite->options.scripts.items[i]);
     }
     if (suite->count == 0) {
         message("no script found that has a .golden or a .err beside it%s",
-                suite->filter == NULL ? "; 'petri help test' tells how to make one" : " and fits the filter");
+                suite->options.filter == NULL ? "; 'petri help test' tells how to make one" : " and fits the filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
@@ -245,63 +224,8 @@ static int run_suite(Suite *suite) {
         passed += suite->cases[i].result.passed ? 1 : 0;
     }
     output_format(&suite->output, "%zu passed, %zu failed\n", passed, suite->count - passed);
-    bool reported = suite->junit == NULL || write_junit(suite);
-    return passed == suite->count && reported && !suite->unreadable ? STATUS_DONE : STATUS_FAILED;
-}
-
-static bool apply(Suite *suite, const Args *args, int id) {
-    switch (id) {
-    case ARG_OPERAND:
-        if (script_is_stdin(args->value)) {
-            message("standard input has no golden beside it: petri test takes files and folders");
-            return false;
-        }
-        suite->unreadable = !scripts_find(&suite->scripts, args->value) || suite->unreadable;
-        return true;
-    case OPT_UPDATE:
-        suite->update = true;
-        return true;
-    case OPT_FILTER:
-        suite->filter = args->value;
-        return true;
-    case OPT_JUNIT:
-        suite->junit = args->value;
-        return true;
-    case OPT_JOBS:
-        return args_integer(args, 1, MOST_JOBS, &suite->jobs);
-    case OPT_THREADS:
-        suite->threads = args->value;
-        return true;
-    case OPT_NEIGHBOURS:
-        suite->neighbours = args->value;
-        return true;
-    case OPT_NOSIMPLIFY:
-        suite->nosimplify = true;
-        return true;
-    default:
-        return false;
-    }
-}
-
-static int read_and_run(Suite *suite, Args *args) {
-    bool has_path = false;
-    for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
-        if (id == ARG_HELP) {
-            return args_help(args);
-        }
-        if (id == ARG_WRONG || !apply(suite, args, id)) {
-            return STATUS_USAGE;
-        }
-        has_path = has_path || id == ARG_OPERAND;
-    }
-    if (!has_path) {
-        message("nothing to test; usage: petri test [options] PATH...");
-        return STATUS_USAGE;
-    }
-    if (suite->scripts.count == 0 && suite->unreadable) {
-        return STATUS_FAILED;
-    }
-    return run_suite(suite);
+    bool reported = suite->options.junit == NULL || write_junit(suite);
+    return passed == suite->count && reported && !suite->options.unreadable ? STATUS_DONE : STATUS_FAILED;
 }
 
 static void free_suite(Suite *suite) {
@@ -310,18 +234,20 @@ static void free_suite(Suite *suite) {
         bytes_free(&suite->cases[i].result.trouble);
     }
     free(suite->cases);
-    scripts_free(&suite->scripts);
+    options_free(&suite->options);
     free(suite);
 }
 
 static int test_run(const Host *host, int argc, char **argv) {
     Suite *suite = memory_zeroed(sizeof *suite);
     suite->host = host;
-    long processors = sysconf(_SC_NPROCESSORS_ONLN);
-    suite->jobs = processors < 1 ? 1 : processors > MOST_JOBS ? MOST_JOBS : processors;
     output_start(&suite->output, STDOUT_FILENO);
-    Args args = args_start(&TEST_COMMAND, argc, argv);
-    int status = output_finish(&suite->output, read_and_run(suite, &args));
+    int status = options_read(&suite->options, &TEST_COMMAND, argc, argv);
+    if (suite->options.jobs == 0) {
+        long processors = sysconf(_SC_NPROCESSORS_ONLN);
+        suite->options.jobs = processors < 1 ? 1 : processors > MOST_CPUS ? MOST_CPUS : processors;
+    }
+    status = status == OPTIONS_READ ? output_finish(&suite->output, run_suite(suite)) : status;
     free_suite(suite);
     return status;
 }
@@ -339,6 +265,9 @@ const Command TEST_COMMAND = {
         "  petri test --update dish.fl",
     .examples = "  petri test .                                    all scripts here that have a golden\n"
                 "  petri test --update dish.fl                     its golden becomes what it prints now\n",
-    .options = OPTIONS,
+    .needed = "nothing to test",
+    .no_stdin = "standard input has no golden beside it: petri test takes files and folders",
+    .options = FOR_TEST,
+    .many = true,
     .run = test_run,
 };

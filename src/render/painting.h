@@ -7,7 +7,7 @@
 
 #include <stdbool.h>
 
-#include "petri.h"
+#include "petri-draw.h"
 
 typedef struct Painting Painting;
 

@@ -54,7 +54,7 @@ static char *series_name(const char *name, int64_t frame) {
 
 // Finds out what is to be written. False after a message.
 static bool read_output(Render *render) {
-    RunOptions *options = &render->frames.options;
+    Options *options = &render->frames.options;
     const char *end = NULL;
     if (options->output == NULL) {
         message("option '--output' is missing: petri render %s -o OUT.png", options->script);
@@ -115,7 +115,7 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
 }
 
 static void output_frame(Render *render) {
-    const RunOptions *options = &render->frames.options;
+    const Options *options = &render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
     bool wanted =
         options->frame >= 0 ? number == options->frame : (number - render->frames.early) % options->every == 0;
@@ -139,7 +139,7 @@ static bool is_early(const Render *render) {
 
 // A single picture shows the last frame that there is.
 static void output_picture(Render *render) {
-    const RunOptions *options = &render->frames.options;
+    const Options *options = &render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
     if (options->frame >= 0 && number != options->frame) {
         message("there is nothing to draw: the run ended with frame %" PRId64 ", not %" PRId64, number, options->frame);
@@ -201,7 +201,7 @@ static int end_render(Render *render, bool going) {
 
 static int render_frames(Render *render) {
     Frames *frames = &render->frames;
-    const RunOptions *options = &frames->options;
+    const Options *options = &frames->options;
     double fps = frames_fps(frames) / (double)options->every;
     render->painting = painting_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps);
     if (render->painting == NULL) {
@@ -227,13 +227,13 @@ static int render_frames(Render *render) {
 }
 
 static int render_script(Render *render) {
-    const RunOptions *options = &render->frames.options;
+    const Options *options = &render->frames.options;
     if (!read_output(render)) {
         return STATUS_USAGE;
     }
     render->picture = petri_default_picture_options();
-    render->picture.width = options->width;
-    render->picture.height = options->height;
+    render->picture.width = options->size.width;
+    render->picture.height = options->size.height;
     render->picture.scale = options->scale;
     render->picture.automatic = options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     if (!check_folder(options->output) || !frames_load(&render->frames)) {
@@ -245,7 +245,7 @@ static int render_script(Render *render) {
 static int render_run(const Host *host, int argc, char **argv) {
     Render *render = memory_zeroed(sizeof *render);
     int status = frames_open(&render->frames, &RENDER_COMMAND, host, argc, argv);
-    if (status == RUN_OPTIONS_OK) {
+    if (status == OPTIONS_READ) {
         status = render_script(render);
     }
     if (!piped_send(&render->piped)) {
@@ -274,6 +274,7 @@ const Command RENDER_COMMAND = {
     .examples = "  petri render dish.fl -o dish.png --frame 100    one picture\n"
                 "  petri render dish.fl -o dish%05d.png --every 10 every tenth frame\n"
                 "  petri render dish.fl -o dish.mp4 --runtime 10   ten seconds as a film\n",
-    .options = RENDER_OPTION_SPECS,
+    .needed = "no script was given",
+    .options = FOR_RENDER,
     .run = render_run,
 };

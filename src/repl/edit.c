@@ -14,6 +14,8 @@
 #include <unistd.h>
 #include <wchar.h>
 
+#include "base/str.h"
+
 struct Editor {
     Repl *repl;
     EditLine *line;
@@ -166,11 +168,7 @@ static unsigned char go_down(EditLine *line, wint_t character) {
 
 // Characters, not bytes, from one place to another.
 static int characters(const char *from, const char *to) {
-    int count = 0;
-    for (; from < to; from++) {
-        count += ((unsigned char)*from & 0xc0) != 0x80;
-    }
-    return count;
+    return (int)utf8_length((Str){from, (size_t)(to - from)});
 }
 
 static unsigned char go_home(EditLine *line, wint_t character) {

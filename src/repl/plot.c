@@ -7,6 +7,7 @@
 #include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "petri-draw.h"
 #include "repl/repl.h"
 #include "view/terminal_picture.h"
 

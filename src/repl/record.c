@@ -3,7 +3,6 @@
 // NAME.golden needs a script NAME.fl beside it: the loaded one, if it is just that, else a copy, in the same folder so
 // that the file names in it mean the same, with what was typed at its end. What a golden cannot repeat is refused:
 // frames that do not follow each other from frame 0 under the same script and settings.
-#include <errno.h>
 #include <inttypes.h>
 #include <limits.h>
 #include <stdlib.h>
@@ -65,7 +64,7 @@ static bool may_record(Repl *repl, const char *script) {
 
 // The script that the golden needs: the loaded one with what was typed.
 static bool write_script(Repl *repl, const char *path) {
-    const char *kept = petri_kept(repl->session, 0);
+    const char *kept = petri_prompt_statement(repl->session, 0);
     char resolved[2][PATH_MAX];
     if (kept == NULL && repl->loaded && realpath(repl->script, resolved[0]) != NULL &&
         realpath(path, resolved[1]) != NULL && strcmp(resolved[0], resolved[1]) == 0) {
@@ -80,11 +79,12 @@ static bool write_script(Repl *repl, const char *path) {
     if (text.length > 0 && text.data[text.length - 1] != '\n') {
         bytes_add(&text, "\n", 1);
     }
-    for (size_t i = 0; (kept = petri_kept(repl->session, i)) != NULL; i++) {
+    for (size_t i = 0; (kept = petri_prompt_statement(repl->session, i)) != NULL; i++) {
         bytes_add(&text, kept, strlen(kept));
         bytes_add(&text, "\n", 1);
     }
-    bool done = bytes_replace_file(&text, path) || repl_fail(repl, "cannot write '%s': %s", path, strerror(errno));
+    const char *problem = bytes_replace_file(&text, path);
+    bool done = problem == NULL || repl_fail(repl, "cannot write '%s': %s", path, problem);
     bytes_free(&text);
     return done;
 }
@@ -134,8 +134,9 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
             good = repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "not recorded");
         }
     }
-    if (good && !bytes_replace_file(&text, golden)) {
-        good = repl_fail(repl, "cannot write '%s': %s", golden, strerror(errno));
+    const char *problem = good ? bytes_replace_file(&text, golden) : NULL;
+    if (problem != NULL) {
+        good = repl_fail(repl, "cannot write '%s': %s", golden, problem);
     }
     if (good) {
         repl_say(repl, "frames 0 to %" PRId64 " are in %s", last, golden);

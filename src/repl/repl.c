@@ -14,24 +14,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/args.h"
+#include "cli/options.h"
 #include "cli/parameters.h"
 #include "cli/script.h"
 #include "repl/line.h"
-
-enum { OPT_DEFINE = 1, OPT_FPS, OPT_STATE, OPT_LIMIT, OPT_THREADS, OPT_NOSIMPLIFY, OPT_COLOR };
-enum { DEFAULT_LIMIT = 100000, MOST_THREADS = 1024 };
-
-static const OptionSpec OPTIONS[] = {
-    {"define", 'D', OPT_DEFINE, "NAME=VALUE", "set a parameter of the script; may be repeated"},
-    {"fps", 0, OPT_FPS, "F", "frames per second (60); a script's %pragma fps wins"},
-    {"state", 0, OPT_STATE, "FILE", "begin with the state in FILE"},
-    {"limit", 0, OPT_LIMIT, "N", "frames that .run and .until make at the most (100000)"},
-    {"threads", 0, OPT_THREADS, "N", "worker threads (as many as CPUs); results never depend on it"},
-    {"nosimplify", 0, OPT_NOSIMPLIFY, NULL, "evaluate everything in every frame; results never depend on it"},
-    {"color", 0, OPT_COLOR, "WHEN", "colour prompts and messages: auto, always or never"},
-    {0},
-};
 
 // A signal handler can reach nothing but globals.
 static volatile sig_atomic_t interrupted;
@@ -251,26 +237,6 @@ static void start(Repl *repl, const char *state) {
     repl->any_failed = repl->failed;
 }
 
-static bool open_session(Repl *repl, const Host *host, PetriOptions *options) {
-    options->colour = repl->colour;
-    options->stack_bytes = host->stack_bytes;
-    options->keep_forces = options->interruptible = true;
-    options->diagnostic = on_diagnostic;
-    options->host = repl;
-    repl->session = petri_open(options);
-    if (repl->session == NULL) {
-        message("out of memory");
-        return false;
-    }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        if (petri_define(repl->session, repl->definitions[i]) != PETRI_OK) {
-            message("option '--define' expects NAME=VALUE, not '%s'", repl->definitions[i]);
-            return false;
-        }
-    }
-    return true;
-}
-
 static void catch_interrupt(void) {
     struct sigaction action = {.sa_handler = on_interrupt};
     prompt_thread = pthread_self();
@@ -296,99 +262,32 @@ static int run_session(Repl *repl, const char *state) {
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
 
-typedef struct Settings {
-    PetriOptions session;
-    const char *script;
-    const char *state;
-} Settings;
-
-static bool set_script(const Args *args, Settings *settings) {
-    if (settings->script != NULL) {
-        script_second(settings->script, args->value);
-        return false;
-    }
-    if (args->value[0] == '\0' || script_is_stdin(args->value)) {
-        message(args->value[0] == '\0'
-                    ? "the name of the script is empty"
-                    : "the prompt reads what is typed from standard input: the script must be a file");
-        return false;
-    }
-    settings->script = args->value;
-    return true;
-}
-
 void repl_keep_definition(Repl *repl, const char *definition) {
     repl->definitions = memory_resized(repl->definitions, (repl->definition_count + 1) * sizeof *repl->definitions);
     repl->definitions[repl->definition_count++] = memory_copied(definition, strlen(definition));
 }
 
-static bool add_definition(Repl *repl, const Args *args) {
-    const char *equals = strchr(args->value, '=');
-    if (equals == NULL || equals == args->value) {
-        return args_wrong_value(args, "NAME=VALUE");
-    }
-    repl_keep_definition(repl, args->value);
-    return true;
-}
-
-static bool set_threads(const Args *args, int *threads) {
-    int64_t number = 0;
-    bool good = args_integer(args, 1, MOST_THREADS, &number);
-    *threads = (int)number;
-    return good;
-}
-
-static bool apply(Repl *repl, Settings *settings, const Args *args, int id) {
-    switch (id) {
-    case ARG_OPERAND:
-        return set_script(args, settings);
-    case OPT_DEFINE:
-        return add_definition(repl, args);
-    case OPT_FPS:
-        repl->record_fps = true;
-        return args_positive(args, &settings->session.fps);
-    case OPT_STATE:
-        settings->state = args->value;
-        return true;
-    case OPT_LIMIT:
-        return args_integer(args, 1, INT64_MAX, &repl->limit);
-    case OPT_THREADS:
-        return set_threads(args, &settings->session.threads);
-    case OPT_NOSIMPLIFY:
-        settings->session.simplify = false;
-        return true;
-    case OPT_COLOR:
-        return args_colour(args, &repl->colour);
-    default:
-        return false;
-    }
-}
-
-static int read_and_run(Repl *repl, const Host *host, Args *args) {
-    Settings settings = {.session = petri_default_options()};
-    for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
-        if (id == ARG_HELP) {
-            return args_help(args);
-        }
-        if (id == ARG_WRONG || !apply(repl, &settings, args, id)) {
-            return STATUS_USAGE;
-        }
-    }
-    repl->fps = settings.session.fps;
-    repl->script = settings.script == NULL ? NULL : memory_copied(settings.script, strlen(settings.script));
-    if (!open_session(repl, host, &settings.session)) {
-        return STATUS_USAGE;
-    }
-    return output_finish(&repl->output, run_session(repl, settings.state));
-}
-
 static int repl_run(const Host *host, int argc, char **argv) {
     Repl *repl = memory_zeroed(sizeof *repl);
-    repl->limit = DEFAULT_LIMIT;
-    repl->colour = colour_by_default();
+    Options options;
     output_start(&repl->output, STDOUT_FILENO);
-    Args args = args_start(&REPL_COMMAND, argc, argv);
-    int status = read_and_run(repl, host, &args);
+    int status = options_read(&options, &REPL_COMMAND, argc, argv);
+    if (status == OPTIONS_READ) {
+        repl->limit = options.limit;
+        repl->colour = options.colour;
+        repl->record_fps = options.fps_given;
+        repl->fps = options.fps;
+        repl->script = options.script == NULL ? NULL : memory_copied(options.script, strlen(options.script));
+        for (size_t i = 0; i < options.definition_count; i++) {
+            repl_keep_definition(repl, options.definitions[i]);
+        }
+        options.prompt = true;
+        status = options_open(&options, host, on_diagnostic, repl, &repl->session);
+    }
+    if (status == OPTIONS_READ) {
+        status = output_finish(&repl->output, run_session(repl, options.state_file));
+    }
+    options_free(&options);
     history_free(&repl->history);
     petri_close(&repl->session);
     watch_free(repl->files);
@@ -418,6 +317,7 @@ const Command REPL_COMMAND = {
         "if the lines come from a file or a pipe, it is 1 when one of them was in error.",
     .examples = "  petri repl dish.fl                              then: .step 60, .particles 5, .help\n"
                 "  petri repl                                      without a script, to try things out\n",
-    .options = OPTIONS,
+    .no_stdin = "the prompt reads what is typed from standard input: the script must be a file",
+    .options = FOR_REPL,
     .run = repl_run,
 };

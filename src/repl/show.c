@@ -6,6 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/motion.h"
 #include "cli/table.h"
 #include "repl/repl.h"
 
@@ -192,14 +193,6 @@ static void add_number(Table *table, double x) {
     add_vector(table, &x, 1);
 }
 
-static double speed_of(const PetriParticle *particle, uint32_t dimensions) {
-    double sum = 0;
-    for (uint32_t k = 0; k < dimensions; k++) {
-        sum += particle->velocity[k] * particle->velocity[k];
-    }
-    return sqrt(sum);
-}
-
 static uint32_t count_anchors(const Repl *repl, size_t number) {
     PetriParticle particle;
     uint32_t anchors = 0;
@@ -226,7 +219,7 @@ static void show_particles(Repl *repl, size_t number, const PetriSystem *system,
         table_add(&table, particle.id);
         add_vector(&table, particle.position, system->dimensions);
         add_vector(&table, particle.velocity, system->dimensions);
-        add_number(&table, speed_of(&particle, system->dimensions));
+        add_number(&table, particle_speed(&particle, system->dimensions));
         if (particle.anchor) {
             table_add(&table, "anchor");
         } else {
@@ -252,43 +245,24 @@ static bool run_particles(Repl *repl, const char *rest) {
 
 static void show_energy(Repl *repl, size_t number, const PetriSystem *system, const Wish *wish) {
     (void)wish;
-    PetriParticle particle;
-    double *momentum = memory_zeroed(system->dimensions * sizeof *momentum);
-    double energy = 0, fastest = -1;
-    uint32_t moving = 0;
-    Bytes id = {0};
-    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
-        if (particle.anchor) {
-            continue;
-        }
-        double speed = speed_of(&particle, system->dimensions);
-        moving++;
-        energy += 0.5 * particle.mass * speed * speed;
-        for (uint32_t k = 0; k < system->dimensions; k++) {
-            momentum[k] += particle.mass * particle.velocity[k];
-        }
-        if (speed > fastest) {
-            fastest = speed;
-            id.length = 0;
-            bytes_add(&id, particle.id, strlen(particle.id));
-        }
-    }
-    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, moving,
-                  moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
-    if (moving > 0) {
+    Motion motion = motion_measure(repl->session, number, system);
+    output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
+                  motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
+    if (motion.moving > 0) {
+        Bytes fastest = {0};
         Table table = table_new(2);
         table_add(&table, "  kinetic energy");
-        add_number(&table, energy);
+        add_number(&table, motion.kinetic_energy);
         table_add(&table, "  momentum");
-        add_vector(&table, momentum, system->dimensions);
+        add_vector(&table, motion.momentum, system->dimensions);
         table_add(&table, "  fastest");
-        bytes_format(&id, " at %.6g", fastest);
-        table_add(&table, id.data);
+        bytes_format(&fastest, "%s at %.6g", motion.fastest_id, motion.fastest);
+        table_add(&table, fastest.data);
         table_write(&table, &repl->output);
         table_free(&table);
+        bytes_free(&fastest);
     }
-    bytes_free(&id);
-    free(momentum);
+    motion_free(&motion);
 }
 
 static bool run_energy(Repl *repl, const char *wanted) {

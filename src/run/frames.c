@@ -64,16 +64,16 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 }
 
 int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv) {
-    int status = run_options_read(&frames->options, command, argc, argv);
-    if (status != RUN_OPTIONS_OK) {
+    int status = options_read(&frames->options, command, argc, argv);
+    if (status != OPTIONS_READ) {
         return status;
     }
-    return run_options_open(&frames->options, host, on_diagnostic, frames, &frames->session);
+    return options_open(&frames->options, host, on_diagnostic, frames, &frames->session);
 }
 
 void frames_close(Frames *frames) {
     petri_close(&frames->session);
-    run_options_free(&frames->options);
+    options_free(&frames->options);
 }
 
 bool frames_load(Frames *frames) {

@@ -4,12 +4,12 @@
 #ifndef PETRI_SRC_FRAMES_H
 #define PETRI_SRC_FRAMES_H
 
+#include "cli/options.h"
 #include "cli/progress.h"
 #include "petri.h"
-#include "run/run_options.h"
 
 typedef struct Frames {
-    RunOptions options;
+    Options options;
     PetriSession *session;
     Progress progress;
     int64_t done;          // frames that were made
@@ -21,7 +21,7 @@ typedef struct Frames {
     bool wrong_definition; // the script cannot take a value of -D
 } Frames;
 
-// Reads the command line and opens a session. RUN_OPTIONS_OK, or the status to exit with. Frames must be zero at first,
+// Reads the command line and opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first,
 // and stay where it is.
 int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv);
 void frames_close(Frames *frames);

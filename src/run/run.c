@@ -105,7 +105,7 @@ static void report_profile(Run *run) {
 
 // What there is to see is told to a person who watches, and to nobody else.
 static void report_pictures(const Run *run) {
-    const RunOptions *options = &run->frames.options;
+    const Options *options = &run->frames.options;
     if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session) ||
         script_is_stdin(options->script)) {
         return;
@@ -160,7 +160,7 @@ static int list_parameters(Run *run) {
 }
 
 static int run_session(Run *run) {
-    const RunOptions *options = &run->frames.options;
+    const Options *options = &run->frames.options;
     if (!frames_load(&run->frames)) {
         return run->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
@@ -187,10 +187,10 @@ static int run_run(const Host *host, int argc, char **argv) {
     run->to_terminal = isatty(STDOUT_FILENO);
     run->host = host;
     int status = frames_open(&run->frames, &RUN_COMMAND, host, argc, argv);
-    if (status == RUN_OPTIONS_OK && show_wanted(&run->frames.options, argc, argv)) {
+    if (status == OPTIONS_READ && show_wanted(&run->frames.options, argc, argv)) {
         show(&run->frames.options, host, argc, argv);
     }
-    if (status == RUN_OPTIONS_OK) {
+    if (status == OPTIONS_READ) {
         status = output_finish(&run->output, run_session(run));
     }
     frames_close(&run->frames);
@@ -215,6 +215,7 @@ const Command RUN_COMMAND = {
                 "  petri run dish.fl --print state --every 60      where everything is, once a second\n"
                 "  petri run dish.fl -D DROPS=50 --frames 100      another number of drops\n"
                 "  petri run dish.fl --trajectory dish.csv         all ways as a table\n",
-    .options = RUN_OPTION_SPECS,
+    .needed = "no script was given",
+    .options = FOR_RUN,
     .run = run_run,
 };

@@ -19,15 +19,15 @@ static bool is_named(const char *word, const char *name) {
 
 // What `petri view` does not know asks for text or files.
 static bool view_knows(const char *word) {
-    for (const OptionSpec *spec = VIEW_OPTION_SPECS; spec->name != NULL; spec++) {
-        if (is_named(word, spec->name)) {
+    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+        if (spec->commands & FOR_VIEW && is_named(word, spec->name)) {
             return true;
         }
     }
     return strncmp(word, "--", 2) != 0 || is_named(word, "show");
 }
 
-bool show_wanted(const RunOptions *options, int argc, char **argv) {
+bool show_wanted(const Options *options, int argc, char **argv) {
 #ifdef HAVE_CHAFA
     bool at_terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) && progress_possible();
 #else
@@ -49,9 +49,9 @@ static void ignore(void *context, const PetriDiagnostic *diagnostic) {
 }
 
 // The first frame tells.
-static bool is_drawable(const RunOptions *options, const Host *host) {
+static bool is_drawable(const Options *options, const Host *host) {
     PetriSession *session = NULL;
-    if (run_options_open(options, host, ignore, NULL, &session) != RUN_OPTIONS_OK) {
+    if (options_open(options, host, ignore, NULL, &session) != OPTIONS_READ) {
         return false;
     }
     bool drawable =
@@ -60,7 +60,7 @@ static bool is_drawable(const RunOptions *options, const Host *host) {
     return drawable;
 }
 
-void show(const RunOptions *options, const Host *host, int argc, char **argv) {
+void show(const Options *options, const Host *host, int argc, char **argv) {
     if (!is_drawable(options, host)) {
         return;
     }

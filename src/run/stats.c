@@ -2,11 +2,10 @@
 #include "run/stats.h"
 
 #include <inttypes.h>
-#include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 
 #include "cli/bytes.h"
+#include "cli/motion.h"
 
 void stats_count(Stats *stats, PetriSession *session) {
     PetriFrame frame = petri_frame(session);
@@ -20,43 +19,10 @@ void stats_count(Stats *stats, PetriSession *session) {
     }
 }
 
-// What is measured of one system (kinetic energy: half the mass times the speed squared; momentum: mass times
-// velocity).
-typedef struct Motion {
-    uint32_t moving;
-    double kinetic_energy;
-    double *momentum;
-    double fastest;
-    char *fastest_id; // or NULL
-} Motion;
-
-static void add_particle(Motion *motion, const PetriParticle *particle, uint32_t dimensions) {
-    double square = 0;
-    for (uint32_t k = 0; k < dimensions; k++) {
-        square += particle->velocity[k] * particle->velocity[k];
-        motion->momentum[k] += particle->mass * particle->velocity[k];
-    }
-    motion->moving++;
-    motion->kinetic_energy += 0.5 * particle->mass * square;
-    if (motion->fastest_id == NULL || sqrt(square) > motion->fastest) {
-        Bytes id = {0};
-        bytes_format(&id, "%s", particle->id);
-        free(motion->fastest_id);
-        motion->fastest_id = id.data;
-        motion->fastest = sqrt(square);
-    }
-}
-
 static void print_system(PetriSession *session, size_t number, const PetriSystem *system) {
     enum { MOST_COMPONENTS = 4 };
-    Motion motion = {.momentum = memory_zeroed(system->dimensions * sizeof(double))};
-    PetriParticle particle;
     fprintf(stderr, "  system %s, %" PRIu32 "-dimensional", system->name, system->dimensions);
-    for (uint32_t i = 0; i < system->particle_count && petri_particle(session, number, i, &particle); i++) {
-        if (!particle.anchor) {
-            add_particle(&motion, &particle, system->dimensions);
-        }
-    }
+    Motion motion = motion_measure(session, number, system);
     fprintf(stderr, ": %" PRIu32 " particle%s", motion.moving, motion.moving == 1 ? "" : "s");
     if (system->particle_count > motion.moving) {
         fprintf(stderr, ", %" PRIu32 " anchor%s", system->particle_count - motion.moving,
@@ -70,8 +36,7 @@ static void print_system(PetriSession *session, size_t number, const PetriSystem
     if (motion.fastest_id != NULL) {
         fprintf(stderr, "    fastest particle  %s at %.9g\n", motion.fastest_id, motion.fastest);
     }
-    free(motion.fastest_id);
-    free(motion.momentum);
+    motion_free(&motion);
 }
 
 static void print_time(const char *what, double seconds, int64_t frames) {

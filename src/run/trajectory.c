@@ -18,19 +18,6 @@
 
 enum { XYZ_DIMENSIONS = 3 };
 
-bool trajectory_format(const char *path, TrajectoryFormat *format) {
-    static const char *const endings[] = {[TRAJECTORY_XYZ] = ".xyz", [TRAJECTORY_CSV] = ".csv"};
-    size_t length = strlen(path);
-    for (size_t i = 0; i < sizeof endings / sizeof endings[0]; i++) {
-        size_t ending = strlen(endings[i]);
-        if (length > ending && strcmp(path + length - ending, endings[i]) == 0) {
-            *format = (TrajectoryFormat)i;
-            return true;
-        }
-    }
-    return false;
-}
-
 static bool complain(Trajectory *trajectory, int error) {
     if (!trajectory->failed) {
         message("cannot write %s: %s", trajectory->path, strerror(error));
@@ -45,7 +32,7 @@ bool trajectory_open(Trajectory *trajectory, const char *path) {
     trajectory->path = path;
     trajectory->failed = false;
     trajectory->dimensions = 0;
-    trajectory_format(path, &trajectory->format);
+    trajectory->csv = strcmp(path + strlen(path) - 4, ".csv") == 0;
     int fd = open(beside.data, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (fd < 0) {
         complain(trajectory, errno);
@@ -156,7 +143,7 @@ static void add_csv(Trajectory *trajectory, PetriSession *session) {
 }
 
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
-    if (trajectory->format == TRAJECTORY_XYZ) {
+    if (!trajectory->csv) {
         add_xyz(&trajectory->output, session);
     } else {
         add_csv(trajectory, session);

@@ -7,21 +7,17 @@
 #include "cli/output.h"
 #include "petri.h"
 
-typedef enum TrajectoryFormat { TRAJECTORY_XYZ, TRAJECTORY_CSV } TrajectoryFormat;
-
 // Written beside its final name, which it gets when it is complete.
 typedef struct Trajectory {
     const char *path;
-    TrajectoryFormat format;
+    bool csv;            // else XYZ
     char *beside;        // NULL: nothing is open
     uint32_t dimensions; // of a CSV's columns: the most that a system of the first frame has
     bool failed;         // told already
     Output output;
 } Trajectory;
 
-// The format that a file's name asks for; false if it is neither .xyz nor .csv.
-bool trajectory_format(const char *path, TrajectoryFormat *format);
-// False after a message if the file cannot be made.
+// A file whose name ends in .xyz or .csv. False after a message if the file cannot be made.
 bool trajectory_open(Trajectory *trajectory, const char *path);
 // Adds the last frame of a session. If it cannot be written there is a message, and `failed` is set.
 void trajectory_add(Trajectory *trajectory, PetriSession *session);

@@ -6,7 +6,7 @@
 #include <string.h>
 
 #include "cli/bytes.h"
-#include "petri.h"
+#include "petri-draw.h"
 
 // Sizes in units of text; a letter of the fixed-width font is about this part of its size wide.
 enum { TEXT_SIZE = 13, LINE = 19, MARGIN = 12, PADDING = 10, STRIPE = 4, CORNER = 6 };

@@ -3,24 +3,12 @@
 
 #include <string.h>
 
+#include "base/str.h"
+
 // Length of the UTF-8 character at the start of a text, 0 if there is none.
-static size_t character_length(const unsigned char *text) {
-    size_t length = text[0] < 0x80                      ? 1
-                    : text[0] >= 0xC2 && text[0] < 0xE0 ? 2
-                    : text[0] >= 0xE0 && text[0] < 0xF0 ? 3
-                                                        : 4;
-    if (text[0] == 0 || text[0] > 0xF4 || (text[0] >= 0x80 && text[0] < 0xC2)) {
-        return 0;
-    }
-    for (size_t i = 1; i < length; i++) {
-        if ((text[i] & 0xC0) != 0x80) {
-            return 0;
-        }
-    }
-    bool surrogate = text[0] == 0xED && text[1] >= 0xA0,
-         overlong = (text[0] == 0xE0 && text[1] < 0xA0) || (text[0] == 0xF0 && text[1] < 0x90),
-         beyond = text[0] == 0xF4 && text[1] >= 0x90;
-    return surrogate || overlong || beyond ? 0 : length;
+static size_t character_length(const char *text) {
+    size_t length = 0;
+    return *text != '\0' && utf8_next((Str){text, strnlen(text, UTF8_MAX)}, &length) >= 0 ? length : 0;
 }
 
 // Past an escape sequence such as those that colour messages.
@@ -43,7 +31,7 @@ bool overlay_set(char *text, size_t size, const char *from) {
     size_t used = 0;
     size = size < sizeof clean ? size : sizeof clean;
     while (*from != '\0') {
-        size_t length = character_length((const unsigned char *)from);
+        size_t length = character_length(from);
         if (*from == '\033') {
             from = skip_escape(from);
             continue;

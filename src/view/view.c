@@ -69,7 +69,7 @@ static void step(View *view) {
 }
 
 static bool at_end(const View *view) {
-    const RunOptions *options = &view->world.options;
+    const Options *options = &view->world.options;
     if (view->world.frames >= options->frames) {
         return true;
     }
@@ -315,7 +315,7 @@ static void run_loop(View *view) {
 
 // A window if there is a screen for it, else the terminal.
 static bool open_display(View *view) {
-    const RunOptions *options = &view->world.options;
+    const Options *options = &view->world.options;
     bool window = !options->terminal && window_display() != NULL && window_has_screen();
     if (!window && terminal_display() == NULL) {
         message(options->terminal || window_display() != NULL
@@ -380,15 +380,15 @@ static int run_view(View *view) {
 static int view_run(const Host *host, int argc, char **argv) {
     View *view = memory_zeroed(sizeof *view);
     view->host = host;
-    int status = run_options_read(&view->world.options, &VIEW_COMMAND, argc, argv);
-    if (status == RUN_OPTIONS_OK) {
+    int status = options_read(&view->world.options, &VIEW_COMMAND, argc, argv);
+    if (status == OPTIONS_READ) {
         status = world_open(&view->world, host);
-        if (status == RUN_OPTIONS_OK) {
+        if (status == OPTIONS_READ) {
             status = run_view(view);
         }
         world_close(&view->world);
     }
-    run_options_free(&view->world.options);
+    options_free(&view->world.options);
     free(view->pixels);
     free(view);
     return status;
@@ -412,6 +412,9 @@ const Command VIEW_COMMAND = {
     .examples =
         "  petri view dish.fl                              until it is closed; save dish.fl to see what changed\n"
         "  petri view dish.fl --terminal -D DROPS=50       in the terminal\n",
-    .options = VIEW_OPTION_SPECS,
+    .needed = "no script was given",
+    .no_stdin = "'petri view' follows its script's file as it is saved and cannot take it from standard input; "
+                "'petri render -' can",
+    .options = FOR_VIEW,
     .run = view_run,
 };

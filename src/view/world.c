@@ -84,13 +84,13 @@ static int load_first(World *world) {
             world->failed = true;
         }
     }
-    return RUN_OPTIONS_OK;
+    return OPTIONS_READ;
 }
 
 int world_open(World *world, const Host *host) {
     world->host = host;
-    int status = run_options_open(&world->options, host, on_diagnostic, world, &world->session);
-    if (status != RUN_OPTIONS_OK) {
+    int status = options_open(&world->options, host, on_diagnostic, world, &world->session);
+    if (status != OPTIONS_READ) {
         return status;
     }
     world->watch = watch_new();

@@ -6,13 +6,13 @@
 #define PETRI_SRC_VIEW_WORLD_H
 
 #include "cli/bytes.h"
+#include "cli/options.h"
 #include "cli/watch.h"
-#include "petri.h"
-#include "run/run_options.h"
+#include "petri-draw.h"
 #include "view/warnings.h"
 
 typedef struct World {
-    RunOptions options;
+    Options options;
     const Host *host;
     PetriSession *session;
     PetriPainter *painter;
@@ -34,7 +34,7 @@ typedef struct World {
     Warnings warnings; // of the program that is running, since it was loaded
 } World;
 
-// Opens and loads; the status to exit with, or RUN_OPTIONS_OK. The options have been read. Close in either case.
+// Opens and loads; the status to exit with, or OPTIONS_READ. The options have been read. Close in either case.
 int world_open(World *world, const Host *host);
 void world_close(World *world);
 // One frame and its picture; records what the script asks for. False if it could not be made.

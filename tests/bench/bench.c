@@ -182,7 +182,7 @@ static void write_csv(const char *csv, const NamedTable *tables, size_t count) {
 static const char notes[] =
     "Medians of rounds, in turns, on one thread unless it says threads. The reference implementation's figures, and "
     "the\n"
-    "published ones of LAMMPS on 2 ranks, are from shared/bench/README.md, measured on a like machine (Zen 4, 3.7 "
+    "published ones of LAMMPS on 2 ranks, are from tests/bench/PEERS.md, measured on a like machine (Zen 4, 3.7 "
     "GHz,\n"
     "2 processors); all others are from this run. tests/bench/README.md tells what each column means.\n";
 

@@ -11,7 +11,7 @@ enum { STYLES = 2 };
 
 static const char *const styles[STYLES] = {"harmonic", "hooke"};
 
-// Million particle-steps per second on two ranks: shared/bench/README.md, section 2 (newer LAMMPS, another machine).
+// Million particle-steps per second on two ranks: tests/bench/PEERS.md, section 2 (newer LAMMPS, another machine).
 static const struct {
     const char *peer;
     int side;

@@ -143,7 +143,7 @@ typedef struct Target {
     double must, aim; // aim 0: none
 } Target;
 
-// The reference implementation's figures were published with the workloads (shared/bench/README.md, section 1).
+// The reference implementation's figures were published with the workloads (tests/bench/PEERS.md, section 1).
 static const Target targets[] = {
     {"dish 200: whole frame", "ms", "dish 200", FRAME_MS, 0.68, 0.055, 0.03},
     {"dish 1000: whole frame", "ms", "dish 1000", FRAME_MS, 10.4, 0.6, 0.4},

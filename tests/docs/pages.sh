@@ -41,7 +41,7 @@ command -v ffmpeg >/dev/null || can_film=
 # A library with sanitizers in it takes options that the page does not have.
 build=$(dirname "$(dirname "$(readlink -f "$petri")")")
 can_link=
-if [ -n "$can_draw" ] && ! nm "$build/lib/session/libpetri.a" 2>/dev/null | grep -q -e __asan -e __ubsan; then
+if ! nm "$build/lib/session/libpetri.a" 2>/dev/null | grep -q -e __asan -e __ubsan; then
     can_link=yes
 fi
 

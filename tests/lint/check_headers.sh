@@ -1,5 +1,5 @@
 #!/bin/sh
-# check_headers.sh SOURCE_ROOT BUILD_ROOT: each header compiles alone, as C17 and, for petri.h, as C++ too if there is a
+# check_headers.sh SOURCE_ROOT BUILD_ROOT: each header compiles alone, as C17 and, for those in lib/include, as C++ too if there is a
 # compiler for it. Lists of rows (X-macros) are no headers of their own.
 set -eu
 build=$2
@@ -30,9 +30,9 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
 done
 
 if command -v "${CXX:-c++}" >/dev/null 2>&1; then
-    printf '#include "petri.h"\nint main() { return petri_version() == nullptr; }\n' >"$scratch/alone.cc"
+    printf '#include "petri-draw.h"\nint main() { return petri_version() == nullptr || petri_picture_format(""); }\n' >"$scratch/alone.cc"
     if ! "${CXX:-c++}" -std=c++17 -fsyntax-only -Wall -Wextra -Werror -Ilib/include "$scratch/alone.cc"; then
-        echo "petri.h does not compile as C++"
+        echo "petri-draw.h, with petri.h in it, does not compile as C++"
         faults=1
     fi
 fi

@@ -28,7 +28,8 @@ done <"$table"
 # A new room must be in the table.
 for folder in "$1"/lib/*/; do
     room=$(basename "$folder")
-    if [ "$room" != include ] && ! grep -q "^$room " "$table"; then
+    [ "$room" != include ] && [ "$room" != spec ] || continue # no code
+    if ! grep -q "^$room " "$table"; then
         echo "symbols.txt does not know the room $room"
         faults=1
     fi

@@ -13,7 +13,7 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "petri.h"
+#include "petri-draw.h"
 
 enum { MOST_SCRIPTS = 200, MOST_SEEN = 4000, AUTO_SIZE = 160, USUAL_TOLERANCE = 2 };
 

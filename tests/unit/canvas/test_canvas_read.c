@@ -7,7 +7,7 @@
 typedef struct Fixture {
     Arena arena;
     SymbolTable symbols;
-    CanvasSchema schema;
+    Schema schema;
     char told[2000];
 } Fixture;
 
@@ -24,7 +24,7 @@ static void begin(Fixture *f) {
     *f = (Fixture){0};
     arena_init(&f->arena, "test", SIZE_MAX);
     f->symbols = symbol_table_new(&f->arena);
-    canvas_schema_init(&f->schema, &f->symbols, (CanvasHost){f, note});
+    schema_init(&f->schema, &f->symbols, (SchemaHost){f, note});
 }
 
 static void end(Fixture *f) {
@@ -59,19 +59,19 @@ static void test_types(void **state) {
     begin(&f);
     double pair[2];
     const DrawNode *node = read_one(&f, "ellipse", "radius", value_number(3));
-    assert_true(draw_pair(node, NAME_RADIUS, pair) && pair[0] == 3 && pair[1] == 3);
+    assert_true(draw_pair(node, ATTR_RADIUS, pair) && pair[0] == 3 && pair[1] == 3);
     node = read_one(&f, "paint", "color", NUMBERS(&f, 0.1, 0.2, 0.3));
-    assert_true(draw_attr(node, NAME_COLOR)->as.numbers[2] == 0.3 && draw_attr(node, NAME_COLOR)->as.numbers[3] == 1);
+    assert_true(draw_attr(node, ATTR_COLOR)->as.numbers[2] == 0.3 && draw_attr(node, ATTR_COLOR)->as.numbers[3] == 1);
     node = read_one(&f, "line", "points", NUMBERS(&f, 1, 2, 3, 4));
-    assert_int_equal(draw_attr(node, NAME_POINTS)->count, 4);
+    assert_int_equal(draw_attr(node, ATTR_POINTS)->count, 4);
     node = read_one(&f, "paint", "composite", value_number(symbol_number(STR("lighter"))));
-    assert_int_equal(draw_attr(node, NAME_COMPOSITE)->as.word, COMPOSITE_ADD);
+    assert_int_equal(draw_attr(node, ATTR_COMPOSITE)->as.word, COMPOSITE_ADD);
     node = read_one(&f, "paint", "stroke_cap", value_string(&f.arena, STR("square")));
-    assert_int_equal(draw_attr(node, NAME_STROKE_CAP)->as.word, CAP_SQUARE);
+    assert_int_equal(draw_attr(node, ATTR_STROKE_CAP)->as.word, CAP_SQUARE);
     node = read_one(&f, "font", "weight", value_number(symbol_number(STR("bold"))));
-    assert_true(draw_number(node, NAME_WEIGHT, 0) == 700);
+    assert_true(draw_number(node, ATTR_WEIGHT) == 700);
     node = read_one(&f, "text", "text", NUMBERS(&f, 1, 2.5));
-    assert_string_equal(draw_attr(node, NAME_TEXT)->as.text.bytes, "12.5");
+    assert_string_equal(draw_attr(node, ATTR_TEXT)->as.text.bytes, "12.5");
     assert_string_equal(f.told, "");
     end(&f);
 }

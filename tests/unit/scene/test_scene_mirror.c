@@ -8,6 +8,7 @@
 
 typedef struct Stage {
     World *world;
+    Schema schema;
     Scene *scene;
     State *state;
     Arena arena; // of the frame
@@ -72,7 +73,8 @@ static bool has(const Stage *stage, const char *key) {
 // Frames of `first`, `second`, which may break off, and `third`.
 static bool play(Stage *stage, World *world, Value first, Value second, Value third, size_t budget) {
     *stage = (Stage){.world = world, .state = state_new()};
-    stage->scene = scene_new(&world->symbols, (SceneHost){NULL, ignore});
+    schema_init(&stage->schema, &world->symbols, (SchemaHost){NULL, ignore});
+    stage->scene = scene_new(&world->arena, &stage->schema);
     assert_true(update(stage, first, SIZE_MAX));
     assert_true(update(stage, first, SIZE_MAX));
     assert_true(has(stage, ":s;1") && has(stage, ":s;2") && has(stage, ":s;2;:velocity"));

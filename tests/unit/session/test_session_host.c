@@ -313,6 +313,25 @@ static void test_helpers(void **state) {
     assert_true(strlen(petri_version()) > 0);
 }
 
+static void test_nodes(void **state) {
+    (void)state;
+    PetriNodeKind kind;
+    PetriNodeAttribute attribute;
+    size_t kinds = 0, rects = 0, groups = 0;
+    for (; petri_node_kind(kinds, &kind); kinds++) {
+        assert_true(kind.name[0] && kind.help[0]);
+        groups += strcmp(kind.name, "group") == 0;
+        for (size_t i = 0; petri_node_attribute(kinds, i, &attribute); i++) {
+            assert_true(attribute.name[0] && attribute.type[0] && attribute.fallback && attribute.help);
+            rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
+        }
+    }
+    assert_int_equal(groups, 2); // of physics and of the canvas
+    assert_int_equal(rects, 1);
+    assert_false(petri_node_kind(kinds + 1000, &kind));
+    assert_false(petri_node_attribute(kinds, 0, &attribute));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_options),
@@ -327,6 +346,7 @@ int main(void) {
         PLAYER_TEST(test_several_texts_at_one_place),
         PLAYER_TEST(test_no_more_than_a_thousand),
         PLAYER_TEST(test_two_sessions),
+        PLAYER_TEST(test_nodes),
         cmocka_unit_test(test_rendered),
         cmocka_unit_test(test_places_of_nodes),
         cmocka_unit_test(test_one_place_is_told_once),

@@ -4,7 +4,7 @@
 #include "session/session.h"
 
 static const Node *top_node(const Player *player) {
-    Value tree = player->session->tree;
+    Value tree = player->session->frame.tree;
     assert_true(tree.kind == VALUE_MIXED && tree.len == 1);
     return tree.as.items[0].as.node;
 }
@@ -54,12 +54,12 @@ static void test_changing_children(void **state) {
 // Another program may lie where this one did.
 static void test_generation(void **state) {
     Player *player = *state;
-    uint64_t generation = player->session->generation;
+    uint64_t generation = player->session->loader.generation;
     player_run(player, "!a\n", 2);
-    uint64_t loaded = player->session->generation;
+    uint64_t loaded = player->session->loader.generation;
     assert_true(loaded != generation);
     player_run(player, "!a\n", 2);
-    assert_true(player->session->generation != loaded);
+    assert_true(player->session->loader.generation != loaded);
 }
 
 int main(void) {

@@ -66,13 +66,13 @@ static void test_kept(void **state) {
     assert_string_equal(player_tree(player), "!counter state=:c\n!shape n=3\n!extra v=7\n    !inner\n"
                                              "!loop i=0\n!loop i=1\n");
     assert_string_equal(typed(player, "k;a;b", PETRI_OK), "7;7;10\n");
-    assert_string_equal(petri_kept(player->session, 0), "let k=COUNT+frame");
+    assert_string_equal(petri_prompt_statement(player->session, 0), "let k=COUNT+frame");
     assert_int_equal(petri_drop(player->session, false), 2);
     player_step(player, 1);
     assert_string_equal(player_tree(player), "!counter state=:c\n!shape n=3\n");
     assert_string_equal(typed(player, "k", PETRI_OK), "8\n");
     assert_int_equal(petri_drop(player->session, true), 3);
-    assert_null(petri_kept(player->session, 0));
+    assert_null(petri_prompt_statement(player->session, 0));
     assert_string_equal(typed(player, "k", PETRI_OK), "null\n");
     assert_non_null(strstr(player_told(player), "unbound name 'k'"));
 }
@@ -106,7 +106,7 @@ static void test_faults(void **state) {
             player_forget(player);
         }
     }
-    assert_null(petri_kept(player->session, 0));
+    assert_null(petri_prompt_statement(player->session, 0));
     player_step(player, 2);
     assert_string_equal(typed(player, "COUNT", PETRI_OK), "3\n");
 }
@@ -169,7 +169,7 @@ static void test_evaluate(void **state) {
     // Nothing of it is kept, whatever the number of evaluations.
     for (int i = 0; i < 3000; i++)
         assert_int_equal(petri_evaluate(player->session, "COUNT;..1000", PETRI_Z, &result, NULL, NULL), PETRI_OK);
-    assert_null(petri_kept(player->session, 0));
+    assert_null(petri_prompt_statement(player->session, 0));
 }
 
 static void test_names(void **state) {

@@ -106,14 +106,14 @@ static void test_forces(void **state) {
     player_run(player, SCRIPT, 2);
     PetriForce force;
     assert_true(petri_force(player->session, 0, 0, &force));
-    assert_int_equal(force.kind, PETRI_CONSTANT);
+    assert_string_equal(force.kind, "constant");
     assert_null(force.position);
     assert_true(petri_force(player->session, 0, 1, &force));
-    assert_int_equal(force.kind, PETRI_DISTANCE);
+    assert_string_equal(force.kind, "distance");
     assert_int_equal(force.from, 0);
     assert_int_equal(force.to, 1);
     assert_true(petri_force(player->session, 0, 2, &force));
-    assert_int_equal(force.kind, PETRI_BARRIER);
+    assert_string_equal(force.kind, "barrier");
     assert_number("y", force.position[1], -50);
     assert_number("unit normal", force.normal[1], 1);
     assert_false(petri_force(player->session, 0, 3, &force));

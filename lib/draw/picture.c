@@ -1,11 +1,15 @@
-// picture.c: what the last frame shows, copied so that it can be drawn later and elsewhere (painter.c).
-#include "session/picture.h"
+// picture.c: what the last frame shows, chosen and copied so that it can be drawn later and elsewhere (painter.c).
+#include "draw/picture.h"
+
 #include "maths/maths.h"
+#include "session/shown.h"
+#include "value/format.h"
 
 #include <math.h>
 #include <stdlib.h>
 
 enum { DEFAULT_WIDTH = 1920, DEFAULT_HEIGHT = 1080, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
+enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
 
 PetriPictureOptions petri_default_picture_options(void) {
     return (PetriPictureOptions){.scale = 1, .window = -1};
@@ -13,36 +17,21 @@ PetriPictureOptions petri_default_picture_options(void) {
 
 // What petri_picture is working on.
 typedef struct Request {
-    PetriSession *session;
+    Shown shown;
+    AutoFrame *frames; // what the automatic picture showed last of each system
     const PetriPictureOptions *options;
     PetriPicture *picture;
     const char *problem; // why there is no picture; may be NULL
+    PetriStatus status;
 } Request;
 
-static bool is_window(const PetriSession *session, const Item *item) {
-    if (item->type != ITEM_NODE)
-        return false;
-    DrawKind kind = canvas_kind(&session->canvas, item->as.node);
-    return kind == DRAW_WINDOW || kind == DRAW_OFFSCREEN;
-}
-
-static bool has_canvas(const PetriSession *session, const Node *window) {
-    for (uint32_t i = 0; i < window->child_count; i++)
-        if (canvas_kind(&session->canvas, window->children[i]) == DRAW_CANVAS)
-            return true;
-    return false;
-}
-
 // The window of that number; of none in particular, the first with something to draw, or else the first.
-static const Node *find_window(const PetriSession *session, int number) {
-    const Node *first = NULL;
-    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
-        const Item *item = &session->tree.as.items[i];
-        if (!is_window(session, item))
-            continue;
-        if (number < 0 ? has_canvas(session, item->as.node) : number-- == 0)
-            return item->as.node;
-        first = first || number >= 0 ? first : item->as.node;
+static const Node *find_window(const Shown *shown, int number) {
+    const Node *first = NULL, *window;
+    for (uint32_t at = 0; (window = canvas_next_window(shown->schema, shown->tree, &at)) != NULL;) {
+        if (number < 0 ? canvas_in_window(shown->schema, window) : number-- == 0)
+            return window;
+        first = first || number >= 0 ? first : window;
     }
     return first;
 }
@@ -114,10 +103,9 @@ static void copy_forces(Arena *arena, const SceneView *view, AutoSystem *system,
     }
 }
 
-static void copy_system(PetriSession *session, Arena *arena, const SceneView *view, AutoFrame *frame,
-                        AutoSystem *system) {
+static void copy_system(const Shown *shown, Arena *arena, const SceneView *view, AutoFrame *frame, AutoSystem *system) {
     uint32_t *numbers = arena_alloc_array(arena, view->particle_count, sizeof *numbers);
-    *system = (AutoSystem){.name = value_text(arena, &session->symbols, view->prefix),
+    *system = (AutoSystem){.name = value_text(arena, shown->schema->symbols, view->prefix),
                            .dimensions = view->dimensions > 3 ? 3 : view->dimensions};
     copy_bodies(arena, view, system, numbers);
     copy_forces(arena, view, system, numbers);
@@ -127,20 +115,22 @@ static void copy_system(PetriSession *session, Arena *arena, const SceneView *vi
         shade_by_speed(view, system, numbers);
 }
 
-static uint32_t count_systems(const PetriSession *session) {
+static uint32_t count_systems(const Shown *shown) {
     SceneView view;
     uint32_t count = 0;
-    while (count < MOST_AUTO_SYSTEMS && scene_view(session->scene, session->state, count, &view))
+    while (count < MOST_AUTO_SYSTEMS && scene_view(shown->scene, shown->state, count, &view))
         count++;
     return count;
 }
 
-static void copy_systems(PetriSession *session, PetriPicture *picture, uint32_t count) {
+static void copy_systems(const Request *request, uint32_t count) {
+    const Shown *shown = &request->shown;
+    PetriPicture *picture = request->picture;
     AutoSystem *systems = arena_alloc_array(&picture->arena, count, sizeof *systems);
     for (uint32_t i = 0; i < count; i++) {
         SceneView view;
-        if (scene_view(session->scene, session->state, i, &view))
-            copy_system(session, &picture->arena, &view, &session->auto_frames[i], &systems[i]);
+        if (scene_view(shown->scene, shown->state, i, &view))
+            copy_system(shown, &picture->arena, &view, &request->frames[i], &systems[i]);
     }
     picture->automatic = (AutoPicture){systems, count};
     picture->picture.automatic = &picture->automatic;
@@ -148,17 +138,16 @@ static void copy_systems(PetriSession *session, PetriPicture *picture, uint32_t 
 
 static void take_window(Request *request, const Node *node) {
     PetriPicture *picture = request->picture;
-    PetriSession *session = request->session;
     Arena *arena = &picture->arena;
-    const DrawNode *window = canvas_read(&session->canvas, arena, node);
-    const DrawAttr *title = draw_attr(window, NAME_TITLE);
+    const DrawNode *window = canvas_read(request->shown.schema, arena, node);
+    const AttrValue *title = draw_attr(window, ATTR_TITLE);
     picture->picture.window = window;
-    picture->picture.opaque = window->kind == DRAW_WINDOW;
+    picture->picture.opaque = window->kind == KIND_WINDOW;
     picture->title = title ? title->as.text.bytes : "";
     picture->records = arena_alloc_array(arena, window->child_count, sizeof *picture->records);
     for (uint32_t i = 0; i < window->child_count; i++) {
-        const DrawAttr *file =
-            window->children[i]->kind == DRAW_RECORD ? draw_attr(window->children[i], NAME_FILENAME) : NULL;
+        const AttrValue *file =
+            window->children[i]->kind == KIND_RECORD ? draw_attr(window->children[i], ATTR_FILENAME) : NULL;
         if (file && file->as.text.len)
             picture->records[picture->record_count++] =
                 str_to_c(arena, path_join(arena, picture->picture.directory, file->as.text));
@@ -174,11 +163,11 @@ static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *
     picture->height = window ? DEFAULT_HEIGHT : AUTO_SIDE;
     if (!window)
         return true;
-    bool found = draw_pair(window, NAME_SIZE, size);
+    bool found = draw_pair(window, ATTR_SIZE, size);
     if (!found && node_get(node, name).len > 0)
         return false;
     for (uint32_t i = 0; i < window->child_count && !found; i++)
-        found = window->children[i]->kind == DRAW_CANVAS && draw_pair(window->children[i], NAME_SIZE, size);
+        found = window->children[i]->kind == KIND_CANVAS && draw_pair(window->children[i], ATTR_SIZE, size);
     if (found) {
         picture->width = size[0];
         picture->height = size[1];
@@ -187,10 +176,10 @@ static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *
 }
 
 static void report_size(Request *request, double width, double height) {
-    request->problem = str_to_c(&request->session->scene_arena,
-                                str_format(&request->session->scene_arena,
-                                           "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
-                                           PETRI_MOST_PIXELS, width, height));
+    Arena *arena = &request->picture->arena;
+    request->problem =
+        str_to_c(arena, str_format(arena, "a picture can have 1 to %d pixels in width and height, not %.10g x %.10g",
+                                   PETRI_MOST_PIXELS, width, height));
 }
 
 static bool choose_pixels(Request *request) {
@@ -214,20 +203,16 @@ static bool choose_pixels(Request *request) {
     return true;
 }
 
-bool petri_drawable(PetriSession *session) {
-    const Node *window = find_window(session, -1);
-    return (window && has_canvas(session, window)) || count_systems(session) > 0;
-}
-
 // A system whose time stands still never stores anything: it is not waited for.
 enum { LONGEST_START = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
-    const Node *window = find_window(session, options->window);
-    bool own = window && has_canvas(session, window) && options->automatic != PETRI_AUTO_ALWAYS;
+    Shown shown = session_shown(session);
+    const Node *window = find_window(&shown, options->window);
+    bool own = window && canvas_in_window(shown.schema, window) && options->automatic != PETRI_AUTO_ALWAYS;
     SceneView view;
-    for (uint32_t i = 0; own && session->frame.number < LONGEST_START; i++) {
-        if (!scene_view(session->scene, session->state, i, &view))
+    for (uint32_t i = 0; own && shown.number < LONGEST_START; i++) {
+        if (!scene_view(shown.scene, shown.state, i, &view))
             break;
         if (!view.began)
             return false;
@@ -235,30 +220,29 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
     return true;
 }
 
-bool petri_records(const PetriSession *session) {
-    for (uint32_t i = 0; session->tree.kind == VALUE_MIXED && i < session->tree.len; i++) {
-        const Item *item = &session->tree.as.items[i];
-        const Node *window = is_window(session, item) ? item->as.node : NULL;
-        for (uint32_t k = 0; window && k < window->child_count; k++)
-            if (canvas_kind(&session->canvas, window->children[k]) == DRAW_RECORD &&
-                node_get(window->children[k], session->canvas.names[NAME_FILENAME]).len > 0)
+bool petri_records(PetriSession *session) {
+    Shown shown = session_shown(session);
+    const Node *window;
+    for (uint32_t at = 0; (window = canvas_next_window(shown.schema, shown.tree, &at)) != NULL;)
+        for (uint32_t k = 0; k < window->child_count; k++)
+            if (schema_window_kind(shown.schema, window->children[k]) == KIND_RECORD &&
+                node_get(window->children[k], shown.schema->slots[ROW_RECORD_FILENAME].name).len > 0)
                 return true;
-    }
     return false;
 }
 
 // Fills the picture; false if there is none, with the problem if it is not told already.
 static bool make_picture(Request *request) {
-    PetriSession *session = request->session;
+    const Shown *shown = &request->shown;
     PetriPicture *picture = request->picture;
     const PetriPictureOptions *options = request->options;
-    const Node *window = find_window(session, options->window);
-    uint32_t systems = options->automatic == PETRI_AUTO_NEVER ? 0 : count_systems(session);
-    bool drawable = window && has_canvas(session, window);
+    const Node *window = find_window(shown, options->window);
+    uint32_t systems = options->automatic == PETRI_AUTO_NEVER ? 0 : count_systems(shown);
+    bool drawable = window && canvas_in_window(shown->schema, window);
     bool automatic = options->automatic == PETRI_AUTO_ALWAYS || (!drawable && systems > 0);
-    picture->frame = session->frame.number;
+    picture->frame = shown->number;
     picture->title = "";
-    picture->picture.directory = str_copy(&picture->arena, session->program->source->directory);
+    picture->picture.directory = str_copy(&picture->arena, shown->directory);
     if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
         request->problem = "there is nothing to draw by itself: the frame has no !physics";
         return false;
@@ -271,38 +255,36 @@ static bool make_picture(Request *request) {
     }
     if (window)
         take_window(request, window);
-    if (!choose_size(&picture->picture, window, session->canvas.names[NAME_SIZE])) {
+    if (!choose_size(&picture->picture, window, shown->schema->slots[ROW_WINDOW_SIZE].name)) {
         request->problem = "the size of the window makes no sense";
         return false;
     }
     if (automatic) {
-        copy_systems(session, picture, systems);
+        copy_systems(request, systems);
         picture->picture.window = NULL;
         picture->picture.opaque = true;
     }
     return choose_pixels(request);
 }
 
-static PetriStatus make_guarded(Request *request) {
-    jmp_buf escape;
-    PetriStatus status = PETRI_MEMORY;
-    request->picture->arena.escape = request->session->scene_arena.escape = &escape;
-    if (setjmp(escape) == 0)
-        status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
-    request->picture->arena.escape = request->session->scene_arena.escape = NULL;
-    return status;
+static void make_protected(PetriSession *session, void *context) {
+    Request *request = context;
+    request->frames = session_drawing(session, MOST_AUTO_SYSTEMS * sizeof *request->frames);
+    request->status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
     *out = NULL;
+    Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
     if (!picture)
         return PETRI_MEMORY;
-    arena_init(&picture->arena, "picture", session->options.memory_bytes);
-    Request request = {.session = session, .options = options, .picture = picture};
+    arena_init(&picture->arena, "picture", shown.memory_bytes);
+    Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_INVALID;
-    if (session->program && session->frame.number >= 0)
-        status = make_guarded(&request);
+    if (shown.number >= 0)
+        status = session_protect(session, &picture->arena, make_protected, &request) == PETRI_OK ? request.status
+                                                                                                 : PETRI_MEMORY;
     else
         request.problem = "there is nothing to draw: no frame has been made yet";
     if (status == PETRI_OK) {

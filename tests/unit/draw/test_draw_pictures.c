@@ -1,5 +1,7 @@
-// petri_picture: copies of frames that are drawn later, what there is to draw, and the list of nodes.
+// petri_picture: copies of frames that are drawn later, and what there is to draw.
 #include "player.h"
+
+#include "petri-draw.h"
 
 static const char DISC[] = "!window size=8;4 title=\"disc \";frame\n"
                            "    !canvas\n"
@@ -134,25 +136,6 @@ static void test_misuse(void **state) {
     petri_painter_close(&painter);
 }
 
-static void test_nodes(void **state) {
-    (void)state;
-    PetriNodeKind kind;
-    PetriNodeAttribute attribute;
-    size_t kinds = 0, rects = 0, groups = 0;
-    for (; petri_node_kind(kinds, &kind); kinds++) {
-        assert_true(kind.name[0] && kind.help[0]);
-        groups += strcmp(kind.name, "group") == 0;
-        for (size_t i = 0; petri_node_attribute(kinds, i, &attribute); i++) {
-            assert_true(attribute.name[0] && attribute.type[0] && attribute.fallback && attribute.help);
-            rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
-        }
-    }
-    assert_int_equal(groups, 2); // of physics and of the canvas
-    assert_int_equal(rects, 1);
-    assert_false(petri_node_kind(kinds + 1000, &kind));
-    assert_false(petri_node_attribute(kinds, 0, &attribute));
-}
-
 // Frames that cannot show particles yet: 0 and 1 of a window whose systems have not simulated before.
 static void test_ready(void **state) {
     Player *player = *state;
@@ -195,7 +178,7 @@ static void test_ready(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes), PLAYER_TEST(test_choice),
-        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_nodes), PLAYER_TEST(test_ready),
+        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,9 +1,6 @@
-// picture.h: a picture as its two halves share it: making it and drawing it. The drawing is apart because it needs the
-// libraries that draw: a program that only makes frames links without them.
-#ifndef PETRI_SESSION_PICTURE_H
-#define PETRI_SESSION_PICTURE_H
-
-#include "session/session.h"
+// picture.h: a picture: a copy of what a frame shows (picture.c), ready to be drawn (painter.c).
+#ifndef PETRI_DRAW_PICTURE_H
+#define PETRI_DRAW_PICTURE_H
 
 #include "draw/paint.h"
 

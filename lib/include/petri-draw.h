@@ -1,0 +1,85 @@
+// petri-draw.h: the public interface of libpetri-draw, which draws what the frames of a libpetri session show. It takes
+// Cairo, Pango and libjpeg; libpetri does without it. The rules of petri.h hold here, too.
+//
+// petri_picture copies what the last frame shows: the tree of a `!window` or `!offscreen`, or the data of the
+// automatic picture. The copy is independent of the session, so it can be drawn by another thread while the session
+// steps on. A painter keeps fonts and images between pictures. A picture and a painter are each used by one thread at a
+// time; a painter outlives nothing and may be closed before or after its pictures.
+#ifndef PETRI_DRAW_H
+#define PETRI_DRAW_H
+
+#include "petri.h"
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+typedef struct PetriPicture PetriPicture;
+typedef struct PetriPainter PetriPainter;
+
+// The automatic picture shows the particle systems themselves.
+typedef enum PetriAutomatic {
+    PETRI_AUTO_IF_NEEDED, // where the script has physics but no window with a canvas
+    PETRI_AUTO_ALWAYS,
+    PETRI_AUTO_NEVER,
+} PetriAutomatic;
+
+typedef struct PetriPictureOptions {
+    int width; // in pixels; 0, 0: what the script says. Otherwise the drawing is scaled to fit, and centred
+    int height;
+    double scale; // pixels for each unit of the script's size. Default 1
+    int window;   // which of the frame's windows, from 0; -1 (the default): the first that has something to draw
+    PetriAutomatic automatic;
+} PetriPictureOptions;
+
+PetriPictureOptions petri_default_picture_options(void);
+
+enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
+
+// Whether the picture of the last frame shows particles where they are. A system stores nothing in frame 0, and what it
+// stores is seen by the frame after; so a script that draws what its systems have stored finds nothing in frames 0 and
+// 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
+// a state that was restored, and in each frame from 2 on, whatever systems do then.
+bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
+// Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
+bool petri_records(PetriSession *session);
+
+// The picture of the last frame in *picture, for the caller to free. PETRI_INVALID (with a diagnostic) if nothing is
+// loaded or there is nothing to draw, if the size makes no sense; PETRI_MEMORY. *picture is then NULL.
+PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **picture);
+// Frees a picture and sets the handle to NULL. NULL is fine.
+void petri_picture_free(PetriPicture **picture);
+// Its size in pixels.
+void petri_picture_size(const PetriPicture *picture, int *width, int *height);
+// The title of its window, or "". Valid as long as the picture.
+const char *petri_picture_title(const PetriPicture *picture);
+// The number of the frame that it shows.
+int64_t petri_picture_frame(const PetriPicture *picture);
+// The files that `!record` nodes in its window name, with the script's folder before them; NULL beyond the last.
+const char *petri_picture_record(const PetriPicture *picture, size_t index);
+
+// NULL if memory is used up.
+PetriPainter *petri_painter_open(void);
+void petri_painter_close(PetriPainter **painter);
+
+// Draws into width x height pixels, rows `stride` bytes apart (a multiple of 4): 32 bits each, alpha in the highest
+// byte, then red, green, blue, multiplied by alpha. The picture is scaled to fit and centred. A window's pixels are
+// opaque, those of `!offscreen` may be not. PETRI_MISSING without Cairo, PETRI_INVALID if it could not be drawn,
+// PETRI_MEMORY; the pixels are then cleared.
+PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
+                               size_t stride);
+// Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
+bool petri_picture_format(const char *file);
+// Writes a file as a whole: the old bytes or the new ones are there, never a part; they grow in FILE.PID.tmp. The same
+// picture gives the same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be
+// written.
+PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
+// Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
+// called by the thread that uses the session, when no other uses the picture.
+void petri_picture_tell(PetriSession *session, PetriPicture *picture);
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

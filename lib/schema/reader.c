@@ -1,0 +1,488 @@
+// reader.c: see reader.h.
+//
+// There may be very many particles. Most nodes name the same attributes in the same order as the table, with values of
+// the right form: those are stored in one go. At a surprise the attribute is read once more, carefully, with reports.
+#include "schema/reader.h"
+
+#include "value/format.h"
+
+#include <math.h>
+#include <string.h>
+
+static bool is_in_window(PlaceKind place) {
+    return place >= PLACE_TOP;
+}
+
+void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host) {
+    *schema = (Schema){.symbols = symbols, .host = host};
+    for (int i = 0; i < KIND_COUNT; i++)
+        schema->kinds[i] = symbol_intern(symbols, str_from(schema_kinds[i].name));
+    for (int i = 0; i < WORD_COUNT; i++)
+        schema->words[i] = symbol_number(schema_words[i].text);
+    for (int i = 0, row = 0; i < KIND_COUNT; i++) {
+        schema->first_row[i] = (uint16_t)row;
+        for (; row < ROW_COUNT && schema_rows[row].kind == i; row++) {
+            const SchemaRow *attr = &schema_rows[row];
+            const TypeRow *type = &schema_types[attr->type];
+            bool plain = attr->field != FIELD_NOWHERE && !attr->alias;
+            schema->slots[row] = (SchemaSlot){
+                .name = symbol_intern(symbols, str_from(schema_names[attr->name])),
+                .low = type->low,
+                .high = type->high,
+                .field = attr->field,
+                .plain = (uint8_t)(plain ? type->shape : SHAPE_OTHER),
+            };
+            schema->slants[i] |= type->shape == SHAPE_VECTOR && attr->fallback.value != 0;
+        }
+    }
+    schema->first_row[KIND_COUNT] = ROW_COUNT;
+    while (!is_in_window(schema_kinds[schema->first_in_window].place))
+        schema->first_in_window++;
+}
+
+NodeKind schema_window_kind(const Schema *schema, const Node *node) {
+    int kind = schema->first_in_window;
+    while (kind < KIND_COUNT && schema->kinds[kind] != node->kind)
+        kind++;
+    return (NodeKind)kind;
+}
+
+// "name=value" of an attribute by which a node is known: a system by its state, anything else by its id.
+static void add_known_by(Text *out, const Reader *reader, AttrRow row) {
+    Value v = node_get(reader->node, reader->schema->slots[row].name);
+    if (v.len == 0 || v.len > 16)
+        return;
+    text_add_format(out, " %s=", schema_names[schema_rows[row].name]);
+    format_value(out, reader->schema->symbols, v);
+}
+
+void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text) {
+    Schema *schema = reader->schema;
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "!%.*s", (int)reader->node->kind->name.len, reader->node->kind->name.bytes);
+    add_known_by(&out, reader, ROW_PARTICLE_ID);
+    add_known_by(&out, reader, ROW_PHYSICS_STATE);
+    schema->reports++;
+    schema->host.report(schema->host.host, DIAG_WARNING, code, &place, text_str(&out), key, text);
+}
+
+void reader_report(const Reader *reader, const char *code, const char *key, Str text) {
+    reader_report_at(reader, code, node_place(reader->node, NULL), str_from(key), text);
+}
+
+static void report_symbol(const Reader *reader, const char *code, const Symbol *attr, Str text) {
+    reader_report_at(reader, code, node_place(reader->node, attr), attr->name, text);
+}
+
+void reader_report_attr(const Reader *reader, const char *code, AttrName name, Str text) {
+    const SchemaRow *row = schema_row(reader->kind, name);
+    report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
+}
+
+// The candidate that is nearest to a name so far.
+typedef struct Nearest {
+    Str name;
+    int least;
+    const char *text;
+} Nearest;
+
+static Nearest nearest_to(Str name) {
+    return (Nearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, NULL}; // long names may be further off
+}
+
+static void try_name(Nearest *nearest, const char *candidate) {
+    int distance = str_distance(nearest->name, str_from(candidate));
+    if (distance < nearest->least) {
+        nearest->least = distance;
+        nearest->text = candidate;
+    }
+}
+
+static void report_unknown(const Reader *reader, const Symbol *name) {
+    Nearest nearest = nearest_to(name->name);
+    for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
+        try_name(&nearest, schema_names[schema_rows[i].name]);
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "unknown attribute '%.*s'", (int)name->name.len, name->name.bytes);
+    if (nearest.text)
+        text_add_format(&out, ", did you mean '%s'?", nearest.text);
+    report_symbol(reader, "unknown-attribute", name, text_str(&out));
+}
+
+void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
+    Nearest nearest = nearest_to(kind);
+    for (int i = 0; i < KIND_COUNT; i++)
+        if (schema_kinds[i].place == place || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
+            try_name(&nearest, schema_kinds[i].name);
+    if (nearest.text)
+        text_add_format(out, ", did you mean %s%s%s?", before, nearest.text, after);
+}
+
+static void add_hex(Text *out, Value found) {
+    Text colour = text_new(out->arena);
+    if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
+        text_add_hex_colour(&colour, found.as.items[0].as.string->text))
+        text_add_format(out, ", did you mean %.*s?", (int)colour.len, colour.bytes);
+}
+
+static void add_wanted(Text *out, const Reader *reader, const TypeRow *type) {
+    bool vector = type->shape == SHAPE_VECTOR || type->shape == SHAPE_NORMAL;
+    if (vector && reader->dimensions > 1)
+        text_add_format(out, "one number or a vector of %u", reader->dimensions);
+    else
+        text_add_c(out, vector || type->shape <= SHAPE_CLOCK ? "one number" : type->text);
+}
+
+// "attribute should be …, not …".
+static void report_shape(const Reader *reader, const SchemaRow *row, Value found) {
+    const TypeRow *type = &schema_types[row->type];
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s should be ", schema_names[row->name]);
+    add_wanted(&out, reader, type);
+    text_add_c(&out, ", not ");
+    if (found.len <= 8)
+        format_value(&out, reader->schema->symbols, found);
+    else
+        text_add_format(&out, "%u elements", found.len);
+    if (type->shape == SHAPE_COLOR)
+        add_hex(&out, found);
+    report_symbol(reader, "bad-attribute", reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
+
+// "attribute=value …": what is taken, though hardly meant.
+static void report_lint(const Reader *reader, const char *code, const SchemaRow *row, Value v, const char *text) {
+    Text out = text_new(reader->arena);
+    text_add_format(&out, "%s=", schema_names[row->name]);
+    format_value(&out, reader->schema->symbols, v);
+    text_add_c(&out, text);
+    report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text_str(&out));
+}
+
+static bool is_number(Value v) {
+    return v.kind == VALUE_NUMBERS && v.len == 1;
+}
+
+static double limited(const Reader *reader, const SchemaRow *row, Value v) {
+    const TypeRow *type = &schema_types[row->type];
+    double x = v.as.number;
+    if (x < type->low && type->low == 0 && reader->schema->lint)
+        report_lint(reader, "below-zero", row, v, " is below 0 and counts as 0");
+    return x < type->low ? type->low : x > type->high ? type->high : x;
+}
+
+// v / sqrt(Σ v_k²); NULL if that is no direction.
+static PhysVector unit_vector(const Reader *reader, PhysVector v) {
+    double sum = 0;
+    for (uint32_t k = 0; k < reader->dimensions; k++)
+        sum += v[k] * v[k];
+    double length = sqrt(sum);
+    if (!(length > 0) || !isfinite(length))
+        return NULL;
+    double *unit = arena_alloc_array(reader->arena, reader->dimensions, sizeof *unit);
+    for (uint32_t k = 0; k < reader->dimensions; k++)
+        unit[k] = v[k] / length;
+    return unit;
+}
+
+// The elements of a vector attribute; NULL if it is malformed.
+static PhysVector read_vector(const Reader *reader, const Value *v) {
+    uint32_t n = reader->dimensions;
+    if (v->kind != VALUE_NUMBERS || (v->len != n && v->len != 1))
+        return NULL;
+    if (v->len == n)
+        return value_numbers(v);
+    double *repeated = arena_alloc_array(reader->arena, n, sizeof *repeated);
+    for (uint32_t k = 0; k < n; k++)
+        repeated[k] = v->as.number;
+    return repeated;
+}
+
+// Stores a value that need not be looked at twice; false if it must be.
+static inline bool store_plainly(const SchemaSlot *slot, uint32_t n, const Value *v, char *record) {
+    void *field = record + slot->field;
+    switch (slot->plain) {
+    case SHAPE_NUMBER:
+        if (v->kind != VALUE_NUMBERS || v->len != 1 || !(v->as.number >= slot->low) || !(v->as.number <= slot->high))
+            return false;
+        *(double *)field = v->as.number;
+        return true;
+    case SHAPE_VECTOR:
+        if (v->kind != VALUE_NUMBERS || v->len != n)
+            return false;
+        *(PhysVector *)field = value_numbers(v);
+        return true;
+    case SHAPE_VALUE:
+        *(Value *)field = *v;
+        return true;
+    default:
+        return false;
+    }
+}
+
+// The same for any value; false if it is malformed.
+static bool store_carefully(const Reader *reader, const SchemaRow *row, const Value *v, char *record) {
+    void *field = record + row->field;
+    AttrShape shape = schema_types[row->type].shape;
+    if (shape == SHAPE_VALUE || shape == SHAPE_NUMBERS) {
+        if (shape == SHAPE_NUMBERS && !value_is_numeric(*v))
+            return false;
+        *(Value *)field = *v;
+    } else if (shape == SHAPE_VECTOR || shape == SHAPE_NORMAL) {
+        PhysVector vector = read_vector(reader, v);
+        if (!vector)
+            return false;
+        *(PhysVector *)field = shape == SHAPE_NORMAL ? unit_vector(reader, vector) : vector;
+    } else {
+        if (!is_number(*v) || (isnan(v->as.number) && shape != SHAPE_CLOCK))
+            return false;
+        *(double *)field = shape == SHAPE_WHOLE ? floor(v->as.number) : limited(reader, row, *v);
+    }
+    return true;
+}
+
+// One attribute that is not plain; `row` is the end of the kind's rows if it has no such attribute.
+static __attribute__((noinline)) void fill_carefully(const Reader *reader, const Attr *attr, int row, char *record) {
+    const SchemaRow *found = &schema_rows[row];
+    if (row == reader->schema->first_row[reader->kind + 1]) {
+        report_unknown(reader, attr->name);
+        return;
+    }
+    if (found->field == FIELD_NOWHERE || attr->value.len == 0)
+        return;
+    if (found->alias) {
+        const SchemaRow *winner = schema_row(reader->kind, found->alias);
+        Value v = node_get(reader->node, reader->schema->slots[winner - schema_rows].name);
+        if (v.len > 0 && store_carefully(reader, winner, &v, record))
+            return;
+    }
+    if (!store_carefully(reader, found, &attr->value, record))
+        report_shape(reader, found, attr->value);
+}
+
+// Gives vectors that nobody gave their defaults: 0;…;0;x.
+static void fill_slants(const Reader *reader, char *record) {
+    int first = reader->schema->first_row[reader->kind], end = reader->schema->first_row[reader->kind + 1];
+    for (int i = first; i < end; i++) {
+        const SchemaRow *row = &schema_rows[i];
+        PhysVector *field = (PhysVector *)(void *)(record + row->field);
+        if (schema_types[row->type].shape != SHAPE_VECTOR || row->fallback.value == 0 || *field)
+            continue;
+        double *vector = arena_alloc_array(reader->arena, reader->dimensions, sizeof *vector);
+        for (uint32_t k = 0; k < reader->dimensions; k++)
+            vector[k] = k + 1 == reader->dimensions ? row->fallback.value : 0;
+        *field = vector;
+    }
+}
+
+// The slot of an attribute among those of a kind, or their end; `guess` is the one after that of the attribute before.
+static inline const SchemaSlot *slot_of(const SchemaSlot *first, const SchemaSlot *end, const SchemaSlot *guess,
+                                        const Symbol *name) {
+    for (const SchemaSlot *slot = guess; slot < end; slot++)
+        if (slot->name == name)
+            return slot;
+    for (const SchemaSlot *slot = first; slot < guess; slot++)
+        if (slot->name == name)
+            return slot;
+    return end;
+}
+
+void reader_fill(const Reader *reader, void *record) {
+    const Schema *schema = reader->schema;
+    const SchemaSlot *first = schema->slots + schema->first_row[reader->kind], *guess = first;
+    const SchemaSlot *end = schema->slots + schema->first_row[reader->kind + 1];
+    const Attr *attr = reader->node->attrs, *last = attr + reader->node->attr_count;
+    for (; attr < last; attr++) {
+        const SchemaSlot *slot = slot_of(first, end, guess, attr->name);
+        if (slot == end || !store_plainly(slot, reader->dimensions, &attr->value, record))
+            fill_carefully(reader, attr, (int)(slot - schema->slots), record);
+        guess = slot < end ? slot + 1 : first;
+    }
+    if (schema->slants[reader->kind])
+        fill_slants(reader, record);
+}
+
+// A number that a symbol stands for is no number in a drawing; symbols are beyond all coordinates.
+static bool is_measure(double x) {
+    return isfinite(x) && x > -8e307;
+}
+
+static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue *attr) {
+    if (!value_is_numeric(v) || v.len > most || (type->shape == SHAPE_COLOR && v.len == 2))
+        return false;
+    const double *numbers = value_numbers(&v);
+    double *out = attr->as.numbers;
+    for (uint32_t i = 0; i < v.len; i++) {
+        if (!is_measure(numbers[i]) || numbers[i] < type->low || numbers[i] > type->high)
+            return false;
+        out[i] = numbers[i];
+    }
+    if (v.len == 1)
+        out[1] = out[2] = out[0];
+    if (v.len < 4)
+        out[3] = 1;
+    attr->count = v.len;
+    return true;
+}
+
+static bool read_points(const Reader *reader, Value v, AttrValue *attr) {
+    const double *numbers = value_numbers(&v);
+    if (!value_is_numeric(v) || v.len % 2)
+        return false;
+    for (uint32_t i = 0; i < v.len; i++)
+        if (!is_measure(numbers[i]))
+            return false;
+    attr->as.list = arena_copy(reader->arena, numbers, v.len * sizeof(double));
+    attr->count = v.len;
+    return true;
+}
+
+// A word, as symbol or as text.
+static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
+    bool text = v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING;
+    if (!text && !is_number(v))
+        return false;
+    for (int i = 0; i < WORD_COUNT; i++)
+        if (schema_words[i].type == type && (text ? str_equal(schema_words[i].text, v.as.items[0].as.string->text)
+                                                  : reader->schema->words[i] == v.as.number)) {
+            *word = schema_words[i].value;
+            return true;
+        }
+    return false;
+}
+
+static bool read_weight(const Reader *reader, Value v, const SchemaRow *row, AttrValue *attr) {
+    int weight = 0;
+    if (!read_word(reader, v, row->type, &weight))
+        return read_measures(v, &schema_types[row->type], 1, attr);
+    attr->as.numbers[0] = weight;
+    return true;
+}
+
+// Colours of bytes: whole numbers, of which one is far beyond white.
+static void lint_colour(const Reader *reader, const SchemaRow *row, Value v) {
+    const double *numbers = value_numbers(&v);
+    double most = 0;
+    for (uint32_t i = 0; i < v.len && i < 3; i++) {
+        if (numbers[i] != floor(numbers[i]))
+            return;
+        most = fmax(most, numbers[i]);
+    }
+    if (most >= 2)
+        report_lint(reader, "colour-range", row, v,
+                    " is beyond white, which is 1;1;1: parts that go up to 255 are written (r;g;b)/255");
+}
+
+// False if the value cannot be used.
+static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, AttrValue *attr) {
+    const TypeRow *type = &schema_types[row->type];
+    switch (type->shape) {
+    case SHAPE_MEASURE:
+        return read_measures(v, type, 1, attr);
+    case SHAPE_PAIR:
+        return read_measures(v, type, 2, attr);
+    case SHAPE_COLOR:
+        if (!read_measures(v, type, 4, attr))
+            return false;
+        if (reader->schema->lint)
+            lint_colour(reader, row, v);
+        return true;
+    case SHAPE_POINTS:
+        return read_points(reader, v, attr);
+    case SHAPE_FLAG:
+        attr->as.flag = value_true(v);
+        return true;
+    case SHAPE_TEXT:
+        attr->as.text = str_from(str_to_c(reader->arena, value_text(reader->arena, reader->schema->symbols, v)));
+        return true;
+    case SHAPE_WEIGHT:
+        return read_weight(reader, v, row, attr);
+    case SHAPE_WORD:
+        return read_word(reader, v, row->type, &attr->as.word);
+    default:
+        return true; // it means nothing to a drawing
+    }
+}
+
+bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
+    const Node *node = reader->node;
+    const SchemaSlot *slots = reader->schema->slots;
+    const SchemaSlot *first = slots + reader->schema->first_row[reader->kind], *guess = first;
+    const SchemaSlot *end = slots + reader->schema->first_row[reader->kind + 1];
+    bool good = true;
+    for (uint32_t i = 0; i < node->attr_count; i++) {
+        const Value v = node->attrs[i].value;
+        const SchemaSlot *slot = slot_of(first, end, guess, node->attrs[i].name);
+        guess = slot < end ? slot + 1 : first;
+        if (slot == end) {
+            report_unknown(reader, node->attrs[i].name);
+            continue;
+        }
+        const SchemaRow *found = &schema_rows[slot - slots];
+        AttrValue *attr = &attrs[*count];
+        *attr = (AttrValue){.name = found->alias ? found->alias : found->name, .row = (uint16_t)(slot - slots)};
+        if (!read_drawn(reader, found, v, attr)) {
+            report_shape(reader, found, v);
+            good &= !schema_types[found->type].vital;
+        } else if (found->type == TYPE_COMPOSITE && attr->as.word == COMPOSITE_NONE) {
+            reader_report_attr(reader, "bad-attribute", ATTR_COMPOSITE,
+                               STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
+        } else {
+            ++*count;
+        }
+    }
+    return good;
+}
+
+void schema_store(const AttrValue *attr, void *record) {
+    const SchemaRow *row = &schema_rows[attr->row];
+    if (row->field == FIELD_NOWHERE)
+        return;
+    void *field = (char *)record + row->field;
+    switch (schema_types[row->type].shape) {
+    case SHAPE_MEASURE:
+    case SHAPE_WEIGHT:
+        *(double *)field = attr->as.numbers[0];
+        break;
+    case SHAPE_COLOR:
+        memcpy(field, attr->as.numbers, sizeof attr->as.numbers);
+        break;
+    case SHAPE_FLAG:
+        *(bool *)field = attr->as.flag;
+        break;
+    case SHAPE_TEXT:
+        *(const char **)field = attr->as.text.bytes;
+        break;
+    case SHAPE_WORD:
+        *(int *)field = attr->as.word;
+        break;
+    default: // none of a drawing's record
+        break;
+    }
+}
+
+static void store_default(const SchemaRow *row, char *record) {
+    const Fallback *fallback = &row->fallback;
+    void *field = record + row->field;
+    AttrShape shape = schema_types[row->type].shape;
+    double x = fallback->value;
+    if (shape == SHAPE_VALUE || shape == SHAPE_NUMBERS)
+        *(Value *)field = isnan(x) ? VALUE_NULL : value_number(x);
+    else if (shape == SHAPE_VECTOR || shape == SHAPE_NORMAL)
+        *(PhysVector *)field = NULL;
+    else if (shape <= SHAPE_CLOCK)
+        *(double *)field = x;
+    else
+        schema_store(&(AttrValue){.row = (uint16_t)(row - schema_rows),
+                                  .as = shape == SHAPE_TEXT    ? (union AttrData){.text = str_from(fallback->string)}
+                                        : shape == SHAPE_WORD  ? (union AttrData){.word = (int)x}
+                                        : shape == SHAPE_FLAG  ? (union AttrData){.flag = x != 0}
+                                        : shape == SHAPE_COLOR ? (union AttrData){.numbers = {x, x, x, 1}}
+                                                               : (union AttrData){.numbers = {x}}},
+                     record);
+}
+
+void schema_defaults(NodeKind kind, void *record) {
+    for (int i = 0; i < ROW_COUNT; i++)
+        if (schema_rows[i].kind == kind && schema_rows[i].field != FIELD_NOWHERE)
+            store_default(&schema_rows[i], record);
+}

@@ -1,0 +1,65 @@
+// records.h: what the attributes of a node are read into: plain structs, whose fields the rows of schema_list.h name.
+#ifndef PETRI_SCHEMA_RECORDS_H
+#define PETRI_SCHEMA_RECORDS_H
+
+#include "physics/system.h"
+#include "value/value.h"
+
+// !physics
+typedef struct SystemAttrs {
+    Value state;
+    double dimensions;
+    double time;
+    double resolution;
+    double run;
+    double speed_of_light;
+} SystemAttrs;
+
+// !particle, !anchor
+typedef struct BodyAttrs {
+    Value id;
+    PhysParticle numbers;
+} BodyAttrs;
+
+// A force applier or barrier. Bounds that are not given are nan.
+typedef struct ForceAttrs {
+    PhysForce force;
+    double fixed; // both bounds
+    Value from;   // ids
+    Value to;
+} ForceAttrs;
+
+// !counter
+typedef struct CounterAttrs {
+    Value state;
+    Value initial;
+    Value rate;
+    Value time;
+    Value minimum; // null: none
+    Value maximum;
+    Value reset;
+} CounterAttrs;
+
+// !pointer, !key
+typedef struct InputAttrs {
+    Value state;
+    Value name;
+} InputAttrs;
+
+// The part of the graphics state that Cairo does not keep: how things look. It is inherited down the tree.
+typedef struct Look {
+    double color[4];
+    const struct DrawNode *source; // a gradient in place of the colour, or NULL
+    double stroke_width;
+    double font_size;
+    double weight;
+    const char *family;
+    int join;
+    int cap;
+    int composite;
+    int fill_type;
+    int slant;
+    bool antialias;
+} Look;
+
+#endif

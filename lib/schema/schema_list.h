@@ -1,0 +1,433 @@
+// schema_list.h: all kinds of nodes that do something, with their attributes: what is read, reported, listed and tested.
+// Defaults and limits stand here and nowhere else.
+//
+// TYPE(ID, SHAPE, low, high, vital, "what is wanted, in words"): how attributes are read (AttrShape of table.h). Numbers
+//     of systems beyond the limits are moved to them, those of drawings are malformed then. Without something vital a
+//     drawing node is not drawn: where a thing is counts more than how it looks.
+// NAME(ID, "attribute"): all names of attributes, each once.
+// NODE(ID, "kind", PLACE, CHILDREN, "help"), and after it its attributes. PLACE tells where a node may stand and CHILDREN
+//     which may stand in it (PlaceKind). FORCE(ID, "kind", "help"): a node of force_list.h, which has the same ID.
+// ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The field is where the value goes (records.h); NOWHERE: it is
+//     ignored or, in drawings, looked up by its name. The default is IS(x); TOLD(x, "in words"); INHERITED(x, "in words"), to begin with; or NONE: for a number nan,
+//     else null. Of a vector it is the last element; the others are 0.
+// ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name of an attribute of the same kind, which wins over it.
+// UNDRAWN("kind"): what Flitter shows in a window and petri does not (yet).
+// clang-format off
+#ifndef TYPE
+#define TYPE(id, shape, low, high, vital, text)
+#endif
+#ifndef NAME
+#define NAME(id, text)
+#endif
+#ifndef NODE
+#define NODE(id, text, place, children, help)
+#endif
+#ifndef FORCE
+#define FORCE(id, text, help) NODE(id, text, PHYSICS, NOTHING, help)
+#endif
+#ifndef ATTR
+#define ATTR(kind, name, type, field, fallback, unit, help)
+#endif
+#ifndef ALIAS
+#define ALIAS(kind, name, of, of_text, type, field, unit) ATTR(kind, name, type, field, NONE, unit, "")
+#endif
+#ifndef UNDRAWN
+#define UNDRAWN(text)
+#endif
+
+// Of systems. Infinities are numbers, nan is none.
+TYPE(ANY, VALUE, 0, 0, false, "any")
+TYPE(ID, VALUE, 0, 0, false, "id of a particle")
+TYPE(NUMBERS, NUMBERS, 0, 0, false, "any numbers")
+TYPE(NUMBER, NUMBER, -INFINITY, INFINITY, false, "number")
+TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // others have a meaning of their own
+TYPE(FROM_ZERO, NUMBER, 0, INFINITY, false, "number, 0 or more")
+TYPE(PART, NUMBER, 0, 1, false, "number from 0 to 1")
+TYPE(WHOLE, WHOLE, -INFINITY, INFINITY, false, "whole number")
+TYPE(DIMENSIONS, WHOLE, -INFINITY, INFINITY, false, "whole number, 1 or more")
+TYPE(CLOCK, CLOCK, -INFINITY, INFINITY, false, "number")
+TYPE(VECTOR, VECTOR, 0, 0, false, "vector")
+TYPE(NORMAL, NORMAL, 0, 0, false, "vector")
+// Of drawings. Numbers are finite.
+TYPE(MEASURE, MEASURE, -INFINITY, INFINITY, true, "number")
+TYPE(WIDTH, MEASURE, 0, INFINITY, false, "number, 0 or more")
+TYPE(POINT, PAIR, -INFINITY, INFINITY, true, "x;y")
+TYPE(SIZE, PAIR, 0, INFINITY, true, "one number or two, 0 or more")
+TYPE(SCALE, PAIR, -INFINITY, INFINITY, true, "one number or two")
+TYPE(POINTS, POINTS, 0, 0, true, "x;y;x;y…")
+TYPE(COLOR, COLOR, -INFINITY, INFINITY, false, "grey, r;g;b or r;g;b;a, each from 0 to 1")
+TYPE(FLAG, FLAG, 0, 0, false, "true or false")
+TYPE(TEXT, TEXT, 0, 0, false, "text")
+TYPE(WEIGHT, WEIGHT, 1, 1000, false, "100 to 1000, or a word such as :bold")
+TYPE(JOIN, WORD, 0, 0, false, ":miter, :round or :bevel")
+TYPE(CAP, WORD, 0, 0, false, ":butt, :round or :square")
+TYPE(FILL_TYPE, WORD, 0, 0, false, ":winding or :even_odd")
+TYPE(SLANT, WORD, 0, 0, false, ":upright, :oblique or :italic")
+TYPE(COMPOSITE, WORD, 0, 0, false, "a word such as :over, :add, :multiply or :dst_out")
+
+NAME(TRANSLATE, "translate")
+NAME(SCALE, "scale")
+NAME(ROTATE, "rotate")
+NAME(COLOR, "color")
+NAME(STROKE_WIDTH, "stroke_width")
+NAME(STROKE_JOIN, "stroke_join")
+NAME(STROKE_CAP, "stroke_cap")
+NAME(COMPOSITE, "composite")
+NAME(ANTIALIAS, "antialias")
+NAME(SIZE, "size")
+NAME(TITLE, "title")
+NAME(FILENAME, "filename")
+NAME(STATE, "state")
+NAME(NAME, "name")
+NAME(FAMILY, "family")
+NAME(WEIGHT, "weight")
+NAME(SLANT, "slant")
+NAME(FILL_TYPE, "fill_type")
+NAME(POINT, "point")
+NAME(C1, "c1")
+NAME(C2, "c2")
+NAME(RADIUS, "radius")
+NAME(START, "start")
+NAME(END, "end")
+NAME(SWEEP, "sweep")
+NAME(POINTS, "points")
+NAME(CURVE, "curve")
+NAME(CLOSE, "close")
+NAME(FILL, "fill")
+NAME(STROKE, "stroke")
+NAME(TEXT, "text")
+NAME(CENTER, "center")
+NAME(FIT, "fit")
+NAME(ORIGIN, "origin")
+NAME(ALPHA, "alpha")
+NAME(OFFSET, "offset")
+NAME(STRENGTH, "strength")
+NAME(EASE, "ease")
+NAME(POWER, "power")
+NAME(MAX_DISTANCE, "max_distance")
+NAME(FIXED, "fixed")
+NAME(MINIMUM, "minimum")
+NAME(MIN, "min")
+NAME(MAXIMUM, "maximum")
+NAME(MAX, "max")
+NAME(DIMENSIONS, "dimensions")
+NAME(TIME, "time")
+NAME(RESOLUTION, "resolution")
+NAME(RUN, "run")
+NAME(SPEED_OF_LIGHT, "speed_of_light")
+NAME(ID, "id")
+NAME(POSITION, "position")
+NAME(VELOCITY, "velocity")
+NAME(FORCE, "force")
+NAME(MASS, "mass")
+NAME(CHARGE, "charge")
+NAME(ACCELERATION, "acceleration")
+NAME(DIRECTION, "direction")
+NAME(FROM, "from")
+NAME(TO, "to")
+NAME(OVERLAP, "overlap")
+NAME(FLOW, "flow")
+NAME(GRAVITY, "gravity")
+NAME(DENSITY, "density")
+NAME(NORMAL, "normal")
+NAME(RESTITUTION, "restitution")
+NAME(INITIAL, "initial")
+NAME(RATE, "rate")
+NAME(RESET, "reset")
+
+#define STRENGTH_ROW(kind) \
+    ATTR(kind, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "factor of the force")
+#define EASE_ROW(kind) \
+    ATTR(kind, EASE, NUMBER, TO_FORCE(force.ease), IS(0), "", "time in which the strength grows to its full size, from the system's start")
+#define POWER_ROW(kind) \
+    ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "of the displacement: 1 is a linear spring")
+#define REACH_ROW(kind) \
+    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), TOLD(0, ""), "", "between particles at least this far apart there is no force")
+#define BOUND_ROWS(kind) \
+    ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "minimum and maximum at once, and wins over both") \
+    ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the spring pushes") \
+    ALIAS(kind, MIN, MINIMUM, "minimum", NUMBER, TO_FORCE(force.minimum), "") \
+    ATTR(kind, MAXIMUM, NUMBER, TO_FORCE(force.maximum), NONE, "", "distance above which the spring pulls") \
+    ALIAS(kind, MAX, MAXIMUM, "maximum", NUMBER, TO_FORCE(force.maximum), "")
+
+NODE(PHYSICS, "physics", SCENE, PHYSICS, "a particle system")
+ATTR(PHYSICS, STATE, ANY, TO_SYSTEM(state), NONE, "", "the key under which particles are written: $(key;id), $(key;id;:velocity)")
+ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), TOLD(0, ""), "", "how many components vectors have")
+ATTR(PHYSICS, TIME, CLOCK, TO_SYSTEM(time), TOLD(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
+ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), TOLD(0, "1/fps"), "units of time", "longest simulation step")
+ATTR(PHYSICS, RUN, WHOLE, TO_SYSTEM(run), IS(0), "", "another number starts the system anew")
+ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), TOLD(0, ""), "", "highest speed; 0 or less is no limit")
+
+NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; its attributes count when it appears, later the state moves it")
+ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
+ATTR(PARTICLE, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "where it starts")
+ATTR(PARTICLE, VELOCITY, VECTOR, TO_BODY(numbers.velocity), IS(0), "length per unit of time", "at the start")
+ATTR(PARTICLE, FORCE, VECTOR, TO_BODY(numbers.force), IS(0), "", "a force on this particle alone")
+ATTR(PARTICLE, EASE, NUMBER, TO_BODY(numbers.ease), IS(0), "", "time in which its force grows to its full size, from the system's start")
+ATTR(PARTICLE, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "with 0 it neither collides nor sticks, and no medium holds it")
+ATTR(PARTICLE, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "with 0 it is never accelerated")
+ATTR(PARTICLE, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
+
+NODE(ANCHOR, "anchor", PHYSICS, NOTHING, "a particle that stays where its attributes put it")
+ATTR(ANCHOR, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
+ATTR(ANCHOR, POSITION, VECTOR, TO_BODY(numbers.position), IS(0), "", "where it is, in each frame")
+ATTR(ANCHOR, VELOCITY, VECTOR, NOWHERE, IS(0), "", "ignored: anchors are at rest")
+ATTR(ANCHOR, FORCE, VECTOR, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
+ATTR(ANCHOR, EASE, NUMBER, NOWHERE, IS(0), "", "ignored: nothing moves an anchor")
+ATTR(ANCHOR, RADIUS, FROM_ZERO, TO_BODY(numbers.radius), IS(0), "", "with 0 it neither collides nor sticks, and no medium holds it")
+ATTR(ANCHOR, MASS, FROM_ZERO, TO_BODY(numbers.mass), IS(1), "", "with 0 it is never accelerated")
+ATTR(ANCHOR, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrostatic and !field")
+
+NODE(GROUP, "group", PHYSICS, PHYSICS, "particles that those in groups beside it do not see, and forces on them alone")
+
+FORCE(CONSTANT, "constant", "the same force, or acceleration, on all particles")
+ATTR(CONSTANT, FORCE, VECTOR, TO_FORCE(force.vector), IS(0), "", "the same on each particle")
+ATTR(CONSTANT, ACCELERATION, VECTOR, TO_FORCE(force.vector2), IS(0), "", "added to the force, times the particle's mass")
+STRENGTH_ROW(CONSTANT)
+EASE_ROW(CONSTANT)
+
+FORCE(RANDOM, "random", "a random force on each particle")
+ATTR(RANDOM, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "standard deviation of each component of the force")
+EASE_ROW(RANDOM)
+
+FORCE(FIELD, "field", "a force that grows with the charge")
+ATTR(FIELD, DIRECTION, VECTOR, TO_FORCE(force.vector), IS(0), "", "force on a charge of 1")
+STRENGTH_ROW(FIELD)
+EASE_ROW(FIELD)
+
+FORCE(DISTANCE, "distance", "a spring between two particles")
+ATTR(DISTANCE, FROM, ID, TO_FORCE(from), NONE, "", "one end")
+ATTR(DISTANCE, TO, ID, TO_FORCE(to), NONE, "", "the other end")
+BOUND_ROWS(DISTANCE)
+POWER_ROW(DISTANCE)
+STRENGTH_ROW(DISTANCE)
+EASE_ROW(DISTANCE)
+
+FORCE(COLLISION, "collision", "particles that overlap push each other away")
+POWER_ROW(COLLISION)
+STRENGTH_ROW(COLLISION)
+EASE_ROW(COLLISION)
+REACH_ROW(COLLISION)
+
+FORCE(GRAVITY, "gravity", "masses attract each other")
+STRENGTH_ROW(GRAVITY)
+EASE_ROW(GRAVITY)
+REACH_ROW(GRAVITY)
+
+FORCE(ELECTROSTATIC, "electrostatic", "equal charges repel each other, others attract")
+STRENGTH_ROW(ELECTROSTATIC)
+EASE_ROW(ELECTROSTATIC)
+REACH_ROW(ELECTROSTATIC)
+
+FORCE(ADHESION, "adhesion", "particles that touch hold on to each other")
+ATTR(ADHESION, OVERLAP, PART, TO_FORCE(force.overlap), IS(0.25), "", "how deep they sink in before they repel: 0 not at all, 1 until one is within the other")
+STRENGTH_ROW(ADHESION)
+EASE_ROW(ADHESION)
+REACH_ROW(ADHESION)
+
+FORCE(DRAG, "drag", "friction of a medium that may flow")
+ATTR(DRAG, FLOW, VECTOR, TO_FORCE(force.vector), IS(0), "", "velocity of the medium")
+STRENGTH_ROW(DRAG)
+EASE_ROW(DRAG)
+
+FORCE(BUOYANCY, "buoyancy", "weight in a medium")
+ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), TOLD(-1, "0;...;0;-1"), "", "acceleration that a weight has in the void")
+ATTR(BUOYANCY, DENSITY, NUMBER, TO_FORCE(force.density), IS(1), "", "mass of the medium that a particle of radius 1 displaces")
+STRENGTH_ROW(BUOYANCY)
+EASE_ROW(BUOYANCY)
+
+FORCE(BARRIER, "barrier", "a wall")
+ATTR(BARRIER, POSITION, VECTOR, TO_FORCE(force.vector), IS(0), "", "a point of the wall")
+ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "away from the wall, of any length but 0; without it there is no wall")
+ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "part of the speed that a bounce keeps")
+BOUND_ROWS(BARRIER)
+POWER_ROW(BARRIER)
+STRENGTH_ROW(BARRIER)
+EASE_ROW(BARRIER)
+
+NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with a speed of its own, written to the state")
+ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "the key under which the value is written")
+ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start")
+ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(1), "", "growth per unit of time")
+ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), TOLD(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
+ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "least value")
+ALIAS(COUNTER, MIN, MINIMUM, "minimum", NUMBERS, TO_COUNTER(minimum), "")
+ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "greatest value")
+ALIAS(COUNTER, MAX, MAXIMUM, "maximum", NUMBERS, TO_COUNTER(maximum), "")
+ATTR(COUNTER, RESET, ANY, TO_COUNTER(reset), NONE, "", "while true, the value is the initial one")
+
+#define TRANSFORM_ROWS(kind) \
+    ATTR(kind, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "move the origin; of the three, what is written first is applied first") \
+    ATTR(kind, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "enlarge") \
+    ATTR(kind, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "clockwise")
+#define PAINT_ROWS(kind) \
+    ATTR(kind, COLOR, COLOR, TO_LOOK(color), INHERITED(1, "1"), "", "takes the place of a gradient that would be inherited") \
+    ATTR(kind, STROKE_WIDTH, WIDTH, TO_LOOK(stroke_width), INHERITED(1, "1"), "", "0 is the thinnest line that there is") \
+    ATTR(kind, STROKE_JOIN, JOIN, TO_LOOK(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
+    ATTR(kind, STROKE_CAP, CAP, TO_LOOK(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
+    ATTR(kind, COMPOSITE, COMPOSITE, TO_LOOK(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there") \
+    ATTR(kind, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges")
+#define SHAPE_ROWS(kind) \
+    ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape by itself; the current path is left alone") \
+    ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline by itself; the current path is left alone")
+
+NODE(WINDOW, "window", TOP, WINDOW, "a window on the screen, or the picture that is rendered; black where nothing is drawn")
+ATTR(WINDOW, SIZE, SIZE, NOWHERE, TOLD(0, "1920;1080, or that of its first canvas"), "pixels", "")
+ATTR(WINDOW, TITLE, TEXT, NOWHERE, NONE, "", "")
+ATTR(WINDOW, COMPOSITE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "how each canvas combines with those before it")
+
+NODE(OFFSCREEN, "offscreen", TOP, WINDOW, "a picture that is not shown in a window; transparent where nothing is drawn")
+ATTR(OFFSCREEN, SIZE, SIZE, NOWHERE, TOLD(0, "1920;1080, or that of its first canvas"), "pixels", "")
+ATTR(OFFSCREEN, COMPOSITE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "how each canvas combines with those before it")
+
+NODE(RECORD, "record", WINDOW, NOTHING, "write this frame's picture, when rendering or viewing")
+ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", ".png, .svg or .pdf; null: nothing is written")
+
+NODE(POINTER, "pointer", WINDOW, NOTHING, "write where the pointer is, when viewing")
+ATTR(POINTER, STATE, ANY, TO_INPUT(state), NONE, "", "key of the state that is written")
+
+NODE(KEY, "key", WINDOW, NOTHING, "write whether a key is down, when viewing")
+ATTR(KEY, NAME, ANY, TO_INPUT(name), NONE, "", "which key")
+ATTR(KEY, STATE, ANY, TO_INPUT(state), NONE, "", "key of the state that is written")
+
+NODE(CANVAS, "canvas", WINDOW, DRAWING, "a sheet to draw on: origin at the top left, y down, angles in turns")
+ATTR(CANVAS, SIZE, SIZE, NOWHERE, TOLD(0, "that of the window"), "", "if different, the sheet is scaled to fit")
+TRANSFORM_ROWS(CANVAS)
+PAINT_ROWS(CANVAS)
+
+NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "what is set here, or clipped inside, holds for what is inside")
+TRANSFORM_ROWS(CANVAS_GROUP)
+PAINT_ROWS(CANVAS_GROUP)
+
+NODE(TRANSFORM, "transform", DRAWING, DRAWING, "move, enlarge and turn what is inside")
+TRANSFORM_ROWS(TRANSFORM)
+
+NODE(PAINT, "paint", DRAWING, DRAWING, "colour and manner of drawing for what is inside")
+PAINT_ROWS(PAINT)
+
+NODE(FONT, "font", DRAWING, DRAWING, "font for what is inside")
+ATTR(FONT, FAMILY, TEXT, TO_LOOK(family), INHERITED_TEXT("sans"), "", "one or more names, with commas; the first that there is")
+ATTR(FONT, SIZE, WIDTH, TO_LOOK(font_size), INHERITED(14, "14"), "", "")
+ATTR(FONT, WEIGHT, WEIGHT, TO_LOOK(weight), INHERITED(400, ":normal"), "", "")
+ATTR(FONT, SLANT, SLANT, TO_LOOK(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
+
+NODE(LAYER, "layer", DRAWING, DRAWING, "draw what is inside by itself, then all of it at once")
+ATTR(LAYER, SIZE, SIZE, NOWHERE, TOLD(0, "no limit"), "", "what lies outside of it is cut off")
+ATTR(LAYER, ORIGIN, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner of the size")
+ATTR(LAYER, ALPHA, MEASURE, NOWHERE, IS(1), "", "0 is invisible")
+TRANSFORM_ROWS(LAYER)
+PAINT_ROWS(LAYER)
+
+NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; what is inside adds to it, then fills or strokes it")
+ATTR(PATH, FILL_TYPE, FILL_TYPE, TO_LOOK(fill_type), TOLD(FILL_WINDING, ":winding"), "", "what is inside where the path crosses itself")
+PAINT_ROWS(PATH)
+
+NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another piece of the path")
+ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
+
+NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from where the path ends")
+ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "")
+
+NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from where the path ends")
+ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
+ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "the control point; with c2, that of the beginning; without both, a straight line")
+ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "control point of the end")
+
+NODE(ARC, "arc", DRAWING, NOTHING, "part of an ellipse, joined to the path by a line")
+ATTR(ARC, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre")
+ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
+ATTR(ARC, START, MEASURE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
+ATTR(ARC, END, MEASURE, NOWHERE, TOLD(NAN, "start + sweep"), "turns", "")
+ATTR(ARC, SWEEP, MEASURE, NOWHERE, IS(1), "turns", "end goes before it")
+
+NODE(RECT, "rect", DRAWING, SOURCE, "a rectangle")
+ATTR(RECT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner")
+ATTR(RECT, SIZE, SIZE, NOWHERE, NONE, "", "")
+ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "of its corners, shrunk to what fits")
+SHAPE_ROWS(RECT)
+PAINT_ROWS(RECT)
+
+NODE(ELLIPSE, "ellipse", DRAWING, SOURCE, "an ellipse or a circle")
+ATTR(ELLIPSE, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre")
+ATTR(ELLIPSE, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
+SHAPE_ROWS(ELLIPSE)
+PAINT_ROWS(ELLIPSE)
+
+NODE(LINE, "line", DRAWING, SOURCE, "a line through points")
+ATTR(LINE, POINTS, POINTS, NOWHERE, NONE, "", "")
+ATTR(LINE, CURVE, MEASURE, NOWHERE, IS(0), "", "how round its corners are: 0 not at all, 1 as far as the middles of its pieces")
+ATTR(LINE, CLOSE, FLAG, NOWHERE, IS(false), "", "join the last point to the first")
+SHAPE_ROWS(LINE)
+PAINT_ROWS(LINE)
+
+NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to where this piece of the path began")
+
+NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path, until the group, transform, paint, font or layer ends")
+ATTR(CLIP, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges")
+
+NODE(FILL, "fill", DRAWING, SOURCE, "fill the path")
+PAINT_ROWS(FILL)
+
+NODE(STROKE, "stroke", DRAWING, SOURCE, "draw along the path")
+PAINT_ROWS(STROKE)
+
+NODE(TEXT, "text", DRAWING, SOURCE, "one line of text")
+ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
+ATTR(TEXT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "its middle; with center=false where its base line begins")
+ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
+ATTR(TEXT, FILL, FLAG, NOWHERE, IS(true), "", "draw the letters")
+ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw their outlines; if both are false, they are added to the path")
+PAINT_ROWS(TEXT)
+
+NODE(IMAGE, "image", DRAWING, NOTHING, "a picture from a PNG or JPEG file")
+ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
+ATTR(IMAGE, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner")
+ATTR(IMAGE, SIZE, SIZE, NOWHERE, TOLD(0, "that of the file"), "", "of a box that it is stretched to")
+ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "of a box that it is put into, as large as it goes")
+ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "of a box that it fills; what does not fit is cut off")
+ATTR(IMAGE, COMPOSITE, COMPOSITE, TO_LOOK(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there")
+
+NODE(GRADIENT, "gradient", SOURCE, STOP, "colours that flow into each other, for the node that it stands in and what is inside")
+ATTR(GRADIENT, START, POINT, NOWHERE, TOLD(0, "0;0"), "", "of a linear one")
+ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "of a linear one")
+ATTR(GRADIENT, RADIUS, MEASURE, NOWHERE, NONE, "", "of a radial one")
+ATTR(GRADIENT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre of a radial one")
+
+NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
+ATTR(STOP, OFFSET, MEASURE, NOWHERE, TOLD(NAN, "evenly spread"), "", "from 0 to 1")
+ATTR(STOP, COLOR, COLOR, NOWHERE, IS(1), "", "")
+
+NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for the node that it stands in and what is inside")
+ATTR(COLOR, COLOR, COLOR, TO_LOOK(color), IS(1), "", "")
+
+UNDRAWN("canvas3d")
+UNDRAWN("reference")
+UNDRAWN("video")
+UNDRAWN("shader")
+UNDRAWN("adjust")
+UNDRAWN("blur")
+UNDRAWN("bloom")
+UNDRAWN("edges")
+UNDRAWN("chromakey")
+UNDRAWN("feedback")
+UNDRAWN("vignette")
+UNDRAWN("noise")
+UNDRAWN("flare")
+UNDRAWN("kaleid")
+// clang-format on
+
+#undef TYPE
+#undef NAME
+#undef NODE
+#undef FORCE
+#undef ATTR
+#undef ALIAS
+#undef UNDRAWN
+#undef STRENGTH_ROW
+#undef EASE_ROW
+#undef POWER_ROW
+#undef REACH_ROW
+#undef BOUND_ROWS
+#undef TRANSFORM_ROWS
+#undef PAINT_ROWS
+#undef SHAPE_ROWS

@@ -1,0 +1,90 @@
+// table.c: see table.h.
+#include "schema/table.h"
+
+#include "schema/records.h"
+
+#include <math.h>
+
+const KindRow schema_kinds[KIND_COUNT] = {
+#define NODE(id, text, place, children, help) {text, help, PLACE_##place, PLACE_##children},
+#include "schema/schema_list.h"
+};
+
+const char *const schema_names[ATTR_COUNT] = {
+    "",
+#define NAME(id, text) text,
+#include "schema/schema_list.h"
+};
+
+const TypeRow schema_types[TYPE_COUNT] = {
+#define TYPE(id, shape, low, high, vital, text) {SHAPE_##shape, vital, low, high, text},
+#include "schema/schema_list.h"
+};
+
+#define TO_SYSTEM(field) offsetof(SystemAttrs, field)
+#define TO_BODY(field) offsetof(BodyAttrs, field)
+#define TO_FORCE(field) offsetof(ForceAttrs, field)
+#define TO_COUNTER(field) offsetof(CounterAttrs, field)
+#define TO_INPUT(field) offsetof(InputAttrs, field)
+#define TO_LOOK(field) offsetof(Look, field)
+#define NOWHERE FIELD_NOWHERE
+#define IS(x)                                                                                                          \
+    { x, #x, false, NULL }
+#define TOLD(x, text)                                                                                                  \
+    { x, text, false, NULL }
+#define INHERITED(x, text)                                                                                             \
+    { x, "inherited, at first " text, true, NULL }
+#define INHERITED_TEXT(text)                                                                                           \
+    { 0, "inherited, at first \"" text "\"", true, text }
+#define NONE                                                                                                           \
+    { NAN, "", false, NULL }
+
+const SchemaRow schema_rows[ROW_COUNT] = {
+#define ATTR(kind, name, type, field, fallback, unit, help)                                                            \
+    {KIND_##kind, ATTR_##name, TYPE_##type, ATTR_NONE, field, fallback, unit, help},
+#define ALIAS(kind, name, of, of_text, type, field, unit)                                                              \
+    {KIND_##kind, ATTR_##name, TYPE_##type, ATTR_##of, field, NONE, unit, "the same as " of_text ", which wins"},
+#include "schema/schema_list.h"
+};
+
+const WordRow schema_words[WORD_COUNT] = {
+#define WORD(type, text, value) {TYPE_##type, value, {text, sizeof text - 1}},
+#include "schema/word_list.h"
+};
+
+const SchemaRow *schema_row(NodeKind kind, AttrName name) {
+    static const uint16_t numbers[KIND_COUNT][ATTR_COUNT] = {
+#define ATTR(kind, name, type, field, fallback, unit, help) [KIND_##kind][ATTR_##name] = ROW_##kind##_##name + 1,
+#include "schema/schema_list.h"
+    };
+    return numbers[kind][name] ? &schema_rows[numbers[kind][name] - 1] : NULL;
+}
+
+PhysForceKind schema_force(NodeKind kind) {
+    static const uint8_t forces[KIND_COUNT] = {
+#define NODE(id, text, place, children, help) [KIND_##id] = PHYS_FORCE_KINDS,
+#define FORCE(id, text, help) [KIND_##id] = PHYS_##id,
+#include "schema/schema_list.h"
+    };
+    return kind < KIND_COUNT ? forces[kind] : PHYS_FORCE_KINDS;
+}
+
+NodeKind schema_kind_of_force(PhysForceKind force) {
+    static const uint8_t kinds[PHYS_FORCE_KINDS] = {
+#define KIND_OF(KIND, ...) [PHYS_##KIND] = KIND_##KIND,
+        PHYS_FORCES(KIND_OF, KIND_OF, KIND_OF, KIND_OF)
+#undef KIND_OF
+    };
+    return kinds[force];
+}
+
+bool schema_is_undrawn(Str name) {
+    static const char *const undrawn[] = {
+#define UNDRAWN(text) text,
+#include "schema/schema_list.h"
+    };
+    for (size_t i = 0; i < sizeof undrawn / sizeof undrawn[0]; i++)
+        if (str_equal(name, str_from(undrawn[i])))
+            return true;
+    return false;
+}

@@ -1,0 +1,143 @@
+// table.h: the rows of schema_list.h: kinds of nodes, their attributes, the words that those take.
+#ifndef PETRI_SCHEMA_TABLE_H
+#define PETRI_SCHEMA_TABLE_H
+
+#include "base/str.h"
+#include "physics/system.h"
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+typedef enum NodeKind {
+#define NODE(id, text, place, children, help) KIND_##id,
+#include "schema/schema_list.h"
+    KIND_COUNT // none of these
+} NodeKind;
+
+typedef enum AttrName {
+    ATTR_NONE,
+#define NAME(id, text) ATTR_##id,
+#include "schema/schema_list.h"
+    ATTR_COUNT
+} AttrName;
+
+typedef enum AttrType {
+#define TYPE(id, shape, low, high, vital, text) TYPE_##id,
+#include "schema/schema_list.h"
+    TYPE_COUNT
+} AttrType;
+
+// The attributes, one row each. Those of a kind follow each other.
+typedef enum AttrRow {
+#define ATTR(kind, name, type, field, fallback, unit, help) ROW_##kind##_##name,
+#include "schema/schema_list.h"
+    ROW_COUNT
+} AttrRow;
+
+// Where a node may stand.
+typedef enum PlaceKind {
+    PLACE_NOTHING,
+    PLACE_SCENE, // at the top; does something
+    PLACE_PHYSICS,
+    PLACE_TOP, // at the top; shows something. This and what follows are places of windows
+    PLACE_WINDOW,
+    PLACE_DRAWING, // sources, too, may stand where one draws
+    PLACE_SOURCE,
+    PLACE_STOP,
+} PlaceKind;
+
+// What a value becomes.
+typedef enum AttrShape {
+    SHAPE_VALUE,   // Value
+    SHAPE_NUMBERS, // Value of one number or more
+    SHAPE_NUMBER,  // double, moved to the limits of its type
+    SHAPE_WHOLE,   // double, rounded down
+    SHAPE_CLOCK,   // double; nan is taken
+    SHAPE_VECTOR,  // PhysVector of as many elements as the system has dimensions; one number stands for all
+    SHAPE_NORMAL,  // likewise, of length 1; NULL if it has no direction
+    SHAPE_MEASURE, // double, finite
+    SHAPE_PAIR,    // double[2]; one number stands for both
+    SHAPE_POINTS,  // an even number of doubles
+    SHAPE_COLOR,   // double[4]
+    SHAPE_FLAG,    // bool
+    SHAPE_TEXT,    // const char *
+    SHAPE_WEIGHT,  // double; a number or a word
+    SHAPE_WORD,    // int
+    SHAPE_OTHER,
+} AttrShape;
+
+// The meanings of words.
+enum { JOIN_MITER, JOIN_ROUND, JOIN_BEVEL };
+enum { CAP_BUTT, CAP_ROUND, CAP_SQUARE };
+enum { FILL_WINDING, FILL_EVEN_ODD };
+enum { SLANT_UPRIGHT, SLANT_OBLIQUE, SLANT_ITALIC };
+typedef enum CompositeMode {
+#define COMPOSITE(id, operator) COMPOSITE_##id,
+#include "schema/composite_list.h"
+    COMPOSITE_COUNT
+} CompositeMode;
+
+enum {
+    WORD_COUNT = 0
+#define WORD(type, text, value) +1
+#include "schema/word_list.h"
+};
+
+typedef struct KindRow {
+    const char *name;
+    const char *help;
+    PlaceKind place;
+    PlaceKind children;
+} KindRow;
+
+typedef struct TypeRow {
+    AttrShape shape;
+    bool vital; // a drawing node is left out if this is malformed
+    double low;
+    double high;
+    const char *text;
+} TypeRow;
+
+typedef struct Fallback {
+    double value;
+    const char *text; // in words; "" for none
+    bool inherited;   // `value` is where inheritance begins
+    const char *string;
+} Fallback;
+
+enum { FIELD_NOWHERE = UINT16_MAX };
+
+typedef struct SchemaRow {
+    uint8_t kind;   // NodeKind
+    uint8_t name;   // AttrName
+    uint8_t type;   // AttrType
+    uint8_t alias;  // AttrName of the attribute that this one is another name of
+    uint16_t field; // offset in the record of its kind, or FIELD_NOWHERE
+    Fallback fallback;
+    const char *unit; // "" for none, or where the help tells
+    const char *help; // "" where the name says all
+} SchemaRow;
+
+typedef struct WordRow {
+    AttrType type;
+    int value;
+    Str text;
+} WordRow;
+
+extern const KindRow schema_kinds[KIND_COUNT];
+extern const char *const schema_names[ATTR_COUNT];
+extern const TypeRow schema_types[TYPE_COUNT];
+extern const SchemaRow schema_rows[ROW_COUNT];
+extern const WordRow schema_words[WORD_COUNT];
+
+// The row of an attribute; NULL if the kind has none of this name.
+const SchemaRow *schema_row(NodeKind kind, AttrName name);
+// The force that a kind stands for; PHYS_FORCE_KINDS: none.
+PhysForceKind schema_force(NodeKind kind);
+// The kind that stands for a force.
+NodeKind schema_kind_of_force(PhysForceKind force);
+// Is it one of the nodes that Flitter shows and petri does not?
+bool schema_is_undrawn(Str name);
+
+#endif

@@ -1,0 +1,110 @@
+// clock.c: see clock.h.
+#include "session/clock.h"
+
+#include <math.h>
+#include <time.h>
+
+static double read_clock(clockid_t clock) {
+    struct timespec time;
+    clock_gettime(clock, &time);
+    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
+}
+
+double clock_monotonic(void) {
+    return read_clock(CLOCK_MONOTONIC);
+}
+
+double clock_of_day(void) {
+    return read_clock(CLOCK_REALTIME);
+}
+
+void clock_rewind(Clock *clock) {
+    *clock = (Clock){
+        .realtime = clock->realtime, .number = -1, .rates = clock->rates, .wall.performance = clock->realtime ? 1 : 2};
+}
+
+void clock_set_rates(Clock *clock, const ClockRates *rates) {
+    bool same = rates->fps == clock->rates.fps && rates->tempo == clock->rates.tempo;
+    if (!same && clock->number >= 0)
+        clock->base = (ClockBase){clock->number, clock->time, clock->beat};
+    clock->rates = *rates;
+}
+
+void clock_resume(Clock *clock, int64_t number) {
+    clock->base = (ClockBase){0};
+    clock->wall.running = false;
+    clock->number = number;
+    clock->time = (double)number / clock->rates.fps;
+    clock->beat = clock->time / (60 / clock->rates.tempo);
+}
+
+static double wall_time(const Clock *clock) {
+    return clock_monotonic() - clock->wall.origin;
+}
+
+// A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
+static const double LATEST = 0.1;
+
+static double lockstep_time(const Clock *clock) {
+    return clock->base.time + (double)(clock->number - clock->base.number) / clock->rates.fps;
+}
+
+// The first frame has the time that it has in lockstep: 0, or where a restored state goes on.
+static double start_wall_clock(Clock *clock) {
+    double time = lockstep_time(clock);
+    clock->wall.running = true;
+    clock->wall.origin = clock_monotonic() - time;
+    clock->wall.due = time + 1 / clock->rates.fps;
+    return time;
+}
+
+// In real time: sleeps until the frame is due and returns the time.
+static double wait_for_frame(Clock *clock) {
+    WallClock *wall = &clock->wall;
+    if (!wall->running)
+        return start_wall_clock(clock);
+    double at = wall_time(clock), spare = wall->due - at;
+    wall->slow_frame = spare < 0;
+    wall->performance += spare > 0.001 ? 0.001 : -0.01;
+    wall->performance = fmin(2, fmax(0.5, wall->performance));
+    if (spare > 0) {
+        struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
+        nanosleep(&pause, NULL);
+    }
+    wall->due = fmax(wall->due, at - LATEST) + 1 / clock->rates.fps;
+    return wall_time(clock);
+}
+
+void clock_advance(Clock *clock) {
+    const ClockBase *base = &clock->base;
+    double last_beat = clock->beat, beat_length = 60 / clock->rates.tempo;
+    clock->number++;
+    clock->time = clock->realtime ? wait_for_frame(clock) : lockstep_time(clock);
+    clock->beat = base->beat + (clock->time - base->time) / beat_length;
+    clock->delta = clock->number == 0 ? 0 : clock->beat - last_beat;
+}
+
+double clock_due(const Clock *clock) {
+    return clock->wall.running ? fmax(0, clock->wall.due - wall_time(clock)) : 0;
+}
+
+// The clock is put to where the next frame is due.
+static void put_to_due(Clock *clock) {
+    clock->wall.due = clock->time + 1 / clock->rates.fps;
+    clock->wall.origin = clock_monotonic() - clock->wall.due;
+}
+
+void clock_hold(Clock *clock) {
+    if (!clock->wall.running)
+        return;
+    double due = clock->time + 1 / clock->rates.fps;
+    if (wall_time(clock) > due)
+        put_to_due(clock);
+    clock->wall.due = due;
+}
+
+void clock_follow_frame(Clock *clock) {
+    clock->wall.running = clock->wall.running && clock->number >= 0;
+    if (clock->wall.running)
+        put_to_due(clock);
+}

@@ -1,0 +1,132 @@
+// diagnostics.c: see diagnostics.h.
+#include "session/session.h"
+
+#include <stdio.h>
+#include <stdlib.h>
+
+enum { MOST_TOLD = 1000 };
+
+void diagnostics_free(Diagnostics *diagnostics) {
+    index_free(&diagnostics->told_index);
+    free(diagnostics->told);
+}
+
+void diagnostics_begin_load(Diagnostics *diagnostics) {
+    diagnostics->told_count = 0;
+    index_clear(&diagnostics->told_index);
+}
+
+bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat) {
+    bool before = diagnostics->repeat;
+    diagnostics->repeat = repeat;
+    return before;
+}
+
+static bool told_same(const void *owner, uint32_t entry, const void *key) {
+    return ((const Diagnostics *)owner)->told[entry] == *(const uint64_t *)key;
+}
+
+// Whether something was told before, or too much was.
+static bool is_told(const Diagnostics *diagnostics, uint64_t hash) {
+    return diagnostics->told_count >= MOST_TOLD ||
+           index_find(&diagnostics->told_index, hash, told_same, diagnostics, &hash) != INDEX_NONE;
+}
+
+// What cannot be remembered is told again.
+static void remember(Diagnostics *diagnostics, uint64_t hash) {
+    if (diagnostics->told_count == diagnostics->told_capacity) {
+        uint32_t capacity = diagnostics->told_capacity ? diagnostics->told_capacity * 2 : 16;
+        uint64_t *told = realloc(diagnostics->told, capacity * sizeof *told);
+        if (!told)
+            return;
+        diagnostics->told = told;
+        diagnostics->told_capacity = capacity;
+    }
+    diagnostics->told[diagnostics->told_count] = hash;
+    if (index_add(&diagnostics->told_index, hash, diagnostics->told_count))
+        diagnostics->told_count++;
+}
+
+static void give(PetriSession *session, const Diag *diag, Str rendered) {
+    Arena *arena = &session->text_arena;
+    SourcePlace place = {0};
+    if (diag->source)
+        place = source_locate(diag->source, diag->span.start);
+    PetriDiagnostic public_diag = {.level = (PetriLevel)diag->level,
+                                   .file = diag->source ? str_to_c(arena, diag->source->name) : NULL,
+                                   .line = place.line,
+                                   .column = place.column,
+                                   .text = str_to_c(arena, diag_text(diag)),
+                                   .code = diag->code,
+                                   .rendered = str_to_c(arena, rendered)};
+    diagnostics_pass_on(session, &public_diag);
+}
+
+void diagnostics_pass_on(PetriSession *session, const PetriDiagnostic *diagnostic) {
+    session->diagnostics.counts[diagnostic->level]++;
+    if (session->options.diagnostic)
+        session->options.diagnostic(session->options.host, diagnostic);
+}
+
+typedef struct Telling {
+    const Diag *diag;
+    Str key;
+} Telling;
+
+static void tell(PetriSession *session, void *context) {
+    const Telling *telling = context;
+    Diagnostics *diagnostics = &session->diagnostics;
+    Str key = telling->key;
+    uint64_t hash = hash_bytes(0, key.bytes, key.len);
+    if (key.len && is_told(diagnostics, hash))
+        return; // before anything is rendered: it may come in every frame
+    ArenaMark mark = arena_mark(&session->text_arena);
+    Text rendered = text_new(&session->text_arena);
+    diag_format(&rendered, telling->diag, session->options.colour);
+    if (!key.len)
+        hash = hash_bytes(0, rendered.bytes, rendered.len);
+    bool told = !key.len && is_told(diagnostics, hash);
+    if (!told || diagnostics->repeat)
+        give(session, telling->diag, text_str(&rendered));
+    if (!told) {
+        remember(diagnostics, hash);
+        if (diagnostics->told_count == MOST_TOLD) {
+            Diag last = {.level = DIAG_NOTE, .text = STR("1000 diagnostics were given; no more are shown")};
+            rendered.len = 0;
+            diag_format(&rendered, &last, session->options.colour);
+            give(session, &last, text_str(&rendered));
+        }
+    }
+    arena_rewind(&session->text_arena, mark);
+}
+
+// Within a protected call, one that cannot be made takes that call with it; else it is lost.
+void session_tell_keyed(PetriSession *session, const Diag *diag, Str key) {
+    Telling telling = {diag, key};
+    if (session->text_arena.escape)
+        tell(session, &telling);
+    else
+        session_protect(session, NULL, tell, &telling);
+}
+
+void session_tell(PetriSession *session, const Diag *diag) {
+    session_tell_keyed(session, diag, (Str){0});
+}
+
+void session_tell_text(PetriSession *session, DiagLevel level, const char *code, Str text) {
+    session_tell(session, &(Diag){.level = level, .text = text, .code = code});
+}
+
+void session_tell_all(PetriSession *session, const DiagSink *sink) {
+    for (uint32_t i = 0; i < sink->count; i++)
+        session_tell(session, &sink->items[i]);
+    if (sink->dropped) {
+        char text[64];
+        snprintf(text, sizeof text, "%u more diagnostics are not shown", sink->dropped);
+        session_tell_text(session, DIAG_NOTE, NULL, str_from(text));
+    }
+}
+
+uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level) {
+    return session->diagnostics.counts[level];
+}

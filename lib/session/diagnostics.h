@@ -1,0 +1,36 @@
+// diagnostics.h: what the host is told, each thing once. Only diagnostics.c writes this part of a session.
+#ifndef PETRI_SESSION_DIAGNOSTICS_H
+#define PETRI_SESSION_DIAGNOSTICS_H
+
+#include "petri.h"
+
+#include "base/diag.h"
+#include "base/table.h"
+
+typedef struct Diagnostics {
+    uint64_t *told; // hashes of what was given already
+    uint32_t told_count;
+    uint32_t told_capacity;
+    Index told_index;
+    bool repeat;        // give again what was given before
+    uint64_t counts[3]; // by level, since the session was opened
+} Diagnostics;
+
+void diagnostics_free(Diagnostics *diagnostics);
+// A script is being loaded: each thing is told once per load.
+void diagnostics_begin_load(Diagnostics *diagnostics);
+// Says whether what was given before is given again; returns what held so far.
+bool diagnostics_repeat(Diagnostics *diagnostics, bool repeat);
+// Gives the diagnostic of another session to the host, as one of this.
+void diagnostics_pass_on(PetriSession *session, const PetriDiagnostic *diagnostic);
+
+// Gives a diagnostic to the host unless it was given before.
+void session_tell(PetriSession *session, const Diag *diag);
+// The same once for each key, whatever the text; an empty key stands for the text.
+void session_tell_keyed(PetriSession *session, const Diag *diag, Str key);
+// A diagnostic without a place.
+void session_tell_text(PetriSession *session, DiagLevel level, const char *code, Str text);
+// Hands over what a sink has collected.
+void session_tell_all(PetriSession *session, const DiagSink *sink);
+
+#endif

@@ -1,0 +1,36 @@
+// frame.h: what the last frame has made. Only frame.c and, for what is typed in the frame, prompt.c write it.
+#ifndef PETRI_SESSION_FRAME_H
+#define PETRI_SESSION_FRAME_H
+
+#include "petri.h"
+
+#include "base/diag.h"
+#include "value/value.h"
+
+typedef struct SessionFrame {
+    Arena arena;         // values, until the next step; limited by PetriOptions.memory_bytes
+    Arena systems_arena; // what the systems need: outside the script's budget, so that no update stops half-way
+    Value tree;
+    DiagSink log;    // texts of debug(), each once
+    DiagSink errors; // texts of run-time faults, each once
+    // What the names of the prompt's list stand for; fewer if the frame was not evaluated (to the end).
+    Value *values;
+    uint32_t value_count;
+    bool evaluated; // tree and values are those of the present frame and configuration
+    bool working;   // evaluation is under way
+    bool unseen;    // no frame of the loaded script has been made
+    uint64_t physics_steps;
+    double evaluation_seconds;
+    double physics_seconds;
+    double profiled_physics; // seconds, since the script was loaded
+    uint64_t profiled_frames;
+    const char **system_names; // printed so far, by number
+    size_t system_name_count;
+} SessionFrame;
+
+// Drops what was computed in the last frame: tree, log, values of names.
+void session_clear_frame(PetriSession *session);
+// Evaluates script and prompt statements; false if that was given up. Within a protected call.
+bool session_evaluate(PetriSession *session);
+
+#endif

@@ -1,0 +1,32 @@
+// shown.c: see shown.h.
+#include "session/session.h"
+
+#include <string.h>
+
+Shown session_shown(PetriSession *session) {
+    const Unit *program = session->config.program;
+    return (Shown){.number = program ? session->clock.number : -1,
+                   .tree = session->frame.tree,
+                   .schema = &session->schema,
+                   .scene = session->scene,
+                   .state = session->state,
+                   .directory = program ? program->source->directory : STR(""),
+                   .memory_bytes = session->options.memory_bytes};
+}
+
+bool petri_drawable(PetriSession *session) {
+    const Node *window;
+    SceneView view;
+    for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at)) != NULL;)
+        if (canvas_in_window(&session->schema, window))
+            return true;
+    return scene_view(session->scene, session->state, 0, &view);
+}
+
+void *session_drawing(PetriSession *session, size_t size) {
+    if (!session->drawing) {
+        session->drawing = memset(arena_alloc(&session->arena, size), 0, size);
+        session->drawing_size = size;
+    }
+    return session->drawing;
+}

@@ -1,0 +1,33 @@
+// shown.h: what a room above the session takes of the last frame to draw it.
+#ifndef PETRI_SESSION_SHOWN_H
+#define PETRI_SESSION_SHOWN_H
+
+#include "petri.h"
+
+#include "canvas/read.h"
+#include "scene/scene.h"
+#include "session/diagnostics.h"
+
+// Borrowed until the session is used otherwise.
+typedef struct Shown {
+    int64_t number; // of the frame; -1: none has been made
+    Value tree;
+    Schema *schema;     // for reading its windows
+    const Scene *scene; // its systems: scene_view
+    const State *state;
+    Str directory;       // what relative file names start from
+    size_t memory_bytes; // that a copy may have
+} Shown;
+
+Shown session_shown(PetriSession *session);
+
+// Memory that stays with the session, always of the same size, for the room that draws; zeros before frame 0. Within a
+// protected call.
+void *session_drawing(PetriSession *session, size_t size);
+
+// Calls `call`. If an arena of the session or `extra` (or NULL) runs out meanwhile, what it was doing is given up:
+// PETRI_MEMORY, or PETRI_LIMIT if only a budget was used up. What it has begun must be reachable from `context`.
+typedef void SessionCall(PetriSession *session, void *context);
+PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
+
+#endif

@@ -1,0 +1,65 @@
+// unit.h: source files and what was made of them. Only load.c writes units and the loader.
+#ifndef PETRI_SESSION_UNIT_H
+#define PETRI_SESSION_UNIT_H
+
+#include "petri.h"
+
+#include "base/diag.h"
+#include "program/program.h"
+
+// A source file with what was made of it, in one arena. Modules are kept by path until the file changes.
+typedef struct Unit Unit;
+struct Unit {
+    Unit *next;
+    Arena arena;   // to be used through unit_arena
+    Arena scratch; // while it is compiled: syntax tree, expressions
+    Str path;      // canonical; NUL-terminated
+    Str version;   // changes when the file does: modification time, size, inode
+    const Source *source;
+    const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
+    bool empty;             // there is no statement in it
+    const Program *program; // NULL: could not be loaded
+    Str why;                // … for this reason
+    uint32_t references;    // freed with the last
+    Str *included;          // canonical paths that an %include has taken; NUL-terminated
+    uint32_t included_count;
+    DiagSink parse_sink; // of the parse that is under way
+    DiagSink sink;       // of the compilation
+    bool retired;        // not finished, or replaced; freed when no frame can refer to it any more
+};
+
+typedef struct Loader {
+    Unit *modules;       // list
+    uint64_t generation; // counts the units that frames came to depend on (session_put)
+    Unit *begun;         // the script or text being loaded, for when its memory runs out
+    Unit *compiling;     // whose compiler calls back
+    bool lint;           // petri_check is at work
+} Loader;
+
+// The names that a program is given values for.
+typedef struct Names {
+    const Symbol *const *items;
+    uint32_t count;
+} Names;
+
+// The unit's arena, whose escape is from now on that of the protected call at work.
+Arena *unit_arena(const PetriSession *session, Unit *unit);
+// Loads a unit within a protected call: reads, parses and compiles. It is returned even if that failed (program is
+// NULL).
+Unit *unit_load_file(PetriSession *session, const char *file, bool module);
+// `path` and `version` are those of the file that the text was read from; the name and nothing if there is none.
+Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version);
+// A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
+Unit *unit_parse(PetriSession *session, Str name, Str text);
+// Compiles a tree of the unit as a program with the given parameters.
+const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params);
+// Gives a reference back; NULL is fine.
+void unit_free(Unit *unit);
+// To be told of each unit that frames come to depend on: what lies in it may lie where that of a freed one did.
+Unit *session_put(PetriSession *session, Unit *unit);
+// For the machine: the module at a path. Within a protected call.
+const Program *session_module(void *host, Str path, Str *why);
+// Frees modules that were replaced.
+void session_free_retired(PetriSession *session);
+
+#endif

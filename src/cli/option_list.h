@@ -1,0 +1,88 @@
+// option_list.h: all options of all commands, in the order of help, and what they set. A new one is its rows here.
+//
+// FIELD(type, name, at first): what is asked for, as options.h has it in Options.
+// OPTION(commands, "name", 'letter' or 0, "VALUE" or NULL, reader, field, "help"): the readers are in options.c.
+// clang-format off
+FIELD(const char *, output,       NULL)           // render: what to write
+FIELD(const char *, format,       NULL)           // … to standard output; NULL: not given
+FIELD(int64_t,      frame,        -1)             // render: the only one to draw, or -1
+FIELD(bool,         terminal,     false)          // view: in the terminal
+FIELD(bool,         update,       false)
+FIELD(const char *, filter,       NULL)
+FIELD(const char *, junit,        NULL)
+FIELD(int64_t,      jobs,         0)              // 0: not given
+FIELD(int64_t,      frames,       -1)             // INT64_MAX: not limited by their number
+FIELD(double,       run_time,     NAN)            // NaN: not limited by time
+FIELD(int64_t,      every,        1)
+FIELD(Size,         size,         {0})            // of pictures; 0: what the script says
+FIELD(double,       scale,        1)
+FIELD(bool,         automatic,    false)          // the particles themselves are drawn
+FIELD(double,       fps,          60)
+FIELD(bool,         fps_given,    false)
+FIELD(bool,         realtime,     false)
+FIELD(unsigned,     sections,     0)              // PETRI_PRINT_...; 0: logs alone
+FIELD(const char *, state_file,   NULL)           // NULL: the state is neither taken from a file nor kept in one
+FIELD(int64_t,      limit,        100000)         // repl: of .run and .until
+FIELD(int64_t,      threads,      0)              // 0: as many as CPUs
+FIELD(int,          neighbours,   0)              // PetriNeighbours
+FIELD(const char *, as_threads,   NULL)           // test: for each run; NULL: what the goldens ask for
+FIELD(const char *, as_neighbours, NULL)          // likewise
+FIELD(bool,         unsimplified, false)
+FIELD(bool,         show,         false)          // run: in the terminal, if somebody watches
+FIELD(bool,         stats,        false)
+FIELD(const char *, trajectory,   NULL)           // NULL: none is written
+FIELD(bool,         profile,      false)
+FIELD(Verbosity,    verbosity,    LOG_NORMAL)
+FIELD(bool,         colour,       colour_by_default())
+FIELD(bool,         monochrome,   no_colour())    // not even pictures in the terminal have colours
+FIELD(bool,         werror,       false)
+FIELD(bool,         parameters,   false)          // they are listed, and nothing is run
+FIELD(int,          dump,         -1)             // PetriDump, or -1
+
+OPTION(FOR_RENDER, "output", 'o', "FILE", read_text, output, "OUT.png, OUT%05d.png (a series), OUT.svg, OUT.pdf, OUT.mp4, OUT.webm or OUT.gif; - for standard output")
+OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "what '-o -' writes: png (if not given), svg, pdf, mp4, webm or gif")
+OPTION(FOR_RENDER, "frame", 0, "N", read_frame, frame, "draw frame N (0 is the first); the last one if not given")
+OPTION(FOR_VIEW, "terminal", 0, NULL, read_flag, terminal, "show it in the terminal, even if there is a display")
+OPTION(FOR_VIEW, "auto", 0, NULL, read_flag, automatic, "show the particles themselves, not the script's own canvas")
+OPTION(FOR_TEST, "update", 0, NULL, read_flag, update, "record what the scripts print now in their goldens")
+OPTION(FOR_TEST, "filter", 0, "TEXT", read_text, filter, "only scripts with TEXT in their path below PATH")
+OPTION(FOR_TEST, "junit", 0, "FILE", read_text, junit, "also write the results to FILE, in the form that CI systems read")
+OPTION(FOR_TEST, "jobs", 0, "N", read_jobs, jobs, "run N scripts at a time (as many as CPUs)")
+OPTION(FOR_RUN | FOR_RENDER, "frames", 0, "N", read_count, frames, "stop after N frames (600 if neither this nor --runtime is given)")
+OPTION(FOR_VIEW, "frames", 0, "N", read_count, frames, "close after N frames")
+OPTION(FOR_RUN | FOR_RENDER, "runtime", 0, "T", read_time, run_time, "stop after T seconds, or a time code (m:s, h:m:s)")
+OPTION(FOR_VIEW, "runtime", 0, "T", read_time, run_time, "close after T seconds, or a time code (m:s, h:m:s)")
+OPTION(FOR_RENDER, "every", 0, "K", read_from_one, every, "draw each K-th frame, starting with the first")
+OPTION(FOR_RENDER, "size", 0, "WxH", read_size, size, "size of the picture in pixels (that of the script's window)")
+OPTION(FOR_RENDER, "scale", 0, "S", read_positive, scale, "S pixels for each unit of the window's size (1)")
+OPTION(FOR_RENDER, "auto", 0, NULL, read_flag, automatic, "draw the particles themselves, not the script's own canvas")
+OPTION(FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "fps", 0, "F", read_fps, fps, "frames per second (60); a script's %pragma fps wins")
+OPTION(FOR_RUN | FOR_RENDER, "lockstep", 0, NULL, read_unset, realtime, "time is frame/fps, as fast as possible (the default)")
+OPTION(FOR_RUN | FOR_RENDER, "realtime", 0, NULL, read_flag, realtime, "follow the wall clock; time counts from frame 0")
+OPTION(FOR_VIEW, "lockstep", 0, NULL, read_unset, realtime, "time is frame/fps, as fast as possible")
+OPTION(FOR_VIEW, "realtime", 0, NULL, read_flag, realtime, "follow the wall clock (the default); time counts from frame 0")
+OPTION(FOR_RUN, "print", 0, "LIST", read_sections, sections, "print tree, state, log, error (any of them, with commas); logs alone if not given")
+OPTION(FOR_RUN, "every", 0, "K", read_from_one, every, "print and record each K-th frame, starting with frame 0")
+OPTION(FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "define", 'D', "NAME=VALUE", read_definition, definition_count, "set a parameter of the script; may be repeated")
+OPTION(FOR_CHECK, "define", 'D', "NAME=VALUE", read_definition, definition_count, "define a name for the scripts; may be repeated")
+OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "state", 0, "FILE", read_text, state_file, "go on from the state in FILE, if it exists, and keep it there")
+OPTION(FOR_REPL, "state", 0, "FILE", read_text, state_file, "begin with the state in FILE")
+OPTION(FOR_REPL, "limit", 0, "N", read_from_one, limit, "frames that .run and .until make at the most (100000)")
+OPTION(FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "threads", 0, "N", read_threads, threads, "worker threads (as many as CPUs); results never depend on it")
+OPTION(FOR_TEST, "threads", 0, "N", read_text, as_threads, "as with run, for all scripts")
+OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "neighbours", 0, "WHEN", read_neighbours, neighbours, "lists of neighbours in physics: auto, never or always; results never depend on it")
+OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "as with run, for all scripts")
+OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate everything in every frame; results never depend on it")
+OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "on a terminal, show its picture there, if it has one and no text is asked for")
+OPTION(FOR_RUN, "stats", 0, NULL, read_flag, stats, "close with a table of times, speeds and each system's energy")
+OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv")
+OPTION(FOR_RUN, "profile", 0, NULL, read_flag, profile, "close with the time that each line of the script took, the slowest first")
+OPTION(FOR_CHECK | FOR_RUN | FOR_RENDER | FOR_VIEW, "quiet", 0, NULL, read_verbosity, verbosity, "report errors only")
+OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "verbose", 0, NULL, read_verbosity, verbosity, "also report a summary at the end")
+OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "debug", 0, NULL, read_verbosity, verbosity, "also report the time that each printed frame took")
+OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "trace", 0, NULL, read_verbosity, verbosity, "also report the time that every frame took")
+OPTION(FOR_CHECK | FOR_RUN | FOR_RENDER | FOR_VIEW, "color", 0, "WHEN", read_colour, colour, "colour messages: auto, always or never")
+OPTION(FOR_REPL, "color", 0, "WHEN", read_colour, colour, "colour prompts and messages: auto, always or never")
+OPTION(FOR_CHECK, "werror", 0, NULL, read_flag, werror, "exit with 1 if there was a warning, too")
+OPTION(FOR_RUN, "parameters", 0, NULL, read_flag, parameters, "list what -D can set: name, default, range and comment; do not run it")
+OPTION(FOR_RUN, "dump", 0, "WHAT", read_dump, dump, "print the script's ast or code and do not run it")

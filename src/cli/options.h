@@ -1,0 +1,46 @@
+// options.h: the options of all commands: one table, one reader.
+#ifndef PETRI_SRC_OPTIONS_H
+#define PETRI_SRC_OPTIONS_H
+
+#include <stdint.h>
+
+#include "cli/cli.h"
+#include "cli/scripts.h"
+#include "petri.h"
+
+typedef enum Verbosity { LOG_QUIET, LOG_NORMAL, LOG_VERBOSE, LOG_DEBUG, LOG_TRACE } Verbosity;
+
+typedef struct Size {
+    int width;
+    int height;
+} Size;
+
+// What a command line asks for. Texts point into argv.
+typedef struct Options {
+#define FIELD(type, name, at_first) type name;
+#define OPTION(commands, name, letter, value, reader, field, help)
+#include "cli/option_list.h"
+#undef FIELD
+#undef OPTION
+    const char **definitions; // as many as definition_count; each "name=value"
+    size_t definition_count;
+    const char *script; // of commands for one; NULL: none was given
+    ScriptList scripts; // of commands for many, sorted
+    bool has_path;
+    bool unreadable; // some path could not be read
+    bool prompt;     // the session keeps forces to show and can be interrupted
+} Options;
+
+enum { OPTIONS_READ = -1 };
+
+// Reads a command's options and operands. OPTIONS_READ, or the status to exit with because help was asked for or
+// something is wrong. To be freed in either case.
+int options_read(Options *options, const Command *command, int argc, char **argv);
+void options_free(Options *options);
+// Opens a session as the options say, with the names that they define. OPTIONS_READ, or the status to exit with after
+// a message; *session is then NULL.
+int options_open(const Options *options, const Host *host,
+                 void (*diagnostic)(void *context, const PetriDiagnostic *diagnostic), void *context,
+                 PetriSession **session);
+
+#endif

@@ -1,0 +1,416 @@
+// test_session_memory.c: each allocation of each public function fails in turn. Nothing aborts or leaks (sanitizers
+// see that), what returns a failure has changed nothing, and the same call then gives what it gives elsewhere.
+#include "folder.h"
+#include "heap.h"
+#include "petri-draw.h"
+#include "player.h"
+
+static const char *const SCRIPT = "%pragma tempo 60\n"
+                                  "import twice from 'module.fl'\n"
+                                  "let N=N or 5 -- 1..9 how many\n"
+                                  "    text='a';'b'\n"
+                                  "func area(x)\n    twice(x)*x\n"
+                                  "!physics state=:cells dimensions=2 time=beat resolution=0.01\n"
+                                  "    for i in ..(N if frame < 4 else N+3)\n"
+                                  "        !particle id=i position=10*uniform(:a)[i];10*uniform(:b)[i] radius=2\n"
+                                  "    !anchor id=:hub position=0;0\n"
+                                  "    !distance from=0 to=:hub fixed=2 strength=9\n"
+                                  "    !collision\n    !random strength=10\n    !drag strength=0.1\n"
+                                  "!physics state='text';1 dimensions=1 time=beat\n"
+                                  "    !particle id='p' position=$(:cells;0)[0]\n    !constant force=1\n"
+                                  "!counter state=:count rate=2;3 maximum=1;9\n"
+                                  "!shown value=area($:count) text=text x=debug(frame)\n"
+                                  "!window size=100;100\n    !key name=:space state=:space\n    !pointer state=:mouse\n"
+                                  "    !canvas size=100;100\n        !fill color=0;1;0\n            !rect size=50;50\n";
+
+typedef struct Stage {
+    Folder folder;
+    Player player;
+    PetriSnapshot *early;
+    PetriConfig *config;
+    Notebook written; // by the act
+} Stage;
+
+typedef PetriStatus Act(Stage *stage);
+
+// Whether a run goes on in the same way is seen from its next frames, too.
+static void write_frame(Stage *stage, Notebook *book) {
+    char line[100];
+    PetriFrame frame = petri_frame(stage->player.session);
+    int len = snprintf(line, sizeof line, "%lld %.17g %.17g\n", (long long)frame.number, frame.time, frame.beat);
+    note(book, line, (size_t)len);
+    assert_int_equal(petri_print(stage->player.session, PETRI_PRINT_STATE, note, book), PETRI_OK);
+    for (size_t i = 0; petri_prompt_statement(stage->player.session, i); i++) {
+        const char *text = petri_prompt_statement(stage->player.session, i);
+        note(book, text, strlen(text));
+    }
+    for (size_t i = 0; i < 2; i++) {
+        PetriParameter parameter = {.name = "", .value = ""};
+        petri_parameter(stage->player.session, i, &parameter);
+        note(book, parameter.value, strlen(parameter.value));
+    }
+}
+
+static void ignore(void *host, const PetriDiagnostic *diagnostic) {
+    (void)host;
+    (void)diagnostic;
+}
+
+static void open_stage(Stage *stage, bool interruptible) {
+    PetriPrompted done;
+    PetriOptions options = player_options(&stage->player);
+    options.interruptible = interruptible;
+    options.diagnostic = ignore;
+    options.threads = 1;
+    player_open_with(&stage->player, &options);
+    PetriSession *session = stage->player.session;
+    assert_int_equal(petri_load(session, folder_file(&stage->folder, "s.fl")), PETRI_OK);
+    assert_int_equal(petri_prompt(session, "let typed=frame*2", PETRI_Z, NULL, NULL, &done), PETRI_OK);
+    assert_int_equal(petri_prompt(session, "!typed x=typed", PETRI_Z, NULL, NULL, &done), PETRI_OK);
+    player_step(&stage->player, 2);
+    petri_key(session, "space", true);
+    player_step(&stage->player, 1);
+    stage->early = petri_snapshot(session);
+    stage->config = petri_config(session);
+    assert_non_null(stage->early);
+    assert_int_equal(petri_define(session, "M=1"), PETRI_OK);
+    assert_int_equal(petri_save(session, folder_file(&stage->folder, "state")), PETRI_OK);
+    player_step(&stage->player, 1);
+    petri_key(session, "space", false);
+    petri_pointer(session, &(PetriPointer){.inside = true, .x = 0.5, .y = 0.25, .buttons = 1});
+    note(&stage->written, "", 0);
+}
+
+static void close_stage(Stage *stage) {
+    petri_snapshot_free(stage->early);
+    petri_config_free(stage->config);
+    player_close(&stage->player);
+    free(stage->written.text);
+    stage->written = (Notebook){0};
+}
+
+static void forget(Stage *stage) {
+    stage->written.len = 0;
+    stage->written.text[0] = 0;
+}
+
+static bool take_text(void *host, const char *text, size_t len) {
+    bool counts = heap.counts;
+    heap.counts = false; // the notebook's allocations are not libpetri's
+    note(host, text, len);
+    heap.counts = counts;
+    return true;
+}
+
+// --- the acts
+
+static PetriStatus of_pointer(const void *pointer) {
+    return pointer ? PETRI_OK : PETRI_MEMORY;
+}
+
+static PetriStatus act_open(Stage *stage) {
+    (void)stage;
+    PetriOptions options = petri_default_options();
+    options.profile = true;
+    options.threads = 2;
+    PetriSession *session = petri_open(&options);
+    PetriStatus status = of_pointer(session);
+    petri_close(&session);
+    return status;
+}
+
+static PetriStatus act_define(Stage *stage) {
+    return petri_define(stage->player.session, "N=7");
+}
+
+static PetriStatus act_load(Stage *stage) {
+    return petri_load(stage->player.session, folder_file(&stage->folder, "s.fl"));
+}
+
+static PetriStatus act_load_text(Stage *stage) {
+    return petri_load_text(stage->player.session, "t.fl", "let A=A or 3\n!counter state=:other rate=A*2\n", PETRI_Z);
+}
+
+static PetriStatus act_load_wrong(Stage *stage) {
+    PetriStatus status = petri_load_text(stage->player.session, "t.fl", "!a x=\n", PETRI_Z);
+    return status == PETRI_INVALID ? PETRI_OK : status;
+}
+
+static PetriStatus act_reload(Stage *stage) {
+    return petri_reload(stage->player.session, folder_file(&stage->folder, "s.fl"));
+}
+
+static PetriStatus act_set_parameter(Stage *stage) {
+    return petri_set_parameter(stage->player.session, "N", "8");
+}
+
+static PetriStatus act_check(Stage *stage) {
+    return petri_check(stage->player.session, folder_file(&stage->folder, "s.fl"));
+}
+
+static PetriStatus act_step(Stage *stage) {
+    return petri_step(stage->player.session);
+}
+
+static PetriStatus act_config(Stage *stage) {
+    petri_set_tempo(stage->player.session, 90);
+    petri_set_tempo(stage->player.session, 60);
+    PetriConfig *config = petri_config(stage->player.session);
+    petri_config_free(config);
+    return of_pointer(config);
+}
+
+static PetriStatus act_config_use(Stage *stage) {
+    petri_config_use(stage->player.session, stage->config);
+    return PETRI_OK;
+}
+
+static PetriStatus act_snapshot(Stage *stage) {
+    PetriSnapshot *snapshot = petri_snapshot(stage->player.session);
+    petri_snapshot_free(snapshot);
+    return of_pointer(snapshot);
+}
+
+static PetriStatus act_rewind(Stage *stage) {
+    return petri_rewind(stage->player.session, stage->early);
+}
+
+static PetriStatus act_save(Stage *stage) {
+    return petri_save(stage->player.session, folder_file(&stage->folder, "other"));
+}
+
+static PetriStatus act_restore(Stage *stage) {
+    return petri_restore(stage->player.session, folder_file(&stage->folder, "state"));
+}
+
+static PetriStatus act_systems(Stage *stage) {
+    PetriSystem system;
+    PetriParticle particle;
+    PetriForce force;
+    bool found = petri_system(stage->player.session, 1, &system) &&
+                 petri_particle(stage->player.session, 0, 1, &particle) &&
+                 petri_force(stage->player.session, 0, 0, &force);
+    return found ? PETRI_OK : PETRI_MEMORY;
+}
+
+static PetriStatus act_picture(Stage *stage) {
+    PetriPicture *picture;
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriStatus status = petri_picture(stage->player.session, &options, &picture);
+    petri_picture_free(&picture);
+    return status;
+}
+
+static PetriStatus act_automatic_picture(Stage *stage) {
+    PetriPicture *picture;
+    PetriPictureOptions options = petri_default_picture_options();
+    options.automatic = PETRI_AUTO_ALWAYS;
+    PetriStatus status = petri_picture(stage->player.session, &options, &picture);
+    petri_picture_free(&picture);
+    return status;
+}
+
+static PetriStatus act_print(Stage *stage) {
+    return petri_print(stage->player.session, 15, take_text, &stage->written);
+}
+
+static PetriStatus act_dump(Stage *stage) {
+    PetriStatus status = petri_dump(stage->player.session, PETRI_DUMP_AST, take_text, &stage->written);
+    return status == PETRI_OK ? petri_dump(stage->player.session, PETRI_DUMP_CODE, take_text, &stage->written) : status;
+}
+
+static PetriStatus act_input(Stage *stage) {
+    return petri_input(stage->player.session, "if x:", PETRI_Z) <= PETRI_INPUT_PART ? PETRI_OK : PETRI_INVALID;
+}
+
+static PetriStatus prompt(Stage *stage, const char *text) {
+    PetriPrompted done;
+    return petri_prompt(stage->player.session, text, PETRI_Z, take_text, &stage->written, &done);
+}
+
+static PetriStatus act_prompt_value(Stage *stage) {
+    return prompt(stage, "area(typed)+debug(1);'text'");
+}
+
+static PetriStatus act_prompt_binding(Stage *stage) {
+    return prompt(stage, "let more=typed*2");
+}
+
+static PetriStatus act_prompt_node(Stage *stage) {
+    return prompt(stage, "!counter state=:typed rate=typed");
+}
+
+static PetriStatus act_evaluate(Stage *stage) {
+    PetriResult result;
+    return petri_evaluate(stage->player.session, "area(typed)", PETRI_Z, &result, take_text, &stage->written);
+}
+
+static PetriStatus act_drop(Stage *stage) {
+    return petri_drop(stage->player.session, false) == 1 ? PETRI_OK : PETRI_MEMORY;
+}
+
+static PetriStatus act_preview(Stage *stage) {
+    petri_set_resolution(stage->player.session, 0);
+    return petri_preview(stage->player.session);
+}
+
+static PetriStatus act_parameters(Stage *stage) {
+    PetriParameter parameter;
+    return petri_parameter(stage->player.session, 0, &parameter) ? PETRI_OK : PETRI_MEMORY;
+}
+
+static PetriStatus act_texts(Stage *stage) {
+    assert_string_equal(petri_prompt_statement(stage->player.session, 1), "!typed x=typed");
+    assert_non_null(petri_source(stage->player.session, 0));
+    return of_pointer(petri_name(stage->player.session, 0));
+}
+
+static PetriStatus act_simple(Stage *stage) {
+    petri_clear(stage->player.session);
+    petri_set_fps(stage->player.session, 30);
+    petri_hold(stage->player.session);
+    petri_drawable(stage->player.session);
+    petri_records(stage->player.session);
+    return petri_key(stage->player.session, "a", true);
+}
+
+typedef struct Row {
+    const char *name;
+    Act *act;
+    bool interruptible;
+} Row;
+
+static const Row rows[] = {
+    {"open", act_open, false},
+    {"define", act_define, false},
+    {"load", act_load, false},
+    {"load text", act_load_text, false},
+    {"load a wrong text", act_load_wrong, false},
+    {"reload", act_reload, false},
+    {"set parameter", act_set_parameter, false},
+    {"check", act_check, false},
+    {"step", act_step, true},
+    {"config", act_config, false},
+    {"config use", act_config_use, false},
+    {"snapshot", act_snapshot, false},
+    {"rewind", act_rewind, false},
+    {"save", act_save, false},
+    {"restore", act_restore, false},
+    {"systems", act_systems, false},
+    {"picture", act_picture, false},
+    {"automatic picture", act_automatic_picture, false},
+    {"print", act_print, false},
+    {"dump", act_dump, false},
+    {"input", act_input, false},
+    {"prompt value", act_prompt_value, false},
+    {"prompt binding", act_prompt_binding, false},
+    {"prompt node", act_prompt_node, false},
+    {"evaluate", act_evaluate, false},
+    {"drop", act_drop, false},
+    {"preview", act_preview, false},
+    {"parameters", act_parameters, false},
+    {"texts", act_texts, false},
+    {"simple", act_simple, false},
+};
+
+// What the act has written, the session after it, and the two frames that follow.
+static char *outcome(Stage *stage) {
+    Notebook book = stage->written;
+    write_frame(stage, &book);
+    for (int i = 0; i < 2; i++) {
+        assert_int_equal(petri_step(stage->player.session), PETRI_OK);
+        write_frame(stage, &book);
+    }
+    stage->written = (Notebook){0};
+    note(&stage->written, "", 0);
+    return book.text;
+}
+
+// One allocation fails, or all from there on.
+static void check_failure(Stage *stage, const Row *row, long number, bool all, const char *wanted) {
+    char name[100];
+    Notebook before = {0}, after = {0};
+    snprintf(name, sizeof name, "%s, allocation %ld%s", row->name, number, all ? " and later ones" : "");
+    open_stage(stage, row->interruptible);
+    write_frame(stage, &before);
+    heap_fail(number, all);
+    PetriStatus status = row->act(stage);
+    heap_heal();
+    if (status != PETRI_OK) {
+        assert_number(name, status, PETRI_MEMORY);
+        write_frame(stage, &after);
+        assert_text(name, after.text, before.text);
+        forget(stage);
+        assert_number(name, row->act(stage), PETRI_OK);
+    }
+    char *found = outcome(stage);
+    assert_text(name, found, wanted);
+    free(found);
+    free(before.text);
+    free(after.text);
+    close_stage(stage);
+}
+
+// So many allocations of an act are tried; all of them with TRIES=1000000.
+static long most_tries(void) {
+    const char *tries = getenv("TRIES");
+    return tries ? strtol(tries, NULL, 10) : 50;
+}
+
+static void test_failures(void **state) {
+    Stage *stage = *state;
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        open_stage(stage, rows[i].interruptible);
+        heap_fail(-1, false);
+        assert_number(rows[i].name, rows[i].act(stage), PETRI_OK);
+        heap.counts = false;
+        long total = heap.count, stride = 1 + total / most_tries();
+        char *wanted = outcome(stage);
+        close_stage(stage);
+        for (long number = 0; number <= total; number += stride)
+            for (int all = 0; all < 2; all++)
+                check_failure(stage, &rows[i], number, all, wanted);
+        free(wanted);
+    }
+}
+
+// Without a copy of the state, systems that were updated before the memory was used up stay so, and the frame counts;
+// the session goes on.
+static void test_plain_step(void **state) {
+    Stage *stage = *state;
+    for (long number = 0, total = 1; number < total; number++) {
+        open_stage(stage, false);
+        heap_fail(number, true);
+        PetriStatus status = petri_step(stage->player.session);
+        heap_heal();
+        total = status == PETRI_OK && heap.count <= number ? 0 : number + 2;
+        assert_true(status == PETRI_OK || status == PETRI_MEMORY);
+        player_step(&stage->player, 3);
+        close_stage(stage);
+        number += number / 20;
+    }
+}
+
+static int set_up(void **state) {
+    Stage *stage = calloc(1, sizeof *stage);
+    folder_open(&stage->folder);
+    folder_write(&stage->folder, "module.fl", "let STEP=STEP or 2\nfunc twice(x)\n    x*STEP\n");
+    folder_write(&stage->folder, "s.fl", SCRIPT);
+    *state = stage;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    Stage *stage = *state;
+    folder_close(&stage->folder);
+    free(stage);
+    return 0;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_failures, set_up, tear_down),
+        cmocka_unit_test_setup_teardown(test_plain_step, set_up, tear_down),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
