@@ -32,6 +32,7 @@ command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
 pkg-config --exists x11   : libx11-dev
+pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 "
 CLANG_NEEDS='command -v clang: clang'
@@ -47,7 +48,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 cmocka x11'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 cmocka x11 mpfr'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -1,7 +1,8 @@
 // colour.c: colour spaces (spec builtins.md B11).
 #include "builtin/family.h"
 
-#include "base/random.h"
+#include "maths/maths.h"
+#include "maths/random.h"
 
 #include <math.h>
 #include <string.h>
@@ -80,7 +81,7 @@ static void black_body(double t, bool normalize, double *rgb) {
         y = -0.9549476 * x * x2 - 1.37418593 * x2 + 2.09137015 * x - 0.16748867;
     else
         y = 3.0817580 * x * x2 - 5.87338670 * x2 + 3.75112997 * x - 0.37001483;
-    double Y = normalize ? 1 : pow(lo(t) / 6503.5, 4);
+    double Y = normalize ? 1 : maths_pow(lo(t) / 6503.5, 4);
     double X = Y * x / y, Z = Y * (1 - x - y) / y;
     rgb[0] = lo(3.2406255 * X - 1.537208 * Y - 0.4986286 * Z);
     rgb[1] = lo(-0.9689307 * X + 1.8757561 * Y + 0.0415175 * Z);
@@ -122,7 +123,7 @@ static Value rgb_of_oklab(Arena *arena, double l, double a, double b) {
     double v[3] = {l, a, b};
     transform(B, v);
     for (int i = 0; i < 3; i++)
-        v[i] = pow(v[i], 3);
+        v[i] = maths_pow(v[i], 3);
     transform(A, v);
     transform(C, v);
     return builtin_numbers(arena, v, 3);

@@ -1,6 +1,9 @@
 // family.c: see family.h.
 #include "builtin/family.h"
 
+// Shorter vectors are done one by one.
+enum { BUILTIN_MANY = 4 };
+
 Value builtin_too_long(BuiltinContext *context, const char *name) {
     builtin_fault(context, name, "result is too long");
     return VALUE_NULL;
@@ -20,6 +23,14 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double)) {
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
     for (uint32_t i = 0; i < x.len; i++)
         result[i] = f(x.as.numbers[i]);
+    return value_numbers_view(result, x.len);
+}
+
+Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany *many) {
+    if (x.len < BUILTIN_MANY || !value_is_numeric(x))
+        return builtin_each(arena, x, f);
+    double *result = arena_alloc_array(arena, x.len, sizeof *result);
+    many(cpu_detect(), x.as.numbers, x.len, result);
     return value_numbers_view(result, x.len);
 }
 

@@ -4,6 +4,8 @@
 
 #include "builtin/builtin.h"
 
+#include "base/cpu.h"
+
 #define BUILTIN(name, function, ...) BuiltinCall function;
 #include "builtin/builtin_list.h"
 #undef BUILTIN
@@ -38,6 +40,10 @@ Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len);
 
 // f of each element; null unless x is numeric (B1.1).
 Value builtin_each(Arena *arena, Value x, double (*f)(double));
+
+// The same with a function that takes many numbers at once and gives the bits of f (maths/many.h).
+typedef void BuiltinMany(CpuLevel level, const double *x, size_t count, double *to);
+Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany *many);
 
 // f of the `count` elements at each position of `count` vectors, element-wise with repetition (B0.4); null unless all
 // are numeric, or if there are none.

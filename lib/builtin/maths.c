@@ -2,7 +2,9 @@
 #include "builtin/family.h"
 
 #include "base/number.h"
-#include "base/random.h"
+#include "maths/many.h"
+#include "maths/maths.h"
+#include "maths/random.h"
 
 #include <math.h>
 
@@ -12,15 +14,15 @@ static double fract(double x) {
 
 // No reduction of the angle, unlike sin and cos (B1.1).
 static double turns_tan(double x) {
-    return tan(x * BUILTIN_TAU);
+    return maths_tan(x * BUILTIN_TAU);
 }
 
 static double turns_asin(double x) {
-    return asin(x) / BUILTIN_TAU;
+    return maths_asin(x) / BUILTIN_TAU;
 }
 
 static double turns_acos(double x) {
-    return acos(x) / BUILTIN_TAU;
+    return maths_acos(x) / BUILTIN_TAU;
 }
 
 #define ELEMENT_WISE(name, function)                                                                                   \
@@ -29,17 +31,30 @@ static double turns_acos(double x) {
         return builtin_each(context->arena, args[0], function);                                                        \
     }
 
+// Functions that are faster for many numbers at once
+#define ELEMENT_WISE_MANY(name, function, many)                                                                        \
+    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
+        (void)count;                                                                                                   \
+        return builtin_each_many(context->arena, args[0], function, many);                                             \
+    }
+
+static void turns_cos_many(CpuLevel level, const double *t, size_t count, double *to) {
+    for (size_t i = 0; i < count; i++)
+        to[i] = t[i] + 0.25; // as turns_cos does
+    maths_turns_sin_many(level, to, count, to);
+}
+
 ELEMENT_WISE(builtin_abs, fabs)
 ELEMENT_WISE(builtin_ceil, ceil)
 ELEMENT_WISE(builtin_floor, number_floor)
 ELEMENT_WISE(builtin_fract, fract)
 ELEMENT_WISE(builtin_sqrt, sqrt)
-ELEMENT_WISE(builtin_exp, exp)
-ELEMENT_WISE(builtin_log, log)
-ELEMENT_WISE(builtin_log2, log2)
-ELEMENT_WISE(builtin_log10, log10)
-ELEMENT_WISE(builtin_sin, turns_sin)
-ELEMENT_WISE(builtin_cos, turns_cos)
+ELEMENT_WISE_MANY(builtin_exp, maths_exp, maths_exp_many)
+ELEMENT_WISE_MANY(builtin_log, maths_log, maths_log_many)
+ELEMENT_WISE(builtin_log2, maths_log2)
+ELEMENT_WISE(builtin_log10, maths_log10)
+ELEMENT_WISE_MANY(builtin_sin, turns_sin, maths_turns_sin_many)
+ELEMENT_WISE_MANY(builtin_cos, turns_cos, turns_cos_many)
 ELEMENT_WISE(builtin_tan, turns_tan)
 ELEMENT_WISE(builtin_asin, turns_asin)
 ELEMENT_WISE(builtin_acos, turns_acos)
@@ -83,7 +98,7 @@ Value builtin_polar(BuiltinContext *context, const Value *args, uint32_t count) 
 
 static double pair_angle(const double *xy, uint32_t count) {
     (void)count;
-    return atan2(xy[1], xy[0]) / BUILTIN_TAU;
+    return maths_atan2(xy[1], xy[0]) / BUILTIN_TAU;
 }
 
 static double pair_length(const double *xy, uint32_t count) {

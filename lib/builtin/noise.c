@@ -2,9 +2,9 @@
 // B10.11).
 #include "builtin/noise.h"
 
-#include "base/random.h"
 #include "builtin/family.h"
 #include "builtin/noise_point.h"
+#include "maths/random.h"
 #include "value/seed.h"
 
 #include <math.h>

@@ -1,7 +1,8 @@
 // quaternion.c: quaternions w;x;y;z (spec builtins.md B5).
 #include "builtin/family.h"
 
-#include "base/random.h"
+#include "maths/maths.h"
+#include "maths/random.h"
 
 #include <math.h>
 
@@ -101,9 +102,9 @@ Value builtin_slerp(BuiltinContext *context, const Value *args, uint32_t count) 
     double n = 1 / (a.x * a.x + a.y * a.y + a.z * a.z + a.w * a.w);
     Quaternion inverse = {a.w * n, (-a.x) * n, (-a.y) * n, (-a.z) * n};
     Quaternion r = multiply(b, inverse);
-    double theta = acos(r.w), u = sin(theta);
+    double theta = maths_acos(r.w), u = maths_sin(theta);
     theta = theta * args[0].as.number;
-    double v = u != 0 ? sin(theta) / u : 0;
-    Quaternion e = {cos(theta), r.x * v, r.y * v, r.z * v};
+    double v = u != 0 ? maths_sin(theta) / u : 0;
+    Quaternion e = {maths_cos(theta), r.x * v, r.y * v, r.z * v};
     return quaternion_value(context->arena, multiply(e, a));
 }

@@ -2,7 +2,8 @@
 #include "builtin/family.h"
 
 #include "base/number.h"
-#include "base/random.h"
+#include "maths/maths.h"
+#include "maths/random.h"
 
 #include <math.h>
 
@@ -11,12 +12,12 @@ static double phase(double x) {
 }
 
 static double bounce(double x) {
-    return sin(BUILTIN_PI * phase(x));
+    return maths_sin(BUILTIN_PI * phase(x));
 }
 
 static double sharkfin(double x) {
     double p = phase(x);
-    return p < 0.5 ? sin(BUILTIN_PI * p) : 1 - sin(BUILTIN_PI * (p - 0.5));
+    return p < 0.5 ? maths_sin(BUILTIN_PI * p) : 1 - maths_sin(BUILTIN_PI * (p - 0.5));
 }
 
 static double sine(double x) {

@@ -1,5 +1,6 @@
 // automatic.c: draws particle systems by themselves; see automatic.h.
 #include "draw/draw.h"
+#include "maths/maths.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -11,9 +12,10 @@ typedef struct Colour {
 static const Colour GROUND = {0.06, 0.07, 0.09};
 static const double MARGIN = 0.04;    // of a panel, on each side
 static const double LEAST_RADIUS = 2; // pixels
-static const double YAW = 0.45;       // of the eye: radians to the right
-static const double PITCH = 0.35;     // and above
-static const double EYE = 4;          // its distance, in halves of the frame
+// The eye is 0.45 radians to the right and 0.35 above.
+static const double COS_YAW = 0.9004471023526769, SIN_YAW = 0.43496553411123023;
+static const double COS_PITCH = 0.9393727128473789, SIN_PITCH = 0.34289780745545134;
+static const double EYE = 4; // its distance, in halves of the frame
 
 // Where a system is drawn.
 typedef struct Panel {
@@ -59,9 +61,9 @@ static Seen see(const Panel *panel, const double position[3]) {
     if (panel->system->dimensions < 3)
         return (Seen){panel->x + x * panel->side, panel->y - y * panel->side, 0, panel->scale};
     double z = (position[2] - frame->middle[2]) / frame->half;
-    double right = x * cos(YAW) - z * sin(YAW), towards = x * sin(YAW) + z * cos(YAW);
-    double up = y * cos(PITCH) - towards * sin(PITCH);
-    double depth = -(y * sin(PITCH) + towards * cos(PITCH));
+    double right = x * COS_YAW - z * SIN_YAW, towards = x * SIN_YAW + z * COS_YAW;
+    double up = y * COS_PITCH - towards * SIN_PITCH;
+    double depth = -(y * SIN_PITCH + towards * COS_PITCH);
     double nearness = EYE / fmax(EYE + depth, 0.1);
     return (Seen){panel->x + right * panel->side * nearness, panel->y - up * panel->side * nearness, depth,
                   panel->scale * nearness};
@@ -165,7 +167,7 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     cairo_t *cr = panel->canvas->cr;
     Seen at = see(panel, barrier->position);
     double nx = barrier->normal[0], ny = panel->system->dimensions == 1 ? 0 : -barrier->normal[1];
-    double length = hypot(nx, ny), far = panel->width + panel->height;
+    double length = maths_hypot(nx, ny), far = panel->width + panel->height;
     if (!(length > 0) || !isfinite(length))
         return;
     nx /= length;

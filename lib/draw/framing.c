@@ -1,5 +1,6 @@
 // framing.c: what the automatic picture shows of space; see automatic.h.
 #include "draw/automatic.h"
+#include "maths/maths.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -13,7 +14,7 @@ static int compare_numbers(const void *a, const void *b) {
 static double reach_of_most(const AutoSystem *system, const double middle[3], double *numbers) {
     for (uint32_t i = 0; i < system->body_count; i++) {
         const double *p = system->bodies[i].position;
-        numbers[i] = hypot(hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]);
+        numbers[i] = maths_hypot(maths_hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]);
     }
     qsort(numbers, system->body_count, sizeof *numbers, compare_numbers);
     double most = numbers[(system->body_count * 9 + 9) / 10 - 1];
@@ -40,7 +41,7 @@ static Bounds find_bounds(const AutoSystem *system, const double middle[3], doub
     for (uint32_t i = 0; i < system->body_count; i++) {
         const AutoBody *body = &system->bodies[i];
         const double *p = body->position;
-        if (hypot(hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]) > reach)
+        if (maths_hypot(maths_hypot(p[0] - middle[0], p[1] - middle[1]), p[2] - middle[2]) > reach)
             continue;
         for (int k = 0; k < 3; k++) {
             bounds.low[k] = fmin(bounds.low[k], p[k] - body->radius);
@@ -52,8 +53,8 @@ static Bounds find_bounds(const AutoSystem *system, const double middle[3], doub
 
 // The next of 1, 1.25, 1.6, 2, 2.5 … : sizes that are chosen again and again stay the same.
 static double round_up(double x) {
-    double step = ceil(log10(x) * 10 - 1e-9);
-    return pow(10, step / 10);
+    double step = ceil(maths_log10(x) * 10 - 1e-9);
+    return maths_pow(10, step / 10);
 }
 
 void auto_frame(Arena *arena, AutoFrame *frame, const AutoSystem *system) {

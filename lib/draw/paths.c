@@ -1,5 +1,6 @@
 // paths.c: nodes that add to the path.
 #include "draw/draw.h"
+#include "maths/maths.h"
 
 #include <math.h>
 
@@ -61,14 +62,14 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
     double largest = fmax(rx, ry) * draw_scale_of(canvas->cr);
     int pieces = (int)ceil(fabs(turns) * (largest < 64 ? 4 : 8));
     double from = (start - floor(start)) * TURN, step = turns * TURN / (pieces ? pieces : 1);
-    double handle = 4.0 / 3 * tan(step / 4);
-    double c = cos(from), s = sin(from);
+    double handle = 4.0 / 3 * maths_tan(step / 4);
+    double c = maths_cos(from), s = maths_sin(from);
     if (join)
         line_to(canvas, x + rx * c, y + ry * s); // begins the path if there is none
     else
         move_to(canvas, x + rx * c, y + ry * s);
     for (int i = 1; i <= pieces; i++) {
-        double c2 = cos(from + i * step), s2 = sin(from + i * step);
+        double c2 = maths_cos(from + i * step), s2 = maths_sin(from + i * step);
         curve_to(canvas, x + rx * (c - handle * s), y + ry * (s + handle * c), x + rx * (c2 + handle * s2),
                  y + ry * (s2 - handle * c2), x + rx * c2, y + ry * s2);
         c = c2;

@@ -1,6 +1,7 @@
 // picture.c: what the last frame shows, chosen and copied so that it can be drawn later and elsewhere (painter.c).
 #include "draw/picture.h"
 
+#include "maths/maths.h"
 #include "session/shown.h"
 #include "value/format.h"
 
@@ -77,7 +78,7 @@ static void shade_by_speed(const SceneView *view, AutoSystem *system, const uint
         if (numbers[i] == UINT32_MAX || !phys_get_particle(view->engine, i, &particle) || !particle.velocity)
             continue;
         take_three(v, particle.velocity, view->dimensions);
-        double speed = hypot(hypot(v[0], v[1]), v[2]);
+        double speed = maths_hypot(maths_hypot(v[0], v[1]), v[2]);
         system->bodies[numbers[i]].shade = isfinite(speed) ? speed / (speed + system->frame.half) : 1;
     }
 }

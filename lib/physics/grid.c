@@ -5,6 +5,7 @@
 // however far away they are: it keeps neighbours in the same or in adjacent cells. Particles that are much larger than
 // the others (a few may be) are in no cell; everyone tests them.
 #include "physics/grid.h"
+#include "maths/maths.h"
 
 #include <float.h>
 
@@ -113,9 +114,9 @@ static void choose_cells(const Survey *survey, double width, Grid *grid) {
     }
     // Where the particles are astronomically far apart, each axis gets its share of the cells.
     bool vast = !(product <= 1e100);
-    double share = floor(pow(most, 1.0 / (double)grid->dimensions));
+    double share = floor(maths_pow(most, 1.0 / (double)grid->dimensions));
     if (product > most && !vast)
-        width *= pow(product / most, 1.0 / (double)grid->dimensions);
+        width *= maths_pow(product / most, 1.0 / (double)grid->dimensions);
     product = 1;
     for (size_t k = 0; k < grid->dimensions; k++) {
         double cells = floor(span[k] / width);

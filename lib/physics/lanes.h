@@ -25,6 +25,7 @@
 #if defined(__AVX512F__)
 
 #define LANES 8
+#define LANES_LEVEL CPU_AVX512
 #define PER_ISA(name) name##_avx512
 typedef __m512d Real;
 typedef __mmask8 Mask;
@@ -103,6 +104,7 @@ KERNEL void real_transpose(Real *r) {
 #else
 
 #define LANES 4
+#define LANES_LEVEL CPU_AVX2
 #define PER_ISA(name) name##_avx2
 typedef __m256d Real;
 typedef __m256d Mask;

@@ -11,6 +11,7 @@
 
 #define KERNEL static inline __attribute__((always_inline))
 #define LANES 1
+#define LANES_LEVEL CPU_SCALAR
 #define PER_ISA(name) name##_one
 
 typedef double Real;

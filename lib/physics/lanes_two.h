@@ -20,6 +20,7 @@
 
 #define KERNEL static inline __attribute__((always_inline))
 #define LANES 2
+#define LANES_LEVEL CPU_SCALAR
 #define PER_ISA(name) name##_two
 
 typedef double Real __attribute__((vector_size(16)));

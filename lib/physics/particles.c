@@ -1,5 +1,6 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
 #include "base/number.h"
+#include "maths/many.h"
 #include "physics/internal.h"
 #include "physics/kernels.h"
 #include "physics/threads.h"
@@ -44,10 +45,8 @@ static bool reserve_columns(PhysSystem *system) {
     return true;
 }
 
-// C pow of all radii; equal ones often stand side by side, and pow is slow.
-static void raise_radii(const Columns *columns, double power, double *to) {
-    for (size_t i = 0; i < columns->count; i++)
-        to[i] = i && columns->radius[i] == columns->radius[i - 1] ? to[i - 1] : pow(columns->radius[i], power);
+static void raise_radii(const PhysSystem *system, double power, double *to) {
+    maths_power_many(system->options.cpu, system->columns.radius, power, system->columns.count, to);
 }
 
 // radius^(n-1) and radius^n are wanted at every step.
@@ -62,9 +61,9 @@ void phys_raise_radii(PhysSystem *system) {
     }
     double n = (double)columns->dimensions;
     if (section)
-        raise_radii(columns, n - 1, columns->section);
+        raise_radii(system, n - 1, columns->section);
     if (volume)
-        raise_radii(columns, n, columns->volume);
+        raise_radii(system, n, columns->volume);
     system->radii_raised = true;
 }
 

@@ -2,17 +2,14 @@
 #ifndef PETRI_PHYSICS_POWER_H
 #define PETRI_PHYSICS_POWER_H
 
+#include "maths/many.h"
 #include "physics/lanes.h"
 
-// Lane by lane, where the mask says so. Not inlined: with a constant exponent compilers replace pow by other
-// operations.
+// Other lanes than those of the mask might hold what takes long, such as numbers below 0.
 static __attribute__((noinline, unused)) Real power_by_lane(Mask mask, Real base, double power) {
     double lanes[LANES];
-    real_store(lanes, base);
-    unsigned bits = mask_bits(mask);
-    for (unsigned lane = 0; lane < LANES; lane++)
-        if (bits >> lane & 1)
-            lanes[lane] = pow(lanes[lane], power);
+    real_store(lanes, real_select(mask, base, real_set(1)));
+    maths_power_many(LANES_LEVEL, lanes, power, LANES, lanes);
     return real_load(lanes);
 }
 

@@ -3,7 +3,7 @@
 #ifndef PETRI_PHYSICS_SINGLE_FORMULAS_H
 #define PETRI_PHYSICS_SINGLE_FORMULAS_H
 
-#include "base/random.h"
+#include "maths/random.h"
 #include "physics/kernels.h"
 #include "physics/power.h"
 #include "physics/sweep.h"
@@ -131,7 +131,7 @@ KERNEL void single_random(const Singles *s) {
 // The same, drawn for all lanes together; anchors take no items.
 KERNEL void single_random(const Singles *s) {
     double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
-    phys_normals(s->force->given.key, s->force->item + s->pass->taken, s->n * s->block->active, normals);
+    random_normals(LANES_LEVEL, s->force->given.key, s->force->item + s->pass->taken, s->n * s->block->active, normals);
     unsigned bits = mask_bits(s->block->live);
     const double *next = normals;
     for (size_t lane = 0; lane < LANES; lane++)

@@ -25,7 +25,4 @@ void phys_sweep(PhysSystem *system, uint32_t group, double delta, double speed_o
 // Lets particle i, which had the velocity `before` and has just moved, bounce off all barriers.
 void phys_sweep_bounce(const SweepPass *pass, size_t i, const double *before);
 
-// normals.c: items first … first + count - 1 of a stream of normals: random_normal, at half its price.
-void phys_normals(uint64_t key, uint64_t first, size_t count, double *to);
-
 #endif

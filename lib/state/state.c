@@ -2,8 +2,8 @@
 #include "state/state.h"
 
 #include "base/arena.h"
-#include "base/random.h"
 #include "base/table.h"
+#include "maths/random.h"
 
 #include <math.h>
 #include <stdlib.h>

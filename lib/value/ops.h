@@ -6,7 +6,7 @@
 
 typedef enum ArithOp { ARITH_ADD, ARITH_SUB, ARITH_MUL, ARITH_DIV, ARITH_FLOORDIV, ARITH_MOD, ARITH_POW } ArithOp;
 
-// x op y for one pair of numbers; ARITH_POW is C pow here.
+// x op y for one pair of numbers; ARITH_POW is maths_pow here.
 double op_number(ArithOp op, double x, double y);
 // Element-wise with repetition (L5.1); null unless both are numeric.
 Value op_arith(Arena *arena, ArithOp op, Value a, Value b);

@@ -2,7 +2,7 @@
 #include "value/seed.h"
 
 #include "base/number.h"
-#include "base/random.h"
+#include "maths/random.h"
 #include "value/node.h"
 
 #include <math.h>

@@ -1,7 +1,7 @@
 // workloads.c: see workloads.h.
 #include "workloads.h"
 
-#include "base/random.h"
+#include "maths/random.h"
 
 #include <math.h>
 #include <stdio.h>

@@ -1,10 +1,8 @@
 // test_determinism.c: the same bits from every build: whole states, hashed, against constants.
 //
 // A hash is FNV-1a of what `petri run --print state` prints for the last frame, every digit of it, so that one bit of
-// one coordinate changes it. The constants are the same for gcc and clang, -O0 and -O3, and any number of threads. They
-// were recorded with glibc 2.36 on a processor with FMA: glibc chooses its sin, cos, log and pow by that, and the
-// choice shows in `crowd` (GLIBC_TUNABLES=glibc.cpu.hwcaps=-FMA,-AVX2 changes its hash). When a change of the
-// specification changes them, run the program: it prints what it finds.
+// one coordinate changes it. The constants are the same for gcc and clang, -O0 and -O3, any C library and any number of
+// threads. When a change of the specification changes them, run the program: it prints what it finds.
 #include "world.h"
 
 static uint64_t hash_of(const char *text) {
@@ -119,14 +117,14 @@ static const struct {
     int frames;
     uint64_t hash;
 } scenes[] = {
-    {"dish", dish, 120, UINT64_C(0x1236bcbfa7c99130)},
+    {"dish", dish, 120, UINT64_C(0xf472d431038a733a)},
     {"groups", groups, 90, UINT64_C(0x3e3d0877fe71a0a2)},
     {"space", space, 90, UINT64_C(0x261c2b5ae8438598)},
     {"wire", wire, 200, UINT64_C(0x3b06fa0fe4596ec6)},
     {"five", five, 120, UINT64_C(0x729731c05be36a95)},
     {"barriers", barriers, 120, UINT64_C(0xf264f0a44b9cbc34)},
     {"feedback", feedback, 150, UINT64_C(0xfb5a5dbc4b991dbc)},
-    {"crowd", crowd, 12, UINT64_C(0xdd3f94926ebf95a4)},
+    {"crowd", crowd, 12, UINT64_C(0x386fbe18f17bc205)},
 };
 
 // How the work can be done; the hash must not depend on it. Levels of processors come here as further rows, with

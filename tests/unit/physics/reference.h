@@ -5,7 +5,8 @@
 #ifndef TESTS_UNIT_PHYSICS_REFERENCE_H
 #define TESTS_UNIT_PHYSICS_REFERENCE_H
 
-#include "base/random.h"
+#include "maths/maths.h"
+#include "maths/random.h"
 #include "support.h"
 
 enum { MODEL_MAX = 256, MODEL_DIMENSIONS = 8 };
@@ -64,7 +65,7 @@ static inline bool is_single_force(const ModelForce *f) {
 static inline double to_the_power(double x, double power) {
     if (power < 0)
         power = 0;
-    return power == 1 ? x : power == 2 ? x * x : pow(x, power);
+    return power == 1 ? x : power == 2 ? x * x : maths_pow(x, power);
 }
 
 // 4.1: K and whether `from` gets + u K (and `to` the opposite) or the other way round.
@@ -168,7 +169,7 @@ static inline void reference_drag(const Model *model, const ModelForce *f, Model
     double sum = 0;
     for (size_t k = 0; k < model->n; k++)
         sum = sum + (p->velocity[k] - f->vector[k]) * (p->velocity[k] - f->vector[k]);
-    double c = f->strength * sqrt(sum) * pow(p->radius, (double)model->n - 1);
+    double c = f->strength * sqrt(sum) * maths_pow(p->radius, (double)model->n - 1);
     if (c > p->mass / delta)
         c = p->mass / delta;
     for (size_t k = 0; k < model->n; k++)
@@ -190,7 +191,7 @@ static inline void reference_single(const Model *model, ModelForce *f, ModelPart
         else if (f->force.kind == PHYS_FIELD)
             contribution = S * f->vector[k] * p->charge;
         else if (p->radius != 0 && p->mass != 0)
-            contribution = f->vector[k] * (S * (p->mass - pow(p->radius, (double)model->n) * f->force.density));
+            contribution = f->vector[k] * (S * (p->mass - maths_pow(p->radius, (double)model->n) * f->force.density));
         else
             continue;
         p->force[k] = p->force[k] + contribution;

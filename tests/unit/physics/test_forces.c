@@ -1,7 +1,7 @@
 // test_forces.c: each force against the formula of section 4, worked out by hand.
 //
 // A resting particle of mass 1 has, after one step of length 1, a velocity equal to the force on it.
-#include "base/random.h"
+#include "maths/random.h"
 #include "support.h"
 
 // Two free particles on the axis at 0 and `distance`, one force; what the first one feels. The second feels the

@@ -1,9 +1,12 @@
 // random.h: counter-based random numbers and trigonometry in turns (spec builtins.md B1.2 and B9).
 //
 // A stream is a 64-bit key; any of its items can be computed on its own, in any order and on any thread.
-#ifndef PETRI_BASE_RANDOM_H
-#define PETRI_BASE_RANDOM_H
+#ifndef PETRI_MATHS_RANDOM_H
+#define PETRI_MATHS_RANDOM_H
 
+#include "base/cpu.h"
+
+#include <stddef.h>
 #include <stdint.h>
 
 // Sine and cosine of t turns, exact at quarter turns up to the sign of zero (B1.2).
@@ -28,5 +31,7 @@ uint64_t random_raw(uint64_t key, uint64_t i);
 double random_uniform(uint64_t key, uint64_t i);
 double random_beta(uint64_t key, uint64_t i);
 double random_normal(uint64_t key, uint64_t i);
+// Normals first … first + count - 1, at a fraction of the price; `level` as in many.h.
+void random_normals(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
 
 #endif

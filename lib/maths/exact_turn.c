@@ -1,0 +1,46 @@
+// exact_turn.c: the reduction of large arguments of sine, cosine and tangent for the fast paths.
+//
+// Payne and Hanek (1983) in whole numbers: see wide_turn. Here 256 bits of m 2/pi 2^exponent are kept, the upper 64 of
+// them above the binary point, and of the fraction the upper 128 are used: the next limb is cut off and the lowest is
+// wrong by less than m (2^53), so that the angle is within 2^-127 quarters; as two doubles it is within 2^-116.
+#include "maths/doubles.h"
+#include "maths/fast.h"
+#include "maths/lanes.h"
+#include "maths/maths_tables.h"
+#include "maths/wide.h"
+
+__extension__ typedef unsigned __int128 Product;
+
+void exact_turn(double x, uint64_t *n, double *high, double *low) {
+    enum { LIMBS = 1024 / 64 + WIDE_MAX + 2, FRACTION = 3 };
+    int exponent;
+    uint64_t m = double_split(x, &exponent);
+    int from = 64 * (LIMBS - FRACTION) - exponent;
+    uint64_t product[FRACTION + 1], carry = 0;
+    const uint64_t *table = wide_two_over_pi + from / 64;
+    int shift = from % 64;
+    for (int i = 0; i <= FRACTION; i++) {
+        uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // nothing above the whole part
+        uint64_t window = shift ? table[i] >> shift | above << (64 - shift) : table[i];
+        Product t = (Product)m * window + carry;
+        product[i] = (uint64_t)t;
+        carry = (uint64_t)(t >> 64);
+    }
+    // In units of pi/512: 8 bits of the fraction go to n, to the nearest.
+    uint64_t upper = product[2] << 8 | product[1] >> 56, rest = product[1] << 8 | product[0] >> 56;
+    *n = (product[3] << 8 | product[2] >> 56) + (upper >> 63);
+    // 2^-64 steps, in [-1/2, 1/2): 53 bits, then the 11 that are left and the next 64.
+    double first = (double)(int64_t)(upper & ~UINT64_C(2047));
+    double second = (double)(upper & 2047) + (double)rest * 0x1p-64;
+    if (x < 0) {
+        *n = -*n;
+        first = -first;
+        second = -second;
+    }
+    // times pi/512 2^-64, once more as two doubles
+    double a = first * HALF_PI_HIGH, b = real_mul_low(first, HALF_PI_HIGH, a);
+    b += first * HALF_PI_LOW + second * HALF_PI_HIGH;
+    double sum = a + b;
+    *low = real_add_rest(a, b, sum) * 0x1p-72;
+    *high = sum * 0x1p-72;
+}

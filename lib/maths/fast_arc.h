@@ -1,0 +1,175 @@
+// fast_arc.h: asin, acos, atan2 and tan, one number at a time: they take branches.
+//
+// Taylor series around the nearest c = i/128, f(c + d) = a0 + a1 d + a2 d^2 + …, the first two coefficients in two
+// parts, |d| ≤ 2^-8, cut after d^8. The error, with u = 2^-53 (a rounding of x is at most u |x|):
+//   d          exact, for the upper part of an argument of two parts; the rest counts in a1 d + a2 d^2: what is left
+//              is below 3 |a3| d^2 u < 2^-68 f for atan, in the row 0 2^-69
+//   a0, a1 d   exact but for 2^-104
+//   a2 d^2 …   of the size s: its square, sum (two), product, and three sums with something not much larger: 8 u s
+// atan (c ≤ 1): s is at most 2^-15 f: in row 0 it is d^3/3, else |a2| ≤ c and f ≥ c - d (c = 1/128 is the worst); cut
+// off: |a9| ≤ 1/9, 2^-75. Together below 2^-64.8 f. asin (c ≤ 1/16): |a2| ≤ 0.51 c, s is at most 2^-16 f, there is no
+// rest; cut off: |a9| ≤ 0.2, 2^-74. Together below 2^-65.9 f.
+//
+// asin (1/16 ≤ x ≤ 15/16), |d| ≤ 2^-7 (1 - c), cut after d^9: |a10 d^10| ≤ 0.013 · 2^-70; s is below 2^-16 f (asserted
+// by the generator): the same bound. d is exact, as c has 11 bits and a - c no bit below those of a.
+//
+// acos x = sqrt(1 - x) P(x) for x > 15/16, where P has no singularity near 1: s is at most 0.09 · 2^-16, P at least
+// 1.41; cut off: |a9| ≤ 0.02. Below 2^-69.9; the root in two parts (2^-104) and the product in two parts add 2^-72.
+// What is then subtracted from pi/2 or pi is so exactly but for 2^-105.
+//
+// tan = sine / cosine, with the quotient corrected once: the sum of both relative errors, and 2^-100. Only one of the
+// two has n = 1 or 255 or less than 2^-12 in size: 2^-67.1 + 2^-67.8 + 2^-69 (the absolute error of the smaller one).
+#ifndef PETRI_MATHS_FAST_ARC_H
+#define PETRI_MATHS_FAST_ARC_H
+
+#include "maths/doubles.h"
+#include "maths/fast_turn.h"
+
+#define ARC_ERROR 0x1.2p-66
+#define ATAN_ERROR 0x1.4p-65
+#define ACOS_ERROR 0x1.8p-70
+#define HALF_PI_ERROR 0x1p-102 // of its two parts, and of the sum with what is lower
+#define TAN_ERROR 0x1.3p-66
+
+// a + b for |a| ≥ |b| or a = 0, with what is lower, as high + low.
+KERNEL void arc_sum(double a, double b, double lower, double *high, double *low) {
+    *high = a + b;
+    *low = real_add_low(a, b, *high) + lower;
+}
+
+#define ARC_COLUMNS 11
+
+// The row for x = i/128 + d of a table that begins with i = first; d is exact.
+KERNEL const double *arc_row(const double (*table)[ARC_COLUMNS], unsigned first, double x, double *d) {
+    Bits i;
+    *d = x - real_steps(x, 128, &i) * (1.0 / 128);
+    return table[i - first];
+}
+
+// A row of a table at i/128 + d
+KERNEL void arc_series(const double *row, double d, double *high, double *low) {
+    const double *a = row + 4;
+    // In pairs and pairs of pairs (Estrin): a shorter way than Horner's.
+    double square = d * d, third = real_muladd(d, a[5], a[4]);
+    double sum = real_muladd(square, real_muladd(d, a[3], a[2]), real_muladd(d, a[1], a[0]));
+    sum = real_muladd(square * square, real_muladd(square, a[6], third), sum);
+    double p = row[2] * d, pl = real_mul_low(row[2], d, p);
+    double small = real_muladd(square, sum, real_muladd(row[3], d, row[1]) + pl);
+    arc_sum(row[0], p, small, high, low);
+}
+
+// Adds first: high + low + first_high + first_low.
+KERNEL bool arc_decide(double first_high, double first_low, double high, double low, double error, double *result) {
+    arc_sum(first_high, high, low + first_low, &high, &low);
+    return lanes_decide(high, low, error, result);
+}
+
+// acos(a) for a in [15/16, 1); 1 - a is exact. The root's rest is its error over twice the root, here divided by the
+// square and multiplied by the root, to wait less for the root.
+KERNEL void acos_parts(double a, double *high, double *low) {
+    double square = 1 - a, root = __builtin_sqrt(square);
+    double d, h, l;
+    const double *row = arc_row(acos_table, 120, a, &d);
+    double rest = real_residue(square, root, root) * (root * (0.5 / square));
+    arc_series(row, d, &h, &l);
+    *high = root * h;
+    *low = real_mul_low(root, h, *high) + real_muladd(root, l, rest * h);
+}
+
+// asin(a) for a in [1/16, 15/16], in rows of 1/128 of 1 - a
+KERNEL void steep_asin_parts(double a, double *high, double *low) {
+    const double *row = steep_asin_table[(double_bits(1 - a) >> 46) - (UINT64_C(0x3fb0) << 2)], *t = row + 5;
+    double d = a - row[0], square = d * d;
+    double third = real_muladd(d, t[5], t[4]), last = real_muladd(d, t[7], t[6]);
+    double sum = real_muladd(square, real_muladd(d, t[3], t[2]), real_muladd(d, t[1], t[0]));
+    sum = real_muladd(square * square, real_muladd(square, last, third), sum);
+    double p = row[3] * d, pl = real_mul_low(row[3], d, p);
+    arc_sum(row[1], p, real_muladd(square, sum, real_muladd(row[4], d, row[2]) + pl), high, low);
+}
+
+// asin(a) for a in [0, 15/16]
+KERNEL void asin_parts(double a, double *high, double *low) {
+    if (a >= 0.0625)
+        steep_asin_parts(a, high, low);
+    else {
+        double d;
+        const double *row = arc_row(asin_table, 0, a, &d);
+        arc_series(row, d, high, low);
+    }
+}
+
+KERNEL bool asin_fast(double x, double *result) {
+    double a = real_absolute(x), high, low;
+    if (!(a < 1 && a > 0x1p-27))
+        return false;
+    bool good;
+    if (a <= 0.9375) {
+        asin_parts(a, &high, &low);
+        good = lanes_decide(high, low, high * ARC_ERROR, result);
+    } else {
+        acos_parts(a, &high, &low);
+        good = arc_decide(HALF_PI_HIGH, HALF_PI_LOW, -high, -low, high * ACOS_ERROR, result);
+    }
+    *result = double_with_sign(*result, x);
+    return good;
+}
+
+KERNEL bool acos_fast(double x, double *result) {
+    static const double first[2][3] = {{0, 0, 1}, {PI_HIGH, PI_LOW, -1}};
+    double a = real_absolute(x), high, low;
+    if (!(a < 1))
+        return false;
+    if (a <= 0.9375) {
+        asin_parts(a, &high, &low);
+        double error = real_muladd(high, ARC_ERROR, HALF_PI_ERROR);
+        high = double_of(double_bits(high) ^ (~double_bits(x) & DOUBLE_SIGN));
+        low = double_of(double_bits(low) ^ (~double_bits(x) & DOUBLE_SIGN));
+        return arc_decide(HALF_PI_HIGH, HALF_PI_LOW, high, low, error, result);
+    }
+    const double *constant = first[double_is_negative(x)];
+    double sign = constant[2];
+    acos_parts(a, &high, &low);
+    return arc_decide(constant[0], constant[1], sign * high, sign * low, high * ACOS_ERROR, result);
+}
+
+// atan(b / a), 0 ≤ b ≤ a, both far from the ends of the range
+KERNEL void atan_parts(double b, double a, double *high, double *low) {
+    double inverse = 1 / a, q = b * inverse, rest = real_residue(b, q, a) * inverse, d;
+    const double *row = arc_row(atan_table, 0, q, &d);
+    arc_series(row, d, high, low);
+    *low += real_muladd(2 * row[4], d, row[2]) * rest; // the slope
+}
+
+KERNEL bool atan2_fast(double y, double x, double *result) {
+    // An octant's angle and its sign, chosen by |y| > |x| and by x < 0
+    static const double plans[2][2][3] = {{{0, 0, 1}, {PI_HIGH, PI_LOW, -1}},
+                                          {{HALF_PI_HIGH, HALF_PI_LOW, -1}, {HALF_PI_HIGH, HALF_PI_LOW, 1}}};
+    double a = real_absolute(x), b = real_absolute(y), high, low;
+    double small = a < b ? a : b, large = a < b ? b : a;
+    // All steps are then far from under- and overflow, and the angle's error counts more than that of pi (2^-105); nan
+    // fails, too.
+    if (!(small > 0x1p-400 && large < 0x1p400 && small > 0x1p-36 * large))
+        return false;
+    atan_parts(small, large, &high, &low);
+    const double *plan = plans[a < b][double_is_negative(x)];
+    bool good = arc_decide(plan[0], plan[1], plan[2] * high, plan[2] * low, high * ATAN_ERROR, result);
+    *result = double_with_sign(*result, y);
+    return good;
+}
+
+KERNEL bool tan_fast(const Turn *turn, double *result) {
+    Arc arc = turn_arc(turn);
+    Row row = turn_row(turn->n), next = turn_quarter(&row);
+    double sh, sl, ch, cl;
+    turn_sine(&row, &arc, &sh, &sl);
+    turn_sine(&next, &arc, &ch, &cl);
+    arc_sum(sh, sl, 0, &sh, &sl);
+    arc_sum(ch, cl, 0, &ch, &cl);
+    double inverse = 1 / ch, q = sh * inverse;
+    double rest = (real_residue(sh, q, ch) + (sl - q * cl)) * inverse;
+    // The reduction's absolute error counts where the sine or the cosine is small.
+    bool large = real_absolute(sh) > 0x1p-26 && real_absolute(ch) > 0x1p-26;
+    return lanes_decide(q, rest, real_absolute(q) * TAN_ERROR, result) && large;
+}
+
+#endif

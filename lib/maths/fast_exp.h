@@ -1,0 +1,52 @@
+// fast_exp.h: e^(x + tail) in lanes, as high + low.
+//
+// Tang (ACM TOMS 15, 1989): x = k ln2/128 + r, e^x = 2^(k/128) e^r, with 2^(i/128) from a table of two doubles.
+//
+// The error, relative to 2^(k/128), with u = 2^-53 and |r| ≤ 2^-8.5 (1 + 2^-40):
+//   k ln2/128    its second part -k LOW: rounded and cut off, |k| < 2^17.1     2 · 2^-79.5
+//   r            high - k HIGH is exact (35 + 18 bits; the difference has a unit of 2^-61 and is below 2^-8); in the
+//                square, r = rounded sum of two: r u |r|                        2^-70
+//   series       cut after r^6 / 6!: r^7 / 5040                                2^-71.8
+//                r^2 (1/2 + …): four roundings of something below 2^-17.9      2^-68.9 (2^-17.9 · 4 u / 2)
+//   sums         rest + series, high q, its sum with three smaller ones:
+//                at most six roundings of something below 2^-17.8              2^-68.2
+//   table        both parts together                                           2^-107
+// together below 2^-67.2, which EXP_ERROR covers; 2^(i/128) is below 2.
+#ifndef PETRI_MATHS_FAST_EXP_H
+#define PETRI_MATHS_FAST_EXP_H
+
+#include "maths/lanes.h"
+#include "maths/maths_tables.h"
+
+#define EXP_ERROR 0x1p-67
+#define EXP_LARGEST 708.0 // no overflow and no result below the normal range
+
+// 2^(exponent / 2^52) (high + low) for |x| < EXP_LARGEST; high is in [0.99, 2), |low| < 2^-16.
+KERNEL void exp_parts(Real x, Real tail, Bits *exponent, Real *high, Real *low) {
+    Bits number;
+    Real k = real_steps(x, EXP_STEPS_PER_ONE, &number);
+    Real r = x - k * real_set(EXP_STEP_HIGH), rest = tail - k * real_set(EXP_STEP_LOW);
+    Bits row = (number & bits_set(127)) << 1;
+    Real th = real_look_up(&exp_table[0][0], row), tl = real_look_up(&exp_table[0][1], row);
+    Real s = r + rest, square = s * s;
+    Real upper = real_muladd(s, real_set(1.0 / 120), real_set(1.0 / 24));
+    Real lower = real_muladd(s, real_set(1.0 / 6), real_set(0.5));
+    upper = real_muladd(square, real_set(1.0 / 720), upper);
+    Real q = real_muladd(square, real_muladd(square, upper, lower), rest);
+    Real p = th * r, pl = real_mul_low(th, r, p);
+    *high = th + p;
+    *low = real_add_low(th, p, *high) + (real_muladd(th, q, real_muladd(tl, r, tl)) + pl);
+    *exponent = (number & bits_set(~UINT64_C(127))) << 45;
+}
+
+KERNEL Lanes exp_lanes(Real x, Real *result) {
+    Bits exponent;
+    Real high, low;
+    exp_parts(x, real_set(0), &exponent, &high, &low);
+    Lanes good = LANES_BOTH(lanes_decide(high, low, real_set(2 * EXP_ERROR), result),
+                            lanes_less(real_absolute(x), real_set(EXP_LARGEST)));
+    *result = real_of(bits_of(*result) + exponent);
+    return good;
+}
+
+#endif

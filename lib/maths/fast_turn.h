@@ -1,0 +1,119 @@
+// fast_turn.h: sine and cosine in lanes.
+//
+// Cody and Waite's reduction (1980) with three parts of pi/512: x = n pi/512 + r, and the addition theorems with sine
+// and cosine of n pi/512 from a table (Tang, 1991):
+//   sin x = S + C r + [S (cos r - 1) + C (sin r - r)]; the cosine is the sine a quarter further.
+//
+// The error, with u = 2^-53 (a rounding of x is at most u |x|), |r| ≤ pi/1024 (1 + 2^-20) < 2^-8.34, |n| < 2^24:
+//   reduction    n P1 and n P2 are exact (29 + 24 bits), x - n P1 is exact, n P3 < 2^-43.3 is rounded, P1 + P2 + P3 is
+//                pi/512 up to 2^-122: less than 2^-95 absolutely, 0 for n = 0
+//   cos r - 1    at most 2^-17.69. Cut after r^6/720: 2^-82. The square: u, times a sum near 1/2: u/2, which is added
+//                to r low: 2^-71 and with an unfused product as much again: 1.93 · 2^-70
+//   S times it   its product, and two sums behind it that are not larger: at most 3 · 2^-71 S
+//   sin r - r    at most 2^-27.6: cut after r^7/5040: 2^-85 |r|; all of its roundings are below 2^-77 |C r|
+//   C r, S       exact but for 2^-104
+// together below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S is at most 2 |sin x| (n = 1, r = -pi/1024), and less from n =
+// 2 on: 2^-67.1 |sin x| + 2^-95.
+#ifndef PETRI_MATHS_FAST_TURN_H
+#define PETRI_MATHS_FAST_TURN_H
+
+#include "maths/lanes.h"
+#include "maths/maths_tables.h"
+
+#define TURN_ERROR 0x1.2p-67
+#define TURN_REDUCTION_ERROR 0x1p-94
+#define TURN_LARGEST 65536.0 // |n| < 2^24
+
+// x = n pi/512 + high + low for |x| < TURN_LARGEST
+typedef struct Turn {
+    Bits n;
+    Real high, low;
+} Turn;
+
+KERNEL Turn turn_reduce(Real x) {
+    Turn turn;
+    Real n = real_steps(x, TURN_STEPS_PER_ONE, &turn.n);
+    Real a = x - n * real_set(TURN_STEP_1), b = -n * real_set(TURN_STEP_2), s = a + b;
+    Real rest = real_add_rest(a, b, s) - n * real_set(TURN_STEP_3);
+    turn.high = s + rest;
+    turn.low = real_add_rest(s, rest, turn.high);
+    return turn;
+}
+
+// What sine and cosine need of r: cos r - 1 and sin r - r.
+typedef struct Arc {
+    Real high, versed, bent;
+} Arc;
+
+KERNEL Arc turn_arc(const Turn *turn) {
+    Real r = turn->high, square = r * r;
+    Real versed = real_muladd(square, real_set(-1.0 / 720), real_set(1.0 / 24));
+    versed = real_muladd(square, versed, real_set(-0.5));
+    versed = real_muladd(square, versed, -r * turn->low);
+    Real bent = real_muladd(square, real_set(-1.0 / 5040), real_set(1.0 / 120));
+    bent = real_muladd(square, bent, real_set(-1.0 / 6));
+    bent = real_muladd(square * r, bent, turn->low);
+    return (Arc){r, versed, bent};
+}
+
+// Sine and cosine of n pi/512, in two parts each.
+typedef struct Row {
+    Real sh, sl, ch, cl;
+} Row;
+
+KERNEL Real real_flip(Real a, Bits sign) {
+    return real_of(bits_of(a) ^ sign);
+}
+
+// In the odd quadrants the table is read backwards: place becomes 256 - place.
+KERNEL Row turn_row(Bits n) {
+    Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), place = n & bits_set(255);
+    place = (place ^ backwards) + (backwards & bits_set(257));
+    Bits sine_sign = (n & bits_set(512)) << 54, cosine_sign = ((n + bits_set(256)) & bits_set(512)) << 54;
+    Four row = real_look_up_four(turn_table, place);
+    return (Row){real_flip(row.a, sine_sign), real_flip(row.b, sine_sign), real_flip(row.c, cosine_sign),
+                 real_flip(row.d, cosine_sign)};
+}
+
+// The same a quarter turn further.
+KERNEL Row turn_quarter(const Row *row) {
+    return (Row){row->ch, row->cl, -row->sh, -row->sl};
+}
+
+KERNEL void turn_sine(const Row *row, const Arc *arc, Real *high, Real *low) {
+    Real p = row->ch * arc->high, pl = real_mul_low(row->ch, arc->high, p);
+    Real small = real_muladd(row->cl, arc->high, row->sl) + pl;
+    small = real_muladd(row->ch, arc->bent, small);
+    *high = row->sh + p;
+    small = real_muladd(row->sh, arc->versed, small);
+    *low = real_add_low(row->sh, p, *high) + small;
+}
+
+KERNEL Lanes turn_decide(Real high, Real low, Real *result) {
+    Real error = real_muladd(real_absolute(high), real_set(TURN_ERROR), real_set(TURN_REDUCTION_ERROR));
+    return lanes_decide(high, low, error, result);
+}
+
+// The sine of x plus so many right angles
+KERNEL Lanes sin_lanes(Real x, Bits quarters, Real *result) {
+    Turn turn = turn_reduce(x);
+    Arc arc = turn_arc(&turn);
+    Row row = turn_row(turn.n + (quarters << 8));
+    Real high, low;
+    turn_sine(&row, &arc, &high, &low);
+    return LANES_BOTH(turn_decide(high, low, result), lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
+}
+
+KERNEL Lanes sin_cos_lanes(Real x, Real *sine, Real *cosine) {
+    Turn turn = turn_reduce(x);
+    Arc arc = turn_arc(&turn);
+    Row row = turn_row(turn.n), next = turn_quarter(&row);
+    Real high, low;
+    turn_sine(&row, &arc, &high, &low);
+    Lanes good = turn_decide(high, low, sine);
+    turn_sine(&next, &arc, &high, &low);
+    good &= turn_decide(high, low, cosine);
+    return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
+}
+
+#endif

@@ -1,0 +1,23 @@
+// many.h: elementary functions of many numbers at once. The bits are those of maths.h, number by number.
+//
+// `to` may be the array that is read. `level` says which vector instructions to use; the result does not depend on it.
+#ifndef PETRI_MATHS_MANY_H
+#define PETRI_MATHS_MANY_H
+
+#include "base/cpu.h"
+
+#include <stddef.h>
+#include <stdint.h>
+
+void maths_exp_many(CpuLevel level, const double *x, size_t count, double *to);
+void maths_log_many(CpuLevel level, const double *x, size_t count, double *to);
+void maths_sin_cos_many(CpuLevel level, const double *x, size_t count, double *sines, double *cosines);
+// x[i]^y[i], and x[i]^power
+void maths_pow_many(CpuLevel level, const double *x, const double *y, size_t count, double *to);
+void maths_power_many(CpuLevel level, const double *x, double power, size_t count, double *to);
+// The sine of t full turns, as turns_sin (random.h) defines it.
+void maths_turns_sin_many(CpuLevel level, const double *t, size_t count, double *to);
+// Items first, first + 1, … of a stream: random_uniform.
+void maths_uniform_many(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
+
+#endif

@@ -1,0 +1,34 @@
+// maths.c: the public functions: each calls the instance for this processor. All instances give the same bits.
+#include "maths/maths.h"
+
+#include "maths/doubles.h"
+#include "maths/fast.h"
+
+#if defined(__x86_64__) && !defined(__FMA__)
+#define PICK(name) (__builtin_cpu_supports("fma") ? maths_##name##_fma : maths_##name##_plain)
+#else
+#define PICK(name) maths_##name##_plain
+#endif
+
+#define DEFINE_ONE(name)                                                                                               \
+    double maths_##name(double x) {                                                                                    \
+        return PICK(name)(x);                                                                                          \
+    }
+#define DEFINE_TWO(name)                                                                                               \
+    double maths_##name(double x, double y) {                                                                          \
+        return PICK(name)(x, y);                                                                                       \
+    }
+MATHS_FUNCTIONS(DEFINE_ONE, DEFINE_TWO)
+
+double maths_hypot(double x, double y) {
+    double a = double_absolute(x), b = double_absolute(y), scale = 1;
+    if (a == DOUBLE_INFINITY || b == DOUBLE_INFINITY)
+        return DOUBLE_INFINITY;
+    if (a > 0x1p500 || b > 0x1p500)
+        scale = 0x1p-600;
+    else if (a < 0x1p-400 && b < 0x1p-400)
+        scale = 0x1p600;
+    a *= scale;
+    b *= scale;
+    return __builtin_sqrt(a * a + b * b) / scale;
+}

@@ -1,0 +1,92 @@
+// model.h: what the functions of lib/maths must return, by MPFR; and arguments to ask them for.
+#ifndef PETRI_TESTS_MATHS_MODEL_H
+#define PETRI_TESTS_MATHS_MODEL_H
+
+#include "check.h"
+
+#include "maths/fast.h"
+#include "maths/maths.h"
+
+#include <mpfr.h>
+
+typedef int (*ModelOne)(mpfr_t, const mpfr_t, mpfr_rnd_t);
+typedef int (*ModelTwo)(mpfr_t, const mpfr_t, const mpfr_t, mpfr_rnd_t);
+typedef double (*One)(double);
+typedef double (*Two)(double, double);
+
+// A function with its instances; either the first half of the members or the second is set.
+typedef struct Subject {
+    const char *name;
+    ModelOne model1;
+    One public1, plain1, exact1;
+    ModelTwo model2;
+    Two public2, plain2, exact2;
+} Subject;
+
+#define SUBJECT_ONE(name)                                                                                              \
+    {#name, mpfr_##name, maths_##name, maths_##name##_plain, exact_##name, NULL, NULL, NULL, NULL},
+#define SUBJECT_TWO(name)                                                                                              \
+    {#name, NULL, NULL, NULL, NULL, mpfr_##name, maths_##name, maths_##name##_plain, exact_##name},
+static const Subject subjects[] = {MATHS_FUNCTIONS(SUBJECT_ONE, SUBJECT_TWO)};
+
+static inline double double_from(uint64_t bits) {
+    double x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
+
+static inline uint64_t bits_from(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
+}
+
+// The range and the precision of doubles.
+static inline void model_start(void) {
+    mpfr_set_default_prec(53);
+    mpfr_set_emin(-1073);
+    mpfr_set_emax(1024);
+}
+
+static inline double model(const Subject *subject, double x, double y) {
+    static mpfr_t a, b, r;
+    static bool ready;
+    if (!ready)
+        mpfr_inits(a, b, r, (mpfr_ptr)0);
+    ready = true;
+    mpfr_set_d(a, x, MPFR_RNDN);
+    mpfr_set_d(b, y, MPFR_RNDN);
+    int side = subject->model1 ? subject->model1(r, a, MPFR_RNDN) : subject->model2(r, a, b, MPFR_RNDN);
+    mpfr_subnormalize(r, side, MPFR_RNDN);
+    return mpfr_get_d(r, MPFR_RNDN);
+}
+
+// The same bits; one nan is as good as another.
+static inline bool same_number(double a, double b) {
+    return (isnan(a) && isnan(b)) || bits_from(a) == bits_from(b);
+}
+
+// Asks all instances and the accurate path alone for one case; tells and counts what is wrong.
+static inline int wrong_cases(const Subject *subject, double x, double y, bool exact_too) {
+    double wanted = model(subject, x, y), found[3] = {0};
+    if (subject->model1) {
+        found[0] = subject->public1(x);
+        found[1] = subject->plain1(x);
+        found[2] = exact_too ? subject->exact1(x) : wanted;
+    } else {
+        found[0] = subject->public2(x, y);
+        found[1] = subject->plain2(x, y);
+        found[2] = exact_too ? subject->exact2(x, y) : wanted;
+    }
+    static const char *const paths[] = {"", " (plain)", " (accurate path)"};
+    int wrong = 0;
+    for (int i = 0; i < 3; i++) {
+        if (same_number(found[i], wanted))
+            continue;
+        print_error("%s(%a, %a)%s = %a, not %a\n", subject->name, x, y, paths[i], found[i], wanted);
+        wrong++;
+    }
+    return wrong;
+}
+
+#endif

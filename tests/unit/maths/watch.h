@@ -1,0 +1,100 @@
+// watch.h: the scalar functions once more, with a look at what their fast paths decide (watched.c, without and with
+// FMA).
+#ifndef PETRI_TESTS_MATHS_WATCH_H
+#define PETRI_TESTS_MATHS_WATCH_H
+
+#include "model.h"
+
+// Of one instance: the last decision, and what came of all.
+typedef struct Watch {
+    double high, low, error;
+    bool asked;
+    uint64_t cases, undecided;
+    double worst; // the largest error as a share of its bound
+} Watch;
+
+static Watch watch_state[2];
+
+static inline void watch_decision(double high, double low, double error, int instance) {
+    watch_state[instance].high = high;
+    watch_state[instance].low = low;
+    watch_state[instance].error = error;
+    watch_state[instance].asked = true;
+}
+
+typedef struct Watched {
+    const char *name;
+    bool positive; // arguments x < 0 make no sense
+    One one[2];
+    Two two[2];
+} Watched;
+
+#define WATCH_ONE(name)                                                                                                \
+    double maths_##name##_watched0(double x);                                                                          \
+    double maths_##name##_watched1(double x);
+#define WATCH_TWO(name)                                                                                                \
+    double maths_##name##_watched0(double x, double y);                                                                \
+    double maths_##name##_watched1(double x, double y);
+MATHS_FUNCTIONS(WATCH_ONE, WATCH_TWO)
+#undef WATCH_ONE
+#undef WATCH_TWO
+
+// Where an instance tells its decisions.
+extern void (*watch_hook0)(double high, double low, double error, int instance);
+extern void (*watch_hook1)(double high, double low, double error, int instance);
+
+#define IS_POSITIVE(name) (#name[0] == 'l' || #name[0] == 'p')
+#define WATCH_ONE(name) {#name, IS_POSITIVE(name), {maths_##name##_watched0, maths_##name##_watched1}, {NULL, NULL}},
+#define WATCH_TWO(name) {#name, IS_POSITIVE(name), {NULL, NULL}, {maths_##name##_watched0, maths_##name##_watched1}},
+static const Watched watched_functions[] = {MATHS_FUNCTIONS(WATCH_ONE, WATCH_TWO)};
+
+static inline void watch_start(void) {
+    memset(watch_state, 0, sizeof watch_state);
+    watch_hook0 = watch_hook1 = watch_decision;
+}
+
+// |high + low| 2^k - |f(x, y)|, over the bound; k takes out the scale that exp and pow add only at the end.
+static inline double watch_share(const Subject *subject, const Watch *watch, double x, double y) {
+    mpfr_t a, b, f, sum;
+    mpfr_inits2(200, a, b, f, sum, (mpfr_ptr)0);
+    mpfr_set_d(a, x, MPFR_RNDN);
+    mpfr_set_d(b, y, MPFR_RNDN);
+    if (subject->model1)
+        subject->model1(f, a, MPFR_RNDN);
+    else
+        subject->model2(f, a, b, MPFR_RNDN);
+    mpfr_set_d(sum, watch->high, MPFR_RNDN);
+    mpfr_set_d(b, watch->low, MPFR_RNDN);
+    mpfr_add(sum, sum, b, MPFR_RNDN);
+    mpfr_abs(sum, sum, MPFR_RNDN);
+    mpfr_abs(f, f, MPFR_RNDN);
+    if (subject->name[0] == 'e' || subject->name[0] == 'p') {
+        mpfr_div(a, f, sum, MPFR_RNDN);
+        mpfr_mul_2si(f, f, -lround(log2(mpfr_get_d(a, MPFR_RNDN))), MPFR_RNDN);
+    }
+    mpfr_sub(f, f, sum, MPFR_RNDN);
+    double share = fabs(mpfr_get_d(f, MPFR_RNDN)) / watch->error;
+    mpfr_clears(a, b, f, sum, (mpfr_ptr)0);
+    return share;
+}
+
+// Asks both instances, and measures their error if `measure` is set and the result is a normal number.
+static inline void watch_next(const Subject *subject, const Watched *watched, double x, double y, bool measure) {
+    for (int i = 0; i < 2; i++) {
+        Watch *watch = &watch_state[i];
+        watch->asked = false;
+        double r = watched->one[i] ? watched->one[i](x) : watched->two[i](x, y);
+        watch->cases++;
+        bool decided =
+            watch->asked && watch->high + (watch->low + watch->error) == watch->high + (watch->low - watch->error);
+        watch->undecided += !decided;
+        // What is decided for a subnormal x of a logarithm is not taken.
+        if (!measure || !watch->asked || !isnormal(r) || (watched->positive && x < 0x1p-1022))
+            continue;
+        double share = watch_share(subject, watch, x, y);
+        if (share > watch->worst && isfinite(share))
+            watch->worst = share;
+    }
+}
+
+#endif
