@@ -254,6 +254,8 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
     if (!counts)
         input_unwrite(scene_input(session->scene), session->state, &undo);
+    if (status != PETRI_OK)
+        state_take_exhausted(session->state); // this is told now, and must not end the next frame, too
     if (status != PETRI_OK && (!counts || !session->vm.stopped))
         session_clear_frame(session);
     return status;
