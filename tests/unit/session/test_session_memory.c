@@ -388,8 +388,8 @@ static void test_plain_step(void **state) {
         for (int i = 0; i < 3; i++) {
             PetriStatus again = petri_step(stage->player.session);
             if (again != PETRI_OK)
-                print_error("allocation %ld: the step ended with %d, step %d after it with %d\n", number, (int)status, i,
-                            (int)again);
+                print_error("allocation %ld: the step ended with %d, step %d after it with %d\n", number, (int)status,
+                            i, (int)again);
             assert_int_equal(again, PETRI_OK);
         }
         close_stage(stage);
