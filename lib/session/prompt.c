@@ -52,17 +52,13 @@ static PetriStatus tell_memory(PetriSession *session, PetriStatus status) {
 
 // --- lists
 
-static const Symbol **name_items(const PromptList *list, uint32_t count) {
-    return (const Symbol **)(void *)(list->statements + count);
-}
-
 // The list before (NULL: none) with room for so many statements and the names of the program after its own.
 static PromptList *make_list(const PromptList *before, uint32_t count, const Program *program) {
     uint32_t old = before ? before->names.count : 0, more = program ? program->export_count : 0;
     PromptList *list = malloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
     if (!list)
         return NULL;
-    const Symbol **names = name_items(list, count);
+    const Symbol **names = (const Symbol **)(void *)(list->statements + count);
     for (uint32_t i = 0; i < old; i++)
         names[i] = before->names.items[i];
     for (uint32_t i = 0; i < more; i++)
