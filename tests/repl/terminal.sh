@@ -26,12 +26,13 @@ patience=600 # tenths of a second, for the machine may have much else to do
 t() { tmux -L "$server" -f /dev/null "$@" 2>/dev/null; }
 screen() { t capture-pane -p; }
 
-# start OPTIONS...: a fresh terminal with petri in it, which tells its exit status when it is done.
+# start OPTIONS...: a fresh terminal with petri in it, which tells its exit status when it is done. Ctrl-C reaches the
+# shell as well: dash would go with it, and is the shell of an ordinary user.
 start() {
     t kill-server
     servers=$((servers + 1)) # a new one: the old one may take its time to go
     server=petri-repl-$$-$servers
-    t new-session -d -x 120 -y 50 "LC_ALL=${locale:-C.UTF-8} '$petri' repl $* 2>&1; echo left with \$?; exec sleep 1000"
+    t new-session -d -x 120 -y 50 "trap : INT; LC_ALL=${locale:-C.UTF-8} '$petri' repl $* 2>&1; echo left with \$?; exec sleep 1000"
     expect "the prompt comes ($*)" '> *$'
 }
 
