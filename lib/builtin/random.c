@@ -5,17 +5,17 @@
 
 Value builtin_uniform(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)context, (void)count;
-    return value_stream(STREAM_UNIFORM, value_seed_hash(value_or(args[0], VALUE_NULL)));
+    return value_stream(STREAM_UNIFORM, value_seed_hash(context->arena, value_or(args[0], VALUE_NULL)));
 }
 
 Value builtin_beta(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)context, (void)count;
-    return value_stream(STREAM_BETA, value_seed_hash(value_or(args[0], VALUE_NULL)));
+    return value_stream(STREAM_BETA, value_seed_hash(context->arena, value_or(args[0], VALUE_NULL)));
 }
 
 Value builtin_normal(BuiltinContext *context, const Value *args, uint32_t count) {
     (void)context, (void)count;
-    return value_stream(STREAM_NORMAL, value_seed_hash(value_or(args[0], VALUE_NULL)));
+    return value_stream(STREAM_NORMAL, value_seed_hash(context->arena, value_or(args[0], VALUE_NULL)));
 }
 
 // The place that element i of `len` is exchanged with: i + floor(item_i * (len - i)), at most len - 1.
@@ -36,6 +36,7 @@ Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count
     if (xs.kind == VALUE_NUMBERS) {
         double *numbers = arena_copy(context->arena, xs.as.numbers, xs.len * sizeof *numbers);
         for (uint32_t i = 0; i + 1 < xs.len; i++) {
+            arena_portion(context->arena, i, 4);
             uint32_t j = shuffle_partner(source, i, xs.len);
             double moved = numbers[i];
             numbers[i] = numbers[j];
@@ -45,6 +46,7 @@ Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count
     }
     Item *items = arena_copy(context->arena, xs.as.items, xs.len * sizeof *items);
     for (uint32_t i = 0; i + 1 < xs.len; i++) {
+        arena_portion(context->arena, i, 4);
         uint32_t j = shuffle_partner(source, i, xs.len);
         Item moved = items[i];
         items[i] = items[j];

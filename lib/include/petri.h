@@ -62,7 +62,12 @@ typedef struct PetriOptions {
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
     // enough.
     size_t stack_bytes;
-    size_t memory_bytes;        // for the values of one frame. Default 2 GiB
+    // What a script may use; a frame, a load, a picture that needs more is given up with a diagnostic that tells what in
+    // the script asked for it. Memory is all that the session holds for the script; what is petri's own (some 64 MiB at
+    // the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by time, so
+    // that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
+    size_t memory_bytes;        // default 2 GiB
+    uint64_t work;              // of one call, such as petri_step; its systems have as much again. Default 2^27
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,

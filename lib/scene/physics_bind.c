@@ -167,8 +167,7 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttr
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
                      .speed_of_light = settings->speed_of_light,
-                     .keep_last_finite = mirror_can_lend(tree),
-                     .interrupt = tree->frame->interrupt};
+                     .keep_last_finite = mirror_can_lend(tree)};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
     if (result.status == PHYS_NO_MEMORY)
@@ -177,9 +176,11 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttr
     else if (result.status == PHYS_DROPPED_TIME)
         reader_report(reader, "dropped-time", "",
                       STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
+    else if (result.status == PHYS_STOPPED)
+        tree->scene->stopped = meter_look(tree->scene->meter);
     tree->failed |= result.status == PHYS_NO_MEMORY;
-    mirror_store(tree, result.status != PHYS_NO_MEMORY);
-    return result.status == PHYS_NO_MEMORY ? clock : result.clock;
+    mirror_store(tree, result.status == PHYS_OK || result.status == PHYS_DROPPED_TIME);
+    return result.clock;
 }
 
 // Reads a tree from scratch.
@@ -199,7 +200,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     double last = scene_number(state, system->last, settings->time);
     double iteration = floor(scene_number(state, system->iteration, -1)) + 1;
     Value stored_run = state_slot_get(state, system->run);
-    if (stored_run.len > 0 && !value_equal(stored_run, value_number(settings->run))) {
+    if (stored_run.len > 0 && !value_equal(NULL, stored_run, value_number(settings->run))) {
         mirror_remove(&system->mirror, state);
         set_number(frame, system->start, settings->time);
         clock = 0;

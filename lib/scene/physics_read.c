@@ -179,7 +179,7 @@ uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before) {
     vector_add(&seed, tree->prefix);
     vector_add_number(&seed, tree->run);
     vector_add_number(&seed, tree->iteration);
-    uint64_t key = value_seed_hash(vector_finish(&seed));
+    uint64_t key = value_seed_hash(NULL, vector_finish(&seed));
     for (uint32_t i = 0; i < randoms_before; i++)
         key = random_hash_step(key, random_hash_number(0));
     return key;

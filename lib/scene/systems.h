@@ -54,6 +54,9 @@ struct Scene {
     BodyAttrs bodies_before[2]; // the defaults of a particle and of an anchor
     ForceAttrs forces_before[PHYS_FORCE_KINDS];
     bool exhausted; // see scene_take_exhausted
+    MeterAnswer stopped;
+    const Node *at; // the node that is being updated, or NULL
+    Meter *meter;
     Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;

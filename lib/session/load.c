@@ -7,7 +7,6 @@
 #include <stdlib.h>
 
 #define MAX_SOURCE_BYTES ((size_t)256 << 20)
-#define UNIT_BUDGET ((size_t)4 << 30)
 enum { MOST_ERRORS = 50 };
 
 static Unit *unit_new(PetriSession *session) {
@@ -15,8 +14,8 @@ static Unit *unit_new(PetriSession *session) {
     if (!unit)
         arena_exhausted(&session->arena);
     unit->references = 1;
-    arena_init(&unit->arena, "program", UNIT_BUDGET);
-    arena_init(&unit->scratch, "compiler", UNIT_BUDGET);
+    session_arena(session, &unit->arena, "program", SIZE_MAX);
+    session_arena(session, &unit->scratch, "compiler", SIZE_MAX);
     unit_arena(session, unit);
     return unit;
 }

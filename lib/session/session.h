@@ -57,6 +57,10 @@ struct PetriSession {
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
     atomic_bool interrupt;
+    Meter meter;    // of all that is done and held for the script
+    uint32_t calls; // protected ones under way, one within the other
+    bool steadfast; // what is being done must not be interrupted
+    ArenaEnd end;   // how the last one ended that was given up
 
     Config config;
     PetriConfig *shared;    // the same, once somebody has asked for it
@@ -72,6 +76,12 @@ struct PetriSession {
     Checkpoint undo; // before the frame that is being made
     bool torn;       // that frame was given up, but there was no memory yet for going back
 };
+
+// An arena that is charged to the session.
+void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget);
+// Tells that a protected call for "the frame" or the like was given up for want of memory or work, and where; takes a
+// wish for an end as met. Returns the status.
+PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const char *what);
 
 // Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
 bool session_heal(PetriSession *session);

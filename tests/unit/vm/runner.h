@@ -96,7 +96,7 @@ static inline int runner_setup(void **state) {
     arena_init(&runner->program, "program", (size_t)1 << 30);
     arena_init(&runner->scratch, "compiler", (size_t)1 << 30);
     arena_init(&runner->frame, "frame", (size_t)2 << 30);
-    runner->state = state_new();
+    runner->state = state_new(NULL);
     runner->files = file_cache_new();
     runner->noise = noise_cache_new();
     vm_init(&runner->vm, &runner->frame, &world->symbols, (VmHost){runner, runner_tell, runner_log, runner_module},
