@@ -185,10 +185,10 @@ static void consider(Nearest *nearest, Str name) {
 }
 
 static const struct {
-    Str name;
+    const char *names;
     Str hint;
 } habits[] = {
-#define HABIT(name, hint) {{name, sizeof name - 1}, {hint, sizeof hint - 1}},
+#define HABIT(names, hint) {names, {hint, sizeof hint - 1}},
 #include "program/habit_list.h"
 };
 
@@ -223,7 +223,7 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
-        if (str_equal(name, habits[i].name))
+        if (str_word_number(name, habits[i].names) >= 0)
             return habits[i].hint;
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
