@@ -8,14 +8,6 @@
 
 #include "base/source.h"
 
-static void *grown(Lowering *lowering, void *items, uint32_t count, uint32_t *capacity, size_t size) {
-    if (count < *capacity)
-        return items;
-    uint32_t old = *capacity;
-    *capacity = old ? old * 2 : 8;
-    return arena_grow(lowering->options->scratch, items, old * size, *capacity * size);
-}
-
 // The line of an instruction for the profile. What ends an expression of several lines belongs to the last of them.
 static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t last = lowering->instr_count;
@@ -38,10 +30,12 @@ const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *
 
 void lower_emit(Lowering *lowering, const Expr *at, Instr instr) {
     uint32_t capacity = lowering->instr_capacity;
-    lowering->instrs = grown(lowering, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
+    lowering->instrs =
+        arena_room(lowering->options->scratch, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
     if (lowering->options->lines) {
         uint32_t same = lowering->instr_capacity;
-        lowering->lines = grown(lowering, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
+        lowering->lines =
+            arena_room(lowering->options->scratch, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
         lowering->lines[lowering->instr_count] = line_of(lowering, (Opcode)instr.op, at);
     }
     lowering->instr_capacity = capacity;
@@ -57,8 +51,8 @@ int32_t lower_temporary(Lowering *lowering) {
 }
 
 int32_t lower_constant(Lowering *lowering, Value value) {
-    lowering->constants =
-        grown(lowering, lowering->constants, lowering->constant_count, &lowering->constant_capacity, sizeof(Value));
+    lowering->constants = arena_room(lowering->options->scratch, lowering->constants, lowering->constant_count,
+                                     &lowering->constant_capacity, sizeof(Value));
     lowering->constants[lowering->constant_count++] = value;
     return -(int32_t)lowering->constant_count;
 }
@@ -77,8 +71,8 @@ int32_t lower_operand(Lowering *lowering, const Expr *expr) {
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
-        lowering->operands =
-            grown(lowering, lowering->operands, lowering->operand_count, &lowering->operand_capacity, sizeof(int32_t));
+        lowering->operands = arena_room(lowering->options->scratch, lowering->operands, lowering->operand_count,
+                                        &lowering->operand_capacity, sizeof(int32_t));
         lowering->operands[lowering->operand_count++] = operands[i];
     }
     return start;

@@ -113,11 +113,8 @@ static void report_key(const Reader *reader, Value name) {
 
 void input_add_binding(InputBindings *bindings, Value state, int key) {
     InputBinding binding = {value_copy(&bindings->arena, state), key};
-    if (bindings->count == bindings->capacity) {
-        size_t old = bindings->capacity * sizeof binding;
-        bindings->capacity = bindings->capacity ? bindings->capacity * 2 : 8;
-        bindings->items = arena_grow(&bindings->arena, bindings->items, old, bindings->capacity * sizeof binding);
-    }
+    bindings->items =
+        arena_room(&bindings->arena, bindings->items, bindings->count, &bindings->capacity, sizeof binding);
     bindings->items[bindings->count++] = binding;
 }
 
