@@ -16,16 +16,11 @@ needs() {
 
 # soon COMMAND...: true as soon as the command is, however slow the machine; false if it never is. Where it is waited
 # in vain, what comes after is mostly in vain, too, and gets less time.
-patience=600
+patience=60 # seconds
 soon() {
-    tries=0
-    while [ "$tries" -lt $patience ]; do
-        if "$@"; then
-            return 0
-        fi
-        tries=$((tries + 1))
+    end=$(($(date +%s) + patience))
+    until "$@"; do
+        [ "$(date +%s)" -lt $end ] || { patience=20 && return 1; }
         sleep 0.1
     done
-    patience=200
-    return 1
 }
