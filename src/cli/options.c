@@ -83,10 +83,8 @@ static bool section_bit(const char *word, size_t length, unsigned *bit) {
         const char *name;
         unsigned bit;
     } names[] = {
-        {"tree", PETRI_PRINT_TREE},
-        {"state", PETRI_PRINT_STATE},
-        {"log", PETRI_PRINT_LOG},
-        {"error", PETRI_PRINT_ERROR},
+        {"tree", PETRI_PRINT_TREE},   {"state", PETRI_PRINT_STATE}, {"log", PETRI_PRINT_LOG},
+        {"error", PETRI_PRINT_ERROR}, {"hash", PETRI_PRINT_HASH},
     };
     for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
         if (strlen(names[i].name) == length && memcmp(names[i].name, word, length) == 0) {
@@ -105,7 +103,7 @@ static bool read_sections(const Args *args, Options *options, void *field) {
         size_t length = strcspn(word, ",");
         unsigned bit = 0;
         if (!section_bit(word, length, &bit)) {
-            return args_wrong_value(args, "a list of tree, state, log, error");
+            return args_wrong_value(args, "a list of tree, state, log, error, hash");
         }
         *sections |= bit;
         word += length;
