@@ -2,12 +2,14 @@
 #ifndef PETRI_SRC_BYTES_H
 #define PETRI_SRC_BYTES_H
 
+#include <stdarg.h>
 #include <stdbool.h>
 #include <stddef.h>
 
 void *memory_zeroed(size_t size);
 void *memory_resized(void *block, size_t size);
 char *memory_copied(const char *text, size_t length);
+char *memory_text(const char *text);
 
 // `data` ends in a NUL that `length` does not count, once something was added.
 typedef struct Bytes {
@@ -17,12 +19,19 @@ typedef struct Bytes {
 } Bytes;
 
 void bytes_add(Bytes *text, const char *more, size_t length);
+void bytes_add_text(Bytes *text, const char *more);
 __attribute__((format(printf, 2, 3))) void bytes_format(Bytes *text, const char *format, ...);
+__attribute__((format(printf, 2, 0))) void bytes_format_list(Bytes *text, const char *format, va_list list);
 // Adds all that can be read from the descriptor, or from the file; false with errno set.
 bool bytes_read(Bytes *text, int fd);
 bool bytes_read_file(Bytes *text, const char *path);
 // Replaces the file at once: who reads it sees the old text or the new. NULL, or what is wrong.
 const char *bytes_replace_file(const Bytes *text, const char *path);
 void bytes_free(Bytes *text);
+void memory_drop(char **text);
+
+// Variables that free what they hold at the end of their block: `SCOPED_BYTES name = {0};`, `SCOPED_TEXT name = …;`.
+#define SCOPED_BYTES __attribute__((cleanup(bytes_free))) Bytes
+#define SCOPED_TEXT __attribute__((cleanup(memory_drop))) char *
 
 #endif

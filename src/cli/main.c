@@ -34,10 +34,9 @@ static bool looks_like_file(const char *word) {
 }
 
 static bool is_script_without_suffix(const char *word) {
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     bytes_format(&path, "%s.fl", word);
     bool found = access(path.data, F_OK) == 0;
-    bytes_free(&path);
     return found;
 }
 

@@ -36,13 +36,12 @@ static int write_dish(const char *path) {
         message("cannot make %s: %s", path, strerror(errno));
         return STATUS_FAILED;
     }
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     for (size_t i = 0; NEW_DISH[i] != NULL; i++) {
-        bytes_add(&text, NEW_DISH[i], strlen(NEW_DISH[i]));
+        bytes_add_text(&text, NEW_DISH[i]);
     }
     bool written = write_all(fd, &text);
     int error = errno;
-    bytes_free(&text);
     if (close(fd) != 0 && written) {
         written = false;
         error = errno;
@@ -63,7 +62,7 @@ static int start_script(const Host *host, const char *name) {
         message("'%s' is not the name of a script; try 'petri new dish'", name);
         return STATUS_USAGE;
     }
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     // A name that begins with a dash would be an option to the next command.
     bytes_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name, ends_in(name, ".fl") ? "" : ".fl");
     int status = write_dish(path.data);
@@ -71,7 +70,6 @@ static int start_script(const Host *host, const char *name) {
         message("%s is a dish of drops; change it, and what you save is shown at once", path.data);
         hint_pictures(host, path.data);
     }
-    bytes_free(&path);
     return status;
 }
 

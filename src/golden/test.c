@@ -81,8 +81,8 @@ static void start_child(Suite *suite, Case *item) {
     char *folder = slash == NULL ? memory_copied(".", 1) : memory_copied(item->script, length);
     const Golden *golden = &item->golden;
     char **argv = memory_zeroed(((size_t)golden->option_count + 10) * sizeof *argv);
-    Bytes threads = {0};
-    Bytes neighbours = {0};
+    SCOPED_BYTES threads = {0};
+    SCOPED_BYTES neighbours = {0};
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
@@ -106,8 +106,6 @@ static void start_child(Suite *suite, Case *item) {
         bytes_format(&item->result.trouble, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
-    bytes_free(&threads);
-    bytes_free(&neighbours);
     free(argv);
     free(folder);
 }
@@ -137,13 +135,11 @@ static void judge(const Suite *suite, Case *item, int status, const Bytes *outpu
 }
 
 static void end_case(const Suite *suite, Case *item, int status) {
-    Bytes output = {0};
-    Bytes errors = {0};
+    SCOPED_BYTES output = {0};
+    SCOPED_BYTES errors = {0};
     item->result.seconds = clock_seconds() - item->result.seconds;
     child_collect(&item->child, &output, &errors);
     judge(suite, item, status, &output, &errors);
-    bytes_free(&output);
-    bytes_free(&errors);
     golden_free(&item->golden);
     item->done = true;
 }

@@ -48,7 +48,7 @@ static char *series_name(const char *name, int64_t frame) {
     } else {
         bytes_format(&text, "%*" PRId64, width, frame);
     }
-    bytes_add(&text, end, strlen(end));
+    bytes_add_text(&text, end);
     return text.data;
 }
 
@@ -92,13 +92,12 @@ static bool read_output(Render *render) {
 // A folder that cannot be written to is better known before the work is done.
 static bool check_folder(const char *file) {
     const char *slash = strrchr(file, '/');
-    Bytes folder = {0};
+    SCOPED_BYTES folder = {0};
     bytes_add(&folder, slash == NULL ? "." : file, slash == NULL ? 1 : (size_t)(slash - file) + 1);
     bool good = access(folder.data, W_OK | X_OK) == 0;
     if (!good) {
         message("cannot write '%s': %s", file, strerror(errno));
     }
-    bytes_free(&folder);
     return good;
 }
 
@@ -122,9 +121,8 @@ static void output_frame(Render *render) {
     if (wanted && render->kind == OUTPUT_FILM) {
         draw_frame(render, true, NULL);
     } else if (wanted && render->kind == OUTPUT_SERIES) {
-        char *name = series_name(options->output, number);
+        SCOPED_TEXT name = series_name(options->output, number);
         draw_frame(render, false, name);
-        free(name);
     } else if (petri_records(render->frames.session)) {
         draw_frame(render, false, NULL);
     }

@@ -142,7 +142,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     int ends[2] = {-1, -1};
     char *target = realpath(file, NULL); // a symbolic link stays one
     if (target == NULL) {
-        target = memory_copied(file, strlen(file));
+        target = memory_text(file);
     }
     bytes_format(&beside, "%s.%ld.tmp", target, (long)getpid());
     *video =
@@ -175,7 +175,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
 
 // The last line that ffmpeg wrote.
 static void report_failure(Video *video, int status) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_add(&text, "", 0);
     if (lseek(video->errors, 0, SEEK_SET) == 0) {
         bytes_read(&text, video->errors);
@@ -192,7 +192,6 @@ static void report_failure(Video *video, int status) {
         set_trouble(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
                     WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
     }
-    bytes_free(&text);
 }
 
 static int wait_for(pid_t pid) {

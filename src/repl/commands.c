@@ -198,8 +198,8 @@ static void unknown(Repl *repl, const char *name) {
 
 void repl_command(Repl *repl, const char *line) {
     size_t length = strcspn(line, " \t\n");
-    char *name = memory_copied(line, length);
-    char *rest = word_trimmed(line + length);
+    SCOPED_TEXT name = memory_copied(line, length);
+    SCOPED_TEXT rest = word_trimmed(line + length);
     const char *alias = bare_alias(name + 1, length - 1); // .exit, .q
     const ReplCommand *command =
         alias != NULL ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
@@ -210,6 +210,4 @@ void repl_command(Repl *repl, const char *line) {
     } else if (!command->run(repl, rest)) {
         repl->failed = true;
     }
-    free(name);
-    free(rest);
 }

@@ -25,10 +25,9 @@ static void offer(Search *search, const char *word) {
 }
 
 static void offer_with(Search *search, const char *before, const char *word, const char *after) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_format(&text, "%s%s%s", before, word, after);
     offer(search, text.data);
-    bytes_free(&text);
 }
 
 static bool is_word(char c) {
@@ -111,7 +110,7 @@ static void offer_files(Search *search) {
         folder--;
     }
     char *path = folder == 0 ? memory_copied(".", 1) : memory_copied(search->typed, folder);
-    char *before = memory_copied(search->typed, folder);
+    SCOPED_TEXT before = memory_copied(search->typed, folder);
     DIR *stream = opendir(path);
     for (const struct dirent *entry; stream != NULL && (entry = readdir(stream)) != NULL;) {
         if (entry->d_name[0] != '.') {
@@ -122,7 +121,6 @@ static void offer_files(Search *search) {
         closedir(stream);
     }
     free(path);
-    free(before);
 }
 
 // The kind of the node whose attributes may be named at `at`; NULL if a value or something else is expected there.
@@ -267,7 +265,7 @@ static void find_common(Completion *completion, size_t typed) {
 }
 
 void complete_line(Repl *repl, const char *line, size_t length, Completion *completion) {
-    char *text = memory_copied(line, length);
+    SCOPED_TEXT text = memory_copied(line, length);
     Search search = {.repl = repl, .found = completion};
     *completion = (Completion){0};
     size_t name = strcspn(text, " \t");
@@ -283,7 +281,6 @@ void complete_line(Repl *repl, const char *line, size_t length, Completion *comp
         tidy(completion);
         find_common(completion, search.length);
     }
-    free(text);
 }
 
 void complete_free(Completion *completion) {

@@ -123,13 +123,12 @@ static unsigned char enter(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     size_t taken = 0;
     bytes_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
-    bytes_add(&text, "\n", 1);
+    bytes_add_text(&text, "\n");
     bool more = line_wants_more(editor->repl, text.data, text.length, &taken);
     el_cursor(line, (int)text.length); // it stops at the end
-    bytes_free(&text);
     if (!more) {
         return push(line, KEY_ACCEPT);
     }
@@ -234,7 +233,7 @@ static unsigned char complete(EditLine *line, wint_t character) {
 
 static void load_history(Editor *editor) {
     HistEvent event;
-    Bytes lines = {0};
+    SCOPED_BYTES lines = {0};
     saved_read(&lines);
     for (size_t at = 0; at < lines.length;) {
         char *end = memchr(lines.data + at, '\n', lines.length - at);
@@ -245,7 +244,6 @@ static void load_history(Editor *editor) {
         history(editor->history, &event, H_ENTER, lines.data + at);
         at = (size_t)(end - lines.data) + 1;
     }
-    bytes_free(&lines);
 }
 
 // libedit copies narrow names and never frees the copies.
@@ -336,16 +334,14 @@ static void remember(Editor *editor, const Bytes *lines) {
     if (length == 0 || length > LONGEST) {
         return;
     }
-    char *block = memory_copied(lines->data, length);
+    SCOPED_TEXT block = memory_copied(lines->data, length);
     history(editor->history, &event, H_ENTER, block);
     for (char *end = strchr(block, '\n'); end != NULL; end = strchr(end, '\n')) {
         *end = SAVED_LINE_END;
     }
-    Bytes whole = {0};
+    SCOPED_BYTES whole = {0};
     bytes_format(&whole, "%s\n", block);
     saved_add(&whole); // at once: a terminal that is closed ends petri without a word
-    bytes_free(&whole);
-    free(block);
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
@@ -366,7 +362,7 @@ LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
     }
     bytes_add(lines, text, (size_t)count);
     if (lines->data[lines->length - 1] != '\n') {
-        bytes_add(lines, "\n", 1);
+        bytes_add_text(lines, "\n");
     }
     remember(editor, lines);
     return LINE_READ;

@@ -150,7 +150,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     if (now < first) {
         return repl_fail(repl, "there are no frames to plot; .step makes some");
     }
-    Bytes why = {0};
+    SCOPED_BYTES why = {0};
     double *values = memory_zeroed((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
     PetriStatus status = gather(repl, expression, first, now - first + 1, values, &why);
@@ -162,12 +162,11 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
         repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "there is nothing to plot");
     }
     free(values);
-    bytes_free(&why);
     return status == PETRI_OK && !repl->failed;
 }
 
 static bool run_plot(Repl *repl, const char *rest) {
-    char *expression = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT expression = memory_text(rest);
     int64_t count = DEFAULT_FRAMES;
     word_last_count(expression, &count);
     bool good = expression[0] != '\0' || repl_fail(repl, ".plot needs an expression");
@@ -177,7 +176,6 @@ static bool run_plot(Repl *repl, const char *rest) {
     PetriResult result; // of the present frame: whether it is an expression at all
     good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
     good = good && plot_frames(repl, expression, count);
-    free(expression);
     return good;
 }
 

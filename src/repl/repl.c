@@ -56,7 +56,7 @@ bool repl_interrupted(void) {
 }
 
 void repl_say(Repl *repl, const char *format, ...) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     char line[1024];
     va_list list;
     va_start(list, format);
@@ -64,7 +64,6 @@ void repl_say(Repl *repl, const char *format, ...) {
     va_end(list);
     bytes_format(&text, repl->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
     output_write(&repl->output, text.data, text.length);
-    bytes_free(&text);
 }
 
 bool repl_fail(Repl *repl, const char *format, ...) {
@@ -116,9 +115,8 @@ static void take_language(Repl *repl, const char *text, size_t length) {
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
     repl_idle(repl);
     if (done.hidden != NULL) {
-        char *name = memory_copied(done.hidden, strlen(done.hidden));
+        SCOPED_TEXT name = memory_text(done.hidden);
         repl_tell_hidden(repl, name);
-        free(name);
     }
     if (done.nodes > 0) {
         repl_say(repl, "in the scene from the next step on; .drop takes it out");
@@ -128,7 +126,7 @@ static void take_language(Repl *repl, const char *text, size_t length) {
 
 // What begins with a dot and is no number, or what people type without one.
 static void take_text(Repl *repl, const char *text, size_t length) {
-    Bytes remark = {0};
+    SCOPED_BYTES remark = {0};
     size_t start = strspn(text, " \t");
     if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.') {
         repl_command(repl, text + start);
@@ -138,7 +136,6 @@ static void take_text(Repl *repl, const char *text, size_t length) {
     if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n")) != NULL)) {
         repl_say(repl, "%s", remark.data);
     }
-    bytes_free(&remark);
 }
 
 void repl_take(Repl *repl, const char *text, size_t length) {
@@ -160,14 +157,13 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
 static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
     size_t taken = 0;
     while (line_wants_more(repl, text->data, text->length, &taken)) {
-        Bytes line = {0};
+        SCOPED_BYTES line = {0};
         LineStatus status = line_read(reader, "... ", &line);
         bytes_add(text, line.data, line.length);
-        bytes_free(&line);
         if (status != LINE_READ) {
             return status;
         }
-        bytes_add(text, "\n", 1);
+        bytes_add_text(text, "\n");
     }
     if (!line_is_blank(text->data + taken)) {
         bytes_add(next, text->data + taken, text->length - taken - 1);
@@ -178,7 +174,7 @@ static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *
 
 // One input: its first line is in `text`.
 static LineStatus handle(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
-    bytes_add(text, "\n", 1);
+    bytes_add_text(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
     if (status != LINE_INTERRUPTED) { // what the end of the input cuts off is tried as it is
         repl_take(repl, text->data, text->length);
@@ -264,7 +260,7 @@ static int run_session(Repl *repl, const char *state) {
 
 void repl_keep_definition(Repl *repl, const char *definition) {
     repl->definitions = memory_resized(repl->definitions, (repl->definition_count + 1) * sizeof *repl->definitions);
-    repl->definitions[repl->definition_count++] = memory_copied(definition, strlen(definition));
+    repl->definitions[repl->definition_count++] = memory_text(definition);
 }
 
 static int repl_run(const Host *host, int argc, char **argv) {
@@ -277,7 +273,7 @@ static int repl_run(const Host *host, int argc, char **argv) {
         repl->colour = options.colour;
         repl->record_fps = options.fps_given;
         repl->fps = options.fps;
-        repl->script = options.script == NULL ? NULL : memory_copied(options.script, strlen(options.script));
+        repl->script = options.script == NULL ? NULL : memory_text(options.script);
         for (size_t i = 0; i < options.definition_count; i++) {
             repl_keep_definition(repl, options.definitions[i]);
         }

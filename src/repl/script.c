@@ -146,7 +146,7 @@ static void describe_changes(const Bytes *before, const Bytes *after, Bytes *wha
     for (size_t i = 0; i < names.count; i++) {
         bytes_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].length, names.items[i].text);
     }
-    bytes_format(what, "%s", names.count == 0 ? "" : ")");
+    bytes_add_text(what, names.count == 0 ? "" : ")");
     free(a.items);
     free(b.items);
 }
@@ -187,7 +187,7 @@ bool repl_load(Repl *repl, const char *file) {
     repl->rates_changed = repl->rates_changed && status != PETRI_OK;
     if (status == PETRI_OK && file != repl->script) {
         free(repl->script);
-        repl->script = memory_copied(file, strlen(file));
+        repl->script = memory_text(file);
     }
     return loaded(repl, status);
 }
@@ -225,7 +225,7 @@ bool repl_notice(Repl *repl, bool at_prompt) {
     if (repl->files == NULL || !watch_changed(repl->files)) {
         return false;
     }
-    Bytes now = {0}, what = {0};
+    SCOPED_BYTES now = {0}, what = {0};
     bool changed = repl->script != NULL && bytes_read_file(&now, repl->script);
     if (changed) {
         repl->changed = true;
@@ -239,8 +239,6 @@ bool repl_notice(Repl *repl, bool at_prompt) {
                  what.length == 0 ? "" : what.data);
         output_flush(&repl->output);
     }
-    bytes_free(&now);
-    bytes_free(&what);
     return changed;
 }
 

@@ -27,10 +27,9 @@ static bool is_bound(const Repl *repl, const char *name) {
 
 // `-- CELLS = 200  (1..500)  how many`
 static void say_parameter(Repl *repl, const PetriParameter *parameter) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     parameter_describe(&text, parameter);
     repl_say(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
-    bytes_free(&text);
 }
 
 // What has become of a name that was set.
@@ -88,16 +87,13 @@ static bool run_set(Repl *repl, const char *rest) {
         return run_parameters(repl, rest);
     }
     size_t length = strcspn(rest, " \t=");
-    char *name = memory_copied(rest, length);
+    SCOPED_TEXT name = memory_copied(rest, length);
     const char *value = rest + length + strspn(rest + length, " \t");
     bool given = *value != '\0';
-    char *text = word_trimmed(value + (*value == '='));
-    Bytes definition = {0};
+    SCOPED_TEXT text = word_trimmed(value + (*value == '='));
+    SCOPED_BYTES definition = {0};
     bytes_format(&definition, "%s=%s", name, text);
     bool good = given ? set(repl, name, definition.data) : show_one(repl, name);
-    bytes_free(&definition);
-    free(text);
-    free(name);
     return good;
 }
 

@@ -84,13 +84,13 @@ static void take_entry(Filter *filter, const char *line, size_t length) {
 }
 
 static bool run_state(Repl *repl, const char *rest) {
-    char *asked = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT asked = memory_text(rest);
     // A number alone is a key.
     size_t most = strpbrk(asked, " \t") != NULL || strcmp(asked, "all") == 0 ? word_lines(repl, asked, AROUND)
                                                                              : word_lines(repl, (char[]){""}, AROUND);
     const char *prefix = asked + (asked[0] == '$');
     bool enclosed = prefix[0] == '(';
-    char *wanted = memory_copied(prefix + enclosed, strlen(prefix + enclosed));
+    SCOPED_TEXT wanted = memory_copied(prefix + enclosed, strlen(prefix + enclosed));
     size_t length = strlen(wanted);
     if (enclosed && length > 0 && wanted[length - 1] == ')') {
         wanted[length - 1] = '\0';
@@ -100,8 +100,6 @@ static bool run_state(Repl *repl, const char *rest) {
         repl_say(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
     }
     tell_rest(&filter, ".state", asked);
-    free(wanted);
-    free(asked);
     return true;
 }
 
@@ -136,10 +134,9 @@ static bool show_tree(Repl *repl, const char *asked, size_t most) {
 }
 
 static bool run_tree(Repl *repl, const char *rest) {
-    char *asked = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT asked = memory_text(rest);
     size_t most = word_lines(repl, asked, AROUND);
     bool good = show_tree(repl, asked, most);
-    free(asked);
     return good;
 }
 
@@ -160,13 +157,12 @@ static bool each_system(Repl *repl, const Wish *wish, void (*show)(Repl *, size_
     size_t count = 0, shown = 0;
     repl_complete_frame(repl);
     for (; petri_system(repl->session, count, &system); count++) {
-        char *name = memory_copied(system.name, strlen(system.name)); // the next call takes it
+        SCOPED_TEXT name = memory_text(system.name); // the next call takes it
         system.name = name;
         if (is_meant(name, wanted)) {
             show(repl, count, &system, wish);
             shown++;
         }
-        free(name);
     }
     if (count == 0) {
         repl_say(repl, petri_frame(repl->session).number < 0
@@ -180,13 +176,12 @@ static bool each_system(Repl *repl, const Wish *wish, void (*show)(Repl *, size_
 
 static void add_vector(Table *table, const double *vector, uint32_t dimensions) {
     char number[40];
-    Bytes cell = {0};
+    SCOPED_BYTES cell = {0};
     for (uint32_t k = 0; k < dimensions && vector != NULL; k++) {
         snprintf(number, sizeof number, "%s%.6g", k == 0 ? "" : ";", vector[k]);
-        bytes_add(&cell, number, strlen(number));
+        bytes_add_text(&cell, number);
     }
     table_add(table, vector == NULL ? "-" : cell.data);
-    bytes_free(&cell);
 }
 
 static void add_number(Table *table, double x) {
@@ -236,10 +231,9 @@ static void show_particles(Repl *repl, size_t number, const PetriSystem *system,
 
 static bool run_particles(Repl *repl, const char *rest) {
     enum { AROUND_TABLE = 5 }; // lines of the screen beside the rows: command, title, heads, closing line, prompt
-    char *system = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT system = memory_text(rest);
     Wish wish = {.system = system, .most = word_lines(repl, system, AROUND_TABLE)};
     bool good = each_system(repl, &wish, show_particles);
-    free(system);
     return good;
 }
 
@@ -249,7 +243,7 @@ static void show_energy(Repl *repl, size_t number, const PetriSystem *system, co
     output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
                   motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
     if (motion.moving > 0) {
-        Bytes fastest = {0};
+        SCOPED_BYTES fastest = {0};
         Table table = table_new(2);
         table_add(&table, "  kinetic energy");
         add_number(&table, motion.kinetic_energy);
@@ -260,7 +254,6 @@ static void show_energy(Repl *repl, size_t number, const PetriSystem *system, co
         table_add(&table, fastest.data);
         table_write(&table, &repl->output);
         table_free(&table);
-        bytes_free(&fastest);
     }
     motion_free(&motion);
 }
@@ -277,21 +270,19 @@ static bool run_watch(Repl *repl, const char *rest) {
     if (rest[0] == '\0') {
         return true;
     }
-    Bytes value = {0};
+    SCOPED_BYTES value = {0};
     if (petri_evaluate(repl->session, rest, PETRI_Z, &result, repl_collect, &value) != PETRI_OK) {
-        bytes_free(&value);
         repl->failed = true;
         return false;
     }
     output_format(&repl->output, "%s = %s\n", rest, value.data);
-    bytes_free(&value);
     for (size_t i = 0; i < repl->watched_count; i++) {
         if (strcmp(rest, repl->watched[i]) == 0) {
             return true; // once is enough
         }
     }
     repl->watched = memory_resized(repl->watched, (repl->watched_count + 1) * sizeof *repl->watched);
-    repl->watched[repl->watched_count++] = memory_copied(rest, strlen(rest));
+    repl->watched[repl->watched_count++] = memory_text(rest);
     return true;
 }
 

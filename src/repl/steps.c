@@ -18,13 +18,12 @@ typedef struct Walk {
 static void add_watched(Repl *repl, Bytes *text) {
     for (size_t i = 0; i < repl->watched_count; i++) {
         PetriResult result;
-        Bytes value = {0};
+        SCOPED_BYTES value = {0};
         const char *expression = repl->watched[i];
         PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, repl_collect, &value);
         bytes_format(text, "%s = ", expression);
         bytes_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
-        bytes_add(text, "\n", 1);
-        bytes_free(&value);
+        bytes_add_text(text, "\n");
     }
 }
 
@@ -36,19 +35,18 @@ static bool describe(Repl *repl, Bytes *text) {
 }
 
 void repl_show_frame(Repl *repl) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     if (petri_frame(repl->session).number < 0) {
         repl_say(repl, "before the first frame");
         return;
     }
     describe(repl, &text);
     output_write(&repl->output, text.data, text.length);
-    bytes_free(&text);
 }
 
 // Writes a frame if it has something to say or is the last; whether it did.
 static bool show_step(Repl *repl, Progress *progress, bool last) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bool shown = describe(repl, &text) || last;
     if (shown) {
         progress_erase(progress);
@@ -57,7 +55,6 @@ static bool show_step(Repl *repl, Progress *progress, bool last) {
             output_flush(&repl->output);
         }
     }
-    bytes_free(&text);
     return shown;
 }
 
@@ -142,7 +139,7 @@ static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
 }
 
 static bool go_to(Repl *repl, int64_t frame) {
-    Bytes why = {0};
+    SCOPED_BYTES why = {0};
     repl_refresh(repl);
     repl->failed = false;
     repl_busy(repl);
@@ -156,7 +153,6 @@ static bool go_to(Repl *repl, int64_t frame) {
     } else {
         repl_status(repl, status);
     }
-    bytes_free(&why);
     if (status == PETRI_OK || stopped) {
         repl_show_frame(repl);
     }
@@ -185,7 +181,7 @@ static bool run_run(Repl *repl, const char *rest) {
 }
 
 static bool run_until(Repl *repl, const char *rest) {
-    char *expression = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT expression = memory_text(rest);
     int64_t limit = repl->limit;
     bool good = word_limit(repl, expression, &limit);
     if (good && expression[0] == '\0') {
@@ -194,7 +190,6 @@ static bool run_until(Repl *repl, const char *rest) {
     PetriResult result; // of the present frame: whether it is an expression at all
     good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
     good = good && walk_frames(repl, &(Walk){.count = limit, .until = expression});
-    free(expression);
     return good;
 }
 
@@ -216,14 +211,13 @@ static bool run_back(Repl *repl, const char *rest) {
     if (count <= ago) {
         return go_to(repl, petri_frame(repl->session).number - count);
     }
-    Bytes start = {0};
+    SCOPED_BYTES start = {0};
     add_start(repl, &start);
     if (ago > 0) {
         repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
     } else {
         repl_fail(repl, "there is nothing to go back to: %s", start.data);
     }
-    bytes_free(&start);
     return ago > 0 && go_to(repl, repl->history.first);
 }
 

@@ -49,13 +49,12 @@ static bool collect(void *bytes, const char *text, size_t length) {
 
 // Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     petri_print(run->frames.session, sections, collect, &text);
     const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
     if (end + 1 < text.data + text.length) {
         write_text(run, text.data, text.length);
     }
-    bytes_free(&text);
 }
 
 // What is printed and recorded of a frame.

@@ -68,7 +68,7 @@ void show(const Options *options, const Host *host, int argc, char **argv) {
     snprintf(frames, sizeof frames, "--frames=%" PRId64, options->frames);
     char **words = memory_zeroed(((size_t)argc + 6) * sizeof *words);
     char called[] = "view", terminal[] = "--terminal", verbose[] = "--verbose";
-    char *program = memory_copied(host->called, strlen(host->called));
+    SCOPED_TEXT program = memory_text(host->called);
     char *const first[] = {program, called, terminal, verbose, frames};
     int count = (int)(sizeof first / sizeof first[0]);
     memcpy(words, first, sizeof first);
@@ -79,6 +79,5 @@ void show(const Options *options, const Host *host, int argc, char **argv) {
     }
     fflush(NULL);
     pass_on(words);
-    free(program);
     free(words);
 }

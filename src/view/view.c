@@ -145,7 +145,7 @@ static void reset(View *view) {
 
 // Keys for the script's parameters; what they do is seen at once.
 static void change_parameters(View *view, const char *key) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
     if (act != PARAMETER_OTHER) {
         view_notice(view, "%s", text.data);
@@ -155,7 +155,6 @@ static void change_parameters(View *view, const char *key) {
         view->step_once = view->step_once || view->paused;
         view_update_trouble(view);
     }
-    bytes_free(&text);
 }
 
 static void obey(View *view, const char *key) {

@@ -17,7 +17,7 @@ static void log_text(World *world, const char *text) {
     if (!world->mute) {
         fputs(text, stderr);
     } else if (world->log.length < MOST_LOG) {
-        bytes_add(&world->log, text, strlen(text));
+        bytes_add_text(&world->log, text);
     }
 }
 
@@ -32,7 +32,7 @@ static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
         warnings_add(&world->warnings, diagnostic);
     }
     if (diagnostic->level == PETRI_ERROR && world->trouble.length < MOST_TROUBLE) {
-        bytes_format(&world->trouble, "%s", diagnostic->rendered);
+        bytes_add_text(&world->trouble, diagnostic->rendered);
     }
 }
 
