@@ -77,6 +77,21 @@ void bytes_format(Bytes *text, const char *format, ...) {
     va_end(list);
 }
 
+bool bytes_collect(void *bytes, const char *text, size_t length) {
+    bytes_add(bytes, text, length);
+    return true;
+}
+
+bool bytes_line(const Bytes *text, size_t *at, Str *line) {
+    if (*at >= text->length) {
+        return false;
+    }
+    const char *start = text->data + *at, *end = memchr(start, '\n', text->length - *at);
+    *line = (Str){start, end == NULL ? text->length - *at : (size_t)(end - start)};
+    *at += line->len + 1;
+    return true;
+}
+
 bool bytes_read(Bytes *text, int fd) {
     for (;;) {
         reserve(text, READ_BLOCK);
@@ -120,4 +135,25 @@ void bytes_free(Bytes *text) {
 
 void memory_drop(char **text) {
     free(*text);
+}
+
+void texts_add(TextList *list, const char *text) {
+    list->items = memory_resized(list->items, (list->count + 1) * sizeof *list->items);
+    list->items[list->count++] = memory_text(text);
+}
+
+bool texts_hold(const TextList *list, const char *text) {
+    size_t i = 0;
+    while (i < list->count && strcmp(list->items[i], text) != 0) {
+        i++;
+    }
+    return i < list->count;
+}
+
+void texts_free(TextList *list) {
+    while (list->count > 0) {
+        free(list->items[--list->count]);
+    }
+    free(list->items);
+    list->items = NULL;
 }

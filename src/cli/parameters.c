@@ -93,10 +93,9 @@ size_t parameters_list(PetriSession *session, Output *output) {
                           next == 0 ? "" : "\n", parameter.file);
         }
         bool settable = parameter.settable;
-        Table table = table_new(COLUMNS);
+        SCOPED_TABLE table = table_new(COLUMNS);
         add_rows(session, &table, &next);
         table_write(&table, output);
-        table_free(&table);
         own = settable ? next : own;
     }
     return own;

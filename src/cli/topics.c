@@ -51,7 +51,7 @@ static void add_type(Table *table, const PetriNodeAttribute *attribute) {
 }
 
 static void tell_attributes(Output *output, size_t kind) {
-    Table table = table_new(4);
+    SCOPED_TABLE table = table_new(4);
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
         char head[80], fallback[120] = "";
@@ -65,7 +65,6 @@ static void tell_attributes(Output *output, size_t kind) {
         table_add(&table, attribute.help);
     }
     table_write(&table, output);
-    table_free(&table);
 }
 
 // A kind may belong to several areas, such as `!group`.
@@ -85,7 +84,7 @@ static bool tell_node(Output *output, const char *name) {
 
 // The nodes that have an attribute of this name, each with what it means there.
 static bool tell_owners(Output *output, const char *name) {
-    Table table = table_new(3);
+    SCOPED_TABLE table = table_new(3);
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
@@ -104,7 +103,6 @@ static bool tell_owners(Output *output, const char *name) {
         output_format(output, "%s is an attribute of\n", name);
         table_write(&table, output);
     }
-    table_free(&table);
     return found;
 }
 

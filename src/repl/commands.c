@@ -36,7 +36,7 @@ const ReplCommand *repl_find_command(const char *name, size_t length) {
 }
 
 static void list_commands(Repl *repl) {
-    Table table = table_new(2);
+    SCOPED_TABLE table = table_new(2);
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
         char head[64];
@@ -46,7 +46,6 @@ static void list_commands(Repl *repl) {
         table_add(&table, command->help);
     }
     table_write(&table, &repl->output);
-    table_free(&table);
     output_format(
         &repl->output,
         "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of an expression\n"
@@ -57,7 +56,7 @@ static void list_commands(Repl *repl) {
 }
 
 static void list_builtins(Repl *repl) {
-    Table table = table_new(2);
+    SCOPED_TABLE table = table_new(2);
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         char head[128];
@@ -66,11 +65,10 @@ static void list_builtins(Repl *repl) {
         table_add(&table, builtin.help);
     }
     table_write(&table, &repl->output);
-    table_free(&table);
 }
 
 static void list_nodes(Repl *repl) {
-    Table table = table_new(3);
+    SCOPED_TABLE table = table_new(3);
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         char head[80];
@@ -80,7 +78,6 @@ static void list_nodes(Repl *repl) {
         table_add(&table, kind.help);
     }
     table_write(&table, &repl->output);
-    table_free(&table);
 }
 
 static bool tell_nearest(Repl *repl, const char *topic) {
@@ -155,9 +152,6 @@ static bool time_expression(Repl *repl, const char *expression) {
 }
 
 static bool run_time(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".time needs an expression, or a command");
-    }
     if (rest[0] != '.' || (rest[1] >= '0' && rest[1] <= '9') || rest[1] == '.') {
         return time_expression(repl, rest);
     }
@@ -175,10 +169,11 @@ static bool run_quit(Repl *repl, const char *rest) {
 }
 
 const ReplCommand OTHER_COMMANDS[] = {
-    {".time", "EXPR", "tell how long an expression takes, or a command such as .step", run_time, COMPLETE_LANGUAGE},
-    {".help", "[TOPIC]", "tell of a command, a function, a node, a word; builtins, nodes list them", run_help,
+    {".time", "EXPR", "an expression, or a command", "tell how long an expression takes, or a command such as .step",
+     run_time, COMPLETE_LANGUAGE},
+    {".help", "[TOPIC]", NULL, "tell of a command, a function, a node, a word; builtins, nodes list them", run_help,
      COMPLETE_TOPICS},
-    {".quit", "", "leave", run_quit, COMPLETE_LANGUAGE},
+    {".quit", "", NULL, "leave", run_quit, COMPLETE_LANGUAGE},
     {0},
 };
 
@@ -207,6 +202,8 @@ void repl_command(Repl *repl, const char *line) {
         unknown(repl, name);
     } else if (command->operands[0] == '\0' && rest[0] != '\0') {
         repl_fail(repl, "%s takes nothing, not '%.40s'", name, rest);
+    } else if (command->needed != NULL && rest[0] == '\0') {
+        repl_fail(repl, "%s needs %s", command->name, command->needed);
     } else if (!command->run(repl, rest)) {
         repl->failed = true;
     }

@@ -231,18 +231,21 @@ static unsigned char complete(EditLine *line, wint_t character) {
     return result;
 }
 
+static void replace(char *text, char old, char new) {
+    while ((text = strchr(text, old)) != NULL) {
+        *text = new;
+    }
+}
+
 static void load_history(Editor *editor) {
     HistEvent event;
     SCOPED_BYTES lines = {0};
     saved_read(&lines);
-    for (size_t at = 0; at < lines.length;) {
-        char *end = memchr(lines.data + at, '\n', lines.length - at);
-        *end = '\0';
-        for (char *mark = strchr(lines.data + at, SAVED_LINE_END); mark != NULL; mark = strchr(mark, SAVED_LINE_END)) {
-            *mark = '\n';
-        }
-        history(editor->history, &event, H_ENTER, lines.data + at);
-        at = (size_t)(end - lines.data) + 1;
+    Str line;
+    for (size_t at = 0; bytes_line(&lines, &at, &line);) {
+        SCOPED_TEXT block = memory_copied(line.bytes, line.len);
+        replace(block, SAVED_LINE_END, '\n');
+        history(editor->history, &event, H_ENTER, block);
     }
 }
 
@@ -336,9 +339,7 @@ static void remember(Editor *editor, const Bytes *lines) {
     }
     SCOPED_TEXT block = memory_copied(lines->data, length);
     history(editor->history, &event, H_ENTER, block);
-    for (char *end = strchr(block, '\n'); end != NULL; end = strchr(end, '\n')) {
-        *end = SAVED_LINE_END;
-    }
+    replace(block, '\n', SAVED_LINE_END);
     SCOPED_BYTES whole = {0};
     bytes_format(&whole, "%s\n", block);
     saved_add(&whole); // at once: a terminal that is closed ends petri without a word

@@ -169,14 +169,12 @@ static bool run_plot(Repl *repl, const char *rest) {
     SCOPED_TEXT expression = memory_text(rest);
     int64_t count = DEFAULT_FRAMES;
     word_last_count(expression, &count);
-    bool good = expression[0] != '\0' || repl_fail(repl, ".plot needs an expression");
-    if (good && count > MOST_FRAMES) {
-        good = repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
+    if (count > MOST_FRAMES) {
+        return repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
     }
     PetriResult result; // of the present frame: whether it is an expression at all
-    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
-    good = good && plot_frames(repl, expression, count);
-    return good;
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL)) &&
+           plot_frames(repl, expression, count);
 }
 
 enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30 };
@@ -248,7 +246,7 @@ static bool run_show(Repl *repl, const char *rest) {
 }
 
 const ReplCommand PLOT_COMMANDS[] = {
-    {".plot", "EXPR [N]", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
-    {".show", "", "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
+    {".plot", "EXPR [N]", "an expression", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
+    {".show", "", NULL, "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
     {0},
 };

@@ -97,11 +97,12 @@ static bool add_options(Repl *repl, Bytes *text, int64_t frames, int64_t every) 
     if (repl->record_fps) {
         bytes_format(text, " --fps %.17g", repl->fps);
     }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        if (strpbrk(repl->definitions[i], " \t\n") != NULL) {
-            return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks", repl->definitions[i]);
+    for (size_t i = 0; i < repl->definitions.count; i++) {
+        if (strpbrk(repl->definitions.items[i], " \t\n") != NULL) {
+            return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks",
+                             repl->definitions.items[i]);
         }
-        bytes_format(text, " -D %s", repl->definitions[i]);
+        bytes_format(text, " -D %s", repl->definitions.items[i]);
     }
     bytes_format(text, "\n");
     return true;
@@ -113,7 +114,7 @@ static PetriStatus gather(Repl *repl, Bytes *text, int64_t last, int64_t every, 
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
         status = history_goto(&repl->history, repl->session, i, why);
         if (status == PETRI_OK && i % every == 0) {
-            petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, repl_collect, text);
+            petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, bytes_collect, text);
         }
     }
     return status;
@@ -158,12 +159,11 @@ static bool run_record(Repl *repl, const char *rest) {
     SCOPED_BYTES golden = {0}, script = {0};
     bytes_format(&golden, "%.*s.golden", (int)length, name);
     bytes_format(&script, "%.*s.fl", (int)length, name);
-    bool good = length > 0 ? record(repl, golden.data, script.data, every) : repl_fail(repl, ".record needs a file");
-    return good;
+    return record(repl, golden.data, script.data, every);
 }
 
 const ReplCommand RECORD_COMMANDS[] = {
-    {".record", "FILE [K]", "write each K-th frame from the first on as a golden for petri test", run_record,
+    {".record", "FILE [K]", "a file", "write each K-th frame from the first on as a golden for petri test", run_record,
      COMPLETE_FILES},
     {0},
 };

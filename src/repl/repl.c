@@ -89,11 +89,6 @@ bool repl_status(Repl *repl, PetriStatus status) {
     return status == PETRI_OK;
 }
 
-bool repl_collect(void *bytes, const char *text, size_t length) {
-    bytes_add(bytes, text, length);
-    return true;
-}
-
 bool repl_write(void *host, const char *text, size_t length) {
     Repl *repl = host;
     return output_write(&repl->output, text, length);
@@ -258,11 +253,6 @@ static int run_session(Repl *repl, const char *state) {
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
 
-void repl_keep_definition(Repl *repl, const char *definition) {
-    repl->definitions = memory_resized(repl->definitions, (repl->definition_count + 1) * sizeof *repl->definitions);
-    repl->definitions[repl->definition_count++] = memory_text(definition);
-}
-
 static int repl_run(const Host *host, int argc, char **argv) {
     Repl *repl = memory_zeroed(sizeof *repl);
     Options options;
@@ -275,7 +265,7 @@ static int repl_run(const Host *host, int argc, char **argv) {
         repl->fps = options.fps;
         repl->script = options.script == NULL ? NULL : memory_text(options.script);
         for (size_t i = 0; i < options.definition_count; i++) {
-            repl_keep_definition(repl, options.definitions[i]);
+            texts_add(&repl->definitions, options.definitions[i]);
         }
         options.prompt = true;
         status = options_open(&options, host, on_diagnostic, repl, &repl->session);
@@ -287,14 +277,8 @@ static int repl_run(const Host *host, int argc, char **argv) {
     history_free(&repl->history);
     petri_close(&repl->session);
     watch_free(repl->files);
-    for (size_t i = 0; i < repl->watched_count; i++) {
-        free(repl->watched[i]);
-    }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        free(repl->definitions[i]);
-    }
-    free(repl->watched);
-    free(repl->definitions);
+    texts_free(&repl->watched);
+    texts_free(&repl->definitions);
     free(repl->script);
     bytes_free(&repl->script_text);
     free(repl);

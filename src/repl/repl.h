@@ -18,10 +18,9 @@ typedef struct Repl {
     bool loaded;       // the script named is the one that is running
     Bytes script_text; // as it was loaded
     bool changed;      // the script's files have changed since: it is reloaded before the next step
-    char **watched;    // expressions that are printed after each step
-    size_t watched_count;
-    int64_t limit; // frames that .run and .until make at the most
-    bool terminal; // a person types and reads
+    TextList watched;  // expressions that are printed after each step
+    int64_t limit;     // frames that .run and .until make at the most
+    bool terminal;     // a person types and reads
     bool colour;
     bool utf8;             // other characters than ASCII can be shown
     bool failed;           // the input at hand was in error
@@ -32,8 +31,7 @@ typedef struct Repl {
     bool rates_changed; // .tempo or .fps was used since the script was loaded
     bool record_fps;    // --fps was given: goldens must say so
     double fps;
-    char **definitions; // of -D and .set, as given
-    size_t definition_count;
+    TextList definitions; // of -D and .set, as given
 } Repl;
 
 // Writes a remark, `-- text`, in a line of its own.
@@ -44,12 +42,8 @@ __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *for
 bool repl_status(Repl *repl, PetriStatus status);
 // Takes one line or suite, which is not blank: a command or something of the language.
 void repl_take(Repl *repl, const char *text, size_t length);
-// A PetriWrite to Bytes, and one to the output; `host` is the Bytes or the Repl.
-bool repl_collect(void *bytes, const char *text, size_t length);
+// A PetriWrite to the output.
 bool repl_write(void *repl, const char *text, size_t length);
-
-// Keeps a definition for recordings.
-void repl_keep_definition(Repl *repl, const char *definition);
 
 // While `busy`, Ctrl-C interrupts the session. Tells whether it was typed since, when that ends.
 void repl_busy(Repl *repl);
@@ -78,6 +72,7 @@ typedef enum Completes {
 typedef struct ReplCommand {
     const char *name;     // with its dot
     const char *operands; // "": it takes none
+    const char *needed;   // what is missing where there is none; NULL: nothing
     const char *help;
     bool (*run)(Repl *repl, const char *rest); // false if it failed, after a message
     Completes complete;                        // how its operand goes on

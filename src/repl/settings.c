@@ -19,8 +19,8 @@ static bool is_bound(const Repl *repl, const char *name) {
     for (size_t i = 0; (known = petri_name(repl->session, i)) != NULL; i++) {
         seen += is_of(known, name);
     }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        defined += is_of(repl->definitions[i], name);
+    for (size_t i = 0; i < repl->definitions.count; i++) {
+        defined += is_of(repl->definitions.items[i], name);
     }
     return seen > defined;
 }
@@ -58,7 +58,7 @@ static bool set(Repl *repl, const char *name, const char *definition) {
     }
     petri_config_free(before);
     if (good) {
-        repl_keep_definition(repl, definition);
+        texts_add(&repl->definitions, definition);
         report_set(repl, name, petri_diagnostic_count(repl->session, PETRI_WARNING) > warnings);
     }
     return good;
@@ -115,24 +115,26 @@ static bool read_rate(Repl *repl, const char *rest, double *value) {
     return word_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
 }
 
-static bool run_tempo(Repl *repl, const char *rest) {
-    double tempo = 0;
-    if (rest[0] != '\0' && !(read_rate(repl, rest, &tempo) && petri_set_tempo(repl->session, tempo) == PETRI_OK)) {
-        return false;
+// Shows a rate of the clock, after a change if one is asked for.
+static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatus change(PetriSession *, double)) {
+    double rate = 0;
+    if (rest[0] != '\0') {
+        if (!read_rate(repl, rest, &rate) || change(repl->session, rate) != PETRI_OK) {
+            return false;
+        }
+        repl->rates_changed = true;
     }
-    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
-    show_number(repl, "tempo", petri_frame(repl->session).tempo);
+    PetriFrame frame = petri_frame(repl->session);
+    show_number(repl, name, change == petri_set_tempo ? frame.tempo : frame.fps);
     return true;
 }
 
+static bool run_tempo(Repl *repl, const char *rest) {
+    return show_rate(repl, rest, "tempo", petri_set_tempo);
+}
+
 static bool run_fps(Repl *repl, const char *rest) {
-    double fps = 0;
-    if (rest[0] != '\0' && !(read_rate(repl, rest, &fps) && petri_set_fps(repl->session, fps) == PETRI_OK)) {
-        return false;
-    }
-    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
-    show_number(repl, "fps", petri_frame(repl->session).fps);
-    return true;
+    return show_rate(repl, rest, "fps", petri_set_fps);
 }
 
 static bool run_resolution(Repl *repl, const char *rest) {
@@ -154,13 +156,13 @@ static bool run_resolution(Repl *repl, const char *rest) {
 }
 
 const ReplCommand SETTING_COMMANDS[] = {
-    {".parameters", "", "list the script's parameters: value, default, range, comment", run_parameters,
+    {".parameters", "", NULL, "list the script's parameters: value, default, range, comment", run_parameters,
      COMPLETE_LANGUAGE},
-    {".set", "[NAME [VALUE]]", "give a parameter of the script a value, as -D does; or show it", run_set,
+    {".set", "[NAME [VALUE]]", NULL, "give a parameter of the script a value, as -D does; or show it", run_set,
      COMPLETE_PARAMETERS},
-    {".tempo", "[T]", "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
-    {".fps", "[F]", "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
-    {".resolution", "[R | off]", "show or change the longest simulation step of all systems", run_resolution,
+    {".tempo", "[T]", NULL, "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
+    {".fps", "[F]", NULL, "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
+    {".resolution", "[R | off]", NULL, "show or change the longest simulation step of all systems", run_resolution,
      COMPLETE_LANGUAGE},
     {0},
 };

@@ -16,11 +16,11 @@ typedef struct Walk {
 
 // Adds `EXPR = value` for each expression that is watched.
 static void add_watched(Repl *repl, Bytes *text) {
-    for (size_t i = 0; i < repl->watched_count; i++) {
+    for (size_t i = 0; i < repl->watched.count; i++) {
         PetriResult result;
         SCOPED_BYTES value = {0};
-        const char *expression = repl->watched[i];
-        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, repl_collect, &value);
+        const char *expression = repl->watched.items[i];
+        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, bytes_collect, &value);
         bytes_format(text, "%s = ", expression);
         bytes_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
         bytes_add_text(text, "\n");
@@ -29,7 +29,7 @@ static void add_watched(Repl *repl, Bytes *text) {
 
 // The frame's text; true if there is more to it than its first line.
 static bool describe(Repl *repl, Bytes *text) {
-    petri_print(repl->session, PETRI_PRINT_LOG, repl_collect, text);
+    petri_print(repl->session, PETRI_PRINT_LOG, bytes_collect, text);
     add_watched(repl, text);
     return memchr(text->data, '\n', text->length) != text->data + text->length - 1;
 }
@@ -183,24 +183,15 @@ static bool run_run(Repl *repl, const char *rest) {
 static bool run_until(Repl *repl, const char *rest) {
     SCOPED_TEXT expression = memory_text(rest);
     int64_t limit = repl->limit;
-    bool good = word_limit(repl, expression, &limit);
-    if (good && expression[0] == '\0') {
-        good = repl_fail(repl, ".until needs an expression");
+    if (!word_limit(repl, expression, &limit)) {
+        return false;
+    }
+    if (expression[0] == '\0') {
+        return repl_fail(repl, ".until needs an expression");
     }
     PetriResult result; // of the present frame: whether it is an expression at all
-    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
-    good = good && walk_frames(repl, &(Walk){.count = limit, .until = expression});
-    return good;
-}
-
-// Adds what the first frame of the history is.
-static void add_start(const Repl *repl, Bytes *text) {
-    const char *why = repl->history.why;
-    if (why == NULL) {
-        bytes_format(text, "this is the start");
-    } else {
-        bytes_format(text, "the history begins here (%s)", why);
-    }
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL)) &&
+           walk_frames(repl, &(Walk){.count = limit, .until = expression});
 }
 
 static bool run_back(Repl *repl, const char *rest) {
@@ -211,8 +202,9 @@ static bool run_back(Repl *repl, const char *rest) {
     if (count <= ago) {
         return go_to(repl, petri_frame(repl->session).number - count);
     }
-    SCOPED_BYTES start = {0};
-    add_start(repl, &start);
+    SCOPED_BYTES start = {0}; // what the first frame of the history is
+    const char *why = repl->history.why;
+    bytes_format(&start, why == NULL ? "this is the start" : "the history begins here (%s)", why);
     if (ago > 0) {
         repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
     } else {
@@ -223,9 +215,6 @@ static bool run_back(Repl *repl, const char *rest) {
 
 static bool run_go(Repl *repl, const char *rest) {
     int64_t frame = -1;
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".goto needs the number of a frame");
-    }
     return word_count(repl, rest, -1, &frame) && go_to(repl, frame);
 }
 
@@ -244,12 +233,14 @@ static bool run_reset(Repl *repl, const char *rest) {
 }
 
 const ReplCommand STEP_COMMANDS[] = {
-    {".step", "[N]", "make N frames (1)", run_step, COMPLETE_LANGUAGE},
-    {".run", "[T]", "make frames for T seconds of the script's time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
-    {".until", "EXPR [--limit N]", "make frames until the expression is true, N at the most", run_until,
+    {".step", "[N]", NULL, "make N frames (1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", NULL, "make frames for T seconds of the script's time, or until Ctrl-C", run_run,
      COMPLETE_LANGUAGE},
-    {".back", "[N]", "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
-    {".goto", "FRAME", "go to a frame, back or forward; -1 is before the first", run_go, COMPLETE_LANGUAGE},
-    {".reset", "", "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "an expression", "make frames until the expression is true, N at the most",
+     run_until, COMPLETE_LANGUAGE},
+    {".back", "[N]", NULL, "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
+    {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1 is before the first", run_go,
+     COMPLETE_LANGUAGE},
+    {".reset", "", NULL, "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
     {0},
 };

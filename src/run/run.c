@@ -42,15 +42,10 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
-static bool collect(void *bytes, const char *text, size_t length) {
-    bytes_add(bytes, text, length);
-    return true;
-}
-
 // Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
     SCOPED_BYTES text = {0};
-    petri_print(run->frames.session, sections, collect, &text);
+    petri_print(run->frames.session, sections, bytes_collect, &text);
     const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
     if (end + 1 < text.data + text.length) {
         write_text(run, text.data, text.length);
