@@ -4,10 +4,10 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/args.h"
 #include "cli/bytes.h"
 #include "cli/hints.h"
 #include "cli/new_dish.h"
+#include "cli/options.h"
 
 static bool ends_in(const char *text, const char *end) {
     size_t length = strlen(text), count = strlen(end);
@@ -73,27 +73,8 @@ static int start_script(const Host *host, const char *name) {
     return status;
 }
 
-static int new_run(const Host *host, int argc, char **argv) {
-    Args args = args_start(&NEW_COMMAND, argc, argv);
-    const char *name = NULL;
-    for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
-        if (id == ARG_HELP) {
-            return help_for(&NEW_COMMAND);
-        }
-        if (id == ARG_WRONG) {
-            return STATUS_USAGE;
-        }
-        if (name != NULL) {
-            message("one script is started at a time; '%s' is too many", args.value);
-            return STATUS_USAGE;
-        }
-        name = args.value;
-    }
-    if (name == NULL) {
-        message("a new script needs a name: petri new NAME");
-        return STATUS_USAGE;
-    }
-    return start_script(host, name);
+static int new_run(const Host *host, Options *options) {
+    return start_script(host, options->script);
 }
 
 const Command NEW_COMMAND = {
@@ -103,5 +84,7 @@ const Command NEW_COMMAND = {
     .details =
         "Writes NAME.fl, a dish of drops that a spoon stirs, with comments that say what is what. A file that is\n"
         "there already is left alone.",
+    .needed = "a new script needs a name",
+    .second = "one script is started at a time; '%s' is too many",
     .run = new_run,
 };

@@ -156,15 +156,14 @@ static bool differs_in_suffix(const char *name, const char *script) {
 
 // The script in a folder whose name is nearest; NULL: none is near.
 static const char *nearest_of(const Names *names, const char *name) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = name};
     for (size_t i = 0; i < names->count; i++) {
         if (differs_in_suffix(name, names->items[i])) {
             return names->items[i];
         }
-        nearest = is_nearer(name, names->items[i], &best) ? names->items[i] : nearest;
+        nearest_offer(&nearest, names->items[i]);
     }
-    return nearest;
+    return nearest.name;
 }
 
 // A script of just this name in a folder below this one.

@@ -114,22 +114,23 @@ bool topics_tell(Output *output, const char *topic) {
     return found || (!node_only && tell_owners(output, topic));
 }
 
-const char *topics_nearest(const char *topic, size_t *best) {
-    const char *nearest = NULL;
+void topics_offer(Nearest *nearest) {
+    const char *topic = nearest->word;
     PetriBuiltin builtin;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        nearest = is_nearer(topic, builtin.name, best) ? builtin.name : nearest;
+        nearest_offer(nearest, builtin.name);
     }
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        nearest = is_nearer(topic + (topic[0] == '!'), kind.name, best) ? kind.name : nearest;
+        nearest->word = topic + (topic[0] == '!');
+        nearest_offer(nearest, kind.name);
+        nearest->word = topic;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
-            nearest = is_nearer(topic, attribute.name, best) ? attribute.name : nearest;
+            nearest_offer(nearest, attribute.name);
         }
     }
     for (size_t i = 0; i < TOPIC_COUNT; i++) {
-        nearest = is_nearer(topic, topics[i].word, best) ? topics[i].word : nearest;
+        nearest_offer(nearest, topics[i].word);
     }
-    return nearest;
 }

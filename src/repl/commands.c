@@ -1,6 +1,5 @@
 // commands.c: the commands of the prompt: finding them, telling of them, and those about commands themselves.
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -81,16 +80,17 @@ static void list_nodes(Repl *repl) {
 }
 
 static bool tell_nearest(Repl *repl, const char *topic) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = topic};
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        nearest = is_nearer(topic, command->name + (topic[0] != '.'), &best) ? command->name : nearest;
+        if (nearest_offer(&nearest, command->name + (topic[0] != '.'))) {
+            nearest.name = command->name;
+        }
     }
-    const char *word = topics_nearest(topic, &best);
-    nearest = word != NULL ? word : nearest;
-    return nearest == NULL ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
-                           : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest);
+    topics_offer(&nearest);
+    return nearest.name == NULL
+               ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
+               : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest.name);
 }
 
 static bool run_help(Repl *repl, const char *topic) {
@@ -178,14 +178,13 @@ const ReplCommand OTHER_COMMANDS[] = {
 };
 
 static void unknown(Repl *repl, const char *name) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = name};
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        nearest = is_nearer(name, command->name, &best) ? command->name : nearest;
+        nearest_offer(&nearest, command->name);
     }
-    if (nearest != NULL) {
-        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest);
+    if (nearest.name != NULL) {
+        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest.name);
     } else {
         repl_fail(repl, "there is no command '%.40s'; .help lists the commands", name);
     }

@@ -346,7 +346,7 @@ static void remember(Editor *editor, const Bytes *lines) {
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
-    bool coloured = editor->repl->colour;
+    bool coloured = editor->repl->options->colour;
     snprintf(editor->prompt, sizeof editor->prompt, coloured ? "\1\033[1;32m\1%s\1\033[0m\1" : "%s", prompt);
     int count = 0;
     editor->back = 0;

@@ -201,7 +201,7 @@ static PetriStatus draw_picture(Repl *repl, PetriPicture *picture, uint32_t *pix
 
 static PetriStatus show_picture(Repl *repl, PetriPicture *picture) {
     int columns = 0, rows = 0, width = 0, height = 0;
-    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->colour);
+    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
     if (way == NULL) {
         return PETRI_MEMORY;
     }

@@ -94,8 +94,8 @@ static bool add_options(Repl *repl, Bytes *text, int64_t frames, int64_t every) 
         bytes_format(text, " --every %" PRId64, every);
     }
     bytes_format(text, " --print state,log");
-    if (repl->record_fps) {
-        bytes_format(text, " --fps %.17g", repl->fps);
+    if (repl->options->fps_given) {
+        bytes_format(text, " --fps %.17g", repl->options->fps);
     }
     for (size_t i = 0; i < repl->definitions.count; i++) {
         if (strpbrk(repl->definitions.items[i], " \t\n") != NULL) {

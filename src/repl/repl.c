@@ -62,7 +62,7 @@ void repl_say(Repl *repl, const char *format, ...) {
     va_start(list, format);
     vsnprintf(line, sizeof line, format, list);
     va_end(list);
-    bytes_format(&text, repl->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
+    bytes_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
     output_write(&repl->output, text.data, text.length);
 }
 
@@ -253,35 +253,24 @@ static int run_session(Repl *repl, const char *state) {
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
 
-static int repl_run(const Host *host, int argc, char **argv) {
-    Repl *repl = memory_zeroed(sizeof *repl);
-    Options options;
-    output_start(&repl->output, STDOUT_FILENO);
-    int status = options_read(&options, &REPL_COMMAND, argc, argv);
-    if (status == OPTIONS_READ) {
-        repl->limit = options.limit;
-        repl->colour = options.colour;
-        repl->record_fps = options.fps_given;
-        repl->fps = options.fps;
-        repl->script = options.script == NULL ? NULL : memory_text(options.script);
-        for (size_t i = 0; i < options.definition_count; i++) {
-            texts_add(&repl->definitions, options.definitions[i]);
-        }
-        options.prompt = true;
-        status = options_open(&options, host, on_diagnostic, repl, &repl->session);
+static int repl_run(const Host *host, Options *options) {
+    Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
+    repl.script = options->script == NULL ? NULL : memory_text(options->script);
+    for (size_t i = 0; i < options->definitions.count; i++) {
+        texts_add(&repl.definitions, options->definitions.items[i]);
     }
+    options->prompt = true;
+    int status = options_open(options, host, on_diagnostic, &repl, &repl.session);
     if (status == OPTIONS_READ) {
-        status = output_finish(&repl->output, run_session(repl, options.state_file));
+        status = output_finish(&repl.output, run_session(&repl, options->state_file));
     }
-    options_free(&options);
-    history_free(&repl->history);
-    petri_close(&repl->session);
-    watch_free(repl->files);
-    texts_free(&repl->watched);
-    texts_free(&repl->definitions);
-    free(repl->script);
-    bytes_free(&repl->script_text);
-    free(repl);
+    history_free(&repl.history);
+    petri_close(&repl.session);
+    watch_free(repl.files);
+    texts_free(&repl.watched);
+    texts_free(&repl.definitions);
+    free(repl.script);
+    bytes_free(&repl.script_text);
     return status;
 }
 

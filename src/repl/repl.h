@@ -3,34 +3,31 @@
 #define PETRI_SRC_REPL_H
 
 #include "cli/bytes.h"
-#include "cli/cli.h"
+#include "cli/options.h"
 #include "cli/output.h"
 #include "cli/watch.h"
 #include "petri.h"
 #include "repl/history.h"
 
 typedef struct Repl {
+    Options *options;
     PetriSession *session;
     ReplHistory history;
     Output output;
-    Watch *files;      // NULL: changes are not noticed
-    char *script;      // NULL: none was named
-    bool loaded;       // the script named is the one that is running
-    Bytes script_text; // as it was loaded
-    bool changed;      // the script's files have changed since: it is reloaded before the next step
-    TextList watched;  // expressions that are printed after each step
-    int64_t limit;     // frames that .run and .until make at the most
-    bool terminal;     // a person types and reads
-    bool colour;
+    Watch *files;          // NULL: changes are not noticed
+    char *script;          // NULL: none was named
+    bool loaded;           // the script named is the one that is running
+    Bytes script_text;     // as it was loaded
+    bool changed;          // the script's files have changed since: it is reloaded before the next step
+    TextList watched;      // expressions that are printed after each step
+    bool terminal;         // a person types and reads
     bool utf8;             // other characters than ASCII can be shown
     bool failed;           // the input at hand was in error
     bool any_failed;       // some input was
     bool wrong_definition; // the script cannot take a value that was set
     bool quit;
-    bool incomplete;    // a step was interrupted: of the frame at hand only the state is there
-    bool rates_changed; // .tempo or .fps was used since the script was loaded
-    bool record_fps;    // --fps was given: goldens must say so
-    double fps;
+    bool incomplete;      // a step was interrupted: of the frame at hand only the state is there
+    bool rates_changed;   // .tempo or .fps was used since the script was loaded
     TextList definitions; // of -D and .set, as given
 } Repl;
 

@@ -167,7 +167,7 @@ static bool run_step(Repl *repl, const char *rest) {
 static bool run_run(Repl *repl, const char *rest) {
     double seconds = 0;
     if (rest[0] == '\0') {
-        return walk_frames(repl, &(Walk){.count = repl->limit, .limited = true});
+        return walk_frames(repl, &(Walk){.count = repl->options->limit, .limited = true});
     }
     if (!word_number(repl, rest, &seconds)) {
         return false;
@@ -176,13 +176,13 @@ static bool run_run(Repl *repl, const char *rest) {
         return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
     }
     double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
-    bool limited = frames > (double)repl->limit;
-    return walk_frames(repl, &(Walk){.count = limited ? repl->limit : (int64_t)frames, .limited = limited});
+    bool limited = frames > (double)repl->options->limit;
+    return walk_frames(repl, &(Walk){.count = limited ? repl->options->limit : (int64_t)frames, .limited = limited});
 }
 
 static bool run_until(Repl *repl, const char *rest) {
     SCOPED_TEXT expression = memory_text(rest);
-    int64_t limit = repl->limit;
+    int64_t limit = repl->options->limit;
     if (!word_limit(repl, expression, &limit)) {
         return false;
     }
