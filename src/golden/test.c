@@ -253,7 +253,8 @@ const Command TEST_COMMAND = {
         "script must be rejected with an error in that line. Each script runs in the folder that it is in.\n\n"
         "To make a golden, write its first line and let petri write the rest:\n\n"
         "  echo '# run --frames 61 --every 20 --print state' >dish.golden\n"
-        "  petri test --update dish.fl",
+        "  petri test --update dish.fl\n\n"
+        "With --print hash a golden of many particles has one line a frame: the SHA-256 of the state.",
     .examples = "  petri test .                                    all scripts here that have a golden\n"
                 "  petri test --update dish.fl                     its golden becomes what it prints now\n",
     .needed = "nothing to test",

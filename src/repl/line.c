@@ -34,13 +34,13 @@ void line_reader_free(LineReader *reader) {
 
 LineWait line_wait(Repl *repl) {
     for (;;) {
+        if (repl_interrupted()) {
+            return WAIT_INTERRUPTED; // before this call, which would not wake
+        }
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {-1, POLLIN, 0}};
         files[1].fd = repl->files == NULL ? -1 : watch_descriptor(repl->files);
         int ready = poll(files, 2, repl->files != NULL && files[1].fd < 0 ? 200 : -1);
         if (ready < 0 && errno == EINTR) {
-            if (repl_interrupted()) {
-                return WAIT_INTERRUPTED;
-            }
             continue;
         }
         if (files[0].revents != 0 || ready < 0) {
