@@ -223,8 +223,7 @@ static void update_systems(PetriSession *session, void *context) {
                         .performance = session->clock.wall.performance,
                         .lockstep = !session->clock.realtime,
                         .generation = session->loader.generation,
-                        .resolution = session->config.resolution,
-                        .meter = &session->meter};
+                        .resolution = session->config.resolution};
     made->physics_steps = scene_update(session->scene, made->tree, &frame);
     made->physics_seconds = clock_monotonic() - start;
 }

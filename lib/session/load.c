@@ -85,8 +85,10 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     return ast_new(&unit->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
-// Memory that evaluating one expression ahead may take.
+// Memory and work that evaluating one expression ahead may take, and the work of all in a load: what is beyond is done
+// in the frames.
 #define STATIC_BUDGET ((size_t)1 << 29)
+enum { STATIC_WORK = 1 << 24, MOST_STATIC_WORK = 1 << 26 };
 
 typedef struct Ahead {
     const Code *code;
@@ -107,10 +109,16 @@ static bool host_evaluate(void *host, const Code *code, Value *value) {
     Ahead ahead = {.code = code};
     if (arena->budget - arena->used > STATIC_BUDGET)
         arena->budget = arena->used + STATIC_BUDGET;
+    Meter *meter = &session->meter, whole = *meter;
+    uint64_t left = session->loader.ahead < MOST_STATIC_WORK ? MOST_STATIC_WORK - session->loader.ahead : 0;
+    meter_begin(meter, left < STATIC_WORK ? left : STATIC_WORK, meter->interrupt);
     PetriStatus status = session_protect(session, arena, evaluate_ahead, &ahead);
     arena->budget = budget;
-    if (status == PETRI_MEMORY)
-        arena_exhausted(arena);
+    session->loader.ahead += meter->work;
+    meter_begin(meter, whole.work_limit, whole.interrupt);
+    meter->work = whole.work;
+    if (status == PETRI_MEMORY || status == PETRI_INTERRUPTED)
+        arena_leave(arena, status == PETRI_MEMORY ? ARENA_MEMORY : ARENA_INTERRUPTED);
     bool done = status == PETRI_OK && ahead.done;
     *value = done ? ahead.value : VALUE_NULL;
     return done;

@@ -12,15 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LINES = 10000, PIECE = 64 << 10 };
-
-// Text on its way to the host.
-typedef struct Writing {
-    PetriWrite *write;
-    void *host;
-    Text text;
-    bool stopped;
-} Writing;
+enum { MOST_LINES = 10000 };
 
 // One statement at work. What is known after an escape is here, not in locals.
 typedef struct Job {
@@ -183,12 +175,6 @@ static PetriStatus begin(PetriSession *session, const char *text, size_t length,
     return job->unit->ast ? petri_preview(session) : PETRI_INVALID;
 }
 
-static void flush(Writing *out) {
-    if (out->text.len && !out->stopped && out->write)
-        out->stopped = !out->write(out->host, out->text.bytes, out->text.len);
-    out->text.len = 0;
-}
-
 static bool all_nodes(Value v) {
     bool all = v.kind == VALUE_MIXED;
     for (uint32_t i = 0; all && i < v.len; i++)
@@ -201,12 +187,9 @@ static void write_value(PetriSession *session, Writing *out, Value v) {
         format_value(&out->text, &session->symbols, v);
         text_add_char(&out->text, '\n');
     }
-    for (uint32_t i = 0; all_nodes(v) && i < v.len && !out->stopped; i++) {
-        format_tree(&out->text, &session->symbols, v.as.items[i].as.node, 0);
-        if (out->text.len >= PIECE)
-            flush(out);
-    }
-    flush(out);
+    for (uint32_t i = 0; all_nodes(v) && i < v.len && !out->stopped; i++)
+        writing_tree(out, &session->symbols, v.as.items[i].as.node);
+    writing_flush(out);
 }
 
 // What a statement has said.
@@ -219,7 +202,7 @@ static void write_log(PetriSession *session, void *context) {
         text_add(&out->text, job->log.items[i].text);
         text_add_char(&out->text, '\n');
     }
-    flush(out);
+    writing_flush(out);
 }
 
 static bool binds(const Ast *ast) {
@@ -391,7 +374,7 @@ static void write_line(PetriSession *session, void *context) {
     Job *job = context;
     job->out.text = text_new(&session->prompt.arena);
     format_value(&job->out.text, &session->symbols, job->value);
-    flush(&job->out);
+    writing_flush(&job->out);
 }
 
 PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,

@@ -360,6 +360,7 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;
+    session->loader.ahead = 0;
     PetriStatus status = session_protect(session, NULL, make_unit, load);
     if (status == PETRI_OK && load->unit->program) {
         adopt(session, load, session->config.program ? purpose : LOAD_AFRESH);

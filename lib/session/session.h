@@ -17,6 +17,7 @@
 #include "session/prompt.h"
 #include "session/shown.h"
 #include "session/unit.h"
+#include "session/writing.h"
 #include "vm/vm.h"
 
 // The present configuration. Whoever changes it calls session_change_config.

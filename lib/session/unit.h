@@ -34,6 +34,7 @@ typedef struct Loader {
     Unit *begun;         // the script or text being loaded, for when its memory runs out
     Unit *compiling;     // whose compiler calls back
     bool lint;           // petri_check is at work
+    uint64_t ahead;      // work of evaluating ahead in this load
 } Loader;
 
 // The names that a program is given values for.

@@ -16,6 +16,9 @@ typedef struct StateEntry {
     StateLender lender;
 } StateEntry;
 
+// What a slot takes besides its key and value: the entry and its part of the index, both with room to grow.
+#define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(IndexSlot)))
+
 struct State {
     StateEntry *entries;
     uint32_t count; // slots, empty ones included
@@ -145,6 +148,7 @@ static void disown(State *state, StateEntry *entry) {
 void state_clear(State *state) {
     for (uint32_t i = 0; i < state->count; i++)
         disown(state, &state->entries[i]);
+    meter_give(state->meter, state->count * SLOT_BYTES);
     state->count = state->live = 0;
     index_clear(&state->index);
     arena_reset(&state->keys);
@@ -159,7 +163,6 @@ void state_free(State *state) {
     index_free(&state->index);
     arena_free(&state->keys);
     free(state->disturbed);
-    meter_give(state->meter, state->capacity * sizeof *state->entries);
     free(state->entries);
     free(state);
 }
@@ -221,24 +224,17 @@ StateSlot state_slot(State *state, Value key) {
     uint32_t found = find(state, key, hash);
     if (found != INDEX_NONE)
         return found;
-    if (state->count == state->capacity) {
-        uint32_t capacity = state->capacity ? state->capacity * 2 : 16;
-        size_t more = (capacity - state->capacity) * sizeof(StateEntry);
-        if (!meter_take(state->meter, more))
-            return exhausted(state), STATE_NO_SLOT;
-        StateEntry *entries = realloc(state->entries, capacity * sizeof *entries);
-        if (!entries) {
-            meter_give(state->meter, more);
-            return exhausted(state), STATE_NO_SLOT;
-        }
-        state->entries = entries;
-        state->capacity = capacity;
-    }
     StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
-    if (!index_add(&state->index, hash, state->count))
+    if (!meter_take(state->meter, SLOT_BYTES))
         return exhausted(state), STATE_NO_SLOT;
+    if (!heap_reserve((void **)&state->entries, &state->capacity, state->count, sizeof entry) ||
+        !index_add(&state->index, hash, state->count)) {
+        meter_give(state->meter, SLOT_BYTES);
+        return exhausted(state), STATE_NO_SLOT;
+    }
     if (!own_key(&state->keys, &entry.key, key)) {
         index_remove(&state->index, hash, state->count);
+        meter_give(state->meter, SLOT_BYTES);
         return exhausted(state), STATE_NO_SLOT;
     }
     state->entries[state->count] = entry;
@@ -395,6 +391,7 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
     arena_free(&state->keys);
     state->index = index;
     state->keys = keys;
+    meter_give(state->meter, (state->count - count) * SLOT_BYTES);
     state->count = count;
     return true;
 }

@@ -134,7 +134,7 @@ bool value_contains(Arena *arena, Value x, Value y) {
         uint32_t i = 0;
         for (; i < x.len; i++) {
             if (looked_at++ >= METER_PORTION && arena) {
-                arena_charge(arena, METER_PORTION / 4);
+                arena_charge(arena, METER_PORTION / 2);
                 looked_at = 0;
             }
             if (!equal_items(&comparison, value_at(&x, i), value_at(&y, start + i)))

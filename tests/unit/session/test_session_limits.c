@@ -7,7 +7,7 @@ static void test_work(void **state) {
     assert_int_equal(player_load(player, "!counter state=:c\nlet v=..20000\n!a v=(frame if 0 for y in v for x in v)\n"),
                      PETRI_OK);
     assert_int_equal(petri_step(player->session), PETRI_LIMIT);
-    assert_non_null(strstr(player_told(player), "more than 134217728 calls and loop rounds"));
+    assert_non_null(strstr(player_told(player), "the frame takes more than its 134217728 units of work; it is given up [work-limit]"));
     assert_text("state", player_state(player), "");
     player_run(player, "!a v=1\n", 1);
     assert_text("goes on", player_tree(player), "!a v=1\n");

@@ -6,7 +6,7 @@
 // One line per node, as text.
 static const char *tree(World *world, const Node *node) {
     Text text = text_new(&world->arena);
-    format_tree(&text, &world->symbols, node, 0);
+    format_tree(&text, &world->symbols, node, 0, NULL, NULL);
     return text_c(&text);
 }
 

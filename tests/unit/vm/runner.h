@@ -158,7 +158,7 @@ static inline const char *runner_tree(Runner *runner) {
     Text text = text_new(&runner->world.arena);
     for (uint32_t i = 0; runner->result.kind == VALUE_MIXED && i < runner->result.len; i++)
         if (runner->result.as.items[i].type == ITEM_NODE)
-            format_tree(&text, &runner->world.symbols, runner->result.as.items[i].as.node, 0);
+            format_tree(&text, &runner->world.symbols, runner->result.as.items[i].as.node, 0, NULL, NULL);
     return text_c(&text);
 }
 
