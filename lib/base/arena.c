@@ -37,6 +37,12 @@ void arena_free(Arena *arena) {
     arena->used = 0;
 }
 
+void arena_release(Arena *arena) {
+    for (const ArenaBlock *block = arena->first; block; block = block->next)
+        meter_give(arena->meter, sizeof *block + block->capacity);
+    arena->meter = NULL;
+}
+
 static void block_truncate(ArenaBlock *block, size_t fill) {
 #ifndef __OPTIMIZE__
     UNPOISON(block->bytes + fill, block->capacity - fill);

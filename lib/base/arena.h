@@ -79,6 +79,9 @@ void arena_init(Arena *arena, const char *name, size_t budget);
 // Returns all blocks to the system.
 void arena_free(Arena *arena);
 
+// What the arena holds is charged to nobody from here on.
+void arena_release(Arena *arena);
+
 // Drops everything allocated since the last reset but keeps the blocks. Unoptimised and sanitizer builds poison the
 // bytes.
 void arena_reset(Arena *arena);

@@ -71,8 +71,8 @@ typedef struct PetriOptions {
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
-    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
-    // only evaluation is interrupted.
+    // by petri_interrupt or because work or memory is used up, as if it had never been begun. Default false: then each
+    // system has made that frame or stays as it was, which is for hosts that end there.
     bool interruptible;
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
@@ -187,8 +187,8 @@ PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
 PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
 bool petri_key_bound(PetriSession *session, const char *name);
-// Asks for an end of the petri_step, petri_prompt or petri_evaluate that is under way, or of the next one: it returns
-// PETRI_INTERRUPTED, soon. The one function that may be called from a signal handler or from another thread.
+// Asks for an end of what is under way (or of the next): a step, a load, a picture, a text that is printed or evaluated
+// returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or from another thread.
 void petri_interrupt(PetriSession *session);
 // Whether such a wish has not been met yet; forgets it.
 bool petri_interrupted(PetriSession *session);

@@ -126,10 +126,11 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
 }
 
 // Number of nodes below, up to a limit: decides whether vectors of so many dimensions can be held at all.
-static uint64_t count_nodes(const Node *node) {
+static uint64_t count_nodes(Arena *arena, const Node *node) {
     uint64_t count = node->child_count;
+    arena_charge(arena, 1 + count);
     for (uint32_t i = 0; i < node->child_count; i++)
-        count += count_nodes(node->children[i]);
+        count += count_nodes(arena, node->children[i]);
     return count;
 }
 
@@ -137,7 +138,7 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     enum { MAX_UNCOUNTED = 64, COPIES = 16 };
     if (settings->dimensions <= MAX_UNCOUNTED)
         return true;
-    double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->node) + 1);
+    double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->arena, reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
     reader_report(reader, "skipped-system", "",

@@ -107,7 +107,9 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
 }
 
 static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t group) {
+    enum { NODE_WORK = 16 };
     for (uint32_t i = 0; i < parent->child_count; i++) {
+        arena_charge(tree->frame->arena, NODE_WORK);
         const Node *child = parent->children[i];
         switch (schema_kind(tree->scene->schema, child)) {
         case KIND_PARTICLE:
@@ -245,6 +247,7 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
         NodeKind kind = schema_kind(tree->scene->schema, child);
+        arena_charge(tree->frame->arena, 1);
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {

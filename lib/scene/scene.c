@@ -83,10 +83,6 @@ bool scene_take_stopped(Scene *scene, ArenaEnd *end) {
     return how != METER_GOES_ON;
 }
 
-Origin scene_place(const Scene *scene) {
-    return scene->at ? node_place(scene->at, NULL) : (Origin){0};
-}
-
 Input *scene_input(Scene *scene) {
     return &scene->input;
 }
@@ -155,7 +151,7 @@ static uint64_t update_kind(Scene *scene, NodeKind kind, Value tree, uint32_t fr
         scene->stopped = meter_charge(scene->meter, 1);
         if (scene->stopped != METER_GOES_ON)
             break;
-        scene->at = item->as.node;
+        scene->schema->at = item->as.node;
         if (kind == KIND_PHYSICS)
             steps += physics_update(scene, item->as.node, frame);
         else
@@ -170,7 +166,6 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     bool done[KIND_COUNT] = {false};
     uint64_t steps = 0;
     scene->frame_number++;
-    scene->at = NULL;
     scene->stopped = METER_GOES_ON;
     drop_absent(scene, frame);
     tidy_state(scene, frame);

@@ -68,7 +68,5 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 bool scene_take_exhausted(Scene *scene);
 // Whether the arena's meter has ended the last update, half-way, and how.
 bool scene_take_stopped(Scene *scene, ArenaEnd *end);
-// Where the node is that was being updated when an update broke off; the source is NULL if that is unknown.
-Origin scene_place(const Scene *scene);
 
 #endif

@@ -56,7 +56,6 @@ struct Scene {
     ForceAttrs forces_before[PHYS_FORCE_KINDS];
     bool exhausted; // see scene_take_exhausted
     MeterAnswer stopped;
-    const Node *at; // the node that is being updated, or NULL
     Meter *meter;
     Input input;
     PhysicsSystem *systems;

@@ -5,6 +5,7 @@
 #include "syntax/parse.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define MAX_SOURCE_BYTES ((size_t)256 << 20)
 enum { MOST_ERRORS = 50 };
@@ -206,9 +207,19 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
     return unit;
 }
 
+static Unit **chain_of(PetriSession *session, Str path) {
+    return &session->loader.by_path[(hash_bytes(0, path.bytes, path.len) >> 32) % MODULE_CHAINS];
+}
+
+static void chain(PetriSession *session, Unit *unit) {
+    Unit **first = chain_of(session, unit->path);
+    unit->same_hash = *first;
+    *first = unit;
+}
+
 // The cached module at a canonical path, if its file has not changed since.
 static Unit *cached_module(PetriSession *session, Str path, Str version) {
-    for (Unit *unit = session->loader.modules; unit; unit = unit->next) {
+    for (Unit *unit = *chain_of(session, path); unit; unit = unit->same_hash) {
         if (unit->retired || !str_equal(unit->path, path))
             continue;
         if (str_equal(unit->version, version))
@@ -234,7 +245,7 @@ const Program *session_module(void *host, Str path, Str *why) {
     }
     Unit *unit = cached_module(session, file_canonical(&session->frame.arena, file), version);
     if (!unit)
-        unit = session_put(session, unit_load_file(session, file, true));
+        chain(session, unit = session_put(session, unit_load_file(session, file, true)));
     *why = unit->why;
     return unit->program;
 }
@@ -252,6 +263,7 @@ const char *petri_source(PetriSession *session, size_t number) {
 }
 
 void session_free_retired(PetriSession *session) {
+    bool any = false;
     for (Unit **link = &session->loader.modules; *link;) {
         Unit *unit = *link;
         if (!unit->retired) {
@@ -260,5 +272,11 @@ void session_free_retired(PetriSession *session) {
         }
         *link = unit->next;
         unit_free(unit);
+        any = true;
     }
+    if (!any)
+        return;
+    memset(session->loader.by_path, 0, sizeof session->loader.by_path);
+    for (Unit *unit = session->loader.modules; unit; unit = unit->next)
+        chain(session, unit);
 }

@@ -108,6 +108,7 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     if (session->calls++ == 0) {
         meter_begin(&session->meter, session->options.work, session->steadfast ? NULL : &session->interrupt);
         session->vm.at = NULL;
+        session->schema.at = NULL;
     }
     ArenaEnd end = arena_protect(arenas, sizeof arenas / sizeof *arenas, make_call, &made);
     session->calls--;
@@ -136,7 +137,8 @@ PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const ch
         snprintf(text, sizeof text, "%s needs more than its %zu MiB of memory; it is given up", what,
                  session->options.memory_bytes >> 20);
     Diag diag = {.level = DIAG_ERROR, .text = str_from(text), .code = work ? "work-limit" : "memory-limit"};
-    Origin place = session->vm.at ? *session->vm.at : scene_place(session->scene);
+    Origin place = session->vm.at ? *session->vm.at
+                   : session->schema.at ? node_place(session->schema.at, NULL) : (Origin){0};
     if (status == PETRI_LIMIT) {
         diag.source = place.source;
         diag.span = place.span;

@@ -80,9 +80,6 @@ struct PetriSession {
 
 // An arena that is charged to the session.
 void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget);
-// Tells that a protected call for "the frame" or the like was given up for want of memory or work, and where; takes a
-// wish for an end as met. Returns the status.
-PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const char *what);
 
 // Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
 bool session_heal(PetriSession *session);

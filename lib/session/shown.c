@@ -11,7 +11,8 @@ Shown session_shown(PetriSession *session) {
                    .scene = session->scene,
                    .state = session->state,
                    .directory = program ? program->source->directory : STR(""),
-                   .memory_bytes = session->options.memory_bytes};
+                   .memory_bytes = session->options.memory_bytes,
+                   .meter = &session->meter};
 }
 
 bool petri_drawable(PetriSession *session) {

@@ -11,6 +11,7 @@
 typedef struct Unit Unit;
 struct Unit {
     Unit *next;
+    Unit *same_hash; // the next module of a chain
     Arena arena;   // to be used through unit_arena
     Arena scratch; // while it is compiled: syntax tree, expressions
     Str path;      // canonical; NUL-terminated
@@ -28,8 +29,10 @@ struct Unit {
     bool retired;        // not finished, or replaced; freed when no frame can refer to it any more
 };
 
+enum { MODULE_CHAINS = 1024 };
 typedef struct Loader {
     Unit *modules;       // list
+    Unit *by_path[MODULE_CHAINS]; // the same, by hash of their paths
     uint64_t generation; // counts the units that frames came to depend on (session_put)
     Unit *begun;         // the script or text being loaded, for when its memory runs out
     Unit *compiling;     // whose compiler calls back

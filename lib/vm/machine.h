@@ -36,6 +36,7 @@ typedef struct Frame {
 struct ImportLink {
     const ImportLink *outer;
     const Source *source;
+    uint32_t depth; // 0: the main program
 };
 
 // A frame for a code; its slots are not cleared.

@@ -65,7 +65,7 @@ static void begin(Vm *vm, const char *stack_base) {
 
 Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports) {
     begin(vm, __builtin_frame_address(0));
-    ImportLink self = {NULL, program->source};
+    ImportLink self = {NULL, program->source, 0};
     vm->imports = &self;
     vm->builtins.directory = program->source->directory;
     vm_memo_begin(vm, program->place_count);
@@ -80,6 +80,7 @@ Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports)
     for (uint32_t i = 0; exports && i < program->export_count; i++)
         exports[i] = frame.slots[program->exports[i].slot];
     vm->imports = NULL;
+    vm->at = NULL;
     return result;
 }
 
@@ -103,9 +104,12 @@ static bool being_imported(const Vm *vm, const Source *source) {
     return false;
 }
 
+enum { IMPORT_WORK = 100 }; // its file is looked at
+
 // Evaluates a module in a frame of its own, with only the built-ins visible and without state (L13.2).
 static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
-    ImportLink link = {vm->imports, module->source};
+    ImportLink link = {vm->imports, module->source, vm->imports->depth + 1};
+    vm_work(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);
     const State *state = vm->state;
     Str directory = vm->builtins.directory;
     ArenaMark mark = arena_mark(&vm->slots);
@@ -146,7 +150,7 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
                  why.bytes);
     } else if (being_imported(vm, module->source)) {
         vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", (int)path.len, path.bytes);
-    } else if (!vm_stack_left(vm)) {
+    } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !vm_stack_left(vm)) {
         vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");
     } else {
         run_module(vm, frame, module, instr);

@@ -15,6 +15,7 @@
 enum {
     VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
     VM_CALL_DEPTH = 8192,   // nested calls of user functions
+    VM_IMPORT_DEPTH = 500,  // modules that import each other in turn
     VM_REPORTED = 1024,     // distinct faults that one frame reports; a power of two
 };
 

@@ -295,7 +295,8 @@ int options_open(const Options *options, const Host *host,
     wanted.threads = (int)options->threads;
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
-    wanted.keep_forces = wanted.interruptible = options->prompt;
+    wanted.keep_forces = options->prompt;
+    wanted.interruptible = options->prompt || options->state_file != NULL; // the state of whole frames only is kept
     wanted.profile = options->profile;
     wanted.memory_bytes = options->memory > 0 ? options->memory : wanted.memory_bytes;
     wanted.work = options->work > 0 ? options->work : wanted.work;

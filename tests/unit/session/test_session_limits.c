@@ -27,7 +27,7 @@ static void test_memory(void **state) {
     assert_text("before", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_int_equal(petri_step(player->session), PETRI_LIMIT);
     assert_text("told", player_told(player),
-                "error the frame needs more than its 1 MiB of memory; it is given up [memory-limit]\n");
+                "error t.fl:2:10 the frame needs more than its 1 MiB of memory; it is given up [memory-limit]\n");
     assert_text("unchanged", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_text("no tree", player_tree(player), "");
     assert_int_equal(petri_frame(player->session).number, 1);
