@@ -19,9 +19,10 @@ double scene_number(const State *state, StateSlot slot, double fallback) {
 }
 
 // The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
-static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence) {
+static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
     *occurrence = 0;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        arena_charge(arena, 4); // they lie anywhere in memory
         if (system->start != start)
             continue;
         if (system->seen != scene->frame_number)
@@ -32,7 +33,7 @@ static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t
 }
 
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
-    PhysicsSystem *system = calloc(1, sizeof *system);
+    PhysicsSystem *system = meter_take(scene->meter, PHYSICS_SYSTEM_BYTES) ? calloc(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
     PhysicsSystem **end = &scene->systems;
@@ -49,6 +50,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
         .clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock)),
         .last = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_last)),
         .engine = phys_new(),
+        .meter = scene->meter,
     };
     if (system->engine)
         phys_set_options(system->engine, &scene->physics);
@@ -68,7 +70,7 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     if (start == STATE_NO_SLOT)
         return NULL;
     uint32_t occurrence;
-    PhysicsSystem *system = known_system(scene, start, &occurrence);
+    PhysicsSystem *system = known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return new_system(scene, start, occurrence, frame);
     note_absence(scene, system, frame->state);
@@ -234,7 +236,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
 static void keep_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
-    PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence);
+    PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return;
     note_absence(scene, system, frame->state);

@@ -30,6 +30,7 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
 }
 
 static void free_system(PhysicsSystem *system) {
+    meter_give(system->meter, PHYSICS_SYSTEM_BYTES);
     phys_free(system->engine);
     mirror_free(&system->mirror);
     free(system->nodes);

@@ -143,7 +143,10 @@ PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const ch
         diag.source = place.source;
         diag.span = place.span;
     }
+    size_t limit = session->meter.memory_limit;
+    session->meter.memory_limit = SIZE_MAX; // to tell that memory is used up takes some
     session_tell(session, &diag);
+    session->meter.memory_limit = limit;
     return status;
 }
 

@@ -121,7 +121,7 @@ bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int de
 }
 
 static void format_debug_node(Text *out, const SymbolTable *symbols, const Node *node, int depth) {
-    arena_charge(out->arena, 2 + (unsigned)depth / 32);
+    arena_charge(out->arena, 4 + (unsigned)depth / 4);
     for (int i = 0; i < depth; i++)
         text_add_char(out, ' ');
     format_head(out, symbols, node, format_debug);
