@@ -15,6 +15,8 @@ typedef struct Str {
 } Str;
 
 #define STR(literal) ((Str){literal, sizeof(literal) - 1})
+// What the format %.*s takes.
+#define STR_ARGS(str) (int)(str).len, (str).bytes
 
 Str str_from(const char *text);
 bool str_equal(Str a, Str b);

@@ -7,18 +7,18 @@
 #include <string.h>
 
 const Builtin builtin_table[] = {
-#define BUILTIN(name, function, parameters, required, fixed, variadic, named, pure, help)                              \
-    {name, function, parameters, required, fixed, variadic, named, pure, help},
+#define BUILTIN(name, parameters, required, fixed, variadic, named, pure, help)                                        \
+    {#name, builtin_##name, parameters, required, fixed, variadic, named, pure, help},
 #include "builtin/builtin_list.h"
 #undef BUILTIN
 };
-const uint32_t builtin_count = sizeof builtin_table / sizeof builtin_table[0];
+const uint32_t builtin_table_count = sizeof builtin_table / sizeof builtin_table[0];
 
 // No row has more parameters before "...", which a test checks.
 enum { MOST_FIXED = 8 };
 
 const Builtin *builtin_find(Str name) {
-    uint32_t low = 0, high = builtin_count;
+    uint32_t low = 0, high = builtin_table_count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         int order = str_compare(str_from(builtin_table[middle].name), name);

@@ -39,7 +39,7 @@ typedef struct Builtin {
 } Builtin;
 
 extern const Builtin builtin_table[];
-extern const uint32_t builtin_count;
+extern const uint32_t builtin_table_count;
 
 // The row of a name, or NULL.
 const Builtin *builtin_find(Str name);

@@ -6,7 +6,7 @@
 
 #include "base/cpu.h"
 
-#define BUILTIN(name, function, ...) BuiltinCall function;
+#define BUILTIN(name, ...) BuiltinCall builtin_##name;
 #include "builtin/builtin_list.h"
 #undef BUILTIN
 

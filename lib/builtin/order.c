@@ -222,7 +222,7 @@ static uint32_t census_count(const Census *census, Item item) {
     return found;
 }
 
-Value builtin_count_equal(BuiltinContext *context, const Value *args, uint32_t count) {
+Value builtin_count(BuiltinContext *context, const Value *args, uint32_t count) {
     Arena *arena = context->arena;
     if (args[0].len == 0)
         return VALUE_NULL;

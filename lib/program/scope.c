@@ -207,11 +207,11 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
     }
     for (uint32_t i = 0; !compiler->options->module && i < ENGINE_NAME_COUNT; i++)
         consider(&nearest, str_from(engine_names[i].name));
-    for (uint32_t i = 0; i < builtin_count; i++)
+    for (uint32_t i = 0; i < builtin_table_count; i++)
         consider(&nearest, str_from(builtin_table[i].name));
     if (!nearest.name.len)
         return (Str){0};
-    return str_format(compiler->arena, "did you mean '%.*s'?", (int)nearest.name.len, nearest.name.bytes);
+    return str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.name));
 }
 
 // What the author of an unbound name may have meant; empty if nothing comes to mind.
@@ -221,10 +221,10 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
         if (str_word_number(name, habits[i].names) >= 0)
             return habits[i].hint;
     if (compiler->subject == ast)
-        return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
+        return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)
         return str_format(compiler->arena, "$ looks a key of the state up, such as $:%.*s; a name stands without it",
-                          (int)name.len, name.bytes);
+                          STR_ARGS(name));
     Str nearest = nearest_name(compiler, name);
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
 }
@@ -239,7 +239,7 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
         return expr;
     }
     compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
-                   str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
+                   str_format(compiler->arena, "unbound name '%.*s' is null", STR_ARGS(name)),
                    unbound_hint(compiler, ast));
     return compile_constant(compiler, ast, VALUE_NULL);
 }

@@ -59,7 +59,7 @@ static void add_known_by(Text *out, const Reader *reader, AttrRow row) {
 void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text) {
     Schema *schema = reader->schema;
     Text out = text_new(reader->arena);
-    text_add_format(&out, "!%.*s", (int)reader->node->kind->name.len, reader->node->kind->name.bytes);
+    text_add_format(&out, "!%.*s", STR_ARGS(reader->node->kind->name));
     add_known_by(&out, reader, ROW_PARTICLE_ID);
     add_known_by(&out, reader, ROW_PHYSICS_STATE);
     schema->reports++;
@@ -103,7 +103,7 @@ static void report_unknown(const Reader *reader, const Symbol *name) {
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
         try_name(&nearest, schema_names[schema_rows[i].name]);
     Text out = text_new(reader->arena);
-    text_add_format(&out, "unknown attribute '%.*s'", (int)name->name.len, name->name.bytes);
+    text_add_format(&out, "unknown attribute '%.*s'", STR_ARGS(name->name));
     if (nearest.text)
         text_add_format(&out, ", did you mean '%s'?", nearest.text);
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
@@ -122,7 +122,7 @@ static void add_hex(Text *out, Value found) {
     Text colour = text_new(out->arena);
     if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
         text_add_hex_colour(&colour, found.as.items[0].as.string->text))
-        text_add_format(out, ", did you mean %.*s?", (int)colour.len, colour.bytes);
+        text_add_format(out, ", did you mean %.*s?", STR_ARGS(colour));
 }
 
 static void add_wanted(Text *out, const Reader *reader, const TypeRow *type) {

@@ -32,14 +32,14 @@ void session_look_at_top(PetriSession *session) {
         if (!nearest.len)
             continue;
         Origin place = node_place(item->as.node, NULL);
-        session_tell(session, &(Diag){.level = DIAG_WARNING,
-                                      .source = place.source,
-                                      .span = place.span,
-                                      .text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing",
-                                                         (int)kind.len, kind.bytes),
-                                      .hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?",
-                                                         (int)nearest.len, nearest.bytes),
-                                      .code = "unknown-node"});
+        session_tell(
+            session,
+            &(Diag){.level = DIAG_WARNING,
+                    .source = place.source,
+                    .span = place.span,
+                    .text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing", STR_ARGS(kind)),
+                    .hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?", STR_ARGS(nearest)),
+                    .code = "unknown-node"});
     }
 }
 
