@@ -79,33 +79,18 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
 }
 
-// The candidate that is nearest to a name so far.
-typedef struct Nearest {
-    Str name;
-    int least;
-    const char *text;
-} Nearest;
-
 static Nearest nearest_to(Str name) {
-    return (Nearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, NULL}; // long names may be further off
-}
-
-static void try_name(Nearest *nearest, const char *candidate) {
-    int distance = str_distance(nearest->name, str_from(candidate));
-    if (distance < nearest->least) {
-        nearest->least = distance;
-        nearest->text = candidate;
-    }
+    return (Nearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may be further off
 }
 
 static void report_unknown(const Reader *reader, const Symbol *name) {
     Nearest nearest = nearest_to(name->name);
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
-        try_name(&nearest, schema_names[schema_rows[i].name]);
+        str_try_nearest(&nearest, str_from(schema_names[schema_rows[i].name]));
     Text out = text_new(reader->arena);
     text_add_format(&out, "unknown attribute '%.*s'", STR_ARGS(name->name));
-    if (nearest.text)
-        text_add_format(&out, ", did you mean '%s'?", nearest.text);
+    if (nearest.found.len)
+        text_add_format(&out, ", did you mean '%.*s'?", STR_ARGS(nearest.found));
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
 }
 
@@ -113,9 +98,9 @@ void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *b
     Nearest nearest = nearest_to(kind);
     for (int i = 0; i < KIND_COUNT; i++)
         if (schema_kinds[i].place == place || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
-            try_name(&nearest, schema_kinds[i].name);
-    if (nearest.text)
-        text_add_format(out, ", did you mean %s%s%s?", before, nearest.text, after);
+            str_try_nearest(&nearest, str_from(schema_kinds[i].name));
+    if (nearest.found.len)
+        text_add_format(out, ", did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
 }
 
 static void add_hex(Text *out, Value found) {

@@ -157,16 +157,16 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 
 // The parameter whose name is nearest to one that is not there, or NULL.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
-    const Parameter *nearest = NULL;
-    int best = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
-    for (uint32_t i = 0; i < program->parameter_count; i++) {
-        int distance = str_distance(name, program->parameters[i].name->name);
-        if (distance < best) {
-            best = distance;
-            nearest = &program->parameters[i];
-        }
-    }
-    return nearest;
+    const Parameter *found = NULL;
+    Nearest nearest = {name,
+                       name.len < 2   ? 1
+                       : name.len < 4 ? 2
+                                      : 3,
+                       {0}}; // names of one letter are near to all others
+    for (uint32_t i = 0; i < program->parameter_count; i++)
+        if (str_try_nearest(&nearest, program->parameters[i].name->name))
+            found = &program->parameters[i];
+    return found;
 }
 
 // A text followed by the names of all parameters.
