@@ -53,11 +53,19 @@ KERNEL void blocks(const PairPass *pass, PairShape shape, const ListView *view, 
         block_forces(pass, shape, view, block);
 }
 
-// The most frequent case without its loop over forces.
+static bool all_plain(const PairPass *pass) {
+    bool plain = true;
+    for (size_t t = 0; t < pass->term_count; t++)
+        plain &= power_is_plain(pass->terms[t].power);
+    return plain;
+}
+
 #define LIST_KERNEL(n)                                                                                                 \
     static void forces_##n(const PairPass *pass, const ListView *view, size_t first, size_t end) {                     \
         if (view->sources)                                                                                             \
             blocks(pass, (PairShape){n, LEAD_NONE, REST_ANY}, view, first, end);                                       \
+        else if (all_plain(pass))                                                                                      \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_PLAIN}, view, first, end);                                     \
         else                                                                                                           \
             blocks(pass, (PairShape){n, LEAD_NONE, REST_TOUCH}, view, first, end);                                     \
     }

@@ -23,7 +23,7 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
     if (!pair_geometry(shape, target, &partner, live, &pair))
         return;
     if (shape.lead != LEAD_NONE) {
-        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid};
+        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false};
         Mask applies = mask_and(pair.valid, rows->lead);
         if (!whole)
             applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());

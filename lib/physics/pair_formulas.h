@@ -35,6 +35,7 @@ typedef struct Pairs {
     const PairEnd *target;
     const PairEnd *partner;
     Mask touch; // lanes with l < r₁+r₂ where neither radius is 0
+    bool plain; // no exponent of the pass needs a function (power.h)
 } Pairs;
 
 // S · (a · b) / (D · D),  D = max(r₁+r₂, l)
@@ -56,7 +57,8 @@ KERNEL Real pair_electrostatic(const Pairs *pairs) {
 // K = (r₁+r₂ − l)^power · S
 KERNEL Real pair_collision(const Pairs *pairs) {
     Real depth = real_sub(pairs->geometry->reach, pairs->geometry->length);
-    return real_mul(real_power(pairs->touch, depth, pairs->term->power), real_set(pairs->term->strength));
+    Real power = real_power(pairs->plain, pairs->touch, depth, pairs->term->power);
+    return real_mul(power, real_set(pairs->term->strength));
 }
 
 // K = S · o · (l − a),  o = r₁+r₂ − l,  a = |r₁−r₂| · overlap + (r₁+r₂) · (1 − overlap)
@@ -77,7 +79,7 @@ KERNEL bool link_distance(const PhysForce *link, double strength, Real length, R
     if (!near && !(link->has_maximum && mask_any(real_less(real_set(link->maximum), length))))
         return false;
     Real beyond = near ? real_sub(real_set(link->minimum), length) : real_sub(length, real_set(link->maximum));
-    *k = real_mul(real_power(mask_first(LANES), beyond, link->power), real_set(near ? -strength : strength));
+    *k = real_mul(real_power(false, mask_first(LANES), beyond, link->power), real_set(near ? -strength : strength));
     return true;
 }
 

@@ -9,6 +9,7 @@
 enum { LEAD_NONE = PHYS_FORCE_KINDS }; // else the lead is the PhysForceKind
 typedef enum PairRest {
     REST_NONE,
+    REST_PLAIN, // forces of contact only, no exponent needs a function (power.h)
     REST_TOUCH, // forces of contact only
     REST_ANY,
 } PairRest;
@@ -18,6 +19,10 @@ typedef struct PairShape {
     int lead;
     PairRest rest;
 } PairShape;
+
+KERNEL bool rest_touches(PairShape shape) {
+    return shape.rest == REST_PLAIN || shape.rest == REST_TOUCH;
+}
 
 // What the leading force needs of both ends.
 KERNEL ForceNeed lead_need(PairShape shape) {
@@ -86,7 +91,7 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
         square = k ? real_add(square, part) : part; // 0 + part is part: a square is never -0
     }
     pair->reach = real_add(target->radius, partner->radius);
-    if (shape.lead == LEAD_NONE && shape.rest == REST_TOUCH) {
+    if (shape.lead == LEAD_NONE && rest_touches(shape)) {
         live = pair_near(live, square, pair->reach);
         if (!mask_any(live))
             return false;

@@ -34,12 +34,12 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
     Mask touch = pair_touch(pair);
     if (mask_any(touch))
         touch = both_there(touch, target->radius, partner->radius);
-    else if (shape.rest == REST_TOUCH)
+    else if (rest_touches(shape))
         return;
     for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
         Real coefficient;
-        Pairs pairs = {&pass->terms[t], pair, target, partner, touch};
-        Mask applies = pair_apply(&pairs, shape.rest == REST_TOUCH, &coefficient);
+        Pairs pairs = {&pass->terms[t], pair, target, partner, touch, shape.rest == REST_PLAIN};
+        Mask applies = pair_apply(&pairs, rest_touches(shape), &coefficient);
         if (!mask_any(applies))
             continue;
         if (tile && !(tile->hits >> t & 1)) {

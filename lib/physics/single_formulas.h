@@ -171,7 +171,7 @@ KERNEL void single_barrier(const Singles *s) {
     if (!mask_any(below) && !mask_any(above))
         return;
     Real depth = real_select(below, real_sub(minimum, height), real_sub(height, maximum));
-    Real size = real_mul(real_power(mask_or(below, above), depth, barrier->power), real_set(s->force->strength));
+    Real size = real_mul(real_power(false, mask_or(below, above), depth, barrier->power), real_set(s->force->strength));
     for (size_t k = 0; k < s->n; k++) {
         Real f = real_mul(vector_part(barrier->vector2, k), size), *sum = &block->force[k * block->step];
         *sum = real_sub_where(above, real_add_where(below, *sum, f), f);
