@@ -89,8 +89,8 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
         Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
         for (size_t k = 0; k < dimensions; k++) {
             parts[k] = real_gather(pass->position + k * pass->stride, view->column + s);
-            Real d = real_sub(parts[k], real_load(view->built[k] + s));
-            square = real_add(square, real_mul(d, d));
+            Real d = parts[k] - real_load(view->built[k] + s);
+            square += d * d;
         }
         Real radius = real_gather(pass->radius, view->column + s);
         parts[radius_part(dimensions)] = radius;
@@ -124,13 +124,13 @@ KERNEL size_t list_find(const ListView *view, size_t dimensions, const NearQuery
     for (size_t s = first; s < end; s += LANES) {
         Real square = real_zero();
         for (size_t k = 0; k < dimensions; k++) {
-            Real d = real_sub(real_load(view->built[k] + s), real_set(query->place[k]));
-            square = real_add(square, real_mul(d, d));
+            Real d = real_load(view->built[k] + s) - real_set(query->place[k]);
+            square += d * d;
         }
-        Real reach = real_add(real_load(view->radius + s), real_set(query->radius));
-        reach = real_add(real_larger(reach, real_set(query->bound)), real_set(query->skin));
+        Real reach = real_load(view->radius + s) + real_set(query->radius);
+        reach = real_larger(reach, real_set(query->bound)) + real_set(query->skin);
         // Both may overflow; the pair is listed then.
-        Mask close = real_at_most_where(mask_first(end - s), square, real_mul(reach, reach));
+        Mask close = real_at_most_where(mask_first(end - s), square, reach * reach);
         size_t found = mask_numbers(close, (uint32_t)s, to + count);
         count += found;
     }

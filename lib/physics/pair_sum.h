@@ -15,7 +15,7 @@ typedef struct Tile {
 KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
                      Real (*column)[LANES], size_t k) {
     for (size_t m = 0; m < shape.dimensions; m++) {
-        Real f = real_mul(pair->unit[m], coefficient);
+        Real f = pair->unit[m] * coefficient;
         sum[m] = real_add_where(applies, sum[m], f);
         if (column)
             column[m][k] = real_keep(applies, f);

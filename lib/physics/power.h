@@ -24,7 +24,7 @@ KERNEL Real real_power(bool plain, Mask mask, Real base, double power) {
     if (power == 1)
         return base;
     if (power == 2)
-        return real_mul(base, base);
+        return base * base;
     return plain || power <= 0 ? real_set(1) : power_by_lane(mask, base, power);
 }
 
