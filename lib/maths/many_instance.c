@@ -33,7 +33,7 @@ KERNEL Lanes lanes_left(Lanes good, size_t count) {
 }
 
 // Asks for the lanes of a set once more.
-static void again(double (*function)(double x), Lanes left, Real in, double *to) {
+static __attribute__((noinline)) void again(double (*function)(double x), Lanes left, Real in, double *to) {
     double x[LANES];
     real_store(x, in);
     for (unsigned lane = 0; left >> lane; lane++)
