@@ -185,17 +185,16 @@ if [ $edits = yes ]; then
     expect "and the block is taken" '^11;22$'
     type_keys C-l 'let five=5' Down '+1' Enter 'five' Enter
     expect "Down below the last line leaves the line alone" '^6$'
+    expect "the prompt after it" '^petri> *$'
     type_keys C-l 'func k(n)' Enter '    n' M-Enter '    n' Up Up C-c '8*8' Enter
     expect "Ctrl-C in the middle of a block gives it up" '^64$'
-    type_keys C-d
-    expect "and leaves" '^left with 0$'
+    leave "and leaves"
     start --color never cells.fl
     type_keys C-r 'func h'
     expect "a block of an earlier session" 'func h(n)'
     type_keys Enter Enter 'h(0)' Enter
     expect "can be found and taken" '^1$'
-    type_keys C-d
-    expect "and leaves again" '^left with 0$'
+    leave "and leaves again"
 fi
 
 if [ $edits = yes ]; then
@@ -203,8 +202,7 @@ if [ $edits = yes ]; then
     type_keys 'let unusual=100+23' Enter
     type_keys 'unusual' Enter
     expect "its value" '^123$'
-    type_keys C-d
-    expect "what the next session will find" '^left with 0$'
+    leave "what the next session will find"
     start --color never cells.fl
     type_keys Up Up Enter
     expect "history is there in the next session" '^petri> let unusual=100+23$'
