@@ -93,7 +93,7 @@ int str_distance(Str a, Str b) {
     return above[b.len];
 }
 
-bool str_try_nearest(Nearest *nearest, Str name) {
+bool str_try_nearest(StrNearest *nearest, Str name) {
     int distance = str_distance(nearest->wanted, name);
     if (distance >= nearest->limit)
         return false;

@@ -37,13 +37,13 @@ Str str_trim(Str text);
 int str_distance(Str a, Str b);
 
 // The nearest of some names to one that is not there. `limit` is a distance that is too far, at first.
-typedef struct Nearest {
+typedef struct StrNearest {
     Str wanted;
     int limit;
     Str found; // empty: none was near
-} Nearest;
+} StrNearest;
 // Looks at one more name; true if it is the nearest so far.
-bool str_try_nearest(Nearest *nearest, Str name);
+bool str_try_nearest(StrNearest *nearest, Str name);
 
 // Text under construction. `bytes` lives in the arena; `text_str` is valid until the next append.
 typedef struct Text {

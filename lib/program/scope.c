@@ -184,7 +184,7 @@ static bool follows_slashes(const Compiler *compiler, Span span) {
 
 // "did you mean …", if some visible name is close.
 static Str nearest_name(Compiler *compiler, Str wanted) {
-    Nearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
+    StrNearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
         for (const Binding *binding = function->scope; binding; binding = binding->outer)
             str_try_nearest(&nearest, binding->name->name);

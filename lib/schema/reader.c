@@ -79,12 +79,12 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
 }
 
-static Nearest nearest_to(Str name) {
-    return (Nearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may be further off
+static StrNearest nearest_to(Str name) {
+    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may be further off
 }
 
 static void report_unknown(const Reader *reader, const Symbol *name) {
-    Nearest nearest = nearest_to(name->name);
+    StrNearest nearest = nearest_to(name->name);
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
         str_try_nearest(&nearest, str_from(schema_names[schema_rows[i].name]));
     Text out = text_new(reader->arena);
@@ -95,7 +95,7 @@ static void report_unknown(const Reader *reader, const Symbol *name) {
 }
 
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
-    Nearest nearest = nearest_to(kind);
+    StrNearest nearest = nearest_to(kind);
     for (int i = 0; i < KIND_COUNT; i++)
         if (schema_kinds[i].place == place || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));

@@ -6,7 +6,7 @@
 // Any node may stand at the top, and means nothing there; one that is nearly spelled like one that does is a mistake.
 // Empty if this is none.
 static Str nearly(Str kind) {
-    Nearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
+    StrNearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
     for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
         if (schema_kinds[i].place == PLACE_SCENE || schema_kinds[i].place == PLACE_TOP)
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));

@@ -158,11 +158,11 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 // The parameter whose name is nearest to one that is not there, or NULL.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    Nearest nearest = {name,
-                       name.len < 2   ? 1
-                       : name.len < 4 ? 2
-                                      : 3,
-                       {0}}; // names of one letter are near to all others
+    StrNearest nearest = {name,
+                          name.len < 2   ? 1
+                          : name.len < 4 ? 2
+                                         : 3,
+                          {0}}; // names of one letter are near to all others
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
             found = &program->parameters[i];
