@@ -12,7 +12,7 @@
 // What is left of x ≥ 0 after the nearest whole number (the even one of two), exactly, and that number modulo 4.
 static double quarter_rest(double x, unsigned *quadrant) {
     *quadrant = 0;
-    if (x >= 9007199254740992.0) {
+    if (!(x < 9007199254740992.0)) {
         // A whole number, infinity or nan; from 2^63 on a multiple of 4.
         if (x < 9223372036854775808.0)
             *quadrant = (uint64_t)x & 3;
