@@ -5,6 +5,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/args.h"
 #include "cli/bytes.h"
@@ -155,6 +156,25 @@ static bool read_definition(const Args *args, Options *options, void *field) {
     return true;
 }
 
+// A folder, for a list that ends in NULL; "all" stands for the folder that all is in.
+static bool read_folder(const Args *args, Options *options, void *field) {
+    const char ***list = field;
+    const char *folder = strcmp(args->value, "all") == 0 ? "/" : args->value;
+    struct stat info;
+    (void)options;
+    if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode)) {
+        return args_wrong_value(args, "a folder that is there");
+    }
+    size_t count = 0;
+    while (*list != NULL && (*list)[count] != NULL) {
+        count++;
+    }
+    *list = memory_resized(*list, (count + 2) * sizeof **list);
+    (*list)[count] = folder;
+    (*list)[count + 1] = NULL;
+    return true;
+}
+
 // WIDTHxHEIGHT.
 static bool read_size(const Args *args, Options *options, void *field) {
     (void)options;
@@ -253,6 +273,9 @@ int options_read(Options *options, const Command *command, int argc, char **argv
 void options_free(Options *options) {
     free(options->definitions);
     options->definitions = NULL;
+    free(options->read_folders);
+    free(options->write_folders);
+    options->read_folders = options->write_folders = NULL;
     scripts_free(&options->scripts);
 }
 
@@ -270,6 +293,9 @@ int options_open(const Options *options, const Host *host,
     wanted.simplify = !options->unsimplified;
     wanted.keep_forces = wanted.interruptible = options->prompt;
     wanted.profile = options->profile;
+    wanted.read_folders = options->read_folders;
+    wanted.write_folders = options->write_folders;
+    wanted.no_files = options->no_files;
     wanted.diagnostic = diagnostic;
     wanted.host = context;
     *session = petri_open(&wanted);
