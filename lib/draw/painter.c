@@ -8,7 +8,8 @@
 
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
                                size_t stride) {
-    if (!picture_is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
+    if (!picture || !painter || !pixels || !picture_is_good_size(width, height) || stride % sizeof *pixels ||
+        stride < (size_t)width * sizeof *pixels)
         return PETRI_INVALID;
     return draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->faults);
 }
@@ -25,6 +26,8 @@ static bool find_format(const char *file, CanvasFormat *format) {
 }
 
 bool petri_picture_format(const char *file) {
+    if (!file)
+        return false;
     CanvasFormat format;
     return find_format(file, &format);
 }
@@ -71,6 +74,8 @@ static void report_name(void *context) {
 }
 
 static PetriStatus save_picture(Saving *saving) {
+    if (!saving->picture || !saving->painter || !saving->file)
+        return PETRI_INVALID;
     Arena *arenas[] = {&saving->arena, &saving->picture->arena};
     arena_init(&saving->arena, "file", SIZE_MAX);
     ArenaEnd end = arena_protect(arenas, 2, find_format(saving->file, &saving->format) ? save : report_name, saving);
@@ -84,7 +89,7 @@ PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, con
 }
 
 PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *painter, size_t index) {
-    if (index >= picture->record_count)
+    if (!picture || index >= picture->record_count)
         return PETRI_INVALID;
     return save_picture(&(Saving){.picture = picture,
                                   .painter = painter,
