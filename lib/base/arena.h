@@ -59,9 +59,9 @@ typedef struct ArenaMark {
 // How a protected call ended.
 typedef enum ArenaEnd {
     ARENA_DONE,
-    ARENA_MEMORY, // the machine's memory is used up
-    ARENA_BUDGET, // or what the arena may hand out, or all that the meter allows
-    ARENA_WORK,   // work is
+    ARENA_MEMORY,      // the machine's memory is used up
+    ARENA_BUDGET,      // or what the arena may hand out, or all that the meter allows
+    ARENA_WORK,        // work is
     ARENA_INTERRUPTED, // the host has asked for an end
 } ArenaEnd;
 

@@ -148,7 +148,8 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
     uint8_t local[256];
     if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // one point, as loops ask for
         const double c[2] = {args[1].as.number, args[2].as.number};
-        return value_number(noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
+        return value_number(
+            noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
     }
     Grid grid;
     GridOutcome outcome = grid_read(&grid, args + 1, count - 1);
@@ -192,10 +193,8 @@ Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t coun
         return VALUE_NULL;
     if (outcome == GRID_TOO_LONG)
         return builtin_too_long(context, "octnoise");
-    if (octaves > MOST_OCTAVES) {
-        builtin_fault(context, "octnoise", "more than 1024 octaves");
-        return VALUE_NULL;
-    }
+    if (octaves > MOST_OCTAVES)
+        return builtin_fault(context, "octnoise", "more than 1024 octaves");
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
     sum_octaves(context, &grid, value_seed_hash(context->arena, args[0]), (uint32_t)octaves, args[2].as.number, result);
     return value_numbers_view(result, grid.len);

@@ -10,6 +10,8 @@
 //   one that is running, and a frame that hits a limit or is interrupted leaves the state as it was.
 // - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
 //   the library prints, exits or changes the process's locale, signals or working directory.
+// - Where NULL is not said to mean something, it is answered with PETRI_INVALID, false, NULL or 0, and nothing is done.
+// - After fork, the child may close the sessions that it has from its parent, and do nothing else with them.
 #ifndef PETRI_H
 #define PETRI_H
 
@@ -62,10 +64,10 @@ typedef struct PetriOptions {
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
     // enough.
     size_t stack_bytes;
-    // What a script may use; a frame, a load, a picture that needs more is given up with a diagnostic that tells what in
-    // the script asked for it. Memory is all that the session holds for the script; what is petri's own (some 64 MiB at
-    // the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by time, so
-    // that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
+    // What a script may use; a frame, a load, a picture that needs more is given up with a diagnostic that tells what
+    // in the script asked for it. Memory is all that the session holds for the script; what is petri's own (some 64 MiB
+    // at the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by
+    // time, so that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
     size_t memory_bytes;        // default 2 GiB
     uint64_t work;              // of one call, such as petri_step; its systems have as much again. Default 2^27
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
@@ -74,6 +76,11 @@ typedef struct PetriOptions {
     // by petri_interrupt or because work or memory is used up, as if it had never been begun. Default false: then each
     // system has made that frame or stays as it was, which is for hosts that end there.
     bool interruptible;
+    // The files that a script may use: it reads below its own folder, the current one and `read_folders`, it writes
+    // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
+    const char *const *read_folders;
+    const char *const *write_folders;
+    bool no_files;    // … it uses none at all, and imports none
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
@@ -97,9 +104,9 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 PetriStatus petri_load(PetriSession *session, const char *file);
 // The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
-// The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
-// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
-// told of it is not told again.
+// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of
+// tempo and fps, those count anew whose pragma was changed. NULL stands for the text that was loaded last, for when
+// definitions have changed: what was told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
@@ -188,7 +195,8 @@ PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
 bool petri_key_bound(PetriSession *session, const char *name);
 // Asks for an end of what is under way (or of the next): a step, a load, a picture, a text that is printed or evaluated
-// returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or from another thread.
+// returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or
+// from another thread.
 void petri_interrupt(PetriSession *session);
 // Whether such a wish has not been met yet; forgets it.
 bool petri_interrupted(PetriSession *session);

@@ -80,7 +80,7 @@ void phys_threads_free(PhysThreads *threads);
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
-    CpuLevel cpu; // at most cpu_detect()
+    CpuLevel cpu; // at most cpu_here.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
     Meter *meter;      // that work and memory are charged to, which outlives the system; NULL: none
@@ -122,13 +122,13 @@ void phys_begin_forces(PhysSystem *system);
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key);
 
 typedef struct PhysTime {
-    double last;                  // time up to which the state has been simulated
-    double now;                   // time of this frame; > last
-    double clock;                 // simulation clock at `last`
-    double resolution;            // longest step; > 0 and finite
-    bool lockstep;                // always catch up
-    double performance;           // engine performance, decides about the one extra step in real time
-    double speed_of_light;        // <= 0: no limit
+    double last;           // time up to which the state has been simulated
+    double now;            // time of this frame; > last
+    double clock;          // simulation clock at `last`
+    double resolution;     // longest step; > 0 and finite
+    bool lockstep;         // always catch up
+    double performance;    // engine performance, decides about the one extra step in real time
+    double speed_of_light; // <= 0: no limit
     bool keep_last_finite; // a position or velocity that is not finite afterwards is put back to what it was before
                            // the frame, and so is one that equals it (0 does not become -0), unless that came from an
                            // attribute: then any finite result counts

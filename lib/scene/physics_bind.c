@@ -13,9 +13,9 @@ Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
     return vector_finish(&key);
 }
 
-double scene_number(const State *state, StateSlot slot, double fallback) {
+static double scene_number(const State *state, StateSlot slot, double fallback) {
     Value v = state_slot_get(state, slot);
-    return v.kind == VALUE_NUMBERS && v.len == 1 ? v.as.number : fallback;
+    return v.kind == VALUE_NUMBERS && v.len == 1 && isfinite(v.as.number) ? v.as.number : fallback;
 }
 
 // The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
@@ -140,7 +140,8 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     enum { MAX_UNCOUNTED = 64, COPIES = 16 };
     if (settings->dimensions <= MAX_UNCOUNTED)
         return true;
-    double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->arena, reader->node) + 1);
+    double bytes =
+        settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->arena, reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
     reader_report(reader, "skipped-system", "",

@@ -12,7 +12,7 @@ Scene *scene_new(Arena *arena, Schema *schema) {
     *scene = (Scene){.schema = schema, .meter = arena->meter};
     physics_take_defaults(scene);
     input_init(&scene->input, symbols);
-    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect(), .meter = scene->meter};
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level, .meter = scene->meter};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
     scene->key_clock = symbol_know(symbols, STR("clock"));
@@ -143,11 +143,16 @@ static void drop_absent(Scene *scene, const SceneFrame *frame) {
     }
 }
 
-static uint64_t update_kind(Scene *scene, NodeKind kind, Value tree, uint32_t from, const SceneFrame *frame) {
+uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     uint64_t steps = 0;
-    for (uint32_t i = from; i < tree.len; i++) {
+    scene->frame_number++;
+    scene->stopped = METER_GOES_ON;
+    drop_absent(scene, frame);
+    tidy_state(scene, frame);
+    for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         const Item *item = &tree.as.items[i];
-        if (item->type != ITEM_NODE || schema_kind(scene->schema, item->as.node) != kind)
+        NodeKind kind = item->type == ITEM_NODE ? schema_kind(scene->schema, item->as.node) : KIND_COUNT;
+        if (kind != KIND_PHYSICS && kind != KIND_COUNTER)
             continue;
         scene->stopped = meter_charge(scene->meter, 1);
         if (scene->stopped != METER_GOES_ON)
@@ -158,28 +163,7 @@ static uint64_t update_kind(Scene *scene, NodeKind kind, Value tree, uint32_t fr
         else
             counter_update(scene, item->as.node, frame);
         if (scene->exhausted || scene->stopped != METER_GOES_ON)
-            break; // what comes to nothing ends here
-    }
-    return steps;
-}
-
-uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
-    bool done[KIND_COUNT] = {false};
-    uint64_t steps = 0;
-    scene->frame_number++;
-    scene->stopped = METER_GOES_ON;
-    drop_absent(scene, frame);
-    tidy_state(scene, frame);
-    for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
-        if (tree.as.items[i].type != ITEM_NODE)
-            continue;
-        NodeKind kind = schema_kind(scene->schema, tree.as.items[i].as.node);
-        if ((kind != KIND_PHYSICS && kind != KIND_COUNTER) || done[kind])
-            continue;
-        done[kind] = true;
-        if (scene->exhausted || scene->stopped != METER_GOES_ON)
-            return steps;
-        steps += update_kind(scene, kind, tree, i, frame);
+            return steps; // what comes to nothing ends here
     }
     input_bind(&scene->input, scene->schema, tree, frame->arena);
     return steps;

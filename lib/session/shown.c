@@ -11,11 +11,14 @@ Shown session_shown(PetriSession *session) {
                    .scene = session->scene,
                    .state = session->state,
                    .directory = program ? program->source->directory : STR(""),
+                   .reach = &session->reach,
                    .memory_bytes = session->options.memory_bytes,
                    .meter = &session->meter};
 }
 
 bool petri_drawable(PetriSession *session) {
+    if (!session)
+        return false;
     const Node *window;
     SceneView view;
     for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at)) != NULL;)

@@ -120,7 +120,8 @@ int value_compare(Arena *arena, Value a, Value b) {
     uint32_t len = a.len < b.len ? a.len : b.len, same = equal_run(&comparison, a, 0, b, 0, len);
     if (comparison.walk.facts)
         arena_rewind(arena, mark);
-    return same < len ? item_compare_unequal(value_at(&a, same), value_at(&b, same)) : (a.len > b.len) - (a.len < b.len);
+    return same < len ? item_compare_unequal(value_at(&a, same), value_at(&b, same))
+                      : (a.len > b.len) - (a.len < b.len);
 }
 
 bool value_contains(Arena *arena, Value x, Value y) {

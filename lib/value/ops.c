@@ -59,13 +59,14 @@ static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, c
 }
 
 // x^y for a vector: by one exponent, or element by element. False if x is a number.
-static bool many_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result, uint32_t len) {
+static bool many_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result,
+                        uint32_t len) {
     if (x_len != len)
         return false;
     if (y_len == 1)
-        maths_power_many(cpu_detect(), x, *y, x_len, result);
+        maths_power_many(cpu_here.level, x, *y, x_len, result);
     else
-        maths_pow_many(cpu_detect(), x, y, x_len, result);
+        maths_pow_many(cpu_here.level, x, y, x_len, result);
     return true;
 }
 

@@ -118,7 +118,7 @@ NOINLINE static Value make_closure(Vm *vm, const int32_t *list, const Frame *fra
 
 NOINLINE static Value unbound(Vm *vm, const Instr *instr) {
     Str name = instr->as.name->name;
-    vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", (int)name.len, name.bytes);
+    vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", STR_ARGS(name));
     return VALUE_NULL;
 }
 
@@ -155,7 +155,7 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
             double x = a->as.number, y = b->as.number;                                                                 \
             D = truth(claim);                                                                                          \
         } else {                                                                                                       \
-            D = compare(vm, instr, *a, *b);                                                                                \
+            D = compare(vm, instr, *a, *b);                                                                            \
         }                                                                                                              \
         break;                                                                                                         \
     }

@@ -18,9 +18,9 @@
 typedef struct Run {
     const Host *host;
     Frames frames;
-    bool to_terminal; // standard output is a terminal
+    bool to_terminal;    // standard output is a terminal
     size_t after_signal; // bytes that were printed since
-    bool cut;         // what was printed of a frame is not all
+    bool cut;            // what was printed of a frame is not all
     Stats stats;
     Trajectory trajectory;
     Output output;

@@ -189,8 +189,8 @@ static void test_containment(void **state) {
         {"!a", "!b;!a", true},       {"0", "-0", true},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
-        assert_claim(rows[i].x,
-                     value_contains(NULL, read_value(world, rows[i].x), read_value(world, rows[i].y)) == rows[i].wanted);
+        assert_claim(rows[i].x, value_contains(NULL, read_value(world, rows[i].x), read_value(world, rows[i].y)) ==
+                                    rows[i].wanted);
 }
 
 static void test_indexing(void **state) {

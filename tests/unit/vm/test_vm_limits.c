@@ -132,8 +132,9 @@ static void test_all_is_charged(void **state) {
 static void test_shared_nodes(void **state) {
     Runner *runner = *state;
     Arena *arena = &runner->world.arena;
-    Str script = str_format(arena, "%slet x=f(60+frame, !x) y=f(60+frame, !x)\n"
-                                   "!a v=(x==y);(uniform(x)[0]==uniform(y)[0]);((x;1)<(y;2));(x in (1;y))\n",
+    Str script = str_format(arena,
+                            "%slet x=f(60+frame, !x) y=f(60+frame, !x)\n"
+                            "!a v=(x==y);(uniform(x)[0]==uniform(y)[0]);((x;1)<(y;2));(x in (1;y))\n",
                             shared);
     assert_int_equal(metered(runner, script.bytes, 1 << 20, NULL), ARENA_DONE);
     script = str_format(arena, "%s!a v=len(debug(f(60+frame, !x)))\n", shared);
@@ -159,8 +160,8 @@ static void test_ahead(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_closure_depth), RUNNER_TEST(test_stack),     RUNNER_TEST(test_too_long),
-        RUNNER_TEST(test_work),          RUNNER_TEST(test_interrupt), RUNNER_TEST(test_ahead),
+        RUNNER_TEST(test_closure_depth),  RUNNER_TEST(test_stack),        RUNNER_TEST(test_too_long),
+        RUNNER_TEST(test_work),           RUNNER_TEST(test_interrupt),    RUNNER_TEST(test_ahead),
         RUNNER_TEST(test_all_is_charged), RUNNER_TEST(test_shared_nodes),
         RUNNER_TEST(test_deep_nodes), // it used to overflow the stack
         RUNNER_TEST(test_call_depth), // makes the stack larger for what follows
