@@ -22,6 +22,7 @@ struct LineReader {
 LineReader *line_reader_new(Repl *repl) {
     LineReader *reader = memory_zeroed(sizeof *reader);
     reader->repl = repl;
+    bytes_add(&reader->text, "", 0); // there is always a text, of no length
     reader->editor = repl->terminal ? editor_new(repl) : NULL;
     return reader;
 }

@@ -79,14 +79,14 @@ static void take(PetriSession *session, PetriSnapshot **snapshot, int what, doub
 }
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
-    enum { PIECE = 1 + sizeof(double) };
+    enum { PIECE = 1 + sizeof(double), MOST = 8 };
     PetriOptions options = fuzz_options();
     PetriSnapshot *snapshot = NULL;
     options.realtime = size > 0 && data[0] & 128;
     now = 1000;
     PetriSession *session = fuzz_open(&options);
     fuzz_load(session, SCRIPT);
-    for (size_t i = 0; i < 30 && size >= PIECE; i++, data += PIECE, size -= PIECE) {
+    for (size_t i = 0; i < MOST && size >= PIECE; i++, data += PIECE, size -= PIECE) {
         double x;
         memcpy(&x, data + 1, sizeof x);
         take(session, &snapshot, data[0], x);

@@ -37,7 +37,7 @@ static bool leads_away(const uint8_t *data, size_t size) {
 
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static const Host host = {.program = "petri", .called = "petri", .stack_bytes = 1 << 20};
-    static char words[][16] = {"--threads", "1", "fuzz.fl"};
+    static char words[][16] = {"--threads", "1", "--limit", "20", "fuzz.fl"};
     if (leads_away(data, size))
         return 0;
     fuzz_put("fuzz.fl", SCRIPT, sizeof SCRIPT - 1);
@@ -48,9 +48,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     setenv("VISUAL", "true", 1);
     struct sigaction before;
     sigaction(SIGINT, NULL, &before);
-    char *arguments[] = {words[0], words[1], words[2], NULL};
+    char *arguments[] = {words[0], words[1], words[2], words[3], words[4], NULL};
     fuzz_watch(NULL);
-    command_run(&REPL_COMMAND, &host, 3, arguments);
+    command_run(&REPL_COMMAND, &host, 5, arguments);
     fuzz_rest();
     sigaction(SIGINT, &before, NULL);
     return 0;

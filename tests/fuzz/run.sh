@@ -61,6 +61,10 @@ if [ "${PETRI_FUZZ_ONE:-}" ]; then
     fuzz_one "$1"
     exit
 fi
+# libFuzzer ends without tidying up.
+TMPDIR=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)/fuzz-XXXXXX")
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
 seed
 [ $# -gt 0 ] || set -- $(find "$source/tests/fuzz" -name 'fuzz_*.c' | sed 's|.*/fuzz_||; s|\.c$||' | sort)
 export PETRI_FUZZ_ONE=1
