@@ -12,7 +12,7 @@ Scene *scene_new(Arena *arena, Schema *schema) {
     *scene = (Scene){.schema = schema};
     physics_take_defaults(scene);
     input_init(&scene->input, symbols);
-    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
     scene->key_clock = symbol_know(symbols, STR("clock"));
