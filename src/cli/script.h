@@ -19,5 +19,7 @@ void script_second(const char *first, const char *second);
 // Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
 // holds.
 void script_suggest(const char *name);
+// The folder that it is in, "." for this one; to be freed.
+char *script_folder(const char *name);
 
 #endif

@@ -7,13 +7,7 @@
 #ifndef PETRI_SRC_GOLDEN_LINE_H
 #define PETRI_SRC_GOLDEN_LINE_H
 
-#include <stdbool.h>
-#include <stddef.h>
-
-typedef struct Slice {
-    const char *text;
-    size_t length;
-} Slice;
+#include "base/str.h"
 
 // Where two lines first differ, as offsets into them.
 typedef struct LineDifference {
@@ -21,7 +15,7 @@ typedef struct LineDifference {
     size_t got_at;
 } LineDifference;
 
-// A tolerance of 0 means exactly; nan agrees with nan and -0 with 0.
-bool line_same(Slice expected, Slice got, double tolerance, LineDifference *difference);
+// A tolerance of 0 means exactly; nan agrees with nan and -0 with 0. Behind each text is an end of line or NUL.
+bool line_same(Str expected, Str got, double tolerance, LineDifference *difference);
 
 #endif
