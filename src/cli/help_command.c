@@ -8,7 +8,6 @@
 #include "cli/cli.h"
 #include "cli/help.h"
 #include "cli/options.h"
-#include "cli/topics.h"
 #include "petri.h"
 
 enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };

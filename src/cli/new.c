@@ -6,9 +6,9 @@
 #include "base/replace.h"
 #include "base/source.h"
 #include "cli/bytes.h"
-#include "cli/hints.h"
 #include "cli/new_dish.h"
 #include "cli/options.h"
+#include "cli/script.h"
 
 // Writes the dish to a file that must not exist yet.
 static int write_dish(const char *path) {

@@ -1,5 +1,5 @@
-// topics.c: see topics.h.
-#include "cli/topics.h"
+// topics.c: see help.h.
+#include "cli/help.h"
 
 #include <stdio.h>
 #include <string.h>

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "golden/golden.h"
-#include "golden/golden_line.h"
 
 // How closely numbers must agree between `strict` and the horizon (conformance/physics/README.md).
 static const double LOOSE_TOLERANCE = 1e-4;

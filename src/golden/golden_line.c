@@ -1,5 +1,5 @@
 // golden_line.c: whether two lines of output mean the same.
-#include "golden/golden_line.h"
+#include "golden/golden.h"
 
 #include <math.h>
 #include <stdint.h>

@@ -1,5 +1,5 @@
 // report.c: how results of tests are told.
-#include "golden/report.h"
+#include "golden/golden.h"
 
 #include <string.h>
 
@@ -16,23 +16,12 @@ void report_result(Output *output, const Result *result) {
 
 // XML knows no control characters, escaped or not.
 static void add_escaped(Bytes *out, const char *text) {
+    static const char *const escapes[128] = {['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
     for (const char *c = text; *c != '\0'; c++) {
-        switch (*c) {
-        case '<':
-            bytes_format(out, "&lt;");
-            break;
-        case '>':
-            bytes_format(out, "&gt;");
-            break;
-        case '&':
-            bytes_format(out, "&amp;");
-            break;
-        case '"':
-            bytes_format(out, "&quot;");
-            break;
-        default:
-            bytes_add(out, (unsigned char)*c < ' ' ? "?" : c, 1);
-        }
+        const char *escape = (unsigned char)*c < ' '   ? "?"
+                             : (unsigned char)*c < 128 ? escapes[(unsigned char)*c]
+                                                       : NULL;
+        bytes_add(out, escape != NULL ? escape : c, escape != NULL ? strlen(escape) : 1);
     }
 }
 

@@ -12,8 +12,6 @@
 #include "cli/progress.h"
 #include "cli/script.h"
 #include "golden/golden.h"
-#include "golden/rejection.h"
-#include "golden/report.h"
 
 enum { MOST_CPUS = 256 };
 

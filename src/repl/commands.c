@@ -7,7 +7,6 @@
 #include "cli/help.h"
 #include "cli/progress.h"
 #include "cli/table.h"
-#include "cli/topics.h"
 #include "repl/repl.h"
 
 const ReplCommand *repl_command_at(size_t index) {

@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 #include <wchar.h>
 
 #include "base/str.h"
+#include "cli/progress.h"
 
 struct Editor {
     Repl *repl;
@@ -57,8 +57,8 @@ static const char *prompt_of(EditLine *line) {
 // To below the lines that follow the cursor's, for what is written next; a line too far down where some are broken.
 static void leave_block(Editor *editor) {
     const LineInfo *info = el_line(editor->line);
-    struct winsize size = {0};
-    int width = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80, column = 0;
+    int width = 80, height = 0, column = 0;
+    terminal_extent(STDOUT_FILENO, &width, &height);
     for (const char *c = info->cursor; c < info->lastchar; c++) {
         column = *c == '\n' ? 0 : column + 1;
         output_write(&editor->repl->output, "\n", *c == '\n' || column == width);

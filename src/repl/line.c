@@ -37,9 +37,8 @@ LineWait line_wait(Repl *repl) {
         if (repl_interrupted()) {
             return WAIT_INTERRUPTED; // before this call, which would not wake
         }
-        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {-1, POLLIN, 0}};
-        files[1].fd = repl->files == NULL ? -1 : watch_descriptor(repl->files);
-        int ready = poll(files, 2, repl->files != NULL && files[1].fd < 0 ? 200 : -1);
+        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {watch_descriptor(repl->files), POLLIN, 0}};
+        int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
         if (ready < 0 && errno == EINTR) {
             continue;
         }

@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
 #include "petri-draw.h"
 #include "repl/repl.h"
 #include "view/terminal_picture.h"
@@ -177,51 +177,29 @@ static bool run_plot(Repl *repl, const char *rest) {
            plot_frames(repl, expression, count);
 }
 
-enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30 };
+enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30, BELOW = 2 };
 
-// Of the terminal, with a line left for the prompt.
-static void find_room(int *columns, int *rows) {
-    struct winsize size;
-    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 2;
-    *columns = known ? size.ws_col : DEFAULT_COLUMNS;
-    *rows = known ? size.ws_row - 2 : DEFAULT_ROWS;
-}
-
-static PetriStatus draw_picture(Repl *repl, PetriPicture *picture, uint32_t *pixels, const TerminalCells *cells) {
-    PetriPainter *painter = petri_painter_open();
-    if (painter == NULL) {
+static PetriStatus show_picture(Repl *repl, PetriPicture *picture, PetriPainter *painter, TerminalPicture *way) {
+    int columns = DEFAULT_COLUMNS, rows = DEFAULT_ROWS + BELOW, width = 0, height = 0;
+    if (painter == NULL || way == NULL) {
         return PETRI_MEMORY;
     }
-    PetriStatus status =
-        petri_picture_draw(picture, painter, pixels, cells->width, cells->height, (size_t)cells->width * 4);
-    petri_picture_tell(repl->session, picture);
-    petri_painter_close(&painter);
-    return status;
-}
-
-static PetriStatus show_picture(Repl *repl, PetriPicture *picture) {
-    int columns = 0, rows = 0, width = 0, height = 0;
-    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
-    if (way == NULL) {
-        return PETRI_MEMORY;
-    }
-    find_room(&columns, &rows);
+    terminal_extent(STDOUT_FILENO, &columns, &rows);
     petri_picture_size(picture, &width, &height);
-    TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);
+    // With room for the prompt.
+    TerminalCells cells = terminal_picture_fit(way, columns, rows > BELOW ? rows - BELOW : 1, width, height);
     uint32_t *pixels = memory_zeroed((size_t)cells.width * (size_t)cells.height * sizeof *pixels);
-    PetriStatus status = draw_picture(repl, picture, pixels, &cells);
+    PetriStatus status =
+        petri_picture_draw(picture, painter, pixels, cells.width, cells.height, (size_t)cells.width * sizeof *pixels);
+    petri_picture_tell(repl->session, picture);
     size_t length = 0;
-    char *text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
+    SCOPED_TEXT text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
+    free(pixels);
     if (text != NULL) {
         output_write(&repl->output, text, length);
         output_write(&repl->output, "\n", 1);
-    } else if (status == PETRI_OK) {
-        status = PETRI_MEMORY;
     }
-    free(text);
-    free(pixels);
-    terminal_picture_free(way);
-    return status;
+    return status == PETRI_OK && text == NULL ? PETRI_MEMORY : status;
 }
 
 static bool run_show(Repl *repl, const char *rest) {
@@ -237,9 +215,13 @@ static bool run_show(Repl *repl, const char *rest) {
     if (status == PETRI_OK) {
         status = petri_picture(repl->session, &options, &picture);
     }
+    PetriPainter *painter = petri_painter_open();
+    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
     if (status == PETRI_OK) {
-        status = show_picture(repl, picture);
+        status = show_picture(repl, picture, painter, way);
     }
+    terminal_picture_free(way);
+    petri_painter_close(&painter);
     repl_idle(repl);
     petri_picture_free(&picture);
     return repl_status(repl, status);

@@ -14,7 +14,7 @@ typedef struct Repl {
     PetriSession *session;
     ReplHistory history;
     Output output;
-    Watch *files;          // NULL: changes are not noticed
+    Watch *files;          // that the script is made from
     char *script;          // NULL: none was named
     bool loaded;           // the script named is the one that is running
     Bytes script_text;     // as it was loaded

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
 #include "repl/repl.h"
 
 static const char BLANKS[] = " \t\r\n";
@@ -109,12 +109,9 @@ void word_last_count(char *text, int64_t *count) {
 
 static size_t screen_lines(const Repl *repl, size_t around) {
     enum { FEWEST = 5, USUAL = 24 };
-    struct winsize size = {0};
-    if (!repl->terminal) {
-        return SIZE_MAX;
-    }
-    size_t rows = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 ? size.ws_row : USUAL;
-    return rows > around + FEWEST ? rows - around : FEWEST;
+    int columns = 0, rows = USUAL;
+    terminal_extent(STDOUT_FILENO, &columns, &rows);
+    return !repl->terminal ? SIZE_MAX : (size_t)rows > around + FEWEST ? (size_t)rows - around : FEWEST;
 }
 
 size_t word_lines(const Repl *repl, char *text, size_t around) {

@@ -9,13 +9,13 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
+#include "cli/progress.h"
 #include "view/terminal_keys.h"
 #include "view/terminal_picture.h"
 
@@ -121,10 +121,9 @@ static void enter(void) {
 }
 
 static void measure(Display *display) {
-    struct winsize size;
-    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
-    display->columns = known ? size.ws_col : DEFAULT_COLUMNS;
-    display->rows = known ? size.ws_row : DEFAULT_ROWS;
+    display->columns = DEFAULT_COLUMNS;
+    display->rows = DEFAULT_ROWS;
+    terminal_extent(STDOUT_FILENO, &display->columns, &display->rows);
 }
 
 static void terminal_set_title(Display *display, const char *title) {
@@ -301,17 +300,6 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     return true;
 }
 
-// A terminal has the size that it has.
-static void terminal_resize(Display *display, int width, int height) {
-    (void)display;
-    (void)width;
-    (void)height;
-}
-
-static void terminal_toggle_full_screen(Display *display) {
-    (void)display;
-}
-
 static const DisplayKind TERMINAL = {
     .open = terminal_open,
     .close = terminal_close,
@@ -319,8 +307,6 @@ static const DisplayKind TERMINAL = {
     .size = terminal_size,
     .show = terminal_show,
     .set_title = terminal_set_title,
-    .resize = terminal_resize,
-    .toggle_full_screen = terminal_toggle_full_screen,
     .least_seconds = 1.0 / 30,
     .logs = false,
 };

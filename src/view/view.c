@@ -7,8 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/hints.h"
 #include "cli/progress.h"
+#include "cli/script.h"
 #include "view/view.h"
 
 // Seconds: a saved script is seen after at most that.
@@ -45,7 +45,7 @@ static void follow_script(View *view) {
     view->width = width;
     view->height = height;
     bool renamed = overlay_set(view->title, sizeof view->title, title);
-    if (view->display != NULL && resized) {
+    if (view->display != NULL && resized && view->kind->resize != NULL) {
         view->kind->resize(view->display, width, height);
     }
     if (view->display != NULL && renamed) {
@@ -165,7 +165,9 @@ static void obey(View *view, const char *key) {
     } else if (strcmp(key, "r") == 0) {
         reset(view);
     } else if (strcmp(key, "f") == 0) {
-        view->kind->toggle_full_screen(view->display);
+        if (view->kind->toggle_full_screen != NULL) {
+            view->kind->toggle_full_screen(view->display);
+        }
         view->redraw = true;
     } else if (strcmp(key, "s") == 0) {
         take_screenshot(view);
@@ -228,21 +230,6 @@ static void take_events(View *view) {
     }
 }
 
-static bool use_pixels(View *view, size_t count) {
-    if (count > view->pixel_count) {
-        free(view->pixels);
-        view->pixels = memory_zeroed(count * sizeof *view->pixels);
-        view->pixel_count = count;
-    }
-    return view->pixels != NULL;
-}
-
-static void blacken(uint32_t *pixels, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        pixels[i] = 0xFF000000;
-    }
-}
-
 // What shines through a picture without a window is black.
 static void make_opaque(uint32_t *pixels, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -254,21 +241,19 @@ static void draw(View *view) {
     int width, height;
     view->kind->size(view->display, view->width, view->height, &width, &height);
     size_t count = (size_t)width * (size_t)height;
-    if (count == 0 || !use_pixels(view, count)) {
+    if (count == 0) {
         return;
     }
-    PetriStatus status = PETRI_INVALID;
+    view->pixels = memory_resized(view->pixels, count * sizeof *view->pixels);
     if (view->world.picture != NULL && !view->world.unseen) {
-        status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
-                                    (size_t)width * sizeof *view->pixels);
+        petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
+                           (size_t)width * sizeof *view->pixels);
         petri_picture_tell(view->world.session, view->world.picture);
         view_update_trouble(view); // what drawing has found wrong
-    }
-    if (status == PETRI_OK) {
-        make_opaque(view->pixels, count);
     } else {
-        blacken(view->pixels, count);
+        memset(view->pixels, 0, count * sizeof *view->pixels);
     }
+    make_opaque(view->pixels, count);
     view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
     view->redraw = false;
     view->drawn = clock_seconds();

@@ -7,7 +7,6 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "petri.h"
-#include "view/keys.h"
 #include "view/overlay.h"
 #include "view/screen.h"
 #include "view/window_manager.h"
