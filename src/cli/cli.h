@@ -75,6 +75,8 @@ int help_for(const Command *command);
 int help_overview(void);
 int help_version(void);
 
+// Calls the handler for a signal, unless that is SIGHUP and nohup has it ignored.
+void signal_catch(int number, void (*handler)(int), int flags);
 // Writes `petri: text` and a newline to standard error.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);
 

@@ -1,4 +1,5 @@
-// message.c: messages of the command itself, and the search for what a mistyped word was meant to be.
+// message.c: messages of the command itself, signals, and the search for what a mistyped word was meant to be.
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,6 +7,14 @@
 
 #include "base/file.h"
 #include "cli/cli.h"
+
+void signal_catch(int number, void (*handler)(int), int flags) {
+    struct sigaction action = {.sa_handler = handler, .sa_flags = flags}, before;
+    sigemptyset(&action.sa_mask);
+    if (number != SIGHUP || (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)) {
+        sigaction(number, &action, NULL);
+    }
+}
 
 void message(const char *format, ...) {
     // One write for the whole line, so that messages of parallel processes do not mix.

@@ -47,22 +47,14 @@ void script_second(const char *first, const char *second) {
 }
 
 static bool read_stdin(Bytes *text) {
-    char block[1 << 16];
-    ssize_t got = 0;
     if (isatty(STDIN_FILENO)) {
         message("reading the script from the terminal; Ctrl-D ends it");
     }
-    while (text->length <= MOST_BYTES && (got = read(STDIN_FILENO, block, sizeof block)) != 0) {
-        if (got < 0 && errno != EINTR) {
-            message("cannot read standard input: %s", strerror(errno));
-            return false;
-        }
-        bytes_add(text, block, got < 0 ? 0 : (size_t)got);
+    bool read = bytes_read(text, STDIN_FILENO, MOST_BYTES);
+    if (!read || text->length > MOST_BYTES) {
+        message("cannot read standard input: %s", read ? "it is too large" : strerror(errno));
     }
-    if (text->length > MOST_BYTES) {
-        message("cannot read standard input: it is too large");
-    }
-    return text->length <= MOST_BYTES;
+    return read && text->length <= MOST_BYTES;
 }
 
 typedef PetriStatus TakeFile(PetriSession *session, const char *file);

@@ -18,8 +18,7 @@ typedef struct Golden {
     Bytes text;  // the whole file
     size_t body; // where the recorded output begins
     uint32_t body_line;
-    char **options; // the words after `# run`
-    int option_count;
+    TextList options; // the words after `# run`
     double tolerance; // 0: exactly
     int64_t horizon;
     int64_t strict;

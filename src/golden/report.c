@@ -3,6 +3,7 @@
 
 #include <string.h>
 
+#include "base/file.h"
 #include "cli/cli.h"
 
 void report_result(Output *output, const Result *result) {
@@ -53,7 +54,7 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
         add_result(&out, results[i]);
     }
     bytes_format(&out, "</testsuite>\n");
-    const char *problem = bytes_replace_file(&out, path);
+    const char *problem = file_replace(path, (Str){out.data, out.length}, 0);
     if (problem != NULL) {
         message("cannot write %s: %s", path, problem);
     }

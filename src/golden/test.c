@@ -80,7 +80,7 @@ static void add_override(char **argv, int *argc, Bytes *text, const char *name, 
 static void start_child(Suite *suite, Case *item) {
     SCOPED_TEXT folder = script_folder(item->script);
     const Golden *golden = &item->golden;
-    char **argv = memory_zeroed(((size_t)golden->option_count + 10) * sizeof *argv);
+    char **argv = memory_zeroed((golden->options.count + 10) * sizeof *argv);
     SCOPED_BYTES threads = {0};
     SCOPED_BYTES neighbours = {0};
     int argc = 0;
@@ -91,8 +91,8 @@ static void start_child(Suite *suite, Case *item) {
     if (item->is_rejection) {
         argv[argc++] = "--frames=1";
     }
-    for (int i = 0; i < golden->option_count; i++) {
-        argv[argc++] = golden->options[i];
+    for (size_t i = 0; i < golden->options.count; i++) {
+        argv[argc++] = golden->options.items[i];
     }
     add_override(argv, &argc, &threads, "threads", suite->options->as_threads);
     add_override(argv, &argc, &neighbours, "neighbours", suite->options->as_neighbours);

@@ -1,5 +1,6 @@
 // line.c: lines for the prompt, and which of them belong together.
 #include "repl/line.h"
+#include "base/file.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -215,6 +216,6 @@ void saved_add(const Bytes *lines) {
         size_t start = start_of_last(&all, SAVED_MOST);
         Bytes kept = {.data = all.data + start, .length = all.length - start};
         make_folders(path.data);
-        bytes_replace_file(&kept, path.data);
+        file_replace(path.data, (Str){kept.data, kept.length}, 0);
     }
 }

@@ -15,23 +15,18 @@
 enum { WIDEST = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MOST_FRAMES = 1000000 };
 
 typedef struct Canvas {
-    bool braille;
+    int across; // dots of a cell
+    int down;
     int columns; // of dots
     int rows;
     unsigned char *dots;
 } Canvas;
 
-static void set_dot(Canvas *canvas, int x, int y) {
-    canvas->dots[y * canvas->columns + x] = 1;
-}
-
 // The dots of a column from one height to another, so that steep parts stay a line.
 static void draw_column(Canvas *canvas, int x, int from, int to) {
-    int step = from < to ? 1 : -1;
-    for (int y = from; y != to; y += step) {
-        set_dot(canvas, x, y);
+    for (int y = from < to ? from : to; y <= (from < to ? to : from); y++) {
+        canvas->dots[y * canvas->columns + x] = 1;
     }
-    set_dot(canvas, x, to);
 }
 
 typedef struct Range {
@@ -69,40 +64,39 @@ static void draw(Canvas *canvas, const Range *range, const double *values, int64
     }
 }
 
-static void write_braille(Output *output, const Canvas *canvas, int row, int column) {
+// The bits of a braille character, U+2800 and what follows, for the dots of a cell.
+static unsigned cell_pattern(const Canvas *canvas, int row, int column) {
     static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     unsigned pattern = 0;
-    for (int y = 0; y < 4; y++) {
-        for (int x = 0; x < 2; x++) {
-            bool set = canvas->dots[(row * 4 + y) * canvas->columns + column * 2 + x];
+    for (int y = 0; y < canvas->down; y++) {
+        for (int x = 0; x < canvas->across; x++) {
+            bool set = canvas->dots[(row * canvas->down + y) * canvas->columns + column * canvas->across + x];
             pattern |= set ? bits[y][x] : 0;
         }
     }
-    // U+2800 and what follows.
-    const char utf8[3] = {(char)0xe2, (char)(0xa0 | pattern >> 6), (char)(0x80 | (pattern & 0x3f))};
-    output_write(output, utf8, sizeof utf8);
+    return pattern;
 }
 
 static void write_canvas(Output *output, const Canvas *canvas, const Range *range) {
-    int rows = canvas->braille ? canvas->rows / 4 : canvas->rows;
-    int columns = canvas->braille ? canvas->columns / 2 : canvas->columns;
+    int rows = canvas->rows / canvas->down, columns = canvas->columns / canvas->across;
+    bool braille = canvas->down > 1;
     for (int row = 0; row < rows; row++) {
-        const unsigned char *dots = canvas->dots + row * canvas->columns;
-        int last = columns; // blanks at the end say nothing
-        while (!canvas->braille && last > 0 && !dots[last - 1]) {
-            last--;
-        }
         char label[32] = "";
         if (row == 0 || row == rows - 1) {
             snprintf(label, sizeof label, "%.6g", row == 0 ? range->most : range->least);
         }
-        output_format(output, "%12s %s", label, canvas->braille ? "\u2502" : "|");
-        for (int column = 0; column < last; column++) {
-            if (canvas->braille) {
-                write_braille(output, canvas, row, column);
-            } else {
-                output_write(output, dots[column] ? "*" : " ", 1);
+        output_format(output, "%12s %s", label, braille ? "\u2502" : "|");
+        int blanks = 0; // those at the end say nothing
+        for (int column = 0; column < columns; column++) {
+            unsigned pattern = cell_pattern(canvas, row, column);
+            char character[UTF8_MAX] = "*";
+            if (!braille && pattern == 0) {
+                blanks++;
+                continue;
             }
+            size_t length = braille ? utf8_encode(0x2800 + pattern, character) : 1;
+            output_format(output, "%*s%.*s", blanks, "", (int)length, character);
+            blanks = 0;
         }
         output_write(output, "\n", 1);
     }
@@ -114,10 +108,10 @@ static void plot(Repl *repl, const double *values, int64_t first, int64_t count)
         repl_fail(repl, "there is no number to plot");
         return;
     }
-    Canvas canvas = {.braille = repl->utf8};
+    Canvas canvas = {.across = repl->utf8 ? 2 : 1, .down = repl->utf8 ? 4 : 1};
     int columns = count > WIDEST ? WIDEST : count < 20 ? 20 : (int)count;
-    canvas.columns = canvas.braille ? columns * 2 : columns;
-    canvas.rows = canvas.braille ? HEIGHT * 4 : HEIGHT;
+    canvas.columns = columns * canvas.across;
+    canvas.rows = HEIGHT * canvas.down;
     canvas.dots = memory_zeroed((size_t)(canvas.columns * canvas.rows));
     draw(&canvas, &range, values, count);
     write_canvas(&repl->output, &canvas, &range);

@@ -9,6 +9,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "cli/script.h"
 #include "repl/repl.h"
 
@@ -74,7 +75,7 @@ static bool write_script(Repl *repl, const char *path) {
         bytes_add_text(&text, kept);
         bytes_add_text(&text, "\n");
     }
-    const char *problem = bytes_replace_file(&text, path);
+    const char *problem = file_replace(path, (Str){text.data, text.length}, 0);
     bool done = problem == NULL || repl_fail(repl, "cannot write '%s': %s", path, problem);
     return done;
 }
@@ -125,7 +126,7 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
             good = repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "not recorded");
         }
     }
-    const char *problem = good ? bytes_replace_file(&text, golden) : NULL;
+    const char *problem = good ? file_replace(golden, (Str){text.data, text.length}, 0) : NULL;
     if (problem != NULL) {
         good = repl_fail(repl, "cannot write '%s': %s", golden, problem);
     }

@@ -116,9 +116,8 @@ void repl_complete_frame(Repl *repl);
 
 // What a word may go on with (complete.c).
 typedef struct Completion {
-    Bytes words; // that begin with what was typed, each ended by NUL, sorted, each once
-    size_t count;
-    Bytes common; // what all of them have beyond what was typed
+    TextList words; // that begin with what was typed, sorted, each once
+    Bytes common;   // what all of them have beyond what was typed
 } Completion;
 
 // For the first `length` bytes of a line. To be freed.

@@ -94,11 +94,16 @@ bool word_limit(Repl *repl, char *text, int64_t *limit) {
     return true;
 }
 
-void word_last_count(char *text, int64_t *count) {
+static char *last_word(char *text) {
     char *last = text + strlen(text);
     while (last > text && !is_blank(last[-1])) {
         last--;
     }
+    return last;
+}
+
+void word_last_count(char *text, int64_t *count) {
+    char *last = last_word(text);
     int64_t value = 0;
     if (last > text && read_count(last, &value) && value > 0) {
         *count = value;
@@ -115,11 +120,7 @@ static size_t screen_lines(const Repl *repl, size_t around) {
 }
 
 size_t word_lines(const Repl *repl, char *text, size_t around) {
-    char *last = text + strlen(text);
-    while (last > text && !is_blank(last[-1])) {
-        last--;
-    }
-    char *before = last;
+    char *last = last_word(text), *before = last;
     while (before > text && is_blank(before[-1])) {
         before--;
     }
@@ -136,10 +137,8 @@ size_t word_lines(const Repl *repl, char *text, size_t around) {
 static const struct {
     const char *word;
     const char *command;
-    bool topic; // something may follow
 } bare_words[] = {
-    {"help", ".help", true},  {"?", ".help", true},     {"h", ".help", false},
-    {"quit", ".quit", false}, {"exit", ".quit", false}, {"q", ".quit", false},
+    {"help", ".help"}, {"?", ".help"}, {"h", ".help"}, {"quit", ".quit"}, {"exit", ".quit"}, {"q", ".quit"},
 };
 
 enum { BARE_COUNT = sizeof bare_words / sizeof bare_words[0] };
@@ -188,15 +187,10 @@ static void learn_names(Repl *repl) {
 
 // `help`, `quit` and the like.
 static bool take_alias(Repl *repl, const char *word, size_t length, const char *rest, Bytes *remark) {
-    bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0, topic = false;
-    const char *command = NULL;
-    for (size_t i = 0; i < BARE_COUNT; i++) {
-        if (is_word(bare_words[i].word, word, length)) {
-            command = bare_words[i].command;
-            topic = bare_words[i].topic;
-        }
-    }
-    if (command == NULL || !(alone || topic)) {
+    bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
+    const char *command = bare_alias(word, length);
+    bool topic = length > 1 || word[0] == '?'; // something may follow `help` and `?`
+    if (command == NULL || !(alone || (topic && strcmp(command, ".help") == 0))) {
         return false;
     }
     if (is_bound(repl, word, length)) {

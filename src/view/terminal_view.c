@@ -86,25 +86,15 @@ static void on_suspend(int number) {
     terminal.suspended = 1;
 }
 
-static void on_signal(int number, void (*handler)(int)) {
-    struct sigaction action = {.sa_handler = handler};
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
-static void catch_crash(int number) {
+static void catch_signals(void) {
     struct sigaction action = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
     sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
-static void catch_signals(void) {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
     for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
-        catch_crash(crashes[i]);
+        sigaction(crashes[i], &action, NULL);
     }
-    on_signal(SIGWINCH, on_resize);
-    on_signal(SIGTSTP, on_suspend);
+    signal_catch(SIGWINCH, on_resize, 0);
+    signal_catch(SIGTSTP, on_suspend, 0);
 }
 
 static void enter(void) {

@@ -24,12 +24,9 @@ static void on_interrupt(int number) {
 
 // The first of these closes the view with all that belongs to it; a second one ends the process.
 static void catch_interrupts(void) {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        sigaction(numbers[i], &action, NULL);
-    }
+    signal_catch(SIGINT, on_interrupt, (int)SA_RESETHAND);
+    signal_catch(SIGTERM, on_interrupt, (int)SA_RESETHAND);
+    signal_catch(SIGHUP, on_interrupt, (int)SA_RESETHAND);
 }
 
 // The window's size and title, of which the script may change its mind at any time.
@@ -66,16 +63,7 @@ static void step(View *view) {
 }
 
 static bool at_end(const View *view) {
-    const Options *options = view->world.options;
-    if (view->world.frames >= options->frames) {
-        return true;
-    }
-    if (isnan(options->run_time)) {
-        return false;
-    }
-    double fps = petri_frame(view->world.session).fps;
-    double time = options->realtime ? clock_seconds() - view->start : (double)view->world.frames / fps;
-    return time >= options->run_time;
+    return !options_due(view->world.options, view->world.frames, view->start, petri_frame(view->world.session).fps);
 }
 
 static bool may_step(const View *view) {
@@ -94,21 +82,14 @@ static double idle_seconds(const View *view) {
     return fmax(0, fmin(idle, view->notice_ends - now));
 }
 
-// The pixels that the picture takes in the middle of the display's.
-static void picture_area(const View *view, double *left, double *top, double *width, double *height) {
+// The picture is in the middle of the display's pixels.
+static void report_pointer(View *view, const Event *event) {
     int across, down;
     view->kind->size(view->display, view->width, view->height, &across, &down);
     double scale = fmin((double)across / view->width, (double)down / view->height);
-    *width = view->width * scale;
-    *height = view->height * scale;
-    *left = (across - *width) / 2;
-    *top = (down - *height) / 2;
-}
-
-static void report_pointer(View *view, const Event *event) {
-    double left, top, width, height;
-    picture_area(view, &left, &top, &width, &height);
-    PetriPointer pointer = {.x = (event->x - left) / width, .y = (event->y - top) / height, .buttons = event->buttons};
+    PetriPointer pointer = {.x = (event->x - across / 2.0) / (view->width * scale) + 0.5,
+                            .y = (event->y - down / 2.0) / (view->height * scale) + 0.5,
+                            .buttons = event->buttons};
     pointer.inside = event->inside && pointer.x >= 0 && pointer.x <= 1 && pointer.y >= 0 && pointer.y <= 1;
     petri_pointer(view->world.session, &pointer);
 }
