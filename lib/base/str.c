@@ -93,6 +93,15 @@ int str_distance(Str a, Str b) {
     return above[b.len];
 }
 
+bool str_try_nearest(StrNearest *nearest, Str name) {
+    int distance = str_distance(nearest->wanted, name);
+    if (distance >= nearest->limit)
+        return false;
+    nearest->limit = distance;
+    nearest->found = name;
+    return true;
+}
+
 Text text_new(Arena *arena) {
     return (Text){.arena = arena};
 }

@@ -206,8 +206,7 @@ static void shed(FileCache *cache, const FileEntry *kept) {
 
 static void warn(BuiltinContext *context, const char *function, Str name, const char *problem) {
     int len = name.len < 200 ? (int)name.len : 200;
-    Str text = str_format(context->arena, "cannot read '%.*s': %s", len, name.bytes, problem);
-    builtin_fault(context, function, str_to_c(context->arena, text));
+    builtin_fault(context, function, "cannot read '%.*s': %s", len, name.bytes, problem);
 }
 
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name) {
@@ -276,12 +275,10 @@ static const void *parse_text(Arena *arena, char *bytes, size_t len, const char 
 }
 
 static const void *parse_bytes(Arena *arena, char *bytes, size_t len, const char **problem) {
-    (void)problem;
     return contents_new(arena, bytes, len);
 }
 
 Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (value_text(context->arena, context->symbols, args[0]).len == 0)
         return VALUE_NULL;
     const Str *text = file_cache_get(context, "read", parse_text, args[0]);
@@ -289,7 +286,6 @@ Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
 }
 
 Value builtin_read_bytes(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     const Str *contents = file_cache_get(context, "read_bytes", parse_bytes, args[0]);
     if (!contents || contents->len == 0)
         return VALUE_NULL;
