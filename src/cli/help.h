@@ -20,6 +20,6 @@ bool help_prompt(Output *output, const char *name);
 // there is none.
 bool topics_tell(Output *output, const char *topic);
 // Offers all of these names.
-void topics_offer(Nearest *nearest);
+void topics_offer(StrNearest *nearest);
 
 #endif

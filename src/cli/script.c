@@ -117,7 +117,7 @@ static bool differs_in_suffix(const char *name, const char *script) {
 
 // The script whose name in its folder is nearest; NULL: none is near.
 static const char *nearest_of(const glob_t *scripts, size_t folder, const char *name) {
-    Nearest nearest = {.word = name};
+    StrNearest nearest = nearest_start(name);
     const char *found = NULL;
     for (size_t i = 0; i < scripts->gl_pathc; i++) {
         const char *path = scripts->gl_pathv[i];
