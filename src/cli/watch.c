@@ -59,13 +59,15 @@ struct Watch {
 
 static Stamp stamp_of(const char *path) {
     struct stat info;
-    return stat(path, &info) != 0 ? (Stamp){0}
-                                  : (Stamp){true,
-                                            (int64_t)info.st_dev,
-                                            (int64_t)info.st_ino,
-                                            (int64_t)info.st_size,
-                                            (int64_t)info.st_mtim.tv_sec,
-                                            (int64_t)info.st_mtim.tv_nsec};
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) { // to read a pipe once more would wait for ever
+        return (Stamp){0};
+    }
+    return (Stamp){true,
+                   (int64_t)info.st_dev,
+                   (int64_t)info.st_ino,
+                   (int64_t)info.st_size,
+                   (int64_t)info.st_mtim.tv_sec,
+                   (int64_t)info.st_mtim.tv_nsec};
 }
 
 static bool same(const Stamp *a, const Stamp *b) {
