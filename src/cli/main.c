@@ -124,6 +124,9 @@ static bool run_on_large_stack(Job *job) {
                        pthread_create(&thread, &attributes, run_job, job) == 0;
         pthread_attr_destroy(&attributes);
         if (started) {
+            sigset_t all; // signals go to the thread that works
+            sigfillset(&all);
+            pthread_sigmask(SIG_BLOCK, &all, NULL);
             return pthread_join(thread, NULL) == 0;
         }
     }

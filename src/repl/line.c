@@ -41,7 +41,7 @@ LineWait line_wait(Repl *repl) {
         }
         struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {watch_descriptor(repl->files), POLLIN, 0}};
         int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
-        if (ready < 0 && errno == EINTR) {
+        if ((ready < 0 && errno == EINTR) || repl_interrupted()) {
             continue;
         }
         if (files[0].revents != 0 || ready < 0) {
