@@ -73,9 +73,9 @@ static void save(PetriSession *session, void *context) {
     add_entries(&out, session);
     add_systems(&out, session);
     text_add_format(&out, "end %016" PRIx64 "\n", hash_bytes(0, out.bytes, out.len));
-    const char *problem = NULL;
-    saving->done = file_replace(&session->text_arena, saving->file, text_str(&out), &problem);
-    if (!saving->done)
+    const char *problem = file_replace(saving->file, text_str(&out), 0);
+    saving->done = !problem;
+    if (problem)
         complain(session, "cannot write the state to", saving->file, problem);
 }
 

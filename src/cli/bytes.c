@@ -96,12 +96,7 @@ bool bytes_read_file(Bytes *text, const char *path) {
 }
 
 const char *bytes_replace_file(const Bytes *text, const char *path) {
-    Arena names;
-    const char *problem = NULL;
-    arena_init(&names, "names of files", (size_t)1 << 20);
-    file_replace(&names, path, (Str){text->data, text->length}, &problem);
-    arena_free(&names);
-    return problem;
+    return file_replace(path, (Str){text->data, text->length}, 0);
 }
 
 void bytes_free(Bytes *text) {

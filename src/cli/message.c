@@ -1,12 +1,11 @@
 // message.c: messages of the command itself, and the search for what a mistyped word was meant to be.
-#include <errno.h>
 #include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/str.h"
+#include "base/file.h"
 #include "cli/cli.h"
 
 void message(const char *format, ...) {
@@ -24,13 +23,7 @@ void message(const char *format, ...) {
     line[length] = '\n';
     length++;
     // Not by stdio, which drops what a signal interrupts: Ctrl-C comes just when there is something to say about it.
-    for (size_t done = 0; done < length;) {
-        ssize_t put = write(STDERR_FILENO, line + done, length - done);
-        if (put < 0 && errno != EINTR) {
-            break;
-        }
-        done += put < 0 ? 0 : (size_t)put;
-    }
+    file_write(STDERR_FILENO, line, length);
 }
 
 bool is_nearer(const char *word, const char *candidate, size_t *best) {

@@ -1,9 +1,9 @@
 // new.c: `petri new`: starts a script, with a dish to change.
-#include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
+#include "base/file.h"
+#include "base/replace.h"
 #include "cli/args.h"
 #include "cli/bytes.h"
 #include "cli/hints.h"
@@ -14,45 +14,21 @@ static bool ends_in(const char *text, const char *end) {
     return length >= count && strcmp(text + length - count, end) == 0;
 }
 
-static bool write_all(int fd, const Bytes *text) {
-    for (size_t done = 0; done < text->length;) {
-        ssize_t put = write(fd, text->data + done, text->length - done);
-        if (put < 0 && errno != EINTR) {
-            return false;
-        }
-        done += put < 0 ? 0 : (size_t)put;
-    }
-    return true;
-}
-
 // Writes the dish to a file that must not exist yet.
 static int write_dish(const char *path) {
-    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0 && errno == EEXIST) {
-        message("%s is there already, and stays as it is; choose another name", path);
-        return STATUS_FAILED;
-    }
-    if (fd < 0) {
-        message("cannot make %s: %s", path, strerror(errno));
-        return STATUS_FAILED;
-    }
     Bytes text = {0};
     for (size_t i = 0; NEW_DISH[i] != NULL; i++) {
         bytes_add(&text, NEW_DISH[i], strlen(NEW_DISH[i]));
     }
-    bool written = write_all(fd, &text);
-    int error = errno;
+    const char *problem = file_replace(path, (Str){text.data, text.length}, REPLACE_NONE);
     bytes_free(&text);
-    if (close(fd) != 0 && written) {
-        written = false;
-        error = errno;
+    struct stat info;
+    if (problem != NULL && lstat(path, &info) == 0) {
+        message("%s is there already, and stays as it is; choose another name", path);
+    } else if (problem != NULL) {
+        message("cannot write %s: %s", path, problem);
     }
-    if (!written) {
-        unlink(path); // half a script is worse than none
-        message("cannot write %s: %s", path, strerror(error));
-        return STATUS_FAILED;
-    }
-    return STATUS_DONE;
+    return problem == NULL ? STATUS_DONE : STATUS_FAILED;
 }
 
 // NAME is the file's name, with or without its suffix.

@@ -9,7 +9,6 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
-#include "cli/unfinished.h"
 #include "render/video.h"
 
 enum { QUEUE = 4, MOST_WORKERS = 16 };
@@ -81,9 +80,7 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
 }
 
 static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painter, const char *file) {
-    int unfinished = unfinished_begin(file);
     PetriStatus status = petri_picture_save(picture, painter, file);
-    unfinished_end(unfinished);
     if (status == PETRI_MEMORY) {
         set_trouble(painting, "out of memory");
     }
@@ -256,7 +253,7 @@ bool painting_finish(Painting *painting, PetriSession *session, bool abandon, co
     painting_tell(painting, session);
     if (painting->failed) {
         video_abandon(&painting->video);
-    } else if (painting->video.beside != NULL) {
+    } else if (painting->video.open) {
         double start = clock_seconds();
         if (!video_close(&painting->video)) {
             painting->failed = true;

@@ -186,9 +186,9 @@ static int end_render(Render *render, bool going) {
     }
     if (stopped != 0) {
         report_stop(render, keeps && good);
-        return STATUS_SIGNAL + stopped;
+        return frames->state.behind ? STATUS_FAILED : STATUS_SIGNAL + stopped;
     }
-    if (!going || !good || frames->state_lost) {
+    if (!going || !good || state_file_failed(&frames->state)) {
         return STATUS_FAILED;
     }
     if (render->drawn == 0) {

@@ -6,17 +6,17 @@
 
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/state_file.h"
 #include "petri.h"
 
 typedef struct Frames {
     Options options;
     PetriSession *session;
     Progress progress;
-    int64_t done;          // frames that were made
-    int64_t early;         // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
-    double start;          // seconds of the monotonic clock
-    double saved;          // when the state was saved last
-    bool state_lost;       // the state file could not be read or written
+    int64_t done;  // frames that were made
+    int64_t early; // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
+    double start;  // seconds of the monotonic clock
+    StateFile state;
     bool shown_last;       // the last diagnostic that was no note was shown
     bool wrong_definition; // the script cannot take a value of -D
 } Frames;

@@ -72,7 +72,7 @@ static void output_frame(Run *run) {
     if (run->to_terminal || run->frames.options.realtime) {
         output_flush(&run->output);
     }
-    if (run->trajectory.beside != NULL) {
+    if (run->trajectory.open) {
         trajectory_add(&run->trajectory, run->frames.session);
     }
     run->stats.output_seconds += clock_seconds() - start;
@@ -141,10 +141,10 @@ static int run_frames(Run *run) {
     if (frames->options.stats) {
         stats_print(&run->stats, frames->session, clock_seconds() - frames->start);
     }
-    if (frames_signal() != 0) {
+    if (frames_signal() != 0 && !frames->state.behind && recorded) {
         return STATUS_SIGNAL + frames_signal();
     }
-    if (!going || !recorded || frames->state_lost) {
+    if (frames_signal() != 0 || !going || !recorded || state_file_failed(&frames->state)) {
         return STATUS_FAILED;
     }
     report_pictures(run);

@@ -11,8 +11,8 @@
 #include "cli/progress.h"
 #include "view/view.h"
 
-// Seconds: the longest sleep (a saved script is seen after at most that); between two saves of the state.
-static const double LONGEST_SLEEP = 0.05, BETWEEN_SAVES = 5;
+// Seconds: a saved script is seen after at most that.
+static const double LONGEST_SLEEP = 0.05;
 enum { MOST_EVENTS = 256, DEFAULT_SIZE = 512 };
 
 // A signal handler can reach nothing but a global.
@@ -62,10 +62,7 @@ static void step(View *view) {
         view_update_status(view);
     }
     view->redraw = true;
-    if (clock_seconds() - view->saved > BETWEEN_SAVES) {
-        world_save(&view->world);
-        view->saved = clock_seconds();
-    }
+    world_save(&view->world, false);
 }
 
 static bool at_end(const View *view) {
@@ -350,7 +347,7 @@ static void report_summary(const View *view) {
 }
 
 static int run_view(View *view) {
-    view->start = view->saved = view->measured = clock_seconds();
+    view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
     view->redraw = true;
     if (view->world.options.frames > 0) {
@@ -370,11 +367,14 @@ static int run_view(View *view) {
         return STATUS_FAILED;
     }
     if (!view->world.halted) {
-        world_save(&view->world);
+        world_save(&view->world, true);
     }
     report_summary(view);
     bool failed = view->world.halted || view->world.failed || view->broken;
-    return interrupted ? STATUS_SIGNAL + interrupted : failed ? STATUS_FAILED : STATUS_DONE;
+    if (interrupted && !view->world.state.behind) {
+        return STATUS_SIGNAL + interrupted;
+    }
+    return failed || state_file_failed(&view->world.state) ? STATUS_FAILED : STATUS_DONE;
 }
 
 static int view_run(const Host *host, int argc, char **argv) {

@@ -77,13 +77,7 @@ static int load_first(World *world) {
         }
         return world->wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
-    if (world->options.state_file != NULL) {
-        world->state_lost = petri_restore(world->session, world->options.state_file) != PETRI_OK;
-        if (world->state_lost) {
-            message("the view starts afresh; '%s' is left alone and nothing is saved", world->options.state_file);
-            world->failed = true;
-        }
-    }
+    state_file_restore(&world->state, world->session, world->options.state_file);
     return OPTIONS_READ;
 }
 
@@ -251,10 +245,12 @@ bool world_screenshot(World *world, char *name, size_t size) {
     return saved;
 }
 
-void world_save(World *world) {
-    if (world->options.state_file != NULL && !world->state_lost) {
-        world->state_lost = petri_save(world->session, world->options.state_file) != PETRI_OK;
-        world->failed = world->failed || world->state_lost;
+void world_save(World *world, bool at_once) {
+    const char *news = state_file_save(&world->state, world->session, at_once);
+    if (news != NULL) {
+        log_text(world, "petri: ");
+        log_text(world, news);
+        log_text(world, "\n");
     }
 }
 
