@@ -57,14 +57,11 @@ extern const Command CHECK_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 
-// The commands in the order of help, ended by NULL.
-extern const Command *const COMMANDS[];
-// NULL if there is none of this name.
-const Command *command_find(const char *name);
 
 // Prints a command's own help on standard output; returns the exit status.
 int help_for(const Command *command);
-int help_overview(void);
+// `commands` are in the order of help, ended by NULL.
+int help_overview(const Command *const *commands);
 int help_version(void);
 
 // Writes `petri: text` and a newline to standard error.

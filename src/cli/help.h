@@ -11,7 +11,5 @@ Output *help_begin(void);
 int help_end(Output *output);
 // An option and what it does, in a line.
 void help_option(Output *output, const OptionSpec *spec);
-// Tells of a command of the prompt; false if there is none of this name.
-bool help_prompt(Output *output, const char *name);
 
 #endif
