@@ -23,12 +23,7 @@ bool diag_report(DiagSink *sink, const Diag *diag) {
         sink->dropped++;
         return false;
     }
-    if (sink->count == sink->capacity) {
-        uint32_t capacity = sink->capacity ? sink->capacity * 2 : 8;
-        sink->items =
-            arena_grow(sink->arena, sink->items, sink->capacity * sizeof *sink->items, capacity * sizeof *sink->items);
-        sink->capacity = capacity;
-    }
+    sink->items = arena_room(sink->arena, sink->items, sink->count, &sink->capacity, sizeof *sink->items);
     Diag *kept = &sink->items[sink->count];
     *kept = *diag;
     kept->text = str_copy(sink->arena, diag->text);
@@ -107,8 +102,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     SourcePlace place = {0};
     if (diag->source) {
         place = source_locate(diag->source, diag->span.start);
-        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, (int)diag->source->name.len, diag->source->name.bytes,
-                        place.line, place.column, plain);
+        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, STR_ARGS(diag->source->name), place.line, place.column, plain);
     }
     text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
     add_text(out, diag);
@@ -127,7 +121,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         format_caret_line(out, line, column, width, plain);
     }
     if (diag->hint.len)
-        text_add_format(out, "    %.*s\n", (int)diag->hint.len, diag->hint.bytes);
+        text_add_format(out, "    %.*s\n", STR_ARGS(diag->hint));
 }
 
 Str diag_one_line(Arena *arena, const Diag *diag) {
@@ -135,7 +129,7 @@ Str diag_one_line(Arena *arena, const Diag *diag) {
     add_text(&out, diag);
     if (diag->source) {
         SourcePlace place = source_locate(diag->source, diag->span.start);
-        text_add_format(&out, " (%.*s:%u)", (int)diag->source->name.len, diag->source->name.bytes, place.line);
+        text_add_format(&out, " (%.*s:%u)", STR_ARGS(diag->source->name), place.line);
     }
     return text_str(&out);
 }

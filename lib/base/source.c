@@ -73,5 +73,5 @@ Str path_join(Arena *arena, Str directory, Str path) {
     if (directory.len == 0 || (path.len && path.bytes[0] == '/'))
         return path;
     const char *slash = directory.bytes[directory.len - 1] == '/' ? "" : "/";
-    return str_format(arena, "%.*s%s%.*s", (int)directory.len, directory.bytes, slash, (int)path.len, path.bytes);
+    return str_format(arena, "%.*s%s%.*s", STR_ARGS(directory), slash, STR_ARGS(path));
 }

@@ -39,7 +39,7 @@ typedef struct Builtin {
 } Builtin;
 
 extern const Builtin builtin_table[];
-extern const uint32_t builtin_count;
+extern const uint32_t builtin_table_count;
 
 // The row of a name, or NULL.
 const Builtin *builtin_find(Str name);
@@ -48,8 +48,9 @@ const Builtin *builtin_find(Str name);
 Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                    const Symbol *const *names, const Value *named, uint32_t named_count);
 
-// Reports "NAME: text" as a diagnostic.
-void builtin_fault(BuiltinContext *context, const char *name, const char *text);
+// Reports "NAME: text" as a diagnostic; null.
+Value builtin_fault(BuiltinContext *context, const char *name, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 // A constant that is visible like a built-in (L4.2): true false null inf nan pi π tau 𝜏. False if there is none.
 bool builtin_constant(Str name, Value *value);

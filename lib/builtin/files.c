@@ -172,12 +172,7 @@ static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
 static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
     if (cache->count == MOST_ENTRIES)
         cache_clear(cache);
-    if (cache->count == cache->capacity) {
-        uint32_t capacity = cache->capacity ? cache->capacity * 2 : 16;
-        cache->entries = arena_grow(&cache->arena, cache->entries, cache->capacity * sizeof *cache->entries,
-                                    capacity * sizeof *cache->entries);
-        cache->capacity = capacity;
-    }
+    cache->entries = arena_room(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
     FileEntry *entry = arena_alloc(&cache->arena, sizeof *entry);
     *entry = (FileEntry){.path = str_copy(&cache->arena, key->path), .parse = key->parse};
     arena_init(&entry->arena, "file", SIZE_MAX);
@@ -211,8 +206,7 @@ static void shed(FileCache *cache, const FileEntry *kept) {
 
 static void warn(BuiltinContext *context, const char *function, Str name, const char *problem) {
     int len = name.len < 200 ? (int)name.len : 200;
-    Str text = str_format(context->arena, "cannot read '%.*s': %s", len, name.bytes, problem);
-    builtin_fault(context, function, str_to_c(context->arena, text));
+    builtin_fault(context, function, "cannot read '%.*s': %s", len, name.bytes, problem);
 }
 
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name) {
@@ -281,12 +275,10 @@ static const void *parse_text(Arena *arena, char *bytes, size_t len, const char 
 }
 
 static const void *parse_bytes(Arena *arena, char *bytes, size_t len, const char **problem) {
-    (void)problem;
     return contents_new(arena, bytes, len);
 }
 
 Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (value_text(context->arena, context->symbols, args[0]).len == 0)
         return VALUE_NULL;
     const Str *text = file_cache_get(context, "read", parse_text, args[0]);
@@ -294,7 +286,6 @@ Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
 }
 
 Value builtin_read_bytes(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     const Str *contents = file_cache_get(context, "read_bytes", parse_bytes, args[0]);
     if (!contents || contents->len == 0)
         return VALUE_NULL;

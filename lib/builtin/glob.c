@@ -111,12 +111,7 @@ static void glob_found(Glob *glob, Str path) {
         glob->too_much = true;
         return;
     }
-    if (glob->found_count == glob->found_capacity) {
-        uint32_t capacity = glob->found_capacity ? glob->found_capacity * 2 : 16;
-        glob->found = arena_grow(glob->arena, glob->found, glob->found_capacity * sizeof *glob->found,
-                                 capacity * sizeof *glob->found);
-        glob->found_capacity = capacity;
-    }
+    glob->found = arena_room(glob->arena, glob->found, glob->found_count, &glob->found_capacity, sizeof path);
     glob->found[glob->found_count++] = path;
 }
 
@@ -238,23 +233,13 @@ static Value glob_value(Glob *glob) {
     }
     if (count == 0)
         return VALUE_NULL;
-    paths = builtin_sort_texts(arena, paths, count);
-    String *strings = arena_alloc_array(arena, count, sizeof *strings);
-    Item *items = arena_alloc_array(arena, count, sizeof *items);
-    for (uint32_t i = 0; i < count; i++) {
-        strings[i].text = paths[i];
-        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
-    }
-    return (Value){.len = count, .kind = VALUE_MIXED, .as.items = items};
+    return builtin_texts(arena, builtin_sort_texts(arena, paths, count), count);
 }
 
 Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Str pattern = value_text(context->arena, context->symbols, args[0]);
-    if (pattern.len == 0 || pattern.bytes[0] == '/') {
-        builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
-        return VALUE_NULL;
-    }
+    if (pattern.len == 0 || pattern.bytes[0] == '/')
+        return builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
     if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
     Glob glob = {.arena = context->arena};
@@ -264,9 +249,7 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
         walk(&glob, start, 0);
     else
         glob_found(&glob, start);
-    if (glob.too_much) {
-        builtin_fault(context, "glob", "too many directories or matches");
-        return VALUE_NULL;
-    }
+    if (glob.too_much)
+        return builtin_fault(context, "glob", "too many directories or matches");
     return glob.found_count ? glob_value(&glob) : VALUE_NULL;
 }

@@ -8,7 +8,7 @@ static bool may_stand(PlaceKind place, PlaceKind children) {
 static void report_misplaced(const Reader *reader, const Node *child, bool known) {
     Text out = text_new(reader->arena);
     Str name = child->kind->name;
-    text_add_format(&out, "'!%.*s' ", (int)name.len, name.bytes);
+    text_add_format(&out, "'!%.*s' ", STR_ARGS(name));
     text_add_c(&out, known ? "has no effect here; it is left out" : "is not drawn; it is left out");
     bool exists = !known && schema_is_undrawn(name);
     if (!known && !exists)

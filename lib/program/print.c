@@ -41,8 +41,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     for (uint32_t i = 0; i < instr->count; i++) {
         text_add_c(out, i ? ", " : "");
         if (instr->op == OP_NODE)
-            text_add_format(out, "%.*s=", (int)instr->as.node->names[i]->name.len,
-                            instr->as.node->names[i]->name.bytes);
+            text_add_format(out, "%.*s=", STR_ARGS(instr->as.node->names[i]->name));
         print_operand(out, symbols, code, code->operands[instr->list + i]);
     }
     text_add_char(out, ')');
@@ -70,7 +69,7 @@ static void print_extra(Text *out, const Instr *instr) {
     case OP_DECORATE:
         for (uint32_t i = 0; i < instr->count; i++) {
             Str attr = instr->as.decorate->names[i]->name;
-            text_add_format(out, "%s%.*s", i ? " " : "", (int)attr.len, attr.bytes);
+            text_add_format(out, "%s%.*s", i ? " " : "", STR_ARGS(attr));
         }
         break;
     default:
@@ -131,9 +130,8 @@ static void print_code(Text *out, const SymbolTable *symbols, const Code *code) 
         if (code->instrs[i].op != OP_CLOSURE)
             continue;
         const FunctionCode *function = code->instrs[i].as.function;
-        text_add_format(out, "\n%.*s: parameters=%u captures=%u registers=%u\n", (int)function->name.len,
-                        function->name.bytes, function->param_count, function->capture_count,
-                        function->code->register_count);
+        text_add_format(out, "\n%.*s: parameters=%u captures=%u registers=%u\n", STR_ARGS(function->name),
+                        function->param_count, function->capture_count, function->code->register_count);
         print_code(out, symbols, function->code);
     }
 }

@@ -84,15 +84,10 @@ static const Expr *capture(Compiler *compiler, FunctionScope *function, const As
         if (function->capture_names[i] == ast->name && function->captures[i].kind == wanted.kind &&
             function->captures[i].slot == wanted.slot)
             return slot_expr(compiler, EXPR_CAPTURE, ast, i);
-    if (function->capture_count == function->capture_capacity) {
-        uint32_t old = function->capture_capacity, capacity = old ? old * 2 : 4;
-        function->captures = arena_grow(compiler->scratch, function->captures, old * sizeof *function->captures,
-                                        capacity * sizeof *function->captures);
-        function->capture_names =
-            arena_grow(compiler->scratch, function->capture_names, old * sizeof *function->capture_names,
-                       capacity * sizeof *function->capture_names);
-        function->capture_capacity = capacity;
-    }
+    uint32_t capacity = function->capture_capacity, count = function->capture_count;
+    function->captures = arena_room(compiler->scratch, function->captures, count, &capacity, sizeof(Capture));
+    function->capture_names = arena_room(compiler->scratch, function->capture_names, count, &function->capture_capacity,
+                                         sizeof(const Symbol *));
     function->captures[function->capture_count] = wanted;
     function->capture_names[function->capture_count] = ast->name;
     return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
@@ -170,25 +165,11 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-typedef struct Nearest {
-    Str wanted;
-    Str name;
-    int distance;
-} Nearest;
-
-static void consider(Nearest *nearest, Str name) {
-    int distance = str_distance(nearest->wanted, name);
-    if (distance < nearest->distance) {
-        nearest->distance = distance;
-        nearest->name = name;
-    }
-}
-
 static const struct {
-    Str name;
+    const char *names;
     Str hint;
 } habits[] = {
-#define HABIT(name, hint) {{name, sizeof name - 1}, {hint, sizeof hint - 1}},
+#define HABIT(names, hint) {names, {hint, sizeof hint - 1}},
 #include "program/habit_list.h"
 };
 
@@ -203,33 +184,31 @@ static bool follows_slashes(const Compiler *compiler, Span span) {
 
 // "did you mean …", if some visible name is close.
 static Str nearest_name(Compiler *compiler, Str wanted) {
-    Nearest nearest = {.wanted = wanted, .distance = wanted.len < 4 ? 2 : 3};
+    StrNearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
         for (const Binding *binding = function->scope; binding; binding = binding->outer)
-            consider(&nearest, binding->name->name);
+            str_try_nearest(&nearest, binding->name->name);
         if (function->self)
-            consider(&nearest, function->self->name);
+            str_try_nearest(&nearest, function->self->name);
     }
     for (uint32_t i = 0; !compiler->options->module && i < ENGINE_NAME_COUNT; i++)
-        consider(&nearest, str_from(engine_names[i].name));
-    for (uint32_t i = 0; i < builtin_count; i++)
-        consider(&nearest, str_from(builtin_table[i].name));
-    if (!nearest.name.len)
-        return (Str){0};
-    return str_format(compiler->arena, "did you mean '%.*s'?", (int)nearest.name.len, nearest.name.bytes);
+        str_try_nearest(&nearest, str_from(engine_names[i].name));
+    for (uint32_t i = 0; i < builtin_table_count; i++)
+        str_try_nearest(&nearest, str_from(builtin_table[i].name));
+    return nearest.found.len ? str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found)) : (Str){0};
 }
 
 // What the author of an unbound name may have meant; empty if nothing comes to mind.
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
-        if (str_equal(name, habits[i].name))
+        if (str_word_number(name, habits[i].names) >= 0)
             return habits[i].hint;
     if (compiler->subject == ast)
-        return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
+        return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)
         return str_format(compiler->arena, "$ looks a key of the state up, such as $:%.*s; a name stands without it",
-                          (int)name.len, name.bytes);
+                          STR_ARGS(name));
     Str nearest = nearest_name(compiler, name);
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
 }
@@ -244,7 +223,7 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
         return expr;
     }
     compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
-                   str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
+                   str_format(compiler->arena, "unbound name '%.*s' is null", STR_ARGS(name)),
                    unbound_hint(compiler, ast));
     return compile_constant(compiler, ast, VALUE_NULL);
 }

@@ -50,6 +50,8 @@ const SchemaRow schema_rows[ROW_COUNT] = {
 const WordRow schema_words[WORD_COUNT] = {
 #define WORD(type, text, value) {TYPE_##type, value, {text, sizeof text - 1}},
 #include "schema/word_list.h"
+#define COMPOSITE(id, operator, text) {TYPE_COMPOSITE, COMPOSITE_##id, {text, sizeof text - 1}},
+#include "schema/composite_list.h"
 };
 
 const SchemaRow *schema_row(NodeKind kind, AttrName name) {
@@ -79,12 +81,7 @@ NodeKind schema_kind_of_force(PhysForceKind force) {
 }
 
 bool schema_is_undrawn(Str name) {
-    static const char *const undrawn[] = {
-#define UNDRAWN(text) text,
-#include "schema/schema_list.h"
-    };
-    for (size_t i = 0; i < sizeof undrawn / sizeof undrawn[0]; i++)
-        if (str_equal(name, str_from(undrawn[i])))
-            return true;
-    return false;
+    static const char undrawn[] = "canvas3d reference video shader adjust blur bloom edges chromakey feedback vignette "
+                                  "noise flare kaleid";
+    return str_word_number(name, undrawn) >= 0;
 }

@@ -73,13 +73,13 @@ enum { CAP_BUTT, CAP_ROUND, CAP_SQUARE };
 enum { FILL_WINDING, FILL_EVEN_ODD };
 enum { SLANT_UPRIGHT, SLANT_OBLIQUE, SLANT_ITALIC };
 typedef enum CompositeMode {
-#define COMPOSITE(id, operator) COMPOSITE_##id,
+#define COMPOSITE(id, operator, text) COMPOSITE_##id,
 #include "schema/composite_list.h"
     COMPOSITE_COUNT
 } CompositeMode;
 
 enum {
-    WORD_COUNT = 0
+    WORD_COUNT = COMPOSITE_COUNT
 #define WORD(type, text, value) +1
 #include "schema/word_list.h"
 };

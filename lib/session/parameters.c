@@ -110,9 +110,8 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     Str wrong = value_printed(check->session, arena, value_element(arena, v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     tell(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
-         str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", (int)wrong.len,
-                    wrong.bytes, (int)parameter->name->name.len, parameter->name->name.bytes,
-                    (int)parameter->fallback.len, parameter->fallback.bytes),
+         str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", STR_ARGS(wrong),
+                    STR_ARGS(parameter->name->name), STR_ARGS(parameter->fallback)),
          is_truth ? STR("here true is written 1 and false 0") : (Str){0});
     return false;
 }
@@ -125,8 +124,8 @@ static void check_range(const Check *check, const Parameter *parameter) {
             continue;
         Str range = range_text(arena, parameter), printed = value_printed(check->session, arena, v);
         tell(check, DIAG_WARNING, "outside-range", origin_of(parameter),
-             str_format(arena, "%.*s=%.*s is outside the range %.*s", (int)parameter->name->name.len,
-                        parameter->name->name.bytes, (int)printed.len, printed.bytes, (int)range.len, range.bytes),
+             str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
+                        STR_ARGS(printed), STR_ARGS(range)),
              (Str){0});
         return;
     }
@@ -142,8 +141,8 @@ static bool check_truth(const Check *check, const Parameter *parameter) {
     Str printed = value_printed(check->session, arena, check->define->value);
     tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
          str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
-                    (int)parameter->name->name.len, parameter->name->name.bytes, (int)printed.len, printed.bytes,
-                    (int)printed.len, printed.bytes, (int)parameter->fallback.len, parameter->fallback.bytes),
+                    STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
+                    STR_ARGS(parameter->fallback)),
          (Str){0});
     return false;
 }
@@ -158,16 +157,16 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 
 // The parameter whose name is nearest to one that is not there, or NULL.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
-    const Parameter *nearest = NULL;
-    int best = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
-    for (uint32_t i = 0; i < program->parameter_count; i++) {
-        int distance = str_distance(name, program->parameters[i].name->name);
-        if (distance < best) {
-            best = distance;
-            nearest = &program->parameters[i];
-        }
-    }
-    return nearest;
+    const Parameter *found = NULL;
+    StrNearest nearest = {name,
+                          name.len < 2   ? 1
+                          : name.len < 4 ? 2
+                                         : 3,
+                          {0}}; // names of one letter are near to all others
+    for (uint32_t i = 0; i < program->parameter_count; i++)
+        if (str_try_nearest(&nearest, program->parameters[i].name->name))
+            found = &program->parameters[i];
+    return found;
 }
 
 // A text followed by the names of all parameters.
@@ -189,11 +188,11 @@ static void tell_unread(const Check *check) {
     const Program *program = check->unit->program;
     Str name = check->define->name->name, script = check->unit->source->name;
     const Parameter *nearest = nearest_parameter(program, name);
-    Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", (int)name.len,
-                          name.bytes, (int)script.len, script.bytes);
+    Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", STR_ARGS(name),
+                          STR_ARGS(script));
     if (nearest)
         tell(check, DIAG_WARNING, "unknown-parameter", origin_of(nearest), text,
-             str_format(arena, "did you mean '%.*s'?", (int)nearest->name->name.len, nearest->name->name.bytes));
+             str_format(arena, "did you mean '%.*s'?", STR_ARGS(nearest->name->name)));
     else
         tell(check, DIAG_WARNING, "unread-definition", (Origin){0}, with_parameters(arena, program, text), (Str){0});
 }
@@ -206,16 +205,16 @@ static void check_unread(const Check *check) {
     if (engine_name_exists(name)) {
         tell(check, DIAG_WARNING, "unused-definition", (Origin){0},
              str_format(arena, "the definition of '%.*s' has no effect: petri itself gives this name its value",
-                        (int)name.len, name.bytes),
+                        STR_ARGS(name)),
              (Str){0});
         return;
     }
     if (check->use->bound.source) {
         tell(check, DIAG_WARNING, "unused-definition", check->use->bound,
              str_format(arena, "the definition of '%.*s' has no effect: the script gives the name its own value here",
-                        (int)name.len, name.bytes),
+                        STR_ARGS(name)),
              check->use->by_let ? str_format(arena, "with `let %.*s=%.*s or …` it would take the definition",
-                                             (int)name.len, name.bytes, (int)name.len, name.bytes)
+                                             STR_ARGS(name), STR_ARGS(name))
                                 : (Str){0});
         return;
     }
@@ -223,8 +222,7 @@ static void check_unread(const Check *check) {
     const Parameter *parameter = find_in_modules(&modules, check->define->name);
     if (parameter)
         tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
-             str_format(arena, "the definition of '%.*s' has no effect: modules see no definitions", (int)name.len,
-                        name.bytes),
+             str_format(arena, "the definition of '%.*s' has no effect: modules see no definitions", STR_ARGS(name)),
              (Str){0});
     else
         tell_unread(check);

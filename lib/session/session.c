@@ -24,7 +24,7 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
                        Str text) {
     PetriSession *session = host;
     Arena *arena = &session->frame.systems_arena;
-    Str whole = str_format(arena, "%.*s: %.*s", (int)node.len, node.bytes, (int)text.len, text.bytes);
+    Str whole = str_format(arena, "%.*s: %.*s", STR_ARGS(node), STR_ARGS(text));
     Diag diag = {.level = level, .text = whole, .code = code};
     if (origin) {
         diag.source = origin->source;
@@ -32,11 +32,8 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
     }
     diag_report(&session->frame.errors, &diag);
     // A loop may make a thousand nodes at one place: that is one thing to say.
-    Str where = diag.source
-                    ? str_format(arena, "%.*s %u", (int)diag.source->path.len, diag.source->path.bytes, diag.span.start)
-                    : node;
-    session_tell_keyed(session, &diag,
-                       str_format(arena, "%s %.*s %.*s", code, (int)where.len, where.bytes, (int)key.len, key.bytes));
+    Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
+    session_tell_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }
 
 static void tell_machine(void *host, const Diag *diag) {
@@ -255,7 +252,7 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
     if (count)
         memcpy(defines, session->config.defines, count * sizeof *defines);
-    Str text = str_format(&session->arena, "%.*s=%.*s", (int)name.len, name.bytes, (int)value.len, value.bytes);
+    Str text = str_format(&session->arena, "%.*s=%.*s", STR_ARGS(name), STR_ARGS(value));
     value = (Str){text.bytes + name.len + 1, value.len};
     defines[count] =
         (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
@@ -285,9 +282,9 @@ static void make_unit(PetriSession *session, void *context) {
     Unit *unit = load->file ? unit_load_file(session, load->file, false)
                             : unit_load_text(session, load->name, load->path, load->text, load->version);
     if (!unit->source)
-        session_tell_text(session, DIAG_ERROR, "cannot-read",
-                          str_format(&session->text_arena, "cannot read '%.*s': %.*s", (int)load->name.len,
-                                     load->name.bytes, (int)unit->why.len, unit->why.bytes));
+        session_tell_text(
+            session, DIAG_ERROR, "cannot-read",
+            str_format(&session->text_arena, "cannot read '%.*s': %.*s", STR_ARGS(load->name), STR_ARGS(unit->why)));
     load->unit = unit;
     if (!unit->program)
         return;
@@ -355,7 +352,7 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {
-    if (index >= builtin_count)
+    if (index >= builtin_table_count)
         return false;
     const Builtin *row = &builtin_table[index];
     *builtin = (PetriBuiltin){row->name, row->parameters, row->help};

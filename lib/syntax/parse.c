@@ -110,7 +110,7 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
         bool described = strcmp(found, "name") == 0 || strcmp(found, "node") == 0 || strcmp(found, "symbol") == 0 ||
                          strcmp(found, "tag") == 0 || strcmp(found, "number") == 0 || strcmp(found, "string") == 0 ||
                          strcmp(found, "time code") == 0;
-        text_add_format(&text, described ? "%s %.*s" : "%s'%.*s'", described ? found : "", (int)word.len, word.bytes);
+        text_add_format(&text, described ? "%s %.*s" : "%s'%.*s'", described ? found : "", STR_ARGS(word));
     } else {
         add_token_name(&text, found);
     }
@@ -146,10 +146,9 @@ static void report_character(ParseContext *context, Span span) {
         report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
                      c == '!' ? STR("to negate write not") : (Str){0});
     else
-        report_token(
-            context, span,
-            str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
-            (Str){0});
+        report_token(context, span,
+                     str_format(context->arena, "no token starts with '%.*s' (U+%04X)", STR_ARGS(text), (unsigned)c),
+                     (Str){0});
 }
 
 // Are some lines indented with tabs and some with spaces?
@@ -307,8 +306,7 @@ static bool check_text(ParseContext *context) {
     size_t bad = utf8_find_error(source->text);
     if (encoding) {
         context->failed = true;
-        Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", (int)source->name.len,
-                              source->name.bytes, encoding);
+        Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", STR_ARGS(source->name), encoding);
         diag_report(context->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "encoding"});
     } else if (bad < source->text.len) {
         report(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),

@@ -1,6 +1,5 @@
 // message.c: messages of the command itself, and the search for what a mistyped word was meant to be.
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
@@ -26,16 +25,18 @@ void message(const char *format, ...) {
     file_write(STDERR_FILENO, line, length);
 }
 
-bool is_nearer(const char *word, const char *candidate, size_t *best) {
+bool nearest_offer(Nearest *nearest, const char *name) {
+    const char *word = nearest->word;
     size_t length = strlen(word);
-    size_t distance = (size_t)str_distance(str_from(word), str_from(candidate));
+    size_t distance = (size_t)str_distance(str_from(word), str_from(name));
     // A shortened word counts as near: `--def` for `--define`.
-    if (length >= 3 && strncmp(word, candidate, length) == 0) {
+    if (length >= 3 && strncmp(word, name, length) == 0) {
         distance = 1;
     }
-    if (distance > 1 + length / 5 || distance >= *best) {
-        return false;
+    bool nearer = distance <= 1 + length / 5 && (nearest->name == NULL || distance < nearest->distance);
+    if (nearer) {
+        nearest->name = name;
+        nearest->distance = distance;
     }
-    *best = distance;
-    return true;
+    return nearer;
 }

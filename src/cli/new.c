@@ -4,10 +4,10 @@
 
 #include "base/file.h"
 #include "base/replace.h"
-#include "cli/args.h"
 #include "cli/bytes.h"
 #include "cli/hints.h"
 #include "cli/new_dish.h"
+#include "cli/options.h"
 
 static bool ends_in(const char *text, const char *end) {
     size_t length = strlen(text), count = strlen(end);
@@ -16,12 +16,11 @@ static bool ends_in(const char *text, const char *end) {
 
 // Writes the dish to a file that must not exist yet.
 static int write_dish(const char *path) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     for (size_t i = 0; NEW_DISH[i] != NULL; i++) {
-        bytes_add(&text, NEW_DISH[i], strlen(NEW_DISH[i]));
+        bytes_add_text(&text, NEW_DISH[i]);
     }
     const char *problem = file_replace(path, (Str){text.data, text.length}, REPLACE_NONE);
-    bytes_free(&text);
     struct stat info;
     if (problem != NULL && lstat(path, &info) == 0) {
         message("%s is there already, and stays as it is; choose another name", path);
@@ -39,7 +38,7 @@ static int start_script(const Host *host, const char *name) {
         message("'%s' is not the name of a script; try 'petri new dish'", name);
         return STATUS_USAGE;
     }
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     // A name that begins with a dash would be an option to the next command.
     bytes_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name, ends_in(name, ".fl") ? "" : ".fl");
     int status = write_dish(path.data);
@@ -47,31 +46,11 @@ static int start_script(const Host *host, const char *name) {
         message("%s is a dish of drops; change it, and what you save is shown at once", path.data);
         hint_pictures(host, path.data);
     }
-    bytes_free(&path);
     return status;
 }
 
-static int new_run(const Host *host, int argc, char **argv) {
-    Args args = args_start(&NEW_COMMAND, argc, argv);
-    const char *name = NULL;
-    for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
-        if (id == ARG_HELP) {
-            return help_for(&NEW_COMMAND);
-        }
-        if (id == ARG_WRONG) {
-            return STATUS_USAGE;
-        }
-        if (name != NULL) {
-            message("one script is started at a time; '%s' is too many", args.value);
-            return STATUS_USAGE;
-        }
-        name = args.value;
-    }
-    if (name == NULL) {
-        message("a new script needs a name: petri new NAME");
-        return STATUS_USAGE;
-    }
-    return start_script(host, name);
+static int new_run(const Host *host, Options *options) {
+    return start_script(host, options->script);
 }
 
 const Command NEW_COMMAND = {
@@ -81,5 +60,7 @@ const Command NEW_COMMAND = {
     .details =
         "Writes NAME.fl, a dish of drops that a spoon stirs, with comments that say what is what. A file that is\n"
         "there already is left alone.",
+    .needed = "a new script needs a name",
+    .second = "one script is started at a time; '%s' is too many",
     .run = new_run,
 };

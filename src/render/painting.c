@@ -212,7 +212,7 @@ Painting *painting_start(const char *film, double fps) {
 bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file) {
     Job *job = memory_zeroed(sizeof *job);
     *job = (Job){.picture = picture, .for_film = for_film};
-    job->file = file == NULL ? NULL : memory_copied(file, strlen(file));
+    job->file = file == NULL ? NULL : memory_text(file);
     pthread_mutex_lock(&painting->lock);
     while (painting->waiting_count >= QUEUE && !painting->failed) {
         pthread_cond_wait(&painting->changed, &painting->lock);

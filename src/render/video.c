@@ -190,7 +190,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
 
 // The last line that ffmpeg wrote.
 static void report_failure(Video *video, int status) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_add(&text, "", 0);
     if (lseek(video->errors, 0, SEEK_SET) == 0) {
         bytes_read(&text, video->errors);
@@ -207,7 +207,6 @@ static void report_failure(Video *video, int status) {
         set_trouble(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
                     WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
     }
-    bytes_free(&text);
 }
 
 // Ends ffmpeg's input and waits for its end. False, after a message and without the film, if it has failed.

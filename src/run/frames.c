@@ -59,7 +59,7 @@ static void catch_signals(void) {
 static bool wants_diagnostic(Frames *frames, PetriLevel level) {
     // Notes belong to the diagnostic before them.
     if (level != PETRI_NOTE) {
-        frames->shown_last = level == PETRI_ERROR || frames->options.verbosity > LOG_QUIET;
+        frames->shown_last = level == PETRI_ERROR || frames->options->verbosity > LOG_QUIET;
     }
     return frames->shown_last;
 }
@@ -73,21 +73,13 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     }
 }
 
-int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv) {
-    int status = options_read(&frames->options, command, argc, argv);
-    if (status != OPTIONS_READ) {
-        return status;
-    }
-    return options_open(&frames->options, host, on_diagnostic, frames, &frames->session);
-}
-
-void frames_close(Frames *frames) {
-    petri_close(&frames->session);
-    options_free(&frames->options);
+int frames_open(Frames *frames, const Host *host, Options *options) {
+    frames->options = options;
+    return options_open(options, host, on_diagnostic, frames, &frames->session);
 }
 
 bool frames_load(Frames *frames) {
-    PetriStatus status = script_load(frames->session, frames->options.script);
+    PetriStatus status = script_load(frames->session, frames->options->script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
     }
@@ -96,7 +88,7 @@ bool frames_load(Frames *frames) {
 
 double frames_fps(const Frames *frames) {
     double fps = petri_frame(frames->session).fps;
-    return fps > 0 ? fps : frames->options.fps;
+    return fps > 0 ? fps : frames->options->fps;
 }
 
 static void save_state(Frames *frames, bool at_once) {
@@ -108,33 +100,33 @@ static void save_state(Frames *frames, bool at_once) {
 }
 
 static int64_t expected_frames(const Frames *frames) {
-    double by_time = frames->options.run_time * frames_fps(frames);
-    if (!isnan(by_time) && by_time < (double)frames->options.frames) {
+    double by_time = frames->options->run_time * frames_fps(frames);
+    if (!isnan(by_time) && by_time < (double)frames->options->frames) {
         return (int64_t)ceil(by_time);
     }
-    return frames->options.frames;
+    return frames->options->frames;
 }
 
 void frames_begin(Frames *frames) {
-    if (state_file_restore(&frames->state, frames->session, frames->options.state_file)) {
+    if (state_file_restore(&frames->state, frames->session, frames->options->state_file)) {
         save_state(frames, true); // so that a file that cannot be written is known before the work is done
     }
     catch_signals();
-    bool shows_progress = frames->options.verbosity > LOG_QUIET && progress_possible();
+    bool shows_progress = frames->options->verbosity > LOG_QUIET && progress_possible();
     progress_start(&frames->progress, shows_progress, expected_frames(frames));
     frames->start = clock_seconds();
 }
 
 bool frames_due(const Frames *frames) {
     int64_t counted = frames->done - frames->early;
-    if (interrupted || counted >= frames->options.frames) {
+    if (interrupted || counted >= frames->options->frames) {
         return false;
     }
-    if (isnan(frames->options.run_time)) {
+    if (isnan(frames->options->run_time)) {
         return true;
     }
-    double time = frames->options.realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
-    return time < frames->options.run_time;
+    double time = frames->options->realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
+    return time < frames->options->run_time;
 }
 
 bool frames_step(Frames *frames) {

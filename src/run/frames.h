@@ -1,6 +1,6 @@
 // frames.h: the loop over a script's frames, for the commands that have one.
 //
-// frames_open, frames_load, frames_begin; while frames_due: frames_step; frames_end; frames_close.
+// frames_open, frames_load, frames_begin; while frames_due: frames_step; frames_end; petri_close.
 #ifndef PETRI_SRC_FRAMES_H
 #define PETRI_SRC_FRAMES_H
 
@@ -10,7 +10,7 @@
 #include "petri.h"
 
 typedef struct Frames {
-    Options options;
+    Options *options;
     PetriSession *session;
     Progress progress;
     int64_t done;  // frames that were made
@@ -21,10 +21,8 @@ typedef struct Frames {
     bool wrong_definition; // the script cannot take a value of -D
 } Frames;
 
-// Reads the command line and opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first,
-// and stay where it is.
-int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv);
-void frames_close(Frames *frames);
+// Opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first, and stay where it is.
+int frames_open(Frames *frames, const Host *host, Options *options);
 // Loads the script; false if that failed, which has been told.
 bool frames_load(Frames *frames);
 // Takes the state from its file and from here on catches signals and shows progress.

@@ -142,7 +142,7 @@ static void add_csv(Trajectory *trajectory, PetriSession *session) {
         add_csv_header(trajectory, session);
     }
     for (size_t s = 0; petri_system(session, s, &system); s++) {
-        char *name = memory_copied(system.name, strlen(system.name)); // it is valid until the next call only
+        char *name = memory_text(system.name); // it is valid until the next call only
         for (uint32_t i = 0; i < system.particle_count && petri_particle(session, s, i, &particle); i++) {
             output_format(output, "%" PRId64 ",%.17g", frame.number, frame.time);
             add_csv_text(output, name);

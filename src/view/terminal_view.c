@@ -129,10 +129,9 @@ static void measure(Display *display) {
 
 static void terminal_set_title(Display *display, const char *title) {
     overlay_set(display->title, sizeof display->title, title);
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_format(&text, "\033]0;%s\033\\", display->title);
     file_write(STDOUT_FILENO, text.data, text.length);
-    bytes_free(&text);
 }
 
 static void terminal_close(Display *display) {
@@ -284,19 +283,18 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
         message("out of memory");
         return false;
     }
-    Bytes out = {0};
-    bytes_format(&out, "%s", BEGIN);
+    SCOPED_BYTES out = {0};
+    bytes_add_text(&out, BEGIN);
     if (display->clear || !same_lines(overlay, &display->shown)) {
         bytes_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
     }
     if (terminal_picture_is_graphics(display->way)) {
-        bytes_format(&out, "%s", TAKE_AWAY);
+        bytes_add_text(&out, TAKE_AWAY);
     }
     add_picture(&out, display, text, length);
     add_overlay(&out, display, overlay);
     bytes_format(&out, "\033[0m%s", END);
     file_write(STDOUT_FILENO, out.data, out.length);
-    bytes_free(&out);
     free(text);
     display->shown = *overlay;
     display->clear = false;

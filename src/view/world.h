@@ -13,8 +13,7 @@
 #include "view/warnings.h"
 
 typedef struct World {
-    Options options;
-    const Host *host;
+    const Options *options;
     PetriSession *session;
     PetriPainter *painter;
     PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
@@ -36,7 +35,7 @@ typedef struct World {
 } World;
 
 // Opens and loads; the status to exit with, or OPTIONS_READ. The options have been read. Close in either case.
-int world_open(World *world, const Host *host);
+int world_open(World *world, const Host *host, const Options *options);
 void world_close(World *world);
 // One frame and its picture; records what the script asks for. False if it could not be made.
 bool world_step(World *world);
