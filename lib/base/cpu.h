@@ -9,7 +9,7 @@ typedef enum CpuLevel { CPU_SCALAR, CPU_AVX2, CPU_AVX512, CPU_LEVELS } CpuLevel;
 
 // The highest level that the processor and the operating system support.
 CpuLevel cpu_detect(void);
-// `wish` ("scalar", "avx2" or "avx512", as in the environment variable PETRI_CPU), lowered to what cpu_detect() finds.
+// `wish` ("scalar", "avx2" or "avx512"), lowered to what cpu_detect() finds.
 // NULL or an empty text stand for no wish. False if there is no such level; *level is then the detected one.
 bool cpu_choose(const char *wish, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
