@@ -20,6 +20,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) // all else stays within the library, also in a shared one made of it
+#endif
 
 #define PETRI_Z SIZE_MAX
 
@@ -389,6 +392,9 @@ bool petri_read_number(const char *text, double *x);
 
 const char *petri_version(void);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif
