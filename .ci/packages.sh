@@ -41,6 +41,7 @@ TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
 CROSS_NEEDS='
 command -v aarch64-linux-gnu-gcc: gcc-aarch64-linux-gnu libc6-dev-arm64-cross
 command -v qemu-aarch64  : qemu-user
+command -v musl-gcc      : musl-tools
 '
 PEER_NEEDS='
 command -v lmp   : lammps

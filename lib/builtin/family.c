@@ -39,7 +39,7 @@ Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany 
     if (x.len < BUILTIN_MANY || !value_is_numeric(x))
         return builtin_each(arena, x, f);
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
-    many(cpu_detect(), x.as.numbers, x.len, result);
+    many(cpu_here.level, x.as.numbers, x.len, result);
     return value_numbers_view(result, x.len);
 }
 

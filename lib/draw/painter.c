@@ -5,7 +5,8 @@
 
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
                                size_t stride) {
-    if (!picture_is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
+    if (!picture || !painter || !pixels || !picture_is_good_size(width, height) || stride % sizeof *pixels ||
+        stride < (size_t)width * sizeof *pixels)
         return PETRI_INVALID;
     return draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->faults);
 }
@@ -22,6 +23,8 @@ static bool find_format(const char *file, CanvasFormat *format) {
 }
 
 bool petri_picture_format(const char *file) {
+    if (!file)
+        return false;
     CanvasFormat format;
     return find_format(file, &format);
 }
@@ -60,6 +63,8 @@ static void report_name(void *context) {
 }
 
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
+    if (!picture || !painter || !file)
+        return PETRI_INVALID;
     Saving saving = {
         .picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID};
     Arena *arenas[] = {&saving.arena, &picture->arena};

@@ -207,6 +207,8 @@ static bool choose_pixels(Request *request) {
 enum { LONGEST_START = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
+    if (!session || !options)
+        return false;
     Shown shown = session_shown(session);
     const Node *window = find_window(&shown, options->window);
     bool own = window && canvas_in_window(shown.schema, window) && options->automatic != PETRI_AUTO_ALWAYS;
@@ -221,6 +223,8 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
 }
 
 bool petri_records(PetriSession *session) {
+    if (!session)
+        return false;
     Shown shown = session_shown(session);
     const Node *window;
     for (uint32_t at = 0; (window = canvas_next_window(shown.schema, shown.tree, &at)) != NULL;)
@@ -274,6 +278,8 @@ static void make_protected(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
+    if (!session || !options || !out)
+        return PETRI_INVALID;
     *out = NULL;
     Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
@@ -299,6 +305,8 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
 }
 
 void petri_picture_free(PetriPicture **handle) {
+    if (!handle)
+        return;
     PetriPicture *picture = *handle;
     *handle = NULL;
     if (!picture)
@@ -309,22 +317,26 @@ void petri_picture_free(PetriPicture **handle) {
 }
 
 void petri_picture_size(const PetriPicture *picture, int *width, int *height) {
+    if (!picture || !width || !height)
+        return;
     *width = picture->width;
     *height = picture->height;
 }
 
 const char *petri_picture_title(const PetriPicture *picture) {
-    return picture->title;
+    return picture ? picture->title : "";
 }
 
 int64_t petri_picture_frame(const PetriPicture *picture) {
-    return picture->frame;
+    return picture ? picture->frame : -1;
 }
 
 const char *petri_picture_record(const PetriPicture *picture, size_t index) {
-    return index < picture->record_count ? picture->records[index] : NULL;
+    return picture && index < picture->record_count ? picture->records[index] : NULL;
 }
 
 void petri_picture_tell(PetriSession *session, PetriPicture *picture) {
+    if (!session || !picture)
+        return;
     session_tell_all(session, &picture->faults);
 }

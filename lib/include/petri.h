@@ -10,6 +10,8 @@
 //   one that is running, and a frame that hits a limit or is interrupted leaves the state as it was.
 // - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
 //   the library prints, exits or changes the process's locale, signals or working directory.
+// - Where NULL is not said to mean something, it is answered with PETRI_INVALID, false, NULL or 0, and nothing is done.
+// - After fork, the child may close the sessions that it has from its parent, and do nothing else with them.
 #ifndef PETRI_H
 #define PETRI_H
 
@@ -55,7 +57,7 @@ typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PE
 
 typedef struct PetriOptions {
     size_t size; // of the struct that the host was compiled with: petri_default_options sets it
-    double fps; // target frame rate; a script's `%pragma fps` wins. Default 60
+    double fps;  // target frame rate; a script's `%pragma fps` wins. Default 60
     // Follow the wall clock: petri_step waits until the frame is due, and `time` is what has passed since frame 0.
     // Default false: lockstep, where `time` is frame/fps.
     bool realtime;
@@ -77,7 +79,8 @@ typedef struct PetriOptions {
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
     // Vector instructions that physics may use: "scalar", "avx2" or "avx512", or what there is below that. NULL (the
-    // default) and other words: the best that there are. Results never depend on it.
+    // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
+    // once when the library is loaded, is the upper limit. Results never depend on it.
     const char *cpu;
 } PetriOptions;
 
@@ -104,9 +107,9 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 PetriStatus petri_load(PetriSession *session, const char *file);
 // The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
-// The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
-// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
-// told of it is not told again.
+// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of
+// tempo and fps, those count anew whose pragma was changed. NULL stands for the text that was loaded last, for when
+// definitions have changed: what was told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.

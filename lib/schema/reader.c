@@ -115,7 +115,8 @@ static void add_wanted(Text *out, const Reader *reader, const TypeRow *type) {
     if (vector && reader->dimensions > 1)
         text_add_format(out, "one number or a vector of %u", reader->dimensions);
     else
-        text_add_c(out, vector || type->shape <= SHAPE_CLOCK ? "one number" : type->text);
+        text_add_c(out,
+                   vector || (type->shape <= SHAPE_CLOCK && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
 }
 
 // "attribute should be …, not …".
@@ -275,7 +276,7 @@ void reader_fill(const Reader *reader, void *record) {
     const Schema *schema = reader->schema;
     const SchemaSlot *first = schema->slots + schema->first_row[reader->kind], *guess = first;
     const SchemaSlot *end = schema->slots + schema->first_row[reader->kind + 1];
-    const Attr *attr = reader->node->attrs, *last = attr + reader->node->attr_count;
+    const Attr *attr = reader->node->attrs, *last = attr ? attr + reader->node->attr_count : attr;
     for (; attr < last; attr++) {
         const SchemaSlot *slot = slot_of(first, end, guess, attr->name);
         if (slot == end || !store_plainly(slot, reader->dimensions, &attr->value, record))

@@ -126,9 +126,13 @@ static PetriStatus check(PetriSession *session, const char *file, const char *te
 }
 
 PetriStatus petri_check(PetriSession *session, const char *file) {
+    if (!session || !file)
+        return PETRI_INVALID;
     return check(session, file, NULL, 0);
 }
 
 PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    if (!session || !name || !text)
+        return PETRI_INVALID;
     return check(session, name, text, length);
 }

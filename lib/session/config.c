@@ -12,7 +12,7 @@ void session_change_config(PetriSession *session, bool frame_stays) {
 }
 
 uint64_t petri_config_number(const PetriSession *session) {
-    return session->config_number;
+    return session ? session->config_number : 0;
 }
 
 void session_set_prompts(PetriSession *session, PromptList *list) {
@@ -27,6 +27,8 @@ static void refer(const Config *config) {
 }
 
 PetriConfig *petri_config(PetriSession *session) {
+    if (!session)
+        return NULL;
     PetriConfig *shared = session->shared;
     if (!shared) {
         shared = session->shared = malloc(sizeof *shared);
@@ -48,7 +50,7 @@ void petri_config_free(PetriConfig *shared) {
 }
 
 void petri_config_use(PetriSession *session, PetriConfig *shared) {
-    if (shared->number == session->config_number)
+    if (!session || !shared || shared->number == session->config_number)
         return;
     session_clear_frame(session);
     refer(&shared->config);

@@ -179,7 +179,7 @@ Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str ve
     return unit;
 }
 
-Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
+Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {
     Unit *unit = unit_new(session);
     if (module) { // on the list at once, so that an escape while loading does not lose it
         unit->next = session->loader.modules;
@@ -191,7 +191,7 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, file);
-    if (file_read(&unit->arena, file, module, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
+    if (file_read(&unit->arena, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
         unit->why = str_copy(&unit->arena, str_from(problem));
@@ -227,12 +227,14 @@ const Program *session_module(void *host, Str path, Str *why) {
     }
     Unit *unit = cached_module(session, file_canonical(&session->frame.arena, file), version);
     if (!unit)
-        unit = session_put(session, unit_load_file(session, file, true));
+        unit = session_put(session, unit_load_file(session, file, true, true));
     *why = unit->why;
     return unit->program;
 }
 
 const char *petri_source(PetriSession *session, size_t number) {
+    if (!session)
+        return NULL;
     for (Unit *unit = session->config.program; unit;
          unit = unit == session->config.program ? session->loader.modules : unit->next) {
         if (unit->retired || !unit->version.len) // a text, or a file that could not be read

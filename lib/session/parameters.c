@@ -340,6 +340,8 @@ static void find_parameter(PetriSession *session, void *context) {
 }
 
 bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
+    if (!session || !parameter)
+        return false;
     Request request = {number, parameter, false};
     return session->config.program && session_protect(session, NULL, find_parameter, &request) == PETRI_OK &&
            request.found;
@@ -372,6 +374,8 @@ static void redefine(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
+    if (!session || !name)
+        return PETRI_INVALID;
     Setting setting = {name, value, PETRI_OK};
     const Define *defines = session->config.defines;
     uint32_t count = session->config.define_count, told = session->told_defines;

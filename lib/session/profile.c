@@ -83,6 +83,8 @@ static void print(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host) {
+    if (!session || !write)
+        return PETRI_INVALID;
     Request request = {output_seconds, write, host, false};
     if (!session->vm.profile)
         return PETRI_INVALID;

@@ -169,6 +169,8 @@ PetriSession *petri_open(const PetriOptions *options) {
 }
 
 void petri_close(PetriSession **handle) {
+    if (!handle)
+        return;
     PetriSession *session = *handle;
     *handle = NULL;
     if (!session)
@@ -249,6 +251,8 @@ static void define(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_define(PetriSession *session, const char *definition) {
+    if (!session || !definition)
+        return PETRI_INVALID;
     const char *equals = strchr(definition, '=');
     if (!equals)
         return PETRI_INVALID;
@@ -278,6 +282,7 @@ typedef enum LoadPurpose { LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
 
 typedef struct Load {
     const char *file; // or, if NULL, a text
+    bool regular;     // the file must be no pipe: it was read before
     Str name;         // of either
     Str text;
     Str path;    // of the file that the text was read from, if it was, else the name
@@ -291,7 +296,7 @@ typedef struct Load {
 static void make_unit(PetriSession *session, void *context) {
     Load *load = context;
     session_set_globals(session, &session->static_vm);
-    Unit *unit = load->file ? unit_load_file(session, load->file, false)
+    Unit *unit = load->file ? unit_load_file(session, load->file, false, load->regular)
                             : unit_load_text(session, load->name, load->path, load->text, load->version);
     if (!unit->source)
         session_tell_text(
@@ -337,10 +342,14 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
 }
 
 PetriStatus petri_load(PetriSession *session, const char *file) {
+    if (!session || !file)
+        return PETRI_INVALID;
     return load(session, &(Load){.file = file, .name = str_from(file)}, LOAD_AFRESH);
 }
 
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    if (!session || !name || !text)
+        return PETRI_INVALID;
     Str content = {text, length == PETRI_Z ? strlen(text) : length};
     return load(session, &(Load){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
 }
@@ -358,13 +367,15 @@ static PetriStatus load_again(PetriSession *session) {
 }
 
 PetriStatus petri_reload(PetriSession *session, const char *file) {
+    if (!session)
+        return PETRI_INVALID;
     if (!file)
         return load_again(session);
-    return load(session, &(Load){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
+    return load(session, &(Load){.file = file, .regular = true, .name = str_from(file)}, LOAD_TO_GO_ON);
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {
-    if (index >= builtin_table_count)
+    if (!builtin || index >= builtin_table_count)
         return false;
     const Builtin *row = &builtin_table[index];
     *builtin = (PetriBuiltin){row->name, row->parameters, row->help};
@@ -372,7 +383,7 @@ bool petri_builtin(size_t index, PetriBuiltin *builtin) {
 }
 
 bool petri_read_number(const char *text, double *x) {
-    return literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x);
+    return text && x && (literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x));
 }
 
 const char *petri_version(void) {

@@ -15,6 +15,8 @@ Shown session_shown(PetriSession *session) {
 }
 
 bool petri_drawable(PetriSession *session) {
+    if (!session)
+        return false;
     const Node *window;
     SceneView view;
     for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at)) != NULL;)

@@ -45,8 +45,8 @@ typedef struct Names {
 // The unit's arena, whose escape is from now on that of the protected call at work.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
 // Loads a unit within a protected call: reads, parses and compiles. It is returned even if that failed (program is
-// NULL).
-Unit *unit_load_file(PetriSession *session, const char *file, bool module);
+// NULL). A file that must be `regular` is no pipe, which may keep one waiting.
+Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 // `path` and `version` are those of the file that the text was read from; the name and nothing if there is none.
 Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version);
 // A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.

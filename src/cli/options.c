@@ -278,7 +278,6 @@ int options_open(const Options *options, const Host *host,
     wanted.colour = options->colour;
     wanted.stack_bytes = host->stack_bytes;
     wanted.threads = (int)options->threads;
-    wanted.cpu = getenv("PETRI_CPU");
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
     wanted.keep_forces = wanted.interruptible = options->prompt;

@@ -118,7 +118,6 @@ int worker_main(int argc, char **argv) {
         return 2;
     PetriOptions options = petri_default_options();
     options.threads = atoi(argv[1]);
-    options.cpu = getenv("PETRI_CPU");
     options.fps = strtod(argv[2], NULL);
     options.diagnostic = show_diagnostic;
     double base = memory_figure("VmRSS");
