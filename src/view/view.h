@@ -20,7 +20,7 @@ typedef struct View {
     bool closing;
     bool broken; // the display, or memory for it, is gone
     double start;
-    double drawn; // when the picture was drawn last
+    double drawn;       // when the picture was drawn last
     double notice_ends; // INFINITY: it stays
     // The frame rate
     double measured;
