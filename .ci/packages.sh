@@ -26,6 +26,7 @@ TEST_NEEDS="$BUILD_NEEDS
 pkg-config --exists cmocka: libcmocka-dev
 command -v tmux           : tmux
 command -v pgrep          : procps
+command -v strace         : strace
 command -v Xvfb           : xvfb
 command -v xdotool        : xdotool
 command -v xprop          : x11-utils

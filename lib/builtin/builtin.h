@@ -6,6 +6,7 @@
 #ifndef PETRI_BUILTIN_BUILTIN_H
 #define PETRI_BUILTIN_BUILTIN_H
 
+#include "base/reach.h"
 #include "value/node.h"
 #include "value/value.h"
 
@@ -18,6 +19,7 @@ typedef struct BuiltinContext {
     const SymbolTable *symbols;          // for texts
     FileCache *files;                    // NULL: file functions find no file
     NoiseCache *noise;                   // NULL: permutations are made anew for each call
+    const Reach *reach;                  // NULL: all files may be used
     Str directory;                       // relative file names start here (L13.3); "" is the working directory
     void (*fault)(void *host, Str text); // a diagnostic at the place of the call
     void (*log)(void *host, Str text);   // a line of debug()

@@ -57,7 +57,7 @@ FileCache *file_cache_new(void) {
     return cache;
 }
 
-static void cache_clear(FileCache *cache) {
+void file_cache_clear(FileCache *cache) {
     for (uint32_t i = 0; i < cache->count; i++)
         arena_free(&cache->entries[i]->arena);
     cache->entries = NULL;
@@ -69,7 +69,7 @@ static void cache_clear(FileCache *cache) {
 void file_cache_free(FileCache *cache) {
     if (!cache)
         return;
-    cache_clear(cache);
+    file_cache_clear(cache);
     index_free(&cache->index);
     Arena arena = cache->arena; // the cache dies with its arena
     arena_free(&arena);
@@ -111,12 +111,14 @@ static const char *describe(int error) {
 }
 
 // Reads up to `size` bytes; a file that has grown meanwhile has another stamp and is read again at the next call.
-static bool read_bytes(const char *path, char *bytes, size_t size, size_t *len, const char **problem) {
+static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
+                       const char **problem) {
     // A pipe put in the file's place must not block.
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int file = reach_open(context->reach, path, O_RDONLY | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
-        *problem = describe(errno);
+        *problem = context->reach && errno == EXDEV ? reach_refusal(context->arena, context->reach, REACH_READ, path)
+                                                    : describe(errno);
         if (file >= 0)
             close(file);
         return false;
@@ -140,7 +142,7 @@ static bool read_bytes(const char *path, char *bytes, size_t size, size_t *len, 
 }
 
 // The memory is taken before the file is opened: an allocation may not return (base/arena.h).
-static const void *load(FileEntry *entry, const char *path, const char **problem) {
+static const void *load(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
         *problem = describe(entry->stamp.error);
         return NULL;
@@ -151,7 +153,7 @@ static const void *load(FileEntry *entry, const char *path, const char **problem
     }
     size_t size = (size_t)entry->stamp.size, len;
     char *bytes = arena_alloc(&entry->arena, size);
-    if (!read_bytes(path, bytes, size, &len, problem))
+    if (!read_bytes(context, path, bytes, size, &len, problem))
         return NULL;
     return entry->parse(&entry->arena, bytes, len, problem);
 }
@@ -171,7 +173,7 @@ static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
 
 static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
     if (cache->count == MOST_ENTRIES)
-        cache_clear(cache);
+        file_cache_clear(cache);
     cache->entries = arena_room(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
     FileEntry *entry = arena_alloc(&cache->arena, sizeof *entry);
     *entry = (FileEntry){.path = str_copy(&cache->arena, key->path), .parse = key->parse};
@@ -233,7 +235,7 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
     entry->parsed = NULL;
     shed(cache, entry);
     const char *problem = NULL;
-    entry->parsed = load(entry, c_path, &problem);
+    entry->parsed = load(context, entry, c_path, &problem);
     entry->tried = true;
     if (!entry->parsed) {
         arena_free(&entry->arena);

@@ -11,6 +11,8 @@
 // NULL if memory is used up.
 FileCache *file_cache_new(void);
 void file_cache_free(FileCache *cache);
+// Forgets all files, for when others may be used.
+void file_cache_clear(FileCache *cache);
 
 // Turns the bytes of a file, which lie in `arena` and may be changed, into what is kept: something in `arena`. NULL
 // with *problem set means that the file counts as unreadable.

@@ -3,6 +3,9 @@
 
 #include "base/file.h"
 
+#include <errno.h>
+#include <string.h>
+
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
                                size_t stride) {
     if (!picture || !painter || !pixels || !picture_is_good_size(width, height) || stride % sizeof *pixels ||
@@ -40,7 +43,8 @@ typedef struct Saving {
     PetriPainter *painter;
     CanvasFormat format;
     const char *file;
-    Arena arena; // the file's bytes, apart from the picture's data and its faults
+    const Reach *reach; // NULL: any file
+    Arena arena;        // the file's bytes, apart from the picture's data and its faults
     PetriStatus status;
 } Saving;
 
@@ -50,8 +54,15 @@ static void save(void *context) {
     Str bytes;
     saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width, picture->height,
                                  &saving->arena, &bytes, &picture->faults);
-    const char *problem = saving->status == PETRI_OK ? file_replace(saving->file, bytes, 0) : NULL;
-    if (problem) {
+    if (saving->status != PETRI_OK)
+        return;
+    Replacement file;
+    bool begun = reach_replace(saving->reach, saving->file, &file);
+    bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
+    const char *problem = begun ? file_finish(&file, bytes) : strerror(errno);
+    if (refused) {
+        saving->status = PETRI_INVALID;
+    } else if (problem) {
         report_file(picture, saving->file, problem);
         saving->status = PETRI_INVALID;
     }
@@ -62,14 +73,28 @@ static void report_name(void *context) {
     report_file(saving->picture, saving->file, "a picture's name ends in .png, .svg or .pdf");
 }
 
-PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
-    if (!picture || !painter || !file)
+static PetriStatus save_picture(Saving *saving) {
+    if (!saving->picture || !saving->painter || !saving->file)
         return PETRI_INVALID;
-    Saving saving = {
-        .picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID};
-    Arena *arenas[] = {&saving.arena, &picture->arena};
-    arena_init(&saving.arena, "file", SIZE_MAX);
-    ArenaEnd end = arena_protect(arenas, 2, find_format(file, &saving.format) ? save : report_name, &saving);
-    arena_free(&saving.arena);
-    return end == ARENA_DONE ? saving.status : PETRI_MEMORY;
+    Arena *arenas[] = {&saving->arena, &saving->picture->arena};
+    arena_init(&saving->arena, "file", SIZE_MAX);
+    ArenaEnd end = arena_protect(arenas, 2, find_format(saving->file, &saving->format) ? save : report_name, saving);
+    arena_free(&saving->arena);
+    return end == ARENA_DONE ? saving->status : PETRI_MEMORY;
+}
+
+PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
+    return save_picture(
+        &(Saving){.picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID});
+}
+
+PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *painter, size_t index) {
+    if (!picture || index >= picture->record_count)
+        return PETRI_INVALID;
+    return save_picture(&(Saving){.picture = picture,
+                                  .painter = painter,
+                                  .format = CANVAS_PNG,
+                                  .file = picture->records[index],
+                                  .reach = &picture->picture.reach,
+                                  .status = PETRI_INVALID});
 }

@@ -144,7 +144,7 @@ static void take_window(Request *request, const Node *node) {
             window->children[i]->kind == KIND_RECORD ? draw_attr(window->children[i], ATTR_FILENAME) : NULL;
         if (file && file->as.text.len)
             picture->records[picture->record_count++] =
-                str_to_c(arena, path_join(arena, picture->picture.directory, file->as.text));
+                str_to_c(arena, path_join(arena, picture->picture.reach.directory, file->as.text));
     }
 }
 
@@ -240,7 +240,7 @@ static bool make_picture(Request *request) {
     bool automatic = options->automatic == PETRI_AUTO_ALWAYS || (!drawable && systems > 0);
     picture->frame = shown->number;
     picture->title = "";
-    picture->picture.directory = str_copy(&picture->arena, shown->directory);
+    picture->picture.reach = reach_copy(&picture->arena, shown->reach);
     if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
         request->problem = "there is nothing to draw by itself: the frame has no !physics";
         return false;

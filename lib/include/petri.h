@@ -71,6 +71,11 @@ typedef struct PetriOptions {
     // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
     // only evaluation is interrupted.
     bool interruptible;
+    // The files that a script may use: it reads below its own folder, the current one and `read_folders`, it writes
+    // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
+    const char *const *read_folders;
+    const char *const *write_folders;
+    bool no_files;    // … it uses none at all, and imports none
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;

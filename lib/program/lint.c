@@ -164,8 +164,8 @@ void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
         return;
     Arena *arena = compiler->arena;
     Str name = value_text(arena, compiler->symbols, file->as.value);
-    Str path = path_join(arena, compiler->source->directory, name), version;
-    if (name.len && !file_version(arena, str_to_c(arena, path), &version))
+    Str path = path_join(arena, compiler->source->directory, name);
+    if (name.len && !file_exists(str_to_c(arena, path)))
         warn(compiler, ast->span, "cannot-import",
              str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
 }

@@ -53,6 +53,12 @@ void petri_config_use(PetriSession *session, PetriConfig *shared) {
     if (!session || !shared || shared->number == session->config_number)
         return;
     session_clear_frame(session);
+    const Unit *program = shared->config.program;
+    Str folder = program ? program->folder : (Str){0};
+    if (!str_equal(session->reach.own, folder))
+        session_forget_files(session);
+    session->reach.own = folder;
+    session->reach.directory = program ? program->source->directory : (Str){0};
     refer(&shared->config);
     prompt_list_free(session->config.prompts);
     unit_free(session->config.program);

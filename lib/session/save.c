@@ -268,7 +268,7 @@ static void take_file(PetriSession *session, Incoming *incoming, void *context) 
     const char *file = context, *why = NULL;
     Arena *arena = &incoming->arena;
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
-    if (file_read(arena, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why))
+    if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why))
         why = restore_text(&restore);
     if (state_take_exhausted(incoming->state)) // what looks like a damaged file
         arena_exhausted(arena);

@@ -120,6 +120,12 @@ static void open_parts(PetriSession *session, void *context) {
     session->noise = noise_cache_new();
     session->vm.profile = options->profile ? vm_profile_new() : NULL;
     session->vm.builtins.files = session->files;
+    session->vm.builtins.reach = session->schema.reach = &session->reach;
+    session->reach.nothing = options->no_files;
+    reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
+    reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
+    reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
+    session->options.read_folders = session->options.write_folders = NULL; // they are the host's
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->config.prompts = prompt_list_new(NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
@@ -300,6 +306,8 @@ static void make_unit(PetriSession *session, void *context) {
 // Puts a unit in the place of the loaded script.
 static void adopt(PetriSession *session, const Load *load, LoadPurpose purpose) {
     session_clear_frame(session); // its tree may lie in the old unit
+    if (!session->config.program || !str_equal(session->config.program->folder, load->unit->folder))
+        session_forget_files(session);
     unit_free(session->config.program);
     session->config.program = session_put(session, load->unit);
     session_set_prompts(session, load->prompts);
@@ -314,11 +322,13 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;
+    Reach before = session->reach;
     PetriStatus status = session_protect(session, NULL, make_unit, load);
     if (status == PETRI_OK && load->unit->program) {
         adopt(session, load, session->config.program ? purpose : LOAD_AFRESH);
         return PETRI_OK;
     }
+    session->reach = before;
     prompt_list_free(load->prompts);
     unit_free(session->loader.begun);
     if (status == PETRI_OK)

@@ -11,6 +11,7 @@ Shown session_shown(PetriSession *session) {
                    .scene = session->scene,
                    .state = session->state,
                    .directory = program ? program->source->directory : STR(""),
+                   .reach = &session->reach,
                    .memory_bytes = session->options.memory_bytes};
 }
 

@@ -14,6 +14,7 @@ struct Unit {
     Arena arena;   // to be used through unit_arena
     Arena scratch; // while it is compiled: syntax tree, expressions
     Str path;      // canonical; NUL-terminated
+    Str folder;    // canonical, of a script; what it may read and write lies there
     Str version;   // changes when the file does: modification time, size, inode
     const Source *source;
     const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
@@ -59,6 +60,8 @@ void unit_free(Unit *unit);
 Unit *session_put(PetriSession *session, Unit *unit);
 // For the machine: the module at a path. Within a protected call.
 const Program *session_module(void *host, Str path, Str *why);
+// Forgets what was read, for the next script may not read it.
+void session_forget_files(PetriSession *session);
 // Frees modules that were replaced.
 void session_free_retired(PetriSession *session);
 

@@ -79,8 +79,7 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
     return true;
 }
 
-static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painter, const char *file) {
-    PetriStatus status = petri_picture_save(picture, painter, file);
+static bool saved(Painting *painting, PetriStatus status) {
     if (status == PETRI_MEMORY) {
         set_trouble(painting, "out of memory");
     }
@@ -88,13 +87,12 @@ static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painte
 }
 
 static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
-    const char *record = NULL;
     bool good = !job->for_film || add_to_film(painting, job->picture, painter);
     if (job->file != NULL) {
-        good = good && save(painting, job->picture, painter, job->file);
+        good = good && saved(painting, petri_picture_save(job->picture, painter, job->file));
     }
-    for (size_t i = 0; good && (record = petri_picture_record(job->picture, i)) != NULL; i++) {
-        good = save(painting, job->picture, painter, record);
+    for (size_t i = 0; good && petri_picture_record(job->picture, i) != NULL; i++) {
+        good = saved(painting, petri_picture_save_record(job->picture, painter, i));
     }
     return good;
 }

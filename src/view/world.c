@@ -110,14 +110,8 @@ void world_close(World *world) {
 
 // Files that the script's `!record` nodes name.
 static void record(World *world) {
-    for (size_t i = 0;; i++) {
-        const char *file = petri_picture_record(world->picture, i);
-        if (file == NULL) {
-            return;
-        }
-        if (petri_picture_save(world->picture, world->painter, file) != PETRI_OK) {
-            world->failed = true;
-        }
+    for (size_t i = 0; petri_picture_record(world->picture, i) != NULL; i++) {
+        world->failed = petri_picture_save_record(world->picture, world->painter, i) != PETRI_OK || world->failed;
     }
 }
 
