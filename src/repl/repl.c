@@ -24,8 +24,8 @@ static volatile sig_atomic_t interrupted;
 static PetriSession *volatile working; // the session that is to be interrupted
 static pthread_t prompt_thread;
 
-// The process has other threads, and the one that waits for input must be woken. That thread alone notes the signal: noted
-// by both, it could be set again after the prompt has dealt with it, and stop the next thing.
+// The process has other threads, and the one that waits for input must be woken. That thread alone notes the signal:
+// noted by both, it could be set again after the prompt has dealt with it, and stop the next thing.
 static void on_interrupt(int signal_number) {
     if (!pthread_equal(pthread_self(), prompt_thread)) {
         pthread_kill(prompt_thread, signal_number);
