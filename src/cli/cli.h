@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/str.h"
+
 struct Args;
 struct Options;
 
@@ -72,16 +74,14 @@ int help_for(const Command *command);
 int help_overview(const Command *const *commands);
 int help_version(void);
 
+// Calls the handler for a signal, unless that is SIGHUP and nohup has it ignored.
+void signal_catch(int number, void (*handler)(int), int flags);
 // Writes `petri: text` and a newline to standard error.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);
 
-// What a mistyped word was meant to be: the name, of those that are offered, that is nearest to it.
-typedef struct Nearest {
-    const char *word;
-    const char *name; // NULL: none is near enough to be a slip of the hand
-    size_t distance;
-} Nearest;
+// Looks for what a mistyped word was meant to be, near enough to be a slip of the hand. `found` is of C, too.
+StrNearest nearest_start(const char *word);
 // True if the name is nearer than those before it.
-bool nearest_offer(Nearest *nearest, const char *name);
+bool nearest_offer(StrNearest *nearest, const char *name);
 
 #endif

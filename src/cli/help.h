@@ -12,4 +12,12 @@ int help_end(Output *output);
 // An option and what it does, in a line.
 void help_option(Output *output, const OptionSpec *spec);
 
+// What there is to say of a word of the language, for `petri help` and `.help` at the prompt (topics.c).
+
+// Tells of the built-in function, the node (`!name` means no other), the word or the attribute of this name. False if
+// there is none.
+bool topics_tell(Output *output, const char *topic);
+// Offers all of these names.
+void topics_offer(StrNearest *nearest);
+
 #endif

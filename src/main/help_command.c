@@ -8,7 +8,6 @@
 #include "cli/cli.h"
 #include "cli/help.h"
 #include "cli/options.h"
-#include "cli/topics.h"
 #include "main/commands.h"
 #include "petri.h"
 #include "repl/repl.h"
@@ -77,7 +76,7 @@ static bool tell_option(Output *output, const char *word) {
 }
 
 static int unknown_topic(const char *topic) {
-    Nearest nearest = {.word = topic};
+    StrNearest nearest = nearest_start(topic);
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
         nearest_offer(&nearest, COMMANDS[i]->name);
     }
@@ -85,8 +84,8 @@ static int unknown_topic(const char *topic) {
     nearest_offer(&nearest, "nodes");
     nearest_offer(&nearest, "version");
     topics_offer(&nearest);
-    if (nearest.name != NULL) {
-        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest.name);
+    if (nearest.found.bytes != NULL) {
+        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest.found.bytes);
     } else {
         message("there is no help on '%.60s'; 'petri help' tells what there is help on", topic);
     }

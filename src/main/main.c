@@ -41,20 +41,20 @@ static bool is_script_without_suffix(const char *word) {
 }
 
 static int unknown_command(const char *word) {
-    Nearest nearest = {.word = word};
+    StrNearest nearest = nearest_start(word);
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
         nearest_offer(&nearest, COMMANDS[i]->name);
     }
     if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
-        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.name);
+        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.found.bytes);
         return STATUS_USAGE;
     }
     if (word[0] == '\0') {
         message("the name of the script is empty");
     } else if (is_script_without_suffix(word)) {
         message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
-    } else if (nearest.name != NULL) {
-        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.name);
+    } else if (nearest.found.bytes != NULL) {
+        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.found.bytes);
     } else {
         message("there is no command and no file '%s'; 'petri help' lists the commands", word);
     }

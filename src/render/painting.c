@@ -6,6 +6,7 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/source.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
@@ -106,8 +107,7 @@ static const char *written_file(const Job *job, size_t index) {
 }
 
 static const char *last_part(const char *file) {
-    const char *slash = strrchr(file, '/');
-    return slash == NULL ? file : slash + 1;
+    return file + path_directory(str_from(file)).len;
 }
 
 // Whether two jobs may write the same file. Paths may differ and lead to the same: names count.
