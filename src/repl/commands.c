@@ -4,6 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/help.h"
 #include "cli/progress.h"
 #include "cli/table.h"
 #include "repl/repl.h"
