@@ -13,6 +13,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
 
 typedef struct PetriPicture PetriPicture;
 typedef struct PetriPainter PetriPainter;
@@ -99,6 +102,9 @@ PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *paint
 // called by the thread that uses the session, when no other uses the picture.
 void petri_picture_tell(PetriSession *session, PetriPicture *picture);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -65,16 +65,13 @@ extern const Command CHECK_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 
-// The commands in the order of help, ended by NULL.
-extern const Command *const COMMANDS[];
-// NULL if there is none of this name.
-const Command *command_find(const char *name);
 // Reads the words that follow a command's name and runs it; returns the exit status.
 int command_run(const Command *command, const Host *host, int argc, char **argv);
 
 // Prints a command's own help on standard output; returns the exit status.
 int help_for(const Command *command);
-int help_overview(void);
+// `commands` are in the order of help, ended by NULL.
+int help_overview(const Command *const *commands);
 int help_version(void);
 
 // Calls the handler for a signal, unless that is SIGHUP and nohup has it ignored.

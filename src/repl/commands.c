@@ -111,14 +111,6 @@ static bool run_help(Repl *repl, const char *topic) {
     return true;
 }
 
-bool help_prompt(Output *output, const char *name) {
-    const ReplCommand *command = repl_find_command(name, strlen(name));
-    if (command != NULL) {
-        output_format(output, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
-    }
-    return command != NULL;
-}
-
 static void say_seconds(Repl *repl, double seconds, const char *more) {
     static const struct {
         double unit;

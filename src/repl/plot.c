@@ -114,7 +114,7 @@ static void plot(Repl *repl, const double *values, int64_t first, int64_t count)
     int columns = count > WIDEST ? WIDEST : count < 20 ? 20 : (int)count;
     canvas.columns = columns * canvas.across;
     canvas.rows = HEIGHT * canvas.down;
-    canvas.dots = memory_zeroed((size_t)(canvas.columns * canvas.rows));
+    canvas.dots = memory_zeroed((size_t)canvas.columns * (size_t)canvas.rows);
     draw(&canvas, &range, values, count);
     write_canvas(&repl->output, &canvas, &range);
     char from[24], to[24];

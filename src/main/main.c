@@ -10,6 +10,7 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/pass_on.h"
+#include "main/commands.h"
 
 #ifdef PETRI_PICTURES
 const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
@@ -71,7 +72,7 @@ static int dispatch(const Host *host, int argc, char **argv) {
         return pass_on(argv);
     }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
-        return help_overview();
+        return help_overview(COMMANDS);
     }
     if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0) {
         return help_version();

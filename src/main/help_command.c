@@ -8,7 +8,9 @@
 #include "cli/cli.h"
 #include "cli/help.h"
 #include "cli/options.h"
+#include "main/commands.h"
 #include "petri.h"
+#include "repl/repl.h"
 
 enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };
 
@@ -90,6 +92,15 @@ static int unknown_topic(const char *topic) {
     return STATUS_USAGE;
 }
 
+// Tells of a command of the prompt; false if there is none of this name.
+static bool help_prompt(Output *output, const char *name) {
+    const ReplCommand *command = repl_find_command(name, strlen(name));
+    if (command != NULL) {
+        output_format(output, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
+    }
+    return command != NULL;
+}
+
 static int help_word(const char *topic) {
     Output *output = help_begin();
     bool found = topic[0] == '-'   ? tell_option(output, topic)
@@ -127,7 +138,7 @@ static int help_run(const Host *host, Options *options) {
         message("help is given on one thing at a time; '%s' is too many", words[1]);
         return STATUS_USAGE;
     }
-    return options->argc == 0 ? help_overview() : help_topic(words[0]);
+    return options->argc == 0 ? help_overview(COMMANDS) : help_topic(words[0]);
 }
 
 const Command HELP_COMMAND = {
