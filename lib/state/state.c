@@ -327,21 +327,14 @@ bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
 }
 
 Value state_get(const State *state, Value key) {
-    if (!state_key_valid(key))
-        return VALUE_NULL;
-    uint32_t found = find(state, key, key_hash(key));
-    return found == INDEX_NONE ? VALUE_NULL : state->entries[found].value;
+    return state_slot_get(state, state_find(state, key));
 }
 
 bool state_set(State *state, Value key, Value value) {
     if (!state_key_valid(key))
         return true;
-    if (value.len == 0) {
-        uint32_t found = find(state, key, key_hash(key));
-        return found == INDEX_NONE || state_slot_set(state, found, VALUE_NULL);
-    }
-    StateSlot slot = state_slot(state, key);
-    return slot != STATE_NO_SLOT && state_slot_set(state, slot, value);
+    StateSlot slot = value.len ? state_slot(state, key) : state_find(state, key);
+    return slot == STATE_NO_SLOT ? value.len == 0 : state_slot_set(state, slot, value);
 }
 
 uint32_t state_slot_count(const State *state) {

@@ -84,6 +84,13 @@ void format_value(Text *out, const SymbolTable *symbols, Value v) {
     }
 }
 
+Str format_text(Arena *arena, const SymbolTable *symbols, Value v) {
+    Text text = text_new(arena);
+    format_value(&text, symbols, v);
+    text_add_char(&text, 0);
+    return (Str){text.bytes, text.len - 1};
+}
+
 typedef void FormatValue(Text *out, const SymbolTable *symbols, Value v);
 
 // `!kind #tags name=value …`, without line end.

@@ -7,6 +7,8 @@
 // The printed form (L18.1); reads back as the same value for numbers, symbols and strings. All of these
 // charge their text's arena for work.
 void format_value(Text *out, const SymbolTable *symbols, Value v);
+// The same as a text of its own, followed by a NUL byte.
+Str format_text(Arena *arena, const SymbolTable *symbols, Value v);
 // The text of debug() (L18.3).
 void format_debug(Text *out, const SymbolTable *symbols, Value v);
 // Takes what the text has, after a line of a tree, and may empty it; false ends the tree there.

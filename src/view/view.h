@@ -28,7 +28,6 @@ typedef struct View {
     double rate;
     // Pixels of the display
     uint32_t *pixels;
-    size_t pixel_count;
     // The script's size and title as the display knows them
     int width;
     int height;
