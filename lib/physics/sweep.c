@@ -79,7 +79,7 @@ void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
     enum { NUMBERS_A_UNIT = 16, DRAWN_A_UNIT = 2 };
     const Group *group = (const Group *)system->groups.bytes + number;
     const Columns *columns = &system->columns;
-    SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light};
+    SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light, .stop = phys_stop(system)};
     uint32_t singles = collect(system, number, STAGE_SINGLE, 0);
     pass.barrier_count = collect(system, number, STAGE_BARRIER, singles);
     pass.force_count = singles + pass.barrier_count;

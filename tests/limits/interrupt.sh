@@ -37,7 +37,7 @@ for threads in 1 2; do
     interrupted "octaves of noise" '!a x=len(octnoise(1+frame, 1024, 0.999, ..3000, ..3000))'
     interrupted "a search" 'let a=0*(..1e6)+frame b=0*(..5e5)+frame\n!a x=((b;1) in (a;0))'
     interrupted "debug" "$shared"'!a x=len(debug(f(60+frame, !x)))'
-    interrupted "loops" '!a x=sum(1 for i in ..1e6 for j in ..(1e6+frame))'
+    interrupted "loops" '!a x=sum(len(j for j in ..(1e6+frame)) for i in ..1e6)'
     interrupted "a recursion" 'func h(n)\n    h(n-1)+h(n-1) if n>0 else 1\n!a x=h(60+frame)'
     interrupted "powers" '!a x=len(((..5e6)+frame)**1.5 for i in ..100)'
     interrupted "a stream" '!a x=len(normal(frame)[..1e7] for i in ..100)'
