@@ -265,6 +265,6 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
         return builtin_fault(context, "glob", "too many directories or matches");
     Value paths = glob.found_count ? glob_value(&glob) : VALUE_NULL;
     if (glob.refused)
-        builtin_fault(context, "glob", reach_refusal(context->arena, context->reach, REACH_READ, glob.refused));
+        builtin_fault(context, "glob", "%s", reach_refusal(context->arena, context->reach, REACH_READ, glob.refused));
     return paths;
 }
