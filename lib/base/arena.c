@@ -79,7 +79,7 @@ _Noreturn void arena_exhausted(const Arena *arena) {
 }
 
 ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context) {
-    jmp_buf escape, *outer[ARENA_MOST_PROTECTED];
+    jmp_buf escape, *outer[ARENA_MOST_PROTECTED] = {NULL};
     assert(count <= ARENA_MOST_PROTECTED);
     for (size_t i = 0; i < count; i++)
         if (arenas[i]) {

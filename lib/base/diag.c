@@ -80,13 +80,7 @@ static void add_printable(Text *out, Str line) {
 }
 
 Str diag_text(const Diag *diag) {
-    enum { LONGEST = 400 };
-    if (diag->text.len <= LONGEST)
-        return diag->text;
-    size_t len = LONGEST; // a script may have names of megabytes: cut between two characters
-    while (len > 0 && ((unsigned char)diag->text.bytes[len] & 0xc0) == 0x80)
-        len--;
-    return (Str){diag->text.bytes, len};
+    return str_cut(diag->text, 400); // a script may have names of megabytes
 }
 
 static void add_text(Text *out, const Diag *diag) {

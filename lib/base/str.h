@@ -27,6 +27,8 @@ Str str_copy(Arena *arena, Str text);
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);
+// The text, or as many whole characters of it as `most` bytes hold.
+Str str_cut(Str text, size_t most);
 // Which of the words of a list, which spaces part, it is, from 0; -1 if it is none.
 int str_word_number(Str word, const char *list);
 // Text without white space (space, tab, CR, LF, VT, FF) at both ends.
@@ -62,6 +64,8 @@ void text_add_format(Text *text, const char *format, ...) __attribute__((format(
 void text_add_va(Text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 Str text_str(const Text *text);
 
+// Its value, or -1.
+int str_hex_digit(char c);
 // Appends the colour that a text such as #f80, #ff8800 or 0xff8800 begins with (alpha may follow) as r;g;b of numbers
 // from 0 to 1; false, with nothing appended, if it begins with none.
 bool text_add_hex_colour(Text *text, Str hex);

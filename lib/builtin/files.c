@@ -253,18 +253,6 @@ bool file_is_text(const char *bytes, size_t len, const char **problem) {
     return good;
 }
 
-size_t file_normalise_lines(char *bytes, size_t len) {
-    size_t kept = 0;
-    for (size_t i = 0; i < len; i++) {
-        bool line_feed_follows = i + 1 < len && bytes[i + 1] == '\n';
-        if (bytes[i] != '\r')
-            bytes[kept++] = bytes[i];
-        else if (!line_feed_follows)
-            bytes[kept++] = '\n';
-    }
-    return kept;
-}
-
 static const Str *contents_new(Arena *arena, const char *bytes, size_t len) {
     Str contents = {bytes, len};
     return arena_copy(arena, &contents, sizeof contents);
@@ -273,7 +261,7 @@ static const Str *contents_new(Arena *arena, const char *bytes, size_t len) {
 static const void *parse_text(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
-    return contents_new(arena, bytes, file_normalise_lines(bytes, len));
+    return contents_new(arena, bytes, source_unify_lines(bytes, len));
 }
 
 static const void *parse_bytes(Arena *arena, char *bytes, size_t len, const char **problem) {

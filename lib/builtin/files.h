@@ -22,8 +22,7 @@ typedef const void *FileParse(Arena *arena, char *bytes, size_t len, const char 
 // of which the first attempt is reported as a fault of `function`.
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name);
 
-// For parsers: true if the bytes are UTF-8; CR LF and CR become LF, in place.
+// For parsers: true if the bytes are UTF-8.
 bool file_is_text(const char *bytes, size_t len, const char **problem);
-size_t file_normalise_lines(char *bytes, size_t len);
 
 #endif

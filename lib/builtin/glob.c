@@ -251,7 +251,7 @@ static Value glob_value(Glob *glob) {
 Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Str pattern = value_text(context->arena, context->symbols, args[0]);
     if (pattern.len == 0 || pattern.bytes[0] == '/')
-        return builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
+        return builtin_fault(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
     if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
     Glob glob = {.arena = context->arena, .reach = context->reach};

@@ -3,6 +3,7 @@
 #include "builtin/files.h"
 
 #include "base/number.h"
+#include "base/source.h"
 
 #include <string.h>
 
@@ -85,7 +86,7 @@ static bool read_section(Str section, Subtitle *subtitle) {
 static const void *parse_srt(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
-    Str all = {bytes, file_normalise_lines(bytes, len)}, rest = all, section;
+    Str all = {bytes, source_unify_lines(bytes, len)}, rest = all, section;
     uint32_t count = 1;
     while (take_part(&rest, STR("\n\n"), &section))
         count++;

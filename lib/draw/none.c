@@ -41,3 +41,9 @@ PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, Can
     *bytes = STR("");
     return missing(faults);
 }
+
+PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
+                                 uint32_t *pixels, int width, int height, size_t stride) {
+    (void)painter, (void)labels, (void)count, (void)scale, (void)pixels, (void)width, (void)height, (void)stride;
+    return PETRI_MISSING;
+}

@@ -127,7 +127,7 @@ static PetriStatus draw_on(PetriPainter *painter, const CanvasPicture *picture, 
     return result;
 }
 
-// Premultiplied colours over black are what they are.
+// Over black, colours that are premultiplied stay; only alpha changes.
 static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) {
     for (int y = 0; y < height; y++) {
         uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);

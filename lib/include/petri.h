@@ -22,6 +22,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) // all else stays within the library, also in a shared one made of it
+#endif
 
 #define PETRI_Z SIZE_MAX
 
@@ -53,7 +56,8 @@ typedef struct PetriDiagnostic {
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
 typedef struct PetriOptions {
-    double fps; // target frame rate; a script's `%pragma fps` wins. Default 60
+    size_t size; // of the struct that the host was compiled with: petri_default_options sets it
+    double fps;  // target frame rate; a script's `%pragma fps` wins. Default 60
     // Follow the wall clock: petri_step waits until the frame is due, and `time` is what has passed since frame 0.
     // Default false: lockstep, where `time` is frame/fps.
     bool realtime;
@@ -79,10 +83,19 @@ typedef struct PetriOptions {
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
-    uint32_t cookie; // set by petri_default_options; catches options that were not initialised
+    // Vector instructions that physics may use: "scalar", "avx2" or "avx512", or what there is below that. NULL (the
+    // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
+    // once when the library is loaded, is the upper limit. Results never depend on it.
+    const char *cpu;
 } PetriOptions;
 
-PetriOptions petri_default_options(void);
+// Writes the defaults of the first `size` bytes of options.
+void petri_options_init(PetriOptions *options, size_t size);
+static inline PetriOptions petri_default_options(void) {
+    PetriOptions options;
+    petri_options_init(&options, sizeof options);
+    return options;
+}
 
 // A session without a script, or NULL if memory is used up or the options were not initialised or make no sense.
 PetriSession *petri_open(const PetriOptions *options);
@@ -99,9 +112,9 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 PetriStatus petri_load(PetriSession *session, const char *file);
 // The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
-// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of tempo and fps, those count anew
-// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
-// told of it is not told again.
+// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of
+// tempo and fps, those count anew whose pragma was changed. NULL stands for the text that was loaded last, for when
+// definitions have changed: what was told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
@@ -387,6 +400,9 @@ bool petri_read_number(const char *text, double *x);
 
 const char *petri_version(void);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -16,14 +16,9 @@ enum { LONGEST_CONSTANT = 60 }; // characters of a constant that are shown
 static void print_constant(Text *out, const SymbolTable *symbols, Value value) {
     Text text = text_new(out->arena);
     format_value(&text, symbols, value);
-    Str shown = text_str(&text);
-    bool cut = shown.len > LONGEST_CONSTANT;
-    if (cut)
-        shown.len = LONGEST_CONSTANT;
-    while (cut && shown.len > 0 && (shown.bytes[shown.len] & 0xc0) == 0x80)
-        shown.len--; // not within a character
+    Str shown = str_cut(text_str(&text), LONGEST_CONSTANT);
     text_add(out, shown);
-    if (cut)
+    if (shown.len < text.len)
         text_add_format(out, "… (%u elements)", value.len);
 }
 

@@ -20,7 +20,7 @@ static bool has_module(const ModuleList *list, const Program *module) {
     return false;
 }
 
-// No deeper than the list is long.
+// Within a protected call; no deeper than the list is long.
 static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
     for (uint32_t i = 0; i < program->import_count; i++) {
         Str why;
@@ -30,12 +30,6 @@ static void collect_modules(PetriSession *session, const Program *program, Modul
         list->items[list->count++] = module;
         collect_modules(session, module, list);
     }
-}
-
-// Within a protected call.
-static void find_modules(PetriSession *session, const Program *program, ModuleList *list) {
-    list->count = 0;
-    collect_modules(session, program, list);
 }
 
 static const Parameter *find_in_modules(const ModuleList *list, const Symbol *name) {
@@ -76,12 +70,6 @@ static Str range_text(Arena *arena, const Parameter *parameter) {
     return str_format(arena, "%.*s..%.*s", (int)before, least, (int)after, most);
 }
 
-static Str value_printed(PetriSession *session, Arena *arena, Value v) {
-    Text text = text_new(arena);
-    format_value(&text, &session->symbols, v);
-    return text_str(&text);
-}
-
 // One definition being looked at.
 typedef struct Check {
     PetriSession *session;
@@ -107,7 +95,7 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     uint32_t at = 0;
     while (is_plain_number(check->session, value_at(&v, at)))
         at++;
-    Str wrong = value_printed(check->session, arena, value_element(arena, v, at));
+    Str wrong = format_text(arena, &check->session->symbols, value_element(arena, v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     tell(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
          str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", STR_ARGS(wrong),
@@ -122,7 +110,7 @@ static void check_range(const Check *check, const Parameter *parameter) {
     for (uint32_t i = 0; all_numbers(check->session, v) && i < v.len; i++) {
         if (is_within(parameter, value_at(&v, i).as.number))
             continue;
-        Str range = range_text(arena, parameter), printed = value_printed(check->session, arena, v);
+        Str range = range_text(arena, parameter), printed = format_text(arena, &check->session->symbols, v);
         tell(check, DIAG_WARNING, "outside-range", origin_of(parameter),
              str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
                         STR_ARGS(printed), STR_ARGS(range)),
@@ -138,7 +126,7 @@ static bool check_truth(const Check *check, const Parameter *parameter) {
         return true;
     if (parameter->is_static && !value_true(parameter->value))
         return false; // nothing is lost
-    Str printed = value_printed(check->session, arena, check->define->value);
+    Str printed = format_text(arena, &check->session->symbols, check->define->value);
     tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
          str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
                     STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
@@ -158,11 +146,8 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 // The parameter whose name is nearest to one that is not there, or NULL.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
     const Parameter *found = NULL;
-    StrNearest nearest = {name,
-                          name.len < 2   ? 1
-                          : name.len < 4 ? 2
-                                         : 3,
-                          {0}}; // names of one letter are near to all others
+    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
+    StrNearest nearest = {name, limit, {0}};
     for (uint32_t i = 0; i < program->parameter_count; i++)
         if (str_try_nearest(&nearest, program->parameters[i].name->name))
             found = &program->parameters[i];
@@ -200,40 +185,38 @@ static void tell_unread(const Check *check) {
 // A definition that nothing has read.
 static void check_unread(const Check *check) {
     Arena *arena = &check->unit->arena;
-    Str name = check->define->name->name;
-    ModuleList modules = {.count = 0};
+    Str name = check->define->name->name, hint = {0};
+    const char *why = NULL;
+    Origin at = {0};
     if (engine_name_exists(name)) {
-        tell(check, DIAG_WARNING, "unused-definition", (Origin){0},
-             str_format(arena, "the definition of '%.*s' has no effect: petri itself gives this name its value",
-                        STR_ARGS(name)),
-             (Str){0});
-        return;
+        why = "petri itself gives this name its value";
+    } else if (check->use->bound.source) {
+        why = "the script gives the name its own value here";
+        at = check->use->bound;
+        if (check->use->by_let)
+            hint = str_format(arena, "with `let %.*s=%.*s or …` it would take the definition", STR_ARGS(name),
+                              STR_ARGS(name));
+    } else {
+        ModuleList modules = {.count = 0};
+        collect_modules(check->session, check->unit->program, &modules);
+        const Parameter *parameter = find_in_modules(&modules, check->define->name);
+        if (!parameter) {
+            tell_unread(check);
+            return;
+        }
+        why = "modules see no definitions";
+        at = origin_of(parameter);
     }
-    if (check->use->bound.source) {
-        tell(check, DIAG_WARNING, "unused-definition", check->use->bound,
-             str_format(arena, "the definition of '%.*s' has no effect: the script gives the name its own value here",
-                        STR_ARGS(name)),
-             check->use->by_let ? str_format(arena, "with `let %.*s=%.*s or …` it would take the definition",
-                                             STR_ARGS(name), STR_ARGS(name))
-                                : (Str){0});
-        return;
-    }
-    find_modules(check->session, check->unit->program, &modules);
-    const Parameter *parameter = find_in_modules(&modules, check->define->name);
-    if (parameter)
-        tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
-             str_format(arena, "the definition of '%.*s' has no effect: modules see no definitions", STR_ARGS(name)),
-             (Str){0});
-    else
-        tell_unread(check);
+    tell(check, DIAG_WARNING, "unused-definition", at,
+         str_format(arena, "the definition of '%.*s' has no effect: %s", STR_ARGS(name), why), hint);
 }
 
-// Of several definitions of a name the last counts.
-static bool is_last(const PetriSession *session, uint32_t number) {
-    for (uint32_t i = number + 1; i < session->config.define_count; i++)
-        if (session->config.defines[i].name == session->config.defines[number].name)
-            return false;
-    return true;
+// The definition of a name that counts, the last, or NULL.
+static const Define *find_define(const PetriSession *session, const Symbol *name) {
+    for (uint32_t i = session->config.define_count; i > 0; i--)
+        if (session->config.defines[i - 1].name == name)
+            return &session->config.defines[i - 1];
+    return NULL;
 }
 
 static bool check_one(const Check *check) {
@@ -251,21 +234,13 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     uint32_t first = session->again ? session->told_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->again);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
-        if (is_last(session, i))
+        if (find_define(session, session->config.defines[i].name) == &session->config.defines[i])
             good =
                 check_one(&(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) && good;
     diagnostics_repeat(&session->diagnostics, outer);
     if (good)
         session->told_defines = session->config.define_count;
     return good;
-}
-
-// The definition of a name that counts, or NULL.
-static const Define *find_define(const PetriSession *session, const Symbol *name) {
-    for (uint32_t i = session->config.define_count; i > 0; i--)
-        if (session->config.defines[i - 1].name == name)
-            return &session->config.defines[i - 1];
-    return NULL;
 }
 
 // A piece of a script as text of one line, without anything that a terminal would act on.
@@ -293,7 +268,7 @@ static void describe(PetriSession *session, const Parameter *parameter, bool set
     *out = (PetriParameter){
         .name = str_to_c(arena, parameter->name->name),
         .fallback = one_line(arena, parameter->fallback),
-        .value = defined || parameter->is_static ? str_to_c(arena, value_printed(session, arena, value))
+        .value = defined || parameter->is_static ? format_text(arena, &session->symbols, value).bytes
                                                  : one_line(arena, parameter->fallback),
         .comment = one_line(arena, parameter->comment),
         .number = defined || parameter->is_static ? one_number(session, value) : NAN,
@@ -319,7 +294,7 @@ static void find_parameter(PetriSession *session, void *context) {
     Request *request = context;
     const Program *program = session->config.program->program;
     size_t number = request->number;
-    ModuleList modules;
+    ModuleList modules = {.count = 0};
     arena_reset(&session->text_arena);
     if (number < program->parameter_count) {
         describe(session, &program->parameters[number], true, request->out);
@@ -327,7 +302,7 @@ static void find_parameter(PetriSession *session, void *context) {
         return;
     }
     number -= program->parameter_count;
-    find_modules(session, program, &modules);
+    collect_modules(session, program, &modules);
     for (uint32_t i = 0; i < modules.count; i++) {
         const Program *module = modules.items[i];
         if (number < module->parameter_count) {

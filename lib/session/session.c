@@ -8,16 +8,26 @@
 #include <stdlib.h>
 #include <string.h>
 
-#define COOKIE UINT32_C(0x70657472)
 enum { MOST_LINES = 100000 };
 
-PetriOptions petri_default_options(void) {
-    return (PetriOptions){.fps = 60,
-                          .run_time = NAN,
-                          .simplify = true,
-                          .stack_bytes = (size_t)4 << 20,
-                          .memory_bytes = (size_t)2 << 30,
-                          .cookie = COOKIE};
+void petri_options_init(PetriOptions *options, size_t size) {
+    const PetriOptions usual = {.size = size,
+                                .fps = 60,
+                                .run_time = NAN,
+                                .simplify = true,
+                                .stack_bytes = (size_t)4 << 20,
+                                .memory_bytes = (size_t)2 << 30};
+    memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
+}
+
+// The options of a host, who may have been compiled with an earlier petri.h, whose struct was shorter. False if they
+// were not initialised, if they are those of a later petri.h, or make no sense.
+static bool take_options(PetriOptions *options, const PetriOptions *given) {
+    if (!given || given->size < offsetof(PetriOptions, cpu) || given->size > sizeof *options)
+        return false;
+    petri_options_init(options, sizeof *options);
+    memcpy(options, given, given->size);
+    return options->fps > 0 && isfinite(options->fps);
 }
 
 static void tell_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
@@ -58,12 +68,11 @@ _Static_assert((int)PETRI_NEIGHBOURS_NEVER == (int)PHYS_NEIGHBOURS_NEVER &&
                    (int)PETRI_NEIGHBOURS_ALWAYS == (int)PHYS_NEIGHBOURS_ALWAYS,
                "the public choices are those of the engine");
 
-// The environment may choose the instruction set; results do not depend on it. Unknown words count as none.
 static PhysOptions physics_options(const PetriOptions *options) {
     PhysOptions physics = {.threads = options->threads,
                            .neighbours = (PhysNeighbours)options->neighbours,
                            .keep_forces = options->keep_forces};
-    cpu_choose(getenv("PETRI_CPU"), &physics.cpu);
+    cpu_choose(options->cpu, &physics.cpu);
     return physics;
 }
 
@@ -132,12 +141,15 @@ static void open_parts(PetriSession *session, void *context) {
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
+    session->options.cpu = NULL; // it is the host's
     scene_set_physics(session->scene, &physics);
 }
 
 PetriSession *petri_open(const PetriOptions *options) {
-    if (!options || options->cookie != COOKIE || !(options->fps > 0) || !isfinite(options->fps))
+    PetriOptions wanted;
+    if (!take_options(&wanted, options))
         return NULL;
+    options = &wanted;
     PetriSession *session = calloc(1, sizeof *session);
     if (!session)
         return NULL;

@@ -357,10 +357,6 @@ static void parse_tokens(void *context) {
     }
 }
 
-static void parse_text(ParseContext *context, Layout *layout) {
-    with_parser(&(Parsing){.context = context, .layout = layout}, parse_tokens);
-}
-
 // Does a statement that begins with this token like to have lines indented below it?
 static bool takes_children(int kind) {
     return kind == NODE || kind == '@';
@@ -422,7 +418,7 @@ ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source) {
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
     if (check_text(&context))
-        parse_text(&context, arena_alloc(arena, sizeof(Layout)));
+        with_parser(&(Parsing){&context, arena_alloc(arena, sizeof(Layout)), NULL, PARSE_WHOLE}, parse_tokens);
     if (context.failed && !foreign_encoding(source))
         foreign_sum_up(source, diags);
     return context.failed ? NULL : context.program;

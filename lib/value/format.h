@@ -6,6 +6,8 @@
 
 // The printed form (L18.1); reads back as the same value for numbers, symbols and strings.
 void format_value(Text *out, const SymbolTable *symbols, Value v);
+// The same as a text of its own, followed by a NUL byte.
+Str format_text(Arena *arena, const SymbolTable *symbols, Value v);
 // The text of debug() (L18.3).
 void format_debug(Text *out, const SymbolTable *symbols, Value v);
 // One line per node (L18.2), starting at `depth` levels of four spaces.

@@ -10,8 +10,8 @@
 
 #define NOINLINE __attribute__((noinline))
 
-// A number goes to its register in one piece, as whoever copies it will fetch it: a processor has to wait for two
-// halves.
+// One store of 16 bytes: after two of 8 bytes, a load of 16 waits until both are in the cache, as neither can be
+// forwarded.
 static inline void set_number(Value *to, double x) {
     typedef double Halves __attribute__((vector_size(16)));
     static const union {

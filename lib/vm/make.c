@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FEW = 8 };
+enum { MOST_ON_STACK = 8 };
 
 static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
     if (part->len == 1) {
@@ -72,10 +72,10 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
 }
 
 // A node with the vector that holds it.
-typedef struct Made {
+typedef struct NodeValue {
     Node node;
     Item item;
-} Made;
+} NodeValue;
 
 // The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
@@ -117,7 +117,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     const NodeCode *plan = instr->as.node;
     const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
     uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
-    Made *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
+    NodeValue *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
     Attr *attrs = (Attr *)(made + 1);
     const Node **nodes = (const Node **)(attrs + instr->count);
     made->node = *plan->base;
@@ -237,9 +237,9 @@ static Value get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
 // frame: systems may overwrite it in place after the evaluation.
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;
-    double few[FEW];
+    double few[MOST_ON_STACK];
     uint32_t count = 0;
-    while (count < instr->count && count < FEW && is_number(&slots[list[count]])) {
+    while (count < instr->count && count < MOST_ON_STACK && is_number(&slots[list[count]])) {
         few[count] = slots[list[count]].as.number;
         count++;
     }

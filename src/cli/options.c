@@ -315,3 +315,8 @@ int options_open(const Options *options, const Host *host,
     }
     return OPTIONS_READ;
 }
+
+bool options_due(const Options *options, int64_t frames, double start, double fps) {
+    double time = options->realtime ? clock_seconds() - start : (double)frames / fps;
+    return frames < options->frames && (isnan(options->run_time) || time < options->run_time);
+}

@@ -46,14 +46,10 @@ static void on_signal(int number) {
 // The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) ends the run after the frame at hand, with its
 // state saved and what was drawn kept; a second one ends the process, should that take too long.
 static void catch_signals(void) {
-    struct sigaction action = {.sa_handler = on_signal}, before;
     main_thread = pthread_self();
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
-        sigaction(SIGHUP, &action, NULL);
-    }
+    signal_catch(SIGINT, on_signal, 0);
+    signal_catch(SIGTERM, on_signal, 0);
+    signal_catch(SIGHUP, on_signal, 0);
 }
 
 static bool wants_diagnostic(Frames *frames, PetriLevel level) {
@@ -118,15 +114,8 @@ void frames_begin(Frames *frames) {
 }
 
 bool frames_due(const Frames *frames) {
-    int64_t counted = frames->done - frames->early;
-    if (interrupted || counted >= frames->options->frames) {
-        return false;
-    }
-    if (isnan(frames->options->run_time)) {
-        return true;
-    }
-    double time = frames->options->realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
-    return time < frames->options->run_time;
+    return !interrupted &&
+           options_due(frames->options, frames->done - frames->early, frames->start, frames_fps(frames));
 }
 
 bool frames_step(Frames *frames) {

@@ -22,6 +22,7 @@ for word; do
     command+=("$word")
 done
 cd "$here/../conformance"
+"${command[@]}" --version >/dev/null # rather than a failure for each script
 
 # hash_of FOLDER/NAME: the line of that script.
 hash_of() {
