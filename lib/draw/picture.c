@@ -280,13 +280,17 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     if (!picture)
         return PETRI_MEMORY;
     arena_init(&picture->arena, "picture", shown.memory_bytes);
+    picture->arena.meter = shown.meter;
     Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
-    PetriStatus status = PETRI_INVALID;
+    PetriStatus status = PETRI_OK;
     if (shown.number >= 0)
-        status = session_protect(session, &picture->arena, make_protected, &request) == PETRI_OK ? request.status
-                                                                                                 : PETRI_MEMORY;
+        status = session_tell_end(session, session_protect(session, &picture->arena, make_protected, &request),
+                                  "the picture");
     else
         request.problem = "there is nothing to draw: no frame has been made yet";
+    arena_release(&picture->arena); // the picture may be freed in another thread
+    if (status == PETRI_OK)
+        status = request.status;
     if (status == PETRI_OK) {
         picture->faults = diag_sink_new(&picture->arena, MOST_FAULTS);
         *out = picture;

@@ -68,12 +68,17 @@ typedef struct PetriOptions {
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
     // enough.
     size_t stack_bytes;
-    size_t memory_bytes;        // for the values of one frame. Default 2 GiB
+    // What a script may use; a frame, a load, a picture that needs more is given up with a diagnostic that tells what
+    // in the script asked for it. Memory is all that the session holds for the script; what is petri's own (some 64 MiB
+    // at the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by
+    // time, so that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
+    size_t memory_bytes;        // default 2 GiB
+    uint64_t work;              // of one call, such as petri_step; its systems have as much again. Default 2^27
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
-    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
-    // only evaluation is interrupted.
+    // by petri_interrupt or because work or memory is used up, as if it had never been begun. Default false: then each
+    // system has made that frame or stays as it was, which is for hosts that end there.
     bool interruptible;
     // The files that a script may use: it reads below its own folder, the current one and `read_folders`, it writes
     // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
@@ -202,8 +207,9 @@ PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
 PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
 bool petri_key_bound(PetriSession *session, const char *name);
-// Asks for an end of the petri_step, petri_prompt or petri_evaluate that is under way, or of the next one: it returns
-// PETRI_INTERRUPTED, soon. The one function that may be called from a signal handler or from another thread.
+// Asks for an end of what is under way (or of the next): a step, a load, a picture, a text that is printed or evaluated
+// returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or
+// from another thread.
 void petri_interrupt(PetriSession *session);
 // Whether such a wish has not been met yet; forgets it.
 bool petri_interrupted(PetriSession *session);

@@ -207,7 +207,10 @@ static int render_frames(Render *render) {
     frames_begin(frames);
     bool going = true;
     while (going && !render->failed && frames_due(frames)) {
-        going = frames_step(frames);
+        going = frames_step(frames) || frames->given_up;
+        if (frames->given_up) {
+            break;
+        }
         if (going && is_early(render)) {
             frames->early++;
         } else if (going) {

@@ -17,11 +17,12 @@ static const double SAME_SIGNAL = 0.2;
 
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
+static PetriSession *volatile working; // the session that makes a frame, which is to be given up
 
 static pthread_t main_thread;
 
 static void on_signal(int number) {
-    static const char note[] = "\r\033[Kpetri: stopping after this frame; Ctrl-C again stops at once\n";
+    static const char note[] = "\r\033[Kpetri: stopping; Ctrl-C again stops at once\n";
     static double first;
     if (!pthread_equal(pthread_self(), main_thread)) {
         pthread_kill(main_thread, number); // which then is at nothing else
@@ -37,14 +38,17 @@ static void on_signal(int number) {
     }
     first = clock_seconds();
     interrupted = number;
+    if (working != NULL) {
+        petri_interrupt(working);
+    }
     if (number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
         (void)ignored;
     }
 }
 
-// The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) ends the run after the frame at hand, with its
-// state saved and what was drawn kept; a second one ends the process, should that take too long.
+// The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) gives up the frame at hand and ends the run, with
+// the state after the frame before saved and what was drawn kept; a second one ends the process, should that take long.
 static void catch_signals(void) {
     main_thread = pthread_self();
     signal_catch(SIGINT, on_signal, 0);
@@ -120,11 +124,20 @@ bool frames_due(const Frames *frames) {
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->early);
-    PetriStatus status = petri_step(frames->session);
+    working = frames->session;
+    PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
+    working = NULL;
+    petri_interrupted(frames->session); // what came too late must not stop the next thing
+    frames->given_up = status == PETRI_INTERRUPTED;
+    if (frames->given_up) {
+        return false;
+    }
     if (status != PETRI_OK) {
         progress_erase(&frames->progress);
         message("stopped in frame %" PRId64 "%s", petri_frame(frames->session).number,
-                status == PETRI_MEMORY ? ": out of memory" : "");
+                status == PETRI_MEMORY  ? ": out of memory"
+                : status == PETRI_LIMIT ? "; '--work' and '--memory' set other limits"
+                                        : "");
         return false;
     }
     frames->done++;

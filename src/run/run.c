@@ -17,7 +17,9 @@
 typedef struct Run {
     const Host *host;
     Frames frames;
-    bool to_terminal; // standard output is a terminal
+    bool to_terminal;    // standard output is a terminal
+    size_t after_signal; // bytes that were printed since
+    bool cut;            // what was printed of a frame is not all
     Stats stats;
     Trajectory trajectory;
     Output output;
@@ -34,17 +36,27 @@ static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
 
 // On a terminal the bar must make way before text comes, and come back below it.
 static bool write_text(void *host, const char *text, size_t length) {
+    enum { MOST_AFTER_SIGNAL = 1 << 22 }; // bytes: a frame's text is whole, unless that takes long
     Run *run = host;
+    run->after_signal += frames_signal() != 0 ? length : 0;
+    if (run->after_signal > MOST_AFTER_SIGNAL) {
+        return false;
+    }
     if (run->to_terminal) {
         progress_erase(&run->frames.progress);
     }
     return output_write(&run->output, text, length);
 }
 
+// A text that was cut is no result.
+static void took(Run *run, PetriStatus status) {
+    run->cut = run->cut || (status != PETRI_OK && run->output.error == 0 && frames_signal() == 0);
+}
+
 // Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
     SCOPED_BYTES text = {0};
-    petri_print(run->frames.session, sections, bytes_collect, &text);
+    took(run, petri_print(run->frames.session, sections, bytes_collect, &text));
     const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
     if (end + 1 < text.data + text.length) {
         write_text(run, text.data, text.length);
@@ -58,9 +70,9 @@ static void output_frame(Run *run) {
     if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0) {
         print_if_any(run, sections);
     } else if (sections != 0) {
-        petri_print(run->frames.session, sections, write_text, run);
+        took(run, petri_print(run->frames.session, sections, write_text, run));
     } else {
-        petri_print_log(run->frames.session, write_text, run);
+        took(run, petri_print_log(run->frames.session, write_text, run));
     }
     if (run->to_terminal || run->frames.options->realtime) {
         output_flush(&run->output);
@@ -82,7 +94,7 @@ static bool run_frame(Run *run) {
         output_frame(run);
     }
     report_frame(run, &frame, printed);
-    return true;
+    return !run->cut;
 }
 
 static bool write_message(void *host, const char *text, size_t length) {
@@ -123,7 +135,7 @@ static int run_frames(Run *run) {
     frames_begin(frames);
     bool going = true;
     while (going && run->output.error == 0 && !run->trajectory.failed && frames_due(frames)) {
-        going = run_frame(run);
+        going = run_frame(run) || frames->given_up;
     }
     progress_erase(&frames->progress);
     output_flush(&run->output);
@@ -263,7 +275,7 @@ const Command RUN_COMMAND = {
     .summary = "run a script's frames and print what they hold",
     .details =
         "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.\n"
+        "Ctrl-C gives the frame at hand up and ends the run, a second Ctrl-C at once.\n"
         "\n"
         "A script has parameters where it says, at its top level, `let CELLS=CELLS or 200 -- 1..500 how many`:\n"
         "'petri run --parameters SCRIPT.fl' lists them, '-D CELLS=50' sets one. The range is optional; a value "
