@@ -40,10 +40,10 @@ fits() {
     check "$script is done" status_is 0
 }
 
-for script in in_quadratic group_dag steps gravity noise octnoise sorts random debug_dag collide; do
+for script in in_quadratic group_dag steps gravity noise octnoise random collide; do
     refused $script work-limit run --frames 2 $script.fl
 done
-for script in state_memory concat counters particles systems; do
+for script in state_memory concat counters particles systems sorts debug_dag; do
     refused $script memory-limit run --frames 2 $script.fl
 done
 for script in gradient canvas_dag; do
