@@ -76,6 +76,7 @@ run() {
     rm -rf new
     mkdir new
     cp -r old/. new
+    # shellcheck disable=SC2086 # a program, or nothing
     timeout 60 $terminal env LD_PRELOAD="$library" "$way=$n" COUNT_FILE=count "$@" >out 2>err <"$input"
     status=$?
 }
