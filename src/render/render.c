@@ -180,8 +180,12 @@ static int end_render(Render *render, bool going) {
     bool keeps = render->kind != OUTPUT_PICTURE && render->drawn > 0;
     bool abandon = (stopped != 0 && !keeps) || !going || render->failed;
     bool good = painting_finish(render->painting, frames->session, abandon, &trouble);
-    render->left = painting_left(render->painting) > 0;
-    render->drawn -= painting_left(render->painting);
+    if (painting_left(render->painting) > 0) {
+        render->left = true;
+        render->drawn -= painting_left(render->painting);
+        stopped = frames_signal(); // which may have come just now
+        keeps = keeps && render->drawn > 0;
+    }
     frames_end(frames, going);
     if (trouble != NULL) {
         message("%s", trouble);
