@@ -245,7 +245,8 @@ void completion_fish(Output *output) {
         if (COMMANDS[i] == &RUN_COMMAND) { // also where a script stands in the command's place
             bytes_add_text(&condition, "not __fish_seen_subcommand_from");
             for (size_t k = 0; COMMANDS[k] != NULL; k++) {
-                bytes_format(&condition, COMMANDS[k] == &RUN_COMMAND ? "" : " %s", COMMANDS[k]->name);
+                bytes_format(&condition, "%s%s", COMMANDS[k] == &RUN_COMMAND ? "" : " ",
+                             COMMANDS[k] == &RUN_COMMAND ? "" : COMMANDS[k]->name);
             }
         } else {
             bytes_format(&condition, "__fish_seen_subcommand_from %s", COMMANDS[i]->name);
