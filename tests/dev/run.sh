@@ -64,6 +64,7 @@ case " $* " in
         xvfb) package=Xvfb ;;
         x11-utils) package=xprop ;;
         imagemagick) package=compare ;;
+        desktop-file-utils) package=desktop-file-validate ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
         fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;
         esac

@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh BUILD draws|none SANITIZERS: installs what BUILD holds into a folder, moves that elsewhere, and tries it: the
-# command and the program that it starts, the hints that it gives, the library.
+# command and the program that it starts, the hints that it gives, the library, the manual and the completions.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -12,7 +12,7 @@ helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }
 
 DESTDIR=$work/made meson install -C "$build" --no-rebuild >log 2>&1
 check "meson install" [ $? -eq 0 ]
-binary=$(find made -name petri -type f)
+binary=$(find made -path '*/bin/petri')
 [ -n "$binary" ] || { cat log; echo "FAIL nothing is installed"; exit 1; }
 mkdir "with blanks"
 mv "$(dirname "$(dirname "$binary")")" "with blanks/prefix"
@@ -102,4 +102,6 @@ EOF
     status=$?
     check "and draws, if it can" [ $status -eq "$([ "$2" = draws ] && echo 0 || echo 2)" ]
 fi
+# shellcheck source=tests/install/manual.sh
+. "$here/manual.sh"
 finish
