@@ -290,8 +290,7 @@ static Value define_value(PetriSession *session, Str text) {
     }
 }
 
-// Is a text a name of the language (L2.4)?
-static bool is_name(Str text) {
+bool session_is_name(Str text) {
     while (text.len > 1 && text.bytes[text.len - 1] == '\'')
         text.len--;
     for (size_t at = 0, next = 0; at < text.len; at = next) {
@@ -325,7 +324,7 @@ PetriStatus petri_define(PetriSession *session, const char *definition) {
 }
 
 PetriStatus session_define(PetriSession *session, Str name, Str value) {
-    if (!is_name(name) || utf8_find_error(value) != value.len)
+    if (!session_is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
     uint32_t count = session->config.define_count;
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);

@@ -46,7 +46,7 @@ struct PetriSession {
     PetriOptions options;
     Arena arena;      // session lifetime: symbols, definitions
     Arena text_arena; // texts given to the host, reset by most uses
-    Arena view_arena; // … about systems: until the next petri_system, petri_particle, petri_force
+    Arena view_arena; // … about systems: until the next petri_id, petri_force
     SymbolTable symbols;
     State *state;
     Scene *scene;
@@ -85,6 +85,13 @@ void session_arena(PetriSession *session, Arena *arena, const char *name, size_t
 
 // Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
 bool session_heal(PetriSession *session);
+
+// Is a text a name of the language (L2.4)?
+bool session_is_name(Str text);
+// A value as a host sees it: valid as long as what `v` points to and `v` itself.
+PetriValue session_show(const Value *v);
+// A host's value, with elements in the arena and the texts and numbers of the host; false if it is none.
+bool session_take(Arena *arena, PetriValue given, Value *taken);
 
 // Defines a name; the text is that of its value. Within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);

@@ -186,11 +186,11 @@ static PetriStatus act_restore(Stage *stage) {
 
 static PetriStatus act_systems(Stage *stage) {
     PetriSystem system;
-    PetriParticle particle;
+    uint32_t particle = 0;
     PetriForce force;
     bool found = petri_system(stage->player.session, 1, &system) &&
-                 petri_particle(stage->player.session, 0, 1, &particle) &&
-                 petri_force(stage->player.session, 0, 0, &force);
+                 petri_find(stage->player.session, 0, petri_id(stage->player.session, 0, 1), &particle) &&
+                 petri_ids(stage->player.session, 0).data != NULL && petri_force(stage->player.session, 0, 0, &force);
     return found ? PETRI_OK : PETRI_MEMORY;
 }
 
