@@ -32,6 +32,7 @@ command -v xdotool        : xdotool
 command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
+command -v cmake          : cmake make
 command -v mandoc         : mandoc
 command -v zsh            : zsh
 command -v fish           : fish
