@@ -285,6 +285,35 @@ double petri_symbol(PetriSession *session, const char *name);
 // The name of the symbol that a number is, or NULL. Valid as long as the session.
 const char *petri_symbol_name(const PetriSession *session, double number);
 
+// The state dictionary, which scripts read with `$`. A value is valid until something may change the state: a step,
+// petri_state_set, a load, petri_clear, petri_rewind or petri_restore.
+//
+// The value under a key; null if there is none, the key is none, or memory is used up.
+PetriValue petri_state_get(PetriSession *session, PetriValue key);
+// Stores a value under a key, or removes it if the value is null; the next frame has it. Keys and values are numbers
+// and strings; PETRI_INVALID for others, a value that is not finite or a key with NaN, and within a callback.
+PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
+// The entries, one after the other, in the order in which their keys came to be there: `*cursor` starts at 0; false at
+// the end.
+bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
+
+// A name of the host's, which scripts read as any other name and whose value may be another in each frame: the scripts
+// that are loaded from now on see it, and need not be loaded again for another value. Like definitions it is not seen
+// by modules. The name stays with the session; null is a value. PETRI_INVALID if it is no name or one of the engine's
+// (such as `time`), for nodes and functions, and within a callback.
+PetriStatus petri_give(PetriSession *session, const char *name, PetriValue value);
+
+// The tree that the last frame has come to: its nodes, and perhaps other elements. All that is reached from it is valid
+// until the next step, load or text typed at the prompt, petri_rewind, petri_restore or petri_clear.
+PetriValue petri_tree(const PetriSession *session);
+// Of a node: the word behind its `!`, its tags, attributes and children by number from 0; NULL beyond the last.
+const char *petri_tree_kind(const PetriNode *node);
+const char *petri_tree_tag(const PetriNode *node, uint32_t number);
+const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value); // its name
+const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number);
+// The attribute of this name, or null.
+PetriValue petri_tree_get(const PetriNode *node, const char *name);
+
 // Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
 typedef struct PetriColumn {
     const double *data; // NULL if there are none

@@ -185,7 +185,7 @@ static void open_parts(PetriSession *session, void *context) {
     reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
     session->options.read_folders = session->options.write_folders = NULL; // they are the host's
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
-    session->config.prompts = prompt_list_new(NULL);
+    session->config.prompts = prompt_list_new((Names){0}, NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
@@ -239,6 +239,7 @@ void petri_close(PetriSession **handle) {
     if (!session)
         return;
     petri_config_free(session->shared);
+    session_free_given(session);
     prompt_list_free(session->config.prompts);
     unit_free(session->config.program);
     for (Unit *unit = session->loader.modules, *next; unit; unit = next) {

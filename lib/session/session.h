@@ -30,6 +30,22 @@ typedef struct Config {
     double resolution; // 0: as systems say
 } Config;
 
+// A name that the host gives values to. One that cannot be copied leaves the one before.
+typedef struct GivenName {
+    const Symbol *name;
+    Value value;
+    Value next;      // while it is copied
+    Arena arenas[2]; // `value` is in arenas[turn]
+    bool turn;
+} GivenName;
+
+// In the order in which they were given first, which is that of the parameters of scripts loaded since then.
+typedef struct GivenNames {
+    const Symbol *const *names;
+    GivenName *const *items;
+    uint32_t count;
+} GivenNames;
+
 struct PetriConfig {
     uint32_t references;
     uint64_t number;
@@ -65,6 +81,7 @@ struct PetriSession {
     bool steadfast; // what is being done must not be interrupted
     ArenaEnd end;   // how the last one ended that was given up
 
+    GivenNames given;
     Config config;
     PetriConfig *shared;    // the same, once somebody has asked for it
     uint64_t config_number; // of the present configuration
@@ -92,6 +109,10 @@ bool session_is_name(Str text);
 PetriValue session_show(const Value *v);
 // A host's value, with elements in the arena and the texts and numbers of the host; false if it is none.
 bool session_take(Arena *arena, PetriValue given, Value *taken);
+
+// Gives another session the names that this one has, and frees them.
+void session_copy_given(const PetriSession *session, PetriSession *to);
+void session_free_given(PetriSession *session);
 
 // Defines a name; the text is that of its value. Within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);
