@@ -1,7 +1,7 @@
 """What cffi makes petri._petri of: the declarations of petri.h and petri-draw.h themselves, and a few functions in C.
 
-PETRI_HEADERS is the folder of the headers, PETRI_LIBRARIES what the linker is told. Without them pkg-config is asked for
-an installed libpetri-draw.
+PETRI_HEADERS is the folder of the headers, PETRI_LIBRARIES what the linker is told. Without them pkg-config is asked
+for an installed libpetri-draw.
 """
 
 import os

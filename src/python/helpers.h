@@ -1,4 +1,4 @@
-// helpers.h: what Python would otherwise ask libpetri for in several calls. All are called without the interpreter's lock.
+// helpers.h: what Python would otherwise ask libpetri for in several calls; all without the interpreter's lock.
 #ifndef PETRI_SRC_PYTHON_HELPERS_H
 #define PETRI_SRC_PYTHON_HELPERS_H
 

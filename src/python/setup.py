@@ -1,4 +1,4 @@
-"""The extension that cffi makes; pyproject.toml has the rest. The version is that of the library's sources or package."""
+"""The extension that cffi makes; pyproject.toml has the rest. The version is that of the library."""
 
 import os
 import subprocess

@@ -1,6 +1,6 @@
 #!/bin/sh
-# run.sh PETRI [PYTHON WHEEL]: the tests of the module for Python and what its tutorial shows, with the module as it is in the
-# wheel in the folder WHEEL.
+# run.sh PETRI [PYTHON WHEEL]: the tests of the module for Python and what its tutorial shows, with the module as it is
+# in the wheel in the folder WHEEL.
 set -eu
 here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}
@@ -19,3 +19,4 @@ export PYTHONPATH PYTHONDONTWRITEBYTECODE
 "$2" "$here/test_petri.py"
 cd "$root/samples" # scripts of the tutorial are there
 "$2" -m doctest "$root/src/python/TUTORIAL.md"
+"$2" "$root/tests/bench/python.py" petri.fl 1

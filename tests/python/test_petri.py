@@ -170,7 +170,7 @@ class Running(unittest.TestCase):
             session.set_parameter("NOTHING", 2)
         with warnings.catch_warnings():
             warnings.simplefilter("ignore")
-            given = petri.Session("let V=V or 0 W=W or 0\n!x v=V w=W\n", V=(1, 2), W=petri.Text("it's"))
+            given = petri.Session("let V=V or 0 W=W or 'x'\n!x v=V w=W\n", V=(1, 2), W=petri.Text("it's"))
         given.step()
         self.assertIn('!x v=1;2 w="it\'s"', given.text("tree"))
 
@@ -240,7 +240,7 @@ class Threads(unittest.TestCase):
         session.interrupt()
         thread.join()
         self.assertEqual(len(ended), 1)
-        session.step()
+        session.step(3)
         self.assertIn(("dish", 0), session.state)
 
     def test_control_c(self):
@@ -275,7 +275,7 @@ class Diagnostics(unittest.TestCase):
             with self.assertRaises(petri.ScriptError) as caught:
                 petri.Session(file)
         error = caught.exception
-        self.assertEqual((error.file, error.line, error.column, error.code), (str(file), 2, 9, "syntax"))
+        self.assertEqual((error.file, error.line, error.column, error.code), (str(file), 2, 6, "syntax"))
         self.assertIn("y=(1\n", str(error))
         self.assertEqual(error.diagnostics[0].level, "error")
         with self.assertRaises(petri.ScriptError) as caught:
@@ -283,10 +283,10 @@ class Diagnostics(unittest.TestCase):
         self.assertIn("nowhere.fl", str(caught.exception))
 
     def test_limits(self):
-        session = petri.Session("for i in ..1000000\n    !x\n", options=petri.Options(work=10000))
+        session = petri.Session("for i in ..1000000\n    !x y=i+frame\n", options=petri.Options(work=10000))
         with self.assertRaises(petri.LimitError) as caught:
             session.step()
-        self.assertEqual((caught.exception.code, caught.exception.line), ("work-limit", 1))
+        self.assertEqual((caught.exception.code, caught.exception.line), ("work-limit", 2))
 
     def test_warnings(self):
         with warnings.catch_warnings(record=True) as caught:

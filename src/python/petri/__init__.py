@@ -23,3 +23,5 @@ __version__ = _ffi.string(_lib.petri_version()).decode()
 __all__ = ["Diagnostic", "Frame", "InterruptedStep", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
            "PetriError", "PetriWarning", "Picture", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
            "Text"]
+for _name in __all__:
+    globals()[_name].__module__ = "petri"  # where people find them

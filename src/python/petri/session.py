@@ -73,9 +73,9 @@ def petri_python_write(host: Any, text: Any, length: int) -> bool:
 class Session:
     """A script and all that it does.
 
-    `source` is the script's file, or its text if there is a line end in it. Further keywords define names for the script:
-    `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised (ScriptError, …), what
-    is hardly meant is a PetriWarning. Several threads may use a session, one after the other.
+    `source` is the script's file, or its text if there is a line end in it. Further keywords define names for the
+    script: `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised
+    (ScriptError, …), what is hardly meant is a PetriWarning. Several threads may use a session, one after the other.
     """
 
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None, **defines: Any):
@@ -190,9 +190,9 @@ class Session:
         self._call(lib.petri_restore, os.fsencode(file))
 
     def set_parameter(self, name: str, value: Any) -> None:
-        """Gives a parameter of the script (`let SIZE=SIZE or 20`) another value from the next frame on; None: its default."""
+        """Gives a parameter (`let SIZE=SIZE or 20`) another value from the next frame on; None: its default."""
         text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
-        self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name} that can be so")
+        self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
 
     def text(self, *sections: str) -> str:
         """What `petri run --print` writes of the frame: any of "tree", "state", "log", "error", "hash"."""
@@ -203,7 +203,7 @@ class Session:
 
     def picture(self, width: int = 0, height: int = 0, *, scale: float = 1, window: int = -1,
                 automatic: Optional[bool] = None) -> Picture:
-        """What the last frame shows: its window, or, where it draws none or if `automatic`, the particles themselves."""
+        """What the last frame shows: its window; the particles where it draws none, or if `automatic`."""
         options = ffi.new("PetriPictureOptions *")
         lib.petri_python_picture_options(options)
         options.width, options.height, options.scale, options.window = width, height, scale, window

@@ -54,7 +54,7 @@ class State(MutableMapping):
             encoded_key, keep_key = values.encode(self._session, key)
             encoded, keep = values.encode(self._session, value)
             if lib.petri_state_set(self._session, encoded_key, encoded) != lib.PETRI_OK:
-                raise ValueError(f"the state cannot have {value!r} under {key!r}: finite numbers, symbols and strings only")
+                raise ValueError(f"the state has finite numbers, symbols and strings only, not {value!r} under {key!r}")
 
     def __delitem__(self, key: Any) -> None:
         self[key]  # KeyError where there is nothing

@@ -82,8 +82,8 @@ class System:
 
     position = _column("p", "Where the particles are: float64, N×d, read-only.")
     velocity = _column("v", "Their velocities: float64, N×d, read-only.")
-    force = _column("f", "The sum of all forces on each in the frame's last step: float64, N×d, read-only; 0 on an anchor. "
-                         "NaN if no step was made or without Options.keep_forces.")
+    force = _column("f", "The sum of all forces on each in the frame's last step: float64, N×d, read-only; 0 on an "
+                         "anchor. NaN if no step was made or without Options.keep_forces.")
     radius = _column("r", "float64, N, read-only.")
     mass = _column("m", "float64, N, read-only.")
     charge = _column("c", "float64, N, read-only.")
@@ -142,7 +142,7 @@ class System:
         return pandas.DataFrame(columns)
 
     def to_ase(self) -> Any:
-        """An ase.Atoms of element X, with positions, velocities, masses and charges, in three dimensions at the most."""
+        """An ase.Atoms of element X, with positions, velocities, masses and charges, in at most three dimensions."""
         ase = _optional("ase", "to_ase")
         position, velocity = numpy.zeros((len(self), 3)), numpy.zeros((len(self), 3))
         width = min(3, self.dimensions)

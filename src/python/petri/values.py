@@ -1,7 +1,7 @@
 """Values of the language as Python has them.
 
-A vector is a tuple, a vector of one element that element, null None. Numbers are float, symbols such as `:cells` are str,
-and strings are Text, which is a str, too: it is told apart because `$:cells` and `$'cells'` are different keys.
+A vector is a tuple, a vector of one element that element, null None. Numbers are float, symbols such as `:cells` are
+str, and strings are Text, which is a str, too: they are told apart because `$:cells` and `$'cells'` are different keys.
 """
 
 from __future__ import annotations
