@@ -16,10 +16,11 @@ pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows and films:
+# For windows, films and plans of petri sweep:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
+pkg-config --exists yaml-0.1: libyaml-dev
 "
 # For the tests; those that lack a tool are skipped:
 TEST_NEEDS="$BUILD_NEEDS
@@ -56,7 +57,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 cmocka x11 mpfr'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -87,6 +87,7 @@ libjpeg) test -e "$WORK/later/libjpeg-dev" ;;
 chafa) test -e "$WORK/later/libchafa-dev" ;;
 libedit) test -e "$WORK/later/libedit-dev" ;;
 sdl2) test -e "$WORK/later/libsdl2-dev" ;;
+yaml-0.1) test -e "$WORK/later/libyaml-dev" ;;
 cmocka) test -e "$WORK/later/libcmocka-dev" ;;
 x11) test -e "$WORK/later/libx11-dev" ;;
 esac
