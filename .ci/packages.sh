@@ -16,10 +16,11 @@ pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows and films:
+# For windows, films and plans of petri sweep:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
+pkg-config --exists yaml-0.1: libyaml-dev
 "
 # For the tests; those that lack a tool are skipped:
 TEST_NEEDS="$BUILD_NEEDS
@@ -32,6 +33,17 @@ command -v xdotool        : xdotool
 command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
+/usr/bin/python3 -I -c 'import build'      : python3-build
+/usr/bin/python3 -I -c 'import cffi'       : python3-cffi
+/usr/bin/python3 -I -c 'import numpy'      : python3-numpy
+/usr/bin/python3 -I -c 'import setuptools' : python3-setuptools
+/usr/bin/python3 -I -c 'import wheel'      : python3-wheel
+command -v python3-config : python3-dev
+command -v cmake          : cmake make
+command -v mandoc         : mandoc
+command -v zsh            : zsh
+command -v fish           : fish
+command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
@@ -51,7 +63,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 cmocka x11 mpfr'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -8,12 +8,25 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { DEFAULT_WIDTH = 1920, DEFAULT_HEIGHT = 1080, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
 enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
 
-PetriPictureOptions petri_default_picture_options(void) {
-    return (PetriPictureOptions){.scale = 1, .window = -1};
+void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
+    const PetriPictureOptions usual = {.size = size, .scale = 1, .window = -1};
+    memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
+}
+
+// The options of a host, who may have been compiled with an earlier petri-draw.h, whose struct was shorter. False if
+// they were not initialised, or are those of a later one.
+static bool take_options(PetriPictureOptions *options, const PetriPictureOptions *given) {
+    size_t least = offsetof(PetriPictureOptions, automatic) + sizeof options->automatic;
+    if (!given || given->size < least || given->size > sizeof *options)
+        return false;
+    petri_picture_options_init(options, sizeof *options);
+    memcpy(options, given, given->size);
+    return true;
 }
 
 // What petri_picture is working on.
@@ -45,18 +58,21 @@ static void take_three(double out[3], const double *v, uint32_t n) {
 
 // Takes the particles that are somewhere; `numbers` tells where each has gone.
 static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system, uint32_t *numbers) {
+    PhysColumns columns = phys_columns(view->engine);
     double most = 0;
     system->bodies = arena_alloc_array(arena, view->particle_count, sizeof *system->bodies);
     for (uint32_t i = 0; i < view->particle_count; i++) {
-        PhysParticle particle;
+        const double *position = phys_at_particle(columns.position, i);
+        double radius = *phys_at_particle(columns.radius, i), charge = *phys_at_particle(columns.charge, i);
         numbers[i] = UINT32_MAX;
-        if (!phys_get_particle(view->engine, i, &particle) || !numbers_finite(particle.position, view->dimensions, 1))
+        if (!numbers_finite(position, view->dimensions, 1))
             continue;
         AutoBody *body = &system->bodies[system->body_count];
         numbers[i] = system->body_count++;
-        *body = (AutoBody){.radius = isfinite(particle.radius) ? particle.radius : 0, .anchor = particle.anchor};
-        take_three(body->position, particle.position, view->dimensions);
-        body->shade = isfinite(particle.charge) ? particle.charge : 0;
+        *body =
+            (AutoBody){.radius = isfinite(radius) ? radius : 0, .anchor = columns.anchor[i * columns.anchor_stride]};
+        take_three(body->position, position, view->dimensions);
+        body->shade = isfinite(charge) ? charge : 0;
         most = fmax(most, fabs(body->shade));
     }
     system->charged = most > 0;
@@ -66,12 +82,12 @@ static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system,
 
 // Without charges the shade is the speed: half way up where the frame would be crossed in two seconds.
 static void shade_by_speed(const SceneView *view, AutoSystem *system, const uint32_t *numbers) {
+    PhysColumns columns = phys_columns(view->engine);
     for (uint32_t i = 0; i < view->particle_count; i++) {
-        PhysParticle particle;
         double v[3];
-        if (numbers[i] == UINT32_MAX || !phys_get_particle(view->engine, i, &particle) || !particle.velocity)
+        if (numbers[i] == UINT32_MAX)
             continue;
-        take_three(v, particle.velocity, view->dimensions);
+        take_three(v, phys_at_particle(columns.velocity, i), view->dimensions);
         double speed = maths_hypot(maths_hypot(v[0], v[1]), v[2]);
         system->bodies[numbers[i]].shade = isfinite(speed) ? speed / (speed + system->frame.half) : 1;
     }
@@ -201,7 +217,8 @@ static bool choose_pixels(Request *request) {
 enum { LONGEST_START = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
-    if (!session || !options)
+    PetriPictureOptions wanted;
+    if (!session || !take_options(&wanted, options))
         return false;
     Shown shown = session_shown(session);
     const Node *window = find_window(&shown, options->window);
@@ -272,16 +289,19 @@ static void make_protected(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
-    if (!session || !options || !out)
+    PetriPictureOptions wanted;
+    if (!session || !out)
         return PETRI_INVALID;
     *out = NULL;
+    if (!take_options(&wanted, options))
+        return PETRI_INVALID;
     Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
     if (!picture)
         return session_tell_end(session, PETRI_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", shown.memory_bytes);
     picture->arena.meter = shown.meter;
-    Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
+    Request request = {.shown = shown, .options = &wanted, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_OK;
     if (shown.number >= 0)
         status = session_tell_end(session, session_protect(session, &picture->arena, make_protected, &request),

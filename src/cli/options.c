@@ -122,14 +122,13 @@ static bool read_choice(const Args *args, void *field) {
     return true;
 }
 
-// Some of tree, state, log, error, hash, as the bits PETRI_PRINT_…, which follow each other.
+// Some of the row's words, as the bits PETRI_PRINT_…, which follow each other.
 static bool read_sections(const Args *args, void *field) {
-    static const char *const names[] = {"tree", "state", "log", "error", "hash", NULL};
     unsigned *sections = field;
     SCOPED_TEXT list = memory_text(args->value);
     *sections = 0;
     for (char *rest = list; rest != NULL;) {
-        int section = find_word(names, strsep(&rest, ","));
+        int section = find_word(args->option->words, strsep(&rest, ","));
         if (section < 0) {
             return wrong_value(args, "a list of tree, state, log, error, hash");
         }
@@ -165,7 +164,7 @@ static bool read_colour(const Args *args, void *field) {
 static bool read_definition(const Args *args, void *field) {
     const char *equals = strchr(args->value, '=');
     if (equals == NULL || equals == args->value) {
-        return wrong_value(args, "NAME=VALUE");
+        return wrong_value(args, args->option->value);
     }
     texts_add(field, args->value);
     return true;
@@ -291,6 +290,8 @@ int command_run(const Command *command, const Host *host, int argc, char **argv)
     int status = options_read(&options, command, argc, argv);
     status = status == OPTIONS_READ ? command->run(host, &options) : status;
     texts_free(&options.definitions);
+    texts_free(&options.axes);
+    texts_free(&options.metrics);
     texts_free(&options.read_folders);
     texts_free(&options.write_folders);
     scripts_free(&options.scripts);
