@@ -45,6 +45,7 @@ command -v zsh            : zsh
 command -v fish           : fish
 command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
+pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 "
@@ -63,7 +64,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {
