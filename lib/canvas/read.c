@@ -1,10 +1,6 @@
 // read.c: see read.h.
 #include "canvas/read.h"
 
-static bool may_stand(PlaceKind place, PlaceKind children) {
-    return place == children || (place == PLACE_SOURCE && children == PLACE_DRAWING);
-}
-
 static void report_misplaced(const Reader *reader, const Node *child, bool known) {
     Text out = text_new(reader->arena);
     Str name = child->kind->name;
@@ -26,9 +22,10 @@ static void read_children(const Reader *reader, DrawNode *out) {
     const Node *node = reader->node;
     const DrawNode **children = arena_alloc_array(reader->arena, node->child_count, sizeof *children);
     for (uint32_t i = 0; i < node->child_count; i++) {
-        NodeKind child = schema_window_kind(reader->schema, node->children[i]);
-        if (child == KIND_COUNT || !may_stand(schema_kinds[child].place, schema_kinds[reader->kind].children)) {
-            report_misplaced(reader, node->children[i], child != KIND_COUNT);
+        NodeKind child = schema_kind_in(reader->schema, node->children[i], schema_kinds[reader->kind].children);
+        if (child == KIND_COUNT) {
+            report_misplaced(reader, node->children[i],
+                             schema_window_kind(reader->schema, node->children[i]) != KIND_COUNT);
             continue;
         }
         const DrawNode *read = read_node(reader->schema, reader->arena, node->children[i], child);

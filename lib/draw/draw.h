@@ -4,7 +4,7 @@
 
 #include <pango/pangocairo.h>
 
-#include "draw/paint.h"
+#include "draw/pictures.h"
 
 typedef struct Picture Picture; // of an image file: images.c
 
@@ -16,6 +16,9 @@ struct PetriPainter {
     const char *family; // what the layout is set to; NULL at first in each picture
     Look font;
     Picture *images;
+    Pictures *pictures;
+    uint64_t made;  // serial number of the picture whose tree was made last
+    Texture *shown; // of its window; or NULL
 };
 
 // A picture being drawn.
@@ -36,6 +39,15 @@ typedef struct Canvas {
 // Reports what drawing has found, each text once.
 __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel level, const char *code,
                                                       const char *format, ...);
+
+__attribute__((format(printf, 4, 5))) void draw_report(DiagSink *faults, DiagLevel level, const char *code,
+                                                       const char *format, ...);
+
+// paint.c
+// Draws a canvas into a cleared sRGB picture of its size. PETRI_OK, PETRI_INVALID after an error was reported, or
+// PETRI_MEMORY.
+PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
+                        DiagSink *faults);
 
 // tree.c
 void draw_tree(Canvas *canvas, const DrawNode *canvas_node);
@@ -73,6 +85,9 @@ void draw_text(Canvas *canvas, const DrawNode *node, const Look *look);
 
 // images.c
 void draw_image(Canvas *canvas, const DrawNode *node, const Look *look);
+// The picture of an image that stands among pictures, to be freed; NULL, after a report, if there is none.
+Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
+                            DiagSink *faults);
 void draw_images_close(PetriPainter *painter);
 // The pixels of a JPEG file; NULL with a reason.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/source.h"
+#include "draw/resize.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -181,22 +182,49 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
     draw_put_back_path(canvas, kept);
 }
 
-void draw_image(Canvas *canvas, const DrawNode *node, const Look *look) {
+// The pixels of a file, or NULL after a report.
+static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
+                                  DiagSink *faults) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME);
     if (!name || name->as.text.len == 0)
+        return NULL;
+    Arena *arena = &painter->arena;
+    const Picture *found = find(painter, str_to_c(arena, path_join(arena, picture->directory, name->as.text)));
+    if (!found->surface)
+        draw_report(faults, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name->as.text.bytes,
+                    found->problem);
+    return found->surface;
+}
+
+void draw_image(Canvas *canvas, const DrawNode *node, const Look *look) {
+    cairo_surface_t *surface = find_file(canvas->painter, canvas->picture, node, canvas->faults);
+    if (!surface)
         return;
-    Arena *arena = &canvas->painter->arena;
-    const Picture *picture =
-        find(canvas->painter, str_to_c(arena, path_join(arena, canvas->picture->directory, name->as.text)));
-    if (!picture->surface) {
-        draw_fault(canvas, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name->as.text.bytes,
-                   picture->problem);
-        return;
-    }
     Box box;
     double point[2];
     draw_pair(node, ATTR_POINT, point);
-    if (find_box(node, cairo_image_surface_get_width(picture->surface),
-                 cairo_image_surface_get_height(picture->surface), &box))
-        paint_image(canvas, picture->surface, &box, point, look);
+    if (find_box(node, cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), &box))
+        paint_image(canvas, surface, &box, point, look);
+}
+
+Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
+                            DiagSink *faults) {
+    cairo_surface_t *surface = find_file(painter, picture, node, faults);
+    if (!surface)
+        return NULL;
+    int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
+    pictures_size(node, &width, &height);
+    if (width < 1 || height < 1 || width > MOST_SIDE || height > MOST_SIDE || (int64_t)width * height > MOST_PIXELS) {
+        draw_report(faults, DIAG_WARNING, "bad-size", "!image: a picture can have 1 to %d pixels in width and height",
+                    MOST_SIDE);
+        return NULL;
+    }
+    cairo_format_t format = cairo_image_surface_get_format(surface);
+    Texture *texture = resize_pixels((const uint32_t *)(const void *)cairo_image_surface_get_data(surface),
+                                     cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
+                                     (size_t)cairo_image_surface_get_stride(surface), format == CAIRO_FORMAT_ARGB32,
+                                     width, height, draw_word(node, ATTR_FLIP));
+    if (!texture)
+        arena_exhausted(&painter->arena);
+    return texture;
 }

@@ -39,3 +39,21 @@ PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, Can
     *bytes = STR("");
     return missing(faults);
 }
+
+PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    (void)painter, (void)picture;
+    return missing(faults);
+}
+
+const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
+    (void)painter, (void)picture;
+    *count = 0;
+    return NULL;
+}
+
+PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
+                               CanvasFormat format, Arena *arena, Str *bytes, DiagSink *faults) {
+    (void)painter, (void)picture, (void)record, (void)format, (void)arena;
+    *bytes = STR("");
+    return missing(faults);
+}

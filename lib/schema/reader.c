@@ -47,6 +47,13 @@ NodeKind schema_window_kind(const Schema *schema, const Node *node) {
     return (NodeKind)kind;
 }
 
+NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children) {
+    for (int kind = schema->first_in_window; kind < KIND_COUNT; kind++)
+        if (schema->kinds[kind] == node->kind && schema_may_stand((NodeKind)kind, children))
+            return (NodeKind)kind;
+    return KIND_COUNT;
+}
+
 // "name=value" of an attribute by which a node is known: a system by its state, anything else by its id.
 static void add_known_by(Text *out, const Reader *reader, AttrRow row) {
     Value v = node_get(reader->node, reader->schema->slots[row].name);
@@ -112,7 +119,7 @@ static void report_unknown(const Reader *reader, const Symbol *name) {
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
     Nearest nearest = nearest_to(kind);
     for (int i = 0; i < KIND_COUNT; i++)
-        if (schema_kinds[i].place == place || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
+        if (schema_may_stand((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             try_name(&nearest, schema_kinds[i].name);
     if (nearest.text)
         text_add_format(out, ", did you mean %s%s%s?", before, nearest.text, after);
@@ -307,7 +314,9 @@ static bool is_measure(double x) {
 }
 
 static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue *attr) {
-    if (!value_is_numeric(v) || v.len > most || (type->shape == SHAPE_COLOR && v.len == 2))
+    bool all = type->shape == SHAPE_TRIPLE || type->shape == SHAPE_QUAD;
+    if (!value_is_numeric(v) || v.len > most || (type->shape == SHAPE_COLOR && v.len == 2) ||
+        (all && v.len > 1 && v.len < most))
         return false;
     const double *numbers = value_numbers(&v);
     double *out = attr->as.numbers;
@@ -319,14 +328,14 @@ static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue
     if (v.len == 1)
         out[1] = out[2] = out[0];
     if (v.len < 4)
-        out[3] = 1;
+        out[3] = all ? out[0] : 1;
     attr->count = v.len;
     return true;
 }
 
-static bool read_points(const Reader *reader, Value v, AttrValue *attr) {
+static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *attr) {
     const double *numbers = value_numbers(&v);
-    if (!value_is_numeric(v) || v.len % 2)
+    if (!value_is_numeric(v) || (even && v.len % 2))
         return false;
     for (uint32_t i = 0; i < v.len; i++)
         if (!is_measure(numbers[i]))
@@ -380,6 +389,10 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
         return read_measures(v, type, 1, attr);
     case SHAPE_PAIR:
         return read_measures(v, type, 2, attr);
+    case SHAPE_TRIPLE:
+        return read_measures(v, type, 3, attr);
+    case SHAPE_QUAD:
+        return read_measures(v, type, 4, attr);
     case SHAPE_COLOR:
         if (!read_measures(v, type, 4, attr))
             return false;
@@ -387,7 +400,9 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
             lint_colour(reader, row, v);
         return true;
     case SHAPE_POINTS:
-        return read_points(reader, v, attr);
+        return read_numbers(reader, v, true, attr);
+    case SHAPE_LIST:
+        return read_numbers(reader, v, false, attr);
     case SHAPE_FLAG:
         attr->as.flag = value_true(v);
         return true;
@@ -423,6 +438,10 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
         if (!read_drawn(reader, found, v, attr)) {
             report_shape(reader, found, v);
             good &= !schema_types[found->type].vital;
+            if (found->type == TYPE_MIX) { // such a node shows nothing, which is not what the default means
+                attr->as.word = MIX_UNKNOWN;
+                ++*count;
+            }
         } else if (found->type == TYPE_COMPOSITE && attr->as.word == COMPOSITE_NONE) {
             reader_report_attr(reader, "bad-attribute", ATTR_COMPOSITE,
                                STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));

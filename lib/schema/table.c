@@ -41,9 +41,9 @@ const TypeRow schema_types[TYPE_COUNT] = {
 
 const SchemaRow schema_rows[ROW_COUNT] = {
 #define ATTR(kind, name, type, field, fallback, unit, help)                                                            \
-    {KIND_##kind, ATTR_##name, TYPE_##type, ATTR_NONE, field, fallback, unit, help},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, fallback, unit, help},
 #define ALIAS(kind, name, of, of_text, type, field, unit)                                                              \
-    {KIND_##kind, ATTR_##name, TYPE_##type, ATTR_##of, field, NONE, unit, "the same as " of_text ", which wins"},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE, unit, "the same as " of_text ", which wins"},
 #include "schema/schema_list.h"
 };
 
@@ -58,6 +58,20 @@ const SchemaRow *schema_row(NodeKind kind, AttrName name) {
 #include "schema/schema_list.h"
     };
     return numbers[kind][name] ? &schema_rows[numbers[kind][name] - 1] : NULL;
+}
+
+bool schema_may_stand(NodeKind kind, PlaceKind children) {
+    PlaceKind place = schema_kinds[kind].place;
+    switch (children) {
+    case PLACE_WINDOW:
+        return place == PLACE_HAND || place == PLACE_PICTURE || place == PLACE_TOP;
+    case PLACE_PICTURES:
+        return place == PLACE_PICTURE || place == PLACE_TOP;
+    case PLACE_DRAWING:
+        return place == PLACE_DRAWING || place == PLACE_SOURCE;
+    default:
+        return place == children;
+    }
 }
 
 PhysForceKind schema_force(NodeKind kind) {

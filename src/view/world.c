@@ -105,6 +105,11 @@ int world_open(World *world, const Host *host) {
 }
 
 void world_close(World *world) {
+    if (!recording_end(&world->recording, false)) {
+        message("%s", world->recording.trouble);
+        world->failed = true;
+    }
+    recording_free(&world->recording);
     petri_picture_free(&world->picture);
     petri_painter_close(&world->painter);
     petri_close(&world->session);
@@ -116,14 +121,8 @@ void world_close(World *world) {
 
 // Files that the script's `!record` nodes name.
 static void record(World *world) {
-    for (size_t i = 0;; i++) {
-        const char *file = petri_picture_record(world->picture, i);
-        if (file == NULL) {
-            return;
-        }
-        if (petri_picture_save(world->picture, world->painter, file) != PETRI_OK) {
-            world->failed = true;
-        }
+    if (petri_picture_looks_back(world->picture) && !recording_add(&world->recording, world->picture, world->painter)) {
+        world->failed = true;
     }
 }
 
@@ -138,6 +137,7 @@ static void take_picture(World *world) {
     world->unseen = world->early;
     petri_picture_free(&world->picture);
     if (petri_picture(world->session, &options, &world->picture) == PETRI_OK && !world->early) {
+        world->recording.fps = petri_frame(world->session).fps;
         record(world);
         petri_picture_tell(world->session, world->picture);
     }

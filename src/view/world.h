@@ -9,6 +9,7 @@
 #include "cli/options.h"
 #include "cli/watch.h"
 #include "petri-draw.h"
+#include "render/recording.h"
 #include "view/warnings.h"
 
 typedef struct World {
@@ -17,6 +18,7 @@ typedef struct World {
     PetriSession *session;
     PetriPainter *painter;
     PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
+    Recording recording;
     Watch *watch;
     int64_t frames; // made since the view was opened, without early ones
     bool early;     // the last frame could not show particles where they are (petri_picture_ready)

@@ -38,18 +38,26 @@ static void test_independent(void **state) {
     int width, height;
     player_run(player, DISC, 2);
     PetriPicture *second = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_true(petri_records(player->session));
+    assert_true(petri_looks_back(player->session));
     player_step(player, 3);
     PetriPicture *fifth = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_false(petri_records(player->session));
+    assert_false(petri_looks_back(player->session));
     assert_int_equal(petri_load_text(player->session, "t.fl", "!x", PETRI_Z), PETRI_OK);
     PetriOptions options = player_options(player);
     player_reopen(player, &options); // closes the first session
     assert_string_equal(petri_picture_title(second), "disc 1");
     assert_int_equal(petri_picture_frame(fifth), 4);
-    assert_string_equal(petri_picture_record(second, 0), "a.png");
-    assert_null(petri_picture_record(second, 1));
-    assert_null(petri_picture_record(fifth, 0));
+    PetriPainter *painter = petri_painter_open();
+    PetriRecord record;
+    assert_true(petri_picture_looks_back(second));
+    assert_false(petri_picture_looks_back(fifth));
+    if (petri_picture_make(second, painter) != PETRI_MISSING) {
+        assert_true(petri_picture_record(second, painter, 0, &record));
+        assert_string_equal(record.file, "a.png");
+        assert_false(petri_picture_record(second, painter, 1, &record));
+        assert_false(petri_picture_record(fifth, painter, 0, &record)); // another was made last
+    }
+    petri_painter_close(&painter);
     petri_picture_size(second, &width, &height);
     assert_int_equal(width, 8);
     assert_int_equal(height, 4);

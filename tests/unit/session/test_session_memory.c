@@ -270,7 +270,7 @@ static PetriStatus act_simple(Stage *stage) {
     petri_set_fps(stage->player.session, 30);
     petri_hold(stage->player.session);
     petri_drawable(stage->player.session);
-    petri_records(stage->player.session);
+    petri_looks_back(stage->player.session);
     return petri_key(stage->player.session, "a", true);
 }
 
