@@ -17,8 +17,10 @@ struct PetriPainter {
     Look font;
     Picture *images;
     Pictures *pictures;
-    uint64_t made;  // serial number of the picture whose tree was made last
-    Texture *shown; // of its window; or NULL
+    Gl *gl;                 // opened when it is needed
+    const char *gl_problem; // why it cannot be; borrowed
+    uint64_t made;          // serial number of the picture whose tree was made last
+    Texture *shown;         // of its window; or NULL
 };
 
 // A picture being drawn.

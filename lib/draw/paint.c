@@ -29,7 +29,8 @@ void petri_painter_close(PetriPainter **handle) {
         return;
     draw_text_close(painter);
     draw_images_close(painter);
-    pictures_free(painter->pictures);
+    pictures_free(painter);
+    gl_close(painter->gl);
     arena_free(&painter->arena);
     free(painter);
 }

@@ -19,6 +19,7 @@ typedef struct CanvasPicture {
     const DrawNode *window; // the one that is shown
     const DrawNode *direct; // the canvas that is all of it; or NULL
     bool looks_back;        // some window needs the frames before
+    PetriFrame frame;       // its numbers
     uint64_t serial;        // no other picture has this number
     const AutoPicture *automatic;
     double width; // in the script's units

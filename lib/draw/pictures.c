@@ -3,6 +3,7 @@
 
 #include "draw/draw.h"
 #include "draw/mix.h"
+#include "gl/effect.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -41,7 +42,8 @@ typedef struct Frame {
 
 struct Pictures {
     Frame frames[2];
-    int now; // the number of the frame that is or was made last
+    double beat; // of the frame that was made last
+    int now;     // the number of the frame that is or was made last
 };
 
 typedef struct Walk {
@@ -50,8 +52,10 @@ typedef struct Walk {
     DiagSink *faults;
     Frame *frame;
     const Frame *before;
-    int bits;  // of the window
-    int depth; // of the node
+    int bits;    // of the window
+    int depth;   // of the node
+    bool gpu;    // is current
+    double beat; // of the frame before
     Texture *shown;
 } Walk;
 
@@ -75,12 +79,18 @@ static void forget(Frame *frame) {
     *frame = (Frame){.arena = arena};
 }
 
-void pictures_free(Pictures *pictures) {
+void pictures_free(PetriPainter *painter) {
+    Pictures *pictures = painter->pictures;
+    const char *problem;
+    bool gpu = painter->gl && gl_enter(painter->gl, &problem);
     for (int i = 0; pictures && i < 2; i++) {
         forget(&pictures->frames[i]);
         arena_free(&pictures->frames[i].arena);
     }
     free(pictures);
+    painter->pictures = NULL;
+    if (gpu)
+        gl_leave(painter->gl);
 }
 
 const Recorded *pictures_records(const Pictures *pictures, uint32_t *count) {
@@ -180,8 +190,61 @@ static Texture *mix_plainly(Walk *walk, const DrawNode *node, Texture *const *in
     return texture;
 }
 
+// The GPU, current; NULL, after a report, if there is none.
+static Gl *need_gpu(Walk *walk) {
+    PetriPainter *painter = walk->painter;
+    const char *problem = painter->gl_problem;
+    if (!painter->gl && !problem)
+        painter->gl = gl_open(&problem);
+    if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
+        walk->gpu = true;
+        return painter->gl;
+    }
+    painter->gl_problem = problem;
+    draw_report(walk->faults, DIAG_WARNING, "needs-gpu", "effects and three dimensions are left out: %s", problem);
+    return NULL;
+}
+
+static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        if (!inputs[i]->bytes && !inputs[i]->linear)
+            return true;
+    return !pictures_plain(node);
+}
+
+// Runs a program on the GPU. Without one, what is inside is seen as it is.
+static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, Texture *const *inputs, uint32_t count,
+                            int width, int height) {
+    Gl *gl = need_gpu(walk);
+    if (!gl)
+        return mix_plainly(walk, node, inputs, count, width, height);
+    GlImage *images = arena_alloc_array(&walk->frame->arena, count, sizeof *images);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!texture_send(gl, inputs[i]))
+            give_up(walk);
+        images[i] = inputs[i]->image;
+    }
+    bool again = past && past->picture && past->picture->gl == gl;
+    GlFrame frame = {.beats = past ? walk->picture->frame.beat - walk->beat : 0};
+    GlEffect effect = {.node = node,
+                       .inputs = images,
+                       .count = count,
+                       .last = again ? past->picture->image : (GlImage){0},
+                       .width = width,
+                       .height = height,
+                       .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
+                       .frame = &frame};
+    GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
+    Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
+    if (image.texture && !texture)
+        give_up(walk);
+    return texture;
+}
+
 static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
     Frame *frame = walk->frame;
+    if (!texture_fetch(walk->painter->gl, texture))
+        give_up(walk);
     frame->records = arena_grow(&frame->arena, frame->records, frame->record_count * sizeof *frame->records,
                                 (frame->record_count + 1) * sizeof *frame->records);
     frame->records[frame->record_count++] =
@@ -217,12 +280,8 @@ static Texture *make_program(Walk *walk, const DrawNode *node, Made *made, const
     uint32_t count = make_inputs(walk, node, made, past, width, height, inputs);
     if (node->kind == KIND_OFFSCREEN && node != walk->picture->window && made->id.len == 0)
         return NULL; // nobody would see it
-    if (!pictures_plain(node)) {
-        draw_report(walk->faults, DIAG_WARNING, "needs-gpu", "!%s: effects are not drawn by this build of petri",
-                    schema_kinds[node->kind].name);
-        return count > 0 ? texture_keep(inputs[count - 1]) : NULL;
-    }
-    Texture *texture = mix_plainly(walk, node, inputs, count, width, height);
+    Texture *texture = needs_gpu(node, inputs, count) ? run_program(walk, node, past, inputs, count, width, height)
+                                                      : mix_plainly(walk, node, inputs, count, width, height);
     const AttrValue *file = node->kind == KIND_RECORD ? draw_attr(node, ATTR_FILENAME) : NULL;
     if (texture && file && file->as.text.len > 0)
         add_record(walk, node, texture);
@@ -293,7 +352,17 @@ static void make_tops(void *context) {
             make_node(walk, picture->tops[i], &top->children[i], &walk->before->top, USUAL_SIZE, USUAL_SIZE);
         if (picture->tops[i] == picture->window)
             walk->shown = texture;
+        if (texture && texture == walk->shown && !texture_fetch(walk->painter->gl, texture))
+            give_up(walk);
     }
+}
+
+// Images of the GPU can only be given back while it is current.
+static void forget_old(Walk *walk) {
+    const char *problem;
+    if (walk->painter->gl)
+        walk->gpu = gl_enter(walk->painter->gl, &problem);
+    forget(walk->frame);
 }
 
 PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown) {
@@ -304,10 +373,14 @@ PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, D
                  .picture = picture,
                  .faults = faults,
                  .frame = &pictures->frames[pictures->now],
-                 .before = before};
-    forget(walk.frame);
+                 .before = before,
+                 .beat = pictures->beat};
+    pictures->beat = picture->frame.beat;
+    forget_old(&walk);
     Arena *arenas[] = {&walk.frame->arena, &painter->arena, faults->arena};
     ArenaEnd end = arena_protect(arenas, 3, make_tops, &walk);
+    if (walk.gpu)
+        gl_leave(painter->gl);
     *shown = end == ARENA_DONE ? walk.shown : NULL;
     return end == ARENA_DONE ? PETRI_OK : PETRI_MEMORY;
 }

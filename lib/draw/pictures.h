@@ -12,7 +12,7 @@ typedef struct Pictures Pictures; // what is kept from frame to frame
 
 // NULL if memory is used up.
 Pictures *pictures_new(void);
-void pictures_free(Pictures *pictures);
+void pictures_free(PetriPainter *painter); // those of a painter
 
 // Makes all pictures of a frame. *shown is the one of the picture's window, or NULL if it has none; it is kept until
 // the next call, as are the records. What cannot be made is reported and left out. PETRI_OK or PETRI_MEMORY.

@@ -23,6 +23,42 @@ Texture *texture_new(int width, int height, bool linear) {
     return NULL;
 }
 
+Texture *texture_of_image(Gl *gl, GlImage image) {
+    Texture *texture = calloc(1, sizeof *texture);
+    if (!texture)
+        gl_image_free(gl, image);
+    else
+        *texture = (Texture){.references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl};
+    return texture;
+}
+
+bool texture_send(Gl *gl, Texture *texture) {
+    if (texture->gl)
+        return true;
+    GlFormat format = texture->bytes ? GL_FORMAT_SRGB8 : gl_format(gl, 16);
+    texture->image = gl_image_new(gl, texture->width, texture->height, format);
+    if (!texture->image.texture)
+        return false;
+    texture->gl = gl;
+    if (texture->bytes)
+        gl_upload_bytes(gl, texture->image, texture->bytes);
+    else
+        gl_upload_linear(gl, texture->image, texture->linear);
+    return true;
+}
+
+bool texture_fetch(Gl *gl, Texture *texture) {
+    size_t count = (size_t)texture->width * (size_t)texture->height;
+    if (texture->bytes || texture->linear)
+        return true;
+    if (texture->image.format == GL_FORMAT_SRGB8) {
+        texture->bytes = malloc(count * sizeof *texture->bytes);
+        return texture->bytes && gl_read_bytes(gl, texture->image, texture->bytes);
+    }
+    texture->linear = malloc(count * 4 * sizeof *texture->linear);
+    return texture->linear && gl_read_linear(gl, texture->image, texture->linear);
+}
+
 Texture *texture_keep(Texture *texture) {
     texture->references++;
     return texture;
@@ -31,6 +67,8 @@ Texture *texture_keep(Texture *texture) {
 void texture_free(Texture *texture) {
     if (!texture || --texture->references > 0)
         return;
+    if (texture->gl)
+        gl_image_free(texture->gl, texture->image);
     free(texture->bytes);
     free(texture->linear);
     free(texture);

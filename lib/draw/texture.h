@@ -3,22 +3,30 @@
 #ifndef PETRI_DRAW_TEXTURE_H
 #define PETRI_DRAW_TEXTURE_H
 
-#include <stdbool.h>
-#include <stdint.h>
+#include "gl/gl.h"
 
-// Exactly one of `bytes` and `linear` is there. It never changes; several nodes and frames may hold it.
+// In one or several of three forms, `image` being that on the GPU. It never changes; several nodes and frames may hold
+// it.
 typedef struct Texture {
     uint32_t references;
     int width;
     int height;
     uint32_t *bytes; // an sRGB picture: ARGB32, rows from the top, as Cairo has it
     float *linear;   // linear light: r, g, b, a, rows from the top
+    GlImage image;
+    Gl *gl; // of the image; NULL: there is none
 } Texture;
 
 // A cleared one, with one reference; NULL if memory is used up.
 Texture *texture_new(int width, int height, bool linear);
+// One that is only on the GPU, and takes the image over; NULL if memory is used up.
+Texture *texture_of_image(Gl *gl, GlImage image);
+// Sees to it that it is on the GPU, which is current; false if there is no room.
+bool texture_send(Gl *gl, Texture *texture);
+// Sees to it that it is in memory; false if that is used up. For an sRGB picture `bytes`, else `linear`.
+bool texture_fetch(Gl *gl, Texture *texture);
 Texture *texture_keep(Texture *texture);
-// Gives a reference back; NULL is fine.
+// Gives a reference back; NULL is fine. The GPU of one that has an image is current then.
 void texture_free(Texture *texture);
 
 // The byte round(255 enc(c)) of a linear c (pictures.md 1.4).

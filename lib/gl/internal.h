@@ -1,0 +1,30 @@
+// internal.h: what the files of this room share.
+#ifndef PETRI_GL_INTERNAL_H
+#define PETRI_GL_INTERNAL_H
+
+#include "gl/gl.h"
+
+#include <epoxy/gl.h>
+
+typedef struct GlProgram GlProgram;
+
+enum { GL_SPARE_IMAGES = 32 };
+
+struct Gl {
+    void *display; // EGLDisplay
+    void *context; // EGLContext
+    int largest;
+    bool floats; // can be drawn to
+    bool halves;
+    bool float_filter; // floats can be read between pixels
+    GLuint framebuffer;
+    GLuint empty; // a vertex array without attributes
+    GlImage spare[GL_SPARE_IMAGES];
+    int spare_count;
+    GlProgram *programs;
+};
+
+void gl_images_close(Gl *gl);
+void gl_programs_close(Gl *gl);
+
+#endif
