@@ -10,12 +10,7 @@ AstList *ast_list_new(Arena *arena) {
 }
 
 AstList *ast_list_add(AstList *list, Ast *item) {
-    if (list->count == list->capacity) {
-        uint32_t capacity = list->capacity ? list->capacity * 2 : 4;
-        list->items =
-            arena_grow(list->arena, list->items, list->capacity * sizeof *list->items, capacity * sizeof *list->items);
-        list->capacity = capacity;
-    }
+    list->items = arena_room(list->arena, list->items, list->count, &list->capacity, sizeof *list->items);
     list->items[list->count++] = item;
     return list;
 }

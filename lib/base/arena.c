@@ -192,3 +192,12 @@ void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size) {
         memcpy(larger, bytes, old_size);
     return larger;
 }
+
+void *arena_room(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size) {
+    if (count < *capacity)
+        return items;
+    uint32_t larger = *capacity ? *capacity * 2 : 8;
+    items = arena_grow(arena, items, *capacity * size, larger * size);
+    *capacity = larger;
+    return items;
+}

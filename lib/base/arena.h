@@ -102,6 +102,9 @@ void *arena_copy(Arena *arena, const void *bytes, size_t size);
 // Extends the most recent allocation in place if it is `bytes` and there is room, else returns a larger copy.
 void *arena_grow(Arena *arena, void *bytes, size_t old_size, size_t new_size);
 
+// An array of `count` elements of `size` bytes with room for one more: `items`, or a copy that is twice as large.
+void *arena_room(Arena *arena, void *items, uint32_t count, uint32_t *capacity, size_t size);
+
 // What arena_alloc does when the machine has nothing left; for other allocations that belong to the arena's region.
 _Noreturn void arena_exhausted(const Arena *arena);
 // The same in the way in which an inner protected call has ended.

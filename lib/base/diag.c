@@ -23,12 +23,7 @@ bool diag_report(DiagSink *sink, const Diag *diag) {
         sink->dropped++;
         return false;
     }
-    if (sink->count == sink->capacity) {
-        uint32_t capacity = sink->capacity ? sink->capacity * 2 : 8;
-        sink->items =
-            arena_grow(sink->arena, sink->items, sink->capacity * sizeof *sink->items, capacity * sizeof *sink->items);
-        sink->capacity = capacity;
-    }
+    sink->items = arena_room(sink->arena, sink->items, sink->count, &sink->capacity, sizeof *sink->items);
     Diag *kept = &sink->items[sink->count];
     *kept = *diag;
     kept->text = str_copy(sink->arena, diag->text);

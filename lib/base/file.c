@@ -1,7 +1,7 @@
 // file.c: see file.h.
 #include "base/file.h"
 
-#include "base/source.h"
+#include "base/replace.h"
 
 #include <errno.h>
 #include <fcntl.h>
@@ -96,53 +96,68 @@ bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *
     return !reading.problem;
 }
 
-static bool write_all(int file, Str bytes) {
-    while (bytes.len > 0) {
-        ssize_t put = write(file, bytes.bytes, bytes.len);
+bool file_write(int file, const char *bytes, size_t len) {
+    while (len > 0) {
+        ssize_t put = write(file, bytes, len);
         if (put < 0 && errno == EINTR)
             continue;
         if (put < 0)
             return false;
-        bytes = (Str){bytes.bytes + put, bytes.len - (size_t)put};
+        bytes += put;
+        len -= (size_t)put;
     }
     return true;
 }
 
-// The directory entry must reach the disk too; some file systems refuse to sync a directory, which is no failure.
-static void sync_directory(const char *directory) {
-    int file = open(directory, O_RDONLY | O_CLOEXEC | O_DIRECTORY);
-    if (file >= 0) {
-        fsync(file);
-        close(file);
+const char *file_replace(const char *path, Str bytes, unsigned flags) {
+    Replacement replacement;
+    if (!replace_begin(&replacement, path, flags))
+        return strerror(errno);
+    if (!file_write(replacement.file, bytes.bytes, bytes.len)) {
+        const char *problem = strerror(errno);
+        replace_abandon(&replacement);
+        return problem;
     }
+    return replace_commit(&replacement) ? NULL : strerror(errno);
 }
 
-bool file_replace(Arena *arena, const char *path, Str bytes, const char **problem) {
-    Str canonical = file_canonical(arena, path); // a symbolic link stays one
-    const char *target = canonical.bytes;
-    Str folder = path_directory(canonical);
-    const char *directory = folder.len ? str_to_c(arena, folder) : "."; // all memory is had before anything is done
-    char *beside = str_to_c(arena, str_format(arena, "%s.%ld.tmp", target, (long)getpid()));
-    int file = open(beside, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (file < 0) {
-        *problem = strerror(errno);
+bool file_resolve(const char *path, char resolved[PATH_MAX]) {
+    enum { MOST_LINKS = 40 };
+    char at[PATH_MAX], link[PATH_MAX];
+    if (snprintf(at, sizeof at, "%s", path) >= PATH_MAX) {
+        errno = ENAMETOOLONG;
         return false;
     }
-    struct stat info;
-    if (stat(target, &info) == 0)
-        (void)!fchmod(file, info.st_mode & 07777);
-    bool written = write_all(file, bytes) && fsync(file) == 0;
-    int error = errno; // of what failed first
-    if (close(file) != 0 && written) {
-        written = false;
-        error = errno;
+    for (int i = 0; i < MOST_LINKS; i++) {
+        if (realpath(at, resolved))
+            return true;
+        // The last part may be missing, or a link to something that is.
+        char *slash = strrchr(at, '/'), *name = slash ? slash + 1 : at;
+        if (errno != ENOENT || name[0] == '\0' || strcmp(name, ".") == 0 || strcmp(name, "..") == 0)
+            return false;
+        char first = name[0];
+        name[0] = '\0';
+        if (!realpath(slash ? at : ".", resolved))
+            return false;
+        name[0] = first;
+        size_t folder = strcmp(resolved, "/") == 0 ? 0 : strlen(resolved);
+        if (folder + 1 + strlen(name) >= PATH_MAX) {
+            errno = ENAMETOOLONG;
+            return false;
+        }
+        resolved[folder] = '/';
+        memcpy(resolved + folder + 1, name, strlen(name) + 1);
+        ssize_t length = readlink(resolved, link, sizeof link - 1);
+        if (length < 0)
+            return errno == ENOENT;
+        link[length] = '\0';
+        resolved[folder + 1] = '\0';
+        if (snprintf(at, sizeof at, "%s%s", link[0] == '/' ? "" : resolved, link) >= PATH_MAX) {
+            errno = ENAMETOOLONG;
+            return false;
+        }
     }
-    if (written && rename(beside, target) == 0) {
-        sync_directory(directory);
-        return true;
-    }
-    *problem = strerror(written ? errno : error);
-    unlink(beside);
+    errno = ELOOP;
     return false;
 }
 

@@ -4,6 +4,8 @@
 
 #include "base/str.h"
 
+#include <limits.h>
+
 // Reads a file of at most `limit` bytes into the arena, followed by a NUL byte; a pipe too unless it must be `regular`.
 // False with a reason (borrowed) if that cannot be done. *version, if not NULL, gets a text that changes when the file
 // does.
@@ -12,9 +14,13 @@ bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *
 bool file_exists(const char *path);
 // The version that file_read would give; false if there is no such file.
 bool file_version(Arena *arena, const char *path, Str *version);
-// Replaces a file as a whole: readers see the old bytes or the new ones, and after a crash one of the two is there.
-// Written beside it, synchronised, renamed. False with a reason if that failed; the old file is then untouched.
-bool file_replace(Arena *arena, const char *path, Str bytes, const char **problem);
+// Replaces a file as a whole, with the flags of replace.h. NULL, or why that failed.
+const char *file_replace(const char *path, Str bytes, unsigned flags);
+// Writes all bytes to an open file; false with errno set.
+bool file_write(int file, const char *bytes, size_t len);
+// Where the path leads, without links and dots, even if there is nothing yet; false with errno set if its folder is not
+// there.
+bool file_resolve(const char *path, char resolved[PATH_MAX]);
 // The path without links and dots, or as it is if it does not exist; NUL-terminated.
 Str file_canonical(Arena *arena, const char *path);
 

@@ -41,6 +41,16 @@ bool str_ends_with(Str text, Str suffix) {
            (text.len >= suffix.len && str_equal((Str){text.bytes + (text.len - suffix.len), suffix.len}, suffix));
 }
 
+int str_word_number(Str word, const char *list) {
+    size_t len = 0;
+    for (int i = 0; *list; list += len + (list[len] == ' '), i++) {
+        len = strcspn(list, " ");
+        if (str_equal(word, (Str){list, len}))
+            return i;
+    }
+    return -1;
+}
+
 static bool is_space(char c) {
     return c == ' ' || (c >= '\t' && c <= '\r');
 }

@@ -25,6 +25,8 @@ Str str_copy(Arena *arena, Str text);
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);
+// Which of the words of a list, which spaces part, it is, from 0; -1 if it is none.
+int str_word_number(Str word, const char *list);
 // Text without white space (space, tab, CR, LF, VT, FF) at both ends.
 Str str_trim(Str text);
 

@@ -96,3 +96,15 @@ void index_remove(Index *index, uint64_t hash, uint32_t entry) {
     index->slots[at].entry = DELETED;
     index->live--;
 }
+
+bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size) {
+    if (count < *capacity)
+        return true;
+    uint32_t wanted = count < 16 ? 16 : count + count / 2;
+    void *larger = realloc(*array, wanted * size);
+    if (!larger)
+        return false;
+    *array = larger;
+    *capacity = wanted;
+    return true;
+}

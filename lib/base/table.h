@@ -1,4 +1,4 @@
-// table.h: the index of an insertion-ordered hash table.
+// table.h: the index of an insertion-ordered hash table, and growing arrays on the heap.
 //
 // The owner keeps its entries in an array of its own, in order of insertion; the index maps hashes to positions in that
 // array. So entries stay dense and ordered, and one index serves tables of symbols, state keys and diagnostics.
@@ -25,6 +25,9 @@ typedef struct Index {
 
 // Does entry number `entry` have the key that is looked for?
 typedef bool IndexMatch(const void *owner, uint32_t entry, const void *key);
+
+// Makes room for element number `count` of a heap array; false if memory is used up (then nothing has changed).
+bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
 void index_free(Index *index);
 void index_clear(Index *index);

@@ -172,12 +172,7 @@ static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
 static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
     if (cache->count == MOST_ENTRIES)
         cache_clear(cache);
-    if (cache->count == cache->capacity) {
-        uint32_t capacity = cache->capacity ? cache->capacity * 2 : 16;
-        cache->entries = arena_grow(&cache->arena, cache->entries, cache->capacity * sizeof *cache->entries,
-                                    capacity * sizeof *cache->entries);
-        cache->capacity = capacity;
-    }
+    cache->entries = arena_room(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
     FileEntry *entry = arena_alloc(&cache->arena, sizeof *entry);
     *entry = (FileEntry){.path = str_copy(&cache->arena, key->path), .parse = key->parse};
     arena_init(&entry->arena, "file", SIZE_MAX);

@@ -111,12 +111,7 @@ static void glob_found(Glob *glob, Str path) {
         glob->too_much = true;
         return;
     }
-    if (glob->found_count == glob->found_capacity) {
-        uint32_t capacity = glob->found_capacity ? glob->found_capacity * 2 : 16;
-        glob->found = arena_grow(glob->arena, glob->found, glob->found_capacity * sizeof *glob->found,
-                                 capacity * sizeof *glob->found);
-        glob->found_capacity = capacity;
-    }
+    glob->found = arena_room(glob->arena, glob->found, glob->found_count, &glob->found_capacity, sizeof path);
     glob->found[glob->found_count++] = path;
 }
 

@@ -53,14 +53,14 @@ static void save(void *context) {
     Saving *saving = context;
     PetriPicture *picture = saving->picture;
     Str bytes;
-    const char *problem;
     if (saving->record)
         saving->status = draw_encode_record(saving->painter, &picture->picture, saving->record, saving->format,
                                             &saving->arena, &bytes, &picture->faults);
     else
         saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width,
                                      picture->height, &saving->arena, &bytes, &picture->faults);
-    if (saving->status == PETRI_OK && !file_replace(&saving->arena, saving->file, bytes, &problem)) {
+    const char *problem = saving->status == PETRI_OK ? file_replace(saving->file, bytes, 0) : NULL;
+    if (problem) {
         report_file(picture, saving->file, problem);
         saving->status = PETRI_INVALID;
     }

@@ -26,12 +26,8 @@ typedef struct Walk {
 } Walk;
 
 static Level *push(Walk *walk, const DrawNode *node, const Look *look) {
-    if (walk->depth == walk->capacity) {
-        uint32_t old = walk->capacity, capacity = old ? old * 2 : 32;
-        walk->levels = arena_grow(&walk->canvas->painter->arena, walk->levels, old * sizeof *walk->levels,
-                                  capacity * sizeof *walk->levels);
-        walk->capacity = capacity;
-    }
+    Arena *arena = &walk->canvas->painter->arena;
+    walk->levels = arena_room(arena, walk->levels, walk->depth, &walk->capacity, sizeof *walk->levels);
     Level *level = &walk->levels[walk->depth++];
     *level = (Level){.node = node, .look = *look};
     return level;

@@ -94,9 +94,8 @@ PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uin
                                size_t stride);
 // Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
 bool petri_picture_format(const char *file);
-// Writes a file as a whole: the old bytes or the new ones are there, never a part; they grow in FILE.PID.tmp. The same
-// picture gives the same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be
-// written.
+// Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the
+// same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
 // Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
 // called by the thread that uses the session, when no other uses the picture.

@@ -294,6 +294,7 @@ enum {
     PETRI_PRINT_STATE = 2,
     PETRI_PRINT_LOG = 4,
     PETRI_PRINT_ERROR = 8,
+    PETRI_PRINT_HASH = 16, // the SHA-256 of what PETRI_PRINT_STATE writes, whether that is asked for or not
 };
 
 // Takes a piece of text; false stops the writing.

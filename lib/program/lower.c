@@ -8,14 +8,6 @@
 
 #include "base/source.h"
 
-static void *grown(Lowering *lowering, void *items, uint32_t count, uint32_t *capacity, size_t size) {
-    if (count < *capacity)
-        return items;
-    uint32_t old = *capacity;
-    *capacity = old ? old * 2 : 8;
-    return arena_grow(lowering->options->scratch, items, old * size, *capacity * size);
-}
-
 // The line of an instruction for the profile. What ends an expression of several lines belongs to the last of them.
 static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t last = lowering->instr_count;
@@ -36,18 +28,19 @@ const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *
     return count ? arena_copy(lowering->options->arena, names, count * sizeof *names) : NULL;
 }
 
-Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at) {
+void lower_emit(Lowering *lowering, const Expr *at, Instr instr) {
     uint32_t capacity = lowering->instr_capacity;
-    lowering->instrs = grown(lowering, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
+    lowering->instrs =
+        arena_room(lowering->options->scratch, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
     if (lowering->options->lines) {
         uint32_t same = lowering->instr_capacity;
-        lowering->lines = grown(lowering, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
-        lowering->lines[lowering->instr_count] = line_of(lowering, op, at);
+        lowering->lines =
+            arena_room(lowering->options->scratch, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
+        lowering->lines[lowering->instr_count] = line_of(lowering, (Opcode)instr.op, at);
     }
     lowering->instr_capacity = capacity;
-    Instr *instr = &lowering->instrs[lowering->instr_count++];
-    *instr = (Instr){.op = (uint16_t)op, .at = lower_place(lowering, at)};
-    return instr;
+    instr.at = lower_place(lowering, at);
+    lowering->instrs[lowering->instr_count++] = instr;
 }
 
 int32_t lower_temporary(Lowering *lowering) {
@@ -58,8 +51,8 @@ int32_t lower_temporary(Lowering *lowering) {
 }
 
 int32_t lower_constant(Lowering *lowering, Value value) {
-    lowering->constants =
-        grown(lowering, lowering->constants, lowering->constant_count, &lowering->constant_capacity, sizeof(Value));
+    lowering->constants = arena_room(lowering->options->scratch, lowering->constants, lowering->constant_count,
+                                     &lowering->constant_capacity, sizeof(Value));
     lowering->constants[lowering->constant_count++] = value;
     return -(int32_t)lowering->constant_count;
 }
@@ -78,8 +71,8 @@ int32_t lower_operand(Lowering *lowering, const Expr *expr) {
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
-        lowering->operands =
-            grown(lowering, lowering->operands, lowering->operand_count, &lowering->operand_capacity, sizeof(int32_t));
+        lowering->operands = arena_room(lowering->options->scratch, lowering->operands, lowering->operand_count,
+                                        &lowering->operand_capacity, sizeof(int32_t));
         lowering->operands[lowering->operand_count++] = operands[i];
     }
     return start;
@@ -97,48 +90,32 @@ void lower_land(Lowering *lowering, uint32_t jump) {
     lowering->instrs[jump].target = lowering->instr_count;
 }
 
-static uint32_t emit_jump(Lowering *lowering, Opcode op, int32_t a, const Expr *at) {
-    Instr *jump = lower_emit(lowering, op, at);
-    jump->a = a;
+static uint32_t emit_jump(Lowering *lowering, uint16_t op, int32_t a, const Expr *at) {
+    lower_emit(lowering, at, (Instr){.op = op, .a = a});
     return lowering->instr_count - 1;
 }
 
 static void emit_move(Lowering *lowering, int32_t d, int32_t a, const Expr *at) {
-    if (d == a)
-        return;
-    Instr *move = lower_emit(lowering, OP_MOVE, at);
-    move->d = d;
-    move->a = a;
+    if (d != a)
+        lower_emit(lowering, at, (Instr){.op = OP_MOVE, .d = d, .a = a});
 }
 
 // An instruction over the values of one or two children.
-static void emit_operator(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
+static void emit_operator(Lowering *lowering, uint16_t op, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = expr->count > 1 ? lower_operand(lowering, expr->children[1]) : 0;
-    Instr *instr = lower_emit(lowering, op, expr);
-    instr->d = d;
-    instr->a = a;
-    instr->b = b;
-    instr->c = (int32_t)expr->slot;
+    lower_emit(lowering, expr, (Instr){.op = op, .d = d, .a = a, .b = b, .c = (int32_t)expr->slot});
 }
 
-static void emit_plain(Lowering *lowering, const Expr *expr, int32_t d) {
-    static const Opcode opcodes[EXPR_COUNT] = {
-#define EXPR(kind)
-#define SAME(kind)
-#define PLAIN(kind) [EXPR_##kind] = OP_##kind,
-#include "program/expr_list.h"
-    };
-    emit_operator(lowering, opcodes[expr->kind], expr, d);
-}
-
-static void emit_load(Lowering *lowering, Opcode op, const Expr *expr, int32_t d) {
-    Instr *instr = lower_emit(lowering, op, expr);
-    instr->d = d;
-    instr->target = expr->slot;
-    instr->a = expr->dynamic;
+static void load(Lowering *lowering, const Expr *expr, int32_t d) {
+    uint16_t op = expr->kind == EXPR_CAPTURE  ? OP_CAPTURE
+                  : expr->kind == EXPR_SELF   ? OP_SELF
+                  : expr->kind == EXPR_GLOBAL ? OP_GLOBAL
+                                              : OP_UNBOUND;
+    Instr instr = {.op = op, .d = d, .target = expr->slot, .a = expr->dynamic};
     if (op == OP_UNBOUND)
-        instr->as.name = expr->as.name;
+        instr.as.name = expr->as.name;
+    lower_emit(lowering, expr, instr);
 }
 
 // --- statements: what binds names and has no value
@@ -150,19 +127,17 @@ static void bind(Lowering *lowering, const Expr *expr) {
         return;
     }
     int32_t a = lower_operand(lowering, value);
-    Instr *unpack = lower_emit(lowering, OP_UNPACK, expr);
-    unpack->d = (int32_t)expr->slot;
-    unpack->count = expr->slot_count;
-    unpack->a = a;
+    lower_emit(lowering, expr, (Instr){.op = OP_UNPACK, .d = (int32_t)expr->slot, .count = expr->slot_count, .a = a});
 }
 
 static void import(Lowering *lowering, const Expr *expr) {
     int32_t a = lower_operand(lowering, expr->children[0]);
-    Instr *instr = lower_emit(lowering, OP_IMPORT, expr);
-    instr->d = (int32_t)expr->slot;
-    instr->count = expr->slot_count;
-    instr->a = a;
-    instr->as.names = lower_names(lowering, expr->as.names, expr->slot_count);
+    lower_emit(lowering, expr,
+               (Instr){.op = OP_IMPORT,
+                       .d = (int32_t)expr->slot,
+                       .count = expr->slot_count,
+                       .a = a,
+                       .as.names = lower_names(lowering, expr->as.names, expr->slot_count)});
 }
 
 void lower_statement(Lowering *lowering, const Expr *expr) {
@@ -198,10 +173,7 @@ static void compose(Lowering *lowering, const Expr *expr, int32_t d) {
         return;
     }
     uint32_t list = lower_list(lowering, parts, count);
-    Instr *instr = lower_emit(lowering, OP_COMPOSE, expr);
-    instr->d = d;
-    instr->list = list;
-    instr->count = count;
+    lower_emit(lowering, expr, (Instr){.op = OP_COMPOSE, .d = d, .list = list, .count = count});
 }
 
 // `or` and `and`: the left value stays unless the right one is wanted.
@@ -248,11 +220,8 @@ void lower_if(Lowering *lowering, const Expr *expr, const Target *target) {
 
 static void closure(Lowering *lowering, const Expr *expr, int32_t d) {
     uint32_t list = lower_operands(lowering, expr->children, expr->count);
-    Instr *instr = lower_emit(lowering, OP_CLOSURE, expr);
-    instr->d = d;
-    instr->list = list;
-    instr->count = expr->count;
-    instr->as.function = expr->as.function;
+    lower_emit(lowering, expr,
+               (Instr){.op = OP_CLOSURE, .d = d, .list = list, .count = expr->count, .as.function = expr->as.function});
 }
 
 // A call with no more and no fewer arguments than a built-in takes needs no matching.
@@ -270,18 +239,15 @@ static void call(Lowering *lowering, const Expr *expr, int32_t d) {
     const Builtin *builtin = direct_builtin(expr->children[0], expr->as.call);
     int32_t callee = builtin ? 0 : lower_operand(lowering, expr->children[0]);
     uint32_t list = lower_operands(lowering, expr->children + 1, expr->count - 1);
-    Instr *instr = lower_emit(lowering, builtin ? OP_BUILTIN : OP_CALL, expr);
-    instr->d = d;
-    instr->b = callee;
-    instr->list = list;
-    instr->count = expr->count - 1;
-    if (builtin) {
-        instr->as.builtin = builtin;
-        return;
+    Instr instr = {
+        .op = OP_BUILTIN, .d = d, .b = callee, .list = list, .count = expr->count - 1, .as.builtin = builtin};
+    if (!builtin) {
+        CallCode code = *expr->as.call;
+        code.names = lower_names(lowering, code.names, code.named_count);
+        instr.op = OP_CALL;
+        instr.as.call = arena_copy(lowering->options->arena, &code, sizeof code);
     }
-    CallCode code = *expr->as.call;
-    code.names = lower_names(lowering, code.names, code.named_count);
-    instr->as.call = arena_copy(lowering->options->arena, &code, sizeof code);
+    lower_emit(lowering, expr, instr);
 }
 
 // A key that is composed on the spot is looked up by its parts.
@@ -292,13 +258,9 @@ static void lookup(Lowering *lowering, const Expr *expr, int32_t d) {
         parts = !expr_only_binds(key->children[i]);
     uint32_t count = parts ? key->count : 1;
     uint32_t list = lower_operands(lowering, parts ? key->children : expr->children, count);
-    const Origin *inner = lower_place(lowering, key);
-    Instr *instr = lower_emit(lowering, OP_LOOKUP, expr);
-    instr->as.inner = inner;
-    instr->d = d;
-    instr->list = list;
-    instr->count = count;
-    instr->target = lowering->options->places ? (*lowering->options->places)++ : UINT32_MAX;
+    Instr instr = {.op = OP_LOOKUP, .d = d, .list = list, .count = count, .as.inner = lower_place(lowering, key)};
+    instr.target = lowering->options->places ? (*lowering->options->places)++ : UINT32_MAX;
+    lower_emit(lowering, expr, instr);
 }
 
 // `vector[start..stop]` takes elements without making the range.
@@ -313,91 +275,52 @@ static void subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = lower_operand(lowering, range->children[0]);
     int32_t c = lower_operand(lowering, range->children[1]);
-    const Origin *inner = lower_place(lowering, range);
-    Instr *instr = lower_emit(lowering, OP_SLICE, expr);
-    instr->as.inner = inner;
-    instr->d = d;
-    instr->a = a;
-    instr->b = b;
-    instr->c = c;
+    lower_emit(lowering, expr,
+               (Instr){.op = OP_SLICE, .d = d, .a = a, .b = b, .c = c, .as.inner = lower_place(lowering, range)});
 }
 
 static void range(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t parts[3];
     for (int i = 0; i < 3; i++)
         parts[i] = lower_operand(lowering, expr->children[i]);
-    Instr *instr = lower_emit(lowering, OP_RANGE, expr);
-    instr->d = d;
-    instr->a = parts[0];
-    instr->b = parts[1];
-    instr->c = parts[2];
+    lower_emit(lowering, expr, (Instr){.op = OP_RANGE, .d = d, .a = parts[0], .b = parts[1], .c = parts[2]});
 }
 
-static void value(Lowering *lowering, const Expr *expr, int32_t d) {
-    switch (expr->kind) {
-    case EXPR_CONST:
-    case EXPR_SLOT:
-        emit_move(lowering, d, lower_operand(lowering, expr), expr);
-        return;
-    case EXPR_CAPTURE:
-        emit_load(lowering, OP_CAPTURE, expr, d);
-        return;
-    case EXPR_SELF:
-        emit_load(lowering, OP_SELF, expr, d);
-        return;
-    case EXPR_GLOBAL:
-        emit_load(lowering, OP_GLOBAL, expr, d);
-        return;
-    case EXPR_UNBOUND:
-        emit_load(lowering, OP_UNBOUND, expr, d);
-        return;
-    case EXPR_COMPOSE:
-        compose(lowering, expr, d);
-        return;
-    case EXPR_BIND:
-    case EXPR_LET:
-    case EXPR_IMPORT:
-        lower_statement(lowering, expr);
-        emit_move(lowering, d, lower_constant(lowering, VALUE_NULL), expr);
-        return;
-    case EXPR_FUNC:
-        closure(lowering, expr, d);
-        return;
-    case EXPR_FOR:
-        lower_for(lowering, expr, d);
-        return;
-    case EXPR_IF:
-        lower_if(lowering, expr, &(Target){.d = d});
-        return;
-    case EXPR_NODE:
-    case EXPR_APPEND:
-    case EXPR_DECORATE:
-        lower_node(lowering, expr, d);
-        return;
-    case EXPR_CALL:
-        call(lowering, expr, d);
-        return;
-    case EXPR_OR:
-    case EXPR_AND:
-        short_circuit(lowering, expr, d);
-        return;
-    case EXPR_RANGE:
-        range(lowering, expr, d);
-        return;
-    case EXPR_INDEX:
-        subscript(lowering, expr, d);
-        return;
-    case EXPR_LOOKUP:
-        lookup(lowering, expr, d);
-        return;
-    default:
-        emit_plain(lowering, expr, d);
-    }
+static void move(Lowering *lowering, const Expr *expr, int32_t d) {
+    emit_move(lowering, d, lower_operand(lowering, expr), expr);
+}
+
+static void binding(Lowering *lowering, const Expr *expr, int32_t d) {
+    lower_statement(lowering, expr);
+    emit_move(lowering, d, lower_constant(lowering, VALUE_NULL), expr);
+}
+
+static void choice(Lowering *lowering, const Expr *expr, int32_t d) {
+    lower_if(lowering, expr, &(Target){.d = d});
 }
 
 void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
+    static const struct {
+        void (*lower)(Lowering *lowering, const Expr *expr, int32_t d);
+        uint16_t plain; // without such a function, the instruction over the children's values
+    } ways[EXPR_COUNT] = {
+#define EXPR(kind)
+#define SAME(kind)
+#define PLAIN(kind) [EXPR_##kind] = {NULL, OP_##kind},
+#include "program/expr_list.h"
+        [EXPR_CONST] = {move},          [EXPR_SLOT] = {move},       [EXPR_CAPTURE] = {load},
+        [EXPR_SELF] = {load},           [EXPR_GLOBAL] = {load},     [EXPR_UNBOUND] = {load},
+        [EXPR_COMPOSE] = {compose},     [EXPR_BIND] = {binding},    [EXPR_LET] = {binding},
+        [EXPR_IMPORT] = {binding},      [EXPR_FUNC] = {closure},    [EXPR_FOR] = {lower_for},
+        [EXPR_IF] = {choice},           [EXPR_NODE] = {lower_node}, [EXPR_APPEND] = {lower_node},
+        [EXPR_DECORATE] = {lower_node}, [EXPR_CALL] = {call},       [EXPR_OR] = {short_circuit},
+        [EXPR_AND] = {short_circuit},   [EXPR_RANGE] = {range},     [EXPR_INDEX] = {subscript},
+        [EXPR_LOOKUP] = {lookup}};
     int32_t mark = lowering->next_register;
-    value(lowering, expr, d);
+    if (ways[expr->kind].lower)
+        ways[expr->kind].lower(lowering, expr, d);
+    else
+        emit_operator(lowering, ways[expr->kind].plain, expr, d);
     lowering->next_register = mark;
 }
 
@@ -414,7 +337,7 @@ const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_
     Lowering lowering = {
         .options = options, .next_register = (int32_t)slot_count, .register_count = (int32_t)slot_count};
     int32_t result = lower_operand(&lowering, expr);
-    lower_emit(&lowering, OP_RETURN, expr)->a = result;
+    lower_emit(&lowering, expr, (Instr){.op = OP_RETURN, .a = result});
     Arena *arena = options->arena;
     Code *code = arena_alloc(arena, sizeof *code);
     *code = (Code){.source = expr->place.source,

@@ -44,8 +44,8 @@ typedef struct Target {
     uint16_t loop;
 } Target;
 
-// A new instruction; the pointer is valid until the next.
-Instr *lower_emit(Lowering *lowering, Opcode op, const Expr *at);
+// Puts an instruction down; its place is that of `at`.
+void lower_emit(Lowering *lowering, const Expr *at, Instr instr);
 // The place of an expression, in the code.
 const Origin *lower_place(Lowering *lowering, const Expr *expr);
 // A copy of names, in the code.

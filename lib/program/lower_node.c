@@ -4,9 +4,7 @@
 // --- loops
 
 void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
-    Instr *instr = lower_emit(lowering, OP_ADD_PART, at);
-    instr->a = a;
-    instr->loop = loop;
+    lower_emit(lowering, at, (Instr){.op = OP_ADD_PART, .a = a, .loop = loop});
 }
 
 static const Node *bare_node(const Expr *expr, Arena *arena);
@@ -61,22 +59,15 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     uint16_t loop = (uint16_t)lowering->loop_depth++; // expressions are not nested as deeply as that
     if (lowering->loop_depth > lowering->loop_count)
         lowering->loop_count = lowering->loop_depth;
-    Instr *begin = lower_emit(lowering, OP_FOR, expr);
-    begin->a = source;
-    begin->d = (int32_t)expr->slot;
-    begin->count = expr->slot_count;
-    begin->loop = loop;
-    uint32_t start = lowering->instr_count - 1;
+    Instr round = {.op = OP_FOR, .a = source, .d = (int32_t)expr->slot, .count = expr->slot_count, .loop = loop};
+    uint32_t start = lowering->instr_count;
+    lower_emit(lowering, expr, round);
     lower_part(lowering, expr->children[1], loop);
-    Instr *next = lower_emit(lowering, OP_NEXT, expr);
-    next->d = (int32_t)expr->slot;
-    next->count = expr->slot_count;
-    next->loop = loop;
-    next->target = start + 1;
+    round.op = OP_NEXT;
+    round.target = start + 1;
+    lower_emit(lowering, expr, round);
     lower_land(lowering, start);
-    Instr *collect = lower_emit(lowering, OP_COLLECT, expr);
-    collect->d = d;
-    collect->loop = loop;
+    lower_emit(lowering, expr, (Instr){.op = OP_COLLECT, .d = d, .loop = loop});
     lowering->loop_depth--;
 }
 
@@ -146,12 +137,8 @@ static bool whole_node(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t children = CODE_NO_OPERAND;
     if (append && !node->kept)
         children = lower_operand(lowering, append->children[1]);
-    Instr *instr = lower_emit(lowering, OP_NODE, expr);
-    instr->d = d;
-    instr->list = list;
-    instr->count = count;
-    instr->b = children;
-    instr->as.node = node;
+    lower_emit(lowering, expr,
+               (Instr){.op = OP_NODE, .d = d, .list = list, .count = count, .b = children, .as.node = node});
     return true;
 }
 
@@ -161,11 +148,8 @@ void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t subject = lower_operand(lowering, expr->children[0]);
     if (expr->kind == EXPR_APPEND) {
         int32_t children = expr->as.kept ? CODE_NO_OPERAND : lower_operand(lowering, expr->children[1]);
-        Instr *append = lower_emit(lowering, OP_APPEND, expr);
-        append->d = d;
-        append->a = subject;
-        append->b = children;
-        append->as.kept = expr->as.kept;
+        lower_emit(lowering, expr,
+                   (Instr){.op = OP_APPEND, .d = d, .a = subject, .b = children, .as.kept = expr->as.kept});
         return;
     }
     DecorateCode code = expr->as.decorate->code;
@@ -173,10 +157,7 @@ void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
     code.tags = lower_names(lowering, code.tags, code.tag_count);
     code.names = lower_names(lowering, code.names, count);
     uint32_t list = lower_operands(lowering, expr->children + 1, count);
-    Instr *decorate = lower_emit(lowering, OP_DECORATE, expr);
-    decorate->d = d;
-    decorate->b = subject;
-    decorate->list = list;
-    decorate->count = count;
-    decorate->as.decorate = arena_copy(lowering->options->arena, &code, sizeof code);
+    const DecorateCode *kept = arena_copy(lowering->options->arena, &code, sizeof code);
+    lower_emit(lowering, expr,
+               (Instr){.op = OP_DECORATE, .d = d, .b = subject, .list = list, .count = count, .as.decorate = kept});
 }

@@ -106,16 +106,6 @@ static void lint(Compiler *compiler, const Parameter *parameter) {
                        (Str){0});
 }
 
-static Parameter *add(Compiler *compiler) {
-    if (compiler->parameter_count == compiler->parameter_capacity) {
-        uint32_t old = compiler->parameter_capacity, capacity = old ? old * 2 : 8;
-        compiler->parameters =
-            arena_grow(compiler->arena, compiler->parameters, old * sizeof(Parameter), capacity * sizeof(Parameter));
-        compiler->parameter_capacity = capacity;
-    }
-    return &compiler->parameters[compiler->parameter_count++];
-}
-
 void compile_note_parameter(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0], *value = binding->children[1], *use = first_operand(value);
     compiler->parameter_use = compiler->fallback = NULL;
@@ -127,7 +117,9 @@ void compile_note_parameter(Compiler *compiler, const Ast *binding) {
                            .span = names->children[0]->span,
                            .fallback = default_text(compiler->source, use, value)};
     read_comment(comment_behind(compiler->source, value->span.end), &parameter);
-    *add(compiler) = parameter;
+    compiler->parameters = arena_room(compiler->arena, compiler->parameters, compiler->parameter_count,
+                                      &compiler->parameter_capacity, sizeof parameter);
+    compiler->parameters[compiler->parameter_count++] = parameter;
     compiler->parameter_use = use;
     if (value->children[0] == use) // `X or A or B` without X is `A or B`, which is nowhere as a whole
         compiler->fallback = value->children[1];

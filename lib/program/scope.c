@@ -84,15 +84,10 @@ static const Expr *capture(Compiler *compiler, FunctionScope *function, const As
         if (function->capture_names[i] == ast->name && function->captures[i].kind == wanted.kind &&
             function->captures[i].slot == wanted.slot)
             return slot_expr(compiler, EXPR_CAPTURE, ast, i);
-    if (function->capture_count == function->capture_capacity) {
-        uint32_t old = function->capture_capacity, capacity = old ? old * 2 : 4;
-        function->captures = arena_grow(compiler->scratch, function->captures, old * sizeof *function->captures,
-                                        capacity * sizeof *function->captures);
-        function->capture_names =
-            arena_grow(compiler->scratch, function->capture_names, old * sizeof *function->capture_names,
-                       capacity * sizeof *function->capture_names);
-        function->capture_capacity = capacity;
-    }
+    uint32_t capacity = function->capture_capacity, count = function->capture_count;
+    function->captures = arena_room(compiler->scratch, function->captures, count, &capacity, sizeof(Capture));
+    function->capture_names = arena_room(compiler->scratch, function->capture_names, count, &function->capture_capacity,
+                                         sizeof(const Symbol *));
     function->captures[function->capture_count] = wanted;
     function->capture_names[function->capture_count] = ast->name;
     return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
@@ -185,10 +180,10 @@ static void consider(Nearest *nearest, Str name) {
 }
 
 static const struct {
-    Str name;
+    const char *names;
     Str hint;
 } habits[] = {
-#define HABIT(name, hint) {{name, sizeof name - 1}, {hint, sizeof hint - 1}},
+#define HABIT(names, hint) {names, {hint, sizeof hint - 1}},
 #include "program/habit_list.h"
 };
 
@@ -223,7 +218,7 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
-        if (str_equal(name, habits[i].name))
+        if (str_word_number(name, habits[i].names) >= 0)
             return habits[i].hint;
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);

@@ -8,86 +8,17 @@
 #include <string.h>
 
 // Names of keys besides those of one character.
-static const char *const key_names[] = {
-    "space",
-    "apostrophe",
-    "comma",
-    "minus",
-    "period",
-    "slash",
-    "semicolon",
-    "equal",
-    "left_bracket",
-    "backslash",
-    "right_bracket",
-    "grave_accent",
-    "escape",
-    "enter",
-    "tab",
-    "backspace",
-    "insert",
-    "delete",
-    "right",
-    "left",
-    "down",
-    "up",
-    "page_up",
-    "page_down",
-    "home",
-    "end",
-    "caps_lock",
-    "scroll_lock",
-    "num_lock",
-    "print_screen",
-    "pause",
-    "f1",
-    "f2",
-    "f3",
-    "f4",
-    "f5",
-    "f6",
-    "f7",
-    "f8",
-    "f9",
-    "f10",
-    "f11",
-    "f12",
-    "kp_0",
-    "kp_1",
-    "kp_2",
-    "kp_3",
-    "kp_4",
-    "kp_5",
-    "kp_6",
-    "kp_7",
-    "kp_8",
-    "kp_9",
-    "kp_decimal",
-    "kp_divide",
-    "kp_multiply",
-    "kp_subtract",
-    "kp_add",
-    "kp_enter",
-    "kp_equal",
-    "left_shift",
-    "left_control",
-    "left_alt",
-    "left_super",
-    "right_shift",
-    "right_control",
-    "right_alt",
-    "right_super",
-    "menu",
-};
-
+static const char long_names[] =
+    "space apostrophe comma minus period slash semicolon equal left_bracket backslash right_bracket "
+    "grave_accent escape enter tab backspace insert delete right left down up page_up page_down home end "
+    "caps_lock scroll_lock num_lock print_screen pause f1 f2 f3 f4 f5 f6 f7 f8 f9 f10 f11 f12 kp_0 kp_1 kp_2 "
+    "kp_3 kp_4 kp_5 kp_6 kp_7 kp_8 kp_9 kp_decimal kp_divide kp_multiply kp_subtract kp_add kp_enter kp_equal "
+    "left_shift left_control left_alt left_super right_shift right_control right_alt right_super menu";
 static const char short_names[] = "abcdefghijklmnopqrstuvwxyz0123456789";
+enum { LONG_KEYS = INPUT_KEYS - (sizeof short_names - 1) }; // every key has its switch
 
-enum { LONG_KEYS = sizeof key_names / sizeof key_names[0] };
-_Static_assert(LONG_KEYS + sizeof short_names - 1 == INPUT_KEYS, "every key has its switch");
-
-static const char *const button_names[INPUT_BUTTONS] = {
-    "left", "middle", "right", "button_4", "button_5", "button_6", "button_7", "button_8",
-};
+static const char *const button_names[INPUT_BUTTONS] = {"left",     "middle",   "right",    "button_4",
+                                                        "button_5", "button_6", "button_7", "button_8"};
 enum { USUAL_BUTTONS = 3 }; // written even before they are used
 
 int input_key_number(Str name) {
@@ -95,10 +26,7 @@ int input_key_number(Str name) {
         const char *at = memchr(short_names, name.bytes[0], sizeof short_names - 1);
         return at ? LONG_KEYS + (int)(at - short_names) : INPUT_KEY_NONE;
     }
-    for (int i = 0; i < LONG_KEYS; i++)
-        if (str_equal(name, str_from(key_names[i])))
-            return i;
-    return INPUT_KEY_NONE;
+    return str_word_number(name, long_names); // none: INPUT_KEY_NONE
 }
 
 static const InputSwitch NEVER_PRESSED = {.pushed = NAN, .released = NAN};
@@ -185,11 +113,8 @@ static void report_key(const Reader *reader, Value name) {
 
 void input_add_binding(InputBindings *bindings, Value state, int key) {
     InputBinding binding = {value_copy(&bindings->arena, state), key};
-    if (bindings->count == bindings->capacity) {
-        size_t old = bindings->capacity * sizeof binding;
-        bindings->capacity = bindings->capacity ? bindings->capacity * 2 : 8;
-        bindings->items = arena_grow(&bindings->arena, bindings->items, old, bindings->capacity * sizeof binding);
-    }
+    bindings->items =
+        arena_room(&bindings->arena, bindings->items, bindings->count, &bindings->capacity, sizeof binding);
     bindings->items[bindings->count++] = binding;
 }
 

@@ -14,7 +14,7 @@ void mirror_free(Mirror *mirror) {
 }
 
 bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count) {
-    if (!scene_reserve((void **)&mirror->slots, &mirror->slot_capacity, count, sizeof *slots))
+    if (!heap_reserve((void **)&mirror->slots, &mirror->slot_capacity, count, sizeof *slots))
         return false;
     if (count)
         memcpy(mirror->slots, slots, count * sizeof *slots);
@@ -68,9 +68,9 @@ void mirror_open(PhysicsTree *tree) {
 bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool anchor) {
     Mirror *mirror = &tree->system->mirror;
     uint32_t count = 2 * tree->body_count;
-    if (!scene_reserve((void **)&mirror->slots, &mirror->slot_capacity, count + 1, sizeof *mirror->slots) ||
-        !scene_reserve((void **)&mirror->anchors, &mirror->anchor_capacity, mirror->anchor_count,
-                       sizeof *mirror->anchors))
+    if (!heap_reserve((void **)&mirror->slots, &mirror->slot_capacity, count + 1, sizeof *mirror->slots) ||
+        !heap_reserve((void **)&mirror->anchors, &mirror->anchor_capacity, mirror->anchor_count,
+                      sizeof *mirror->anchors))
         return false;
     if (anchor)
         mirror->anchors[mirror->anchor_count++] = tree->body_count;

@@ -75,18 +75,6 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     return system;
 }
 
-bool scene_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size) {
-    if (count < *capacity)
-        return true;
-    uint32_t wanted = count < 32 ? 64 : count + count / 2;
-    void *larger = realloc(*array, wanted * size);
-    if (!larger)
-        return false;
-    *array = larger;
-    *capacity = wanted;
-    return true;
-}
-
 bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *saved) {
     const PhysicsSystem *system = *cursor ? ((const PhysicsSystem *)*cursor)->next : scene->systems;
     if (!system)

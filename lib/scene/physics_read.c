@@ -45,7 +45,7 @@ void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node)
     PhysicsSystem *system = tree->system;
     if (tree->root->program_lifetime_children || !node->program_lifetime)
         return; // the whole tree is known by its address, or the node does not last
-    if (!scene_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
+    if (!heap_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
     while (system->node_count <= body)
         system->nodes[system->node_count++] = NULL;
@@ -55,6 +55,7 @@ void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node)
 // Remembers a body under its slots. False if memory is used up.
 static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, StateSlot position, StateSlot velocity) {
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
+    tree->scene->body_count = body + 1; // at once: however the reading ends, its marks are old ones to the next tree
     if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
         !physics_set_mark(tree, position, mark) ||
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
@@ -128,7 +129,6 @@ void physics_read_bodies(PhysicsTree *tree) {
     physics_clear_marks(tree);
     tree->system->node_count = 0;
     read_group_bodies(tree, tree->root, 0);
-    tree->scene->body_count = tree->body_count;
     tree->scene->marked = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;
 }
@@ -148,7 +148,7 @@ static bool find_ends(PhysicsTree *tree, Value from, Value to, Link *link, bool 
     *link = (Link){(uint32_t)first, (uint32_t)second};
     if (first == PHYSICS_NO_BODY || second == PHYSICS_NO_BODY)
         return false;
-    bool room = scene_reserve((void **)&system->links, &system->link_capacity, number, sizeof *link);
+    bool room = heap_reserve((void **)&system->links, &system->link_capacity, number, sizeof *link);
     if (room && number <= system->link_count) {
         system->links[number] = *link;
         system->link_count += number == system->link_count;
@@ -234,8 +234,8 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
     PhysicsSystem *system = tree->system;
     if (kind != KIND_RANDOM)
         return;
-    if (scene_reserve((void **)&system->randoms, &system->random_capacity, system->random_count,
-                      sizeof *system->randoms))
+    if (heap_reserve((void **)&system->randoms, &system->random_capacity, system->random_count,
+                     sizeof *system->randoms))
         system->randoms[system->random_count++] = (RandomForce){number, randoms};
     else
         tree->failed = true;

@@ -66,6 +66,7 @@ void physics_clear_marks(const PhysicsTree *tree) {
     Scene *scene = tree->scene;
     scene->marked = NULL;
     scene->body_base += scene->body_count + 1;
+    scene->body_count = 0;
     if (scene->body_base < HIGHEST)
         return;
     if (scene->bodies)
@@ -99,10 +100,10 @@ static void mark_again(PhysicsTree *tree) {
     if (tree->scene->marked == system)
         return;
     physics_clear_marks(tree);
+    tree->scene->body_count = tree->body_count;
     for (uint32_t i = 0; i < system->mirror.slot_count; i++)
         if (!physics_set_mark(tree, system->mirror.slots[i], 2 * (tree->scene->body_base + i / 2) + i % 2))
             tree->failed = true;
-    tree->scene->body_count = tree->body_count;
     tree->scene->marked = system;
 }
 

@@ -2,6 +2,7 @@
 #ifndef PETRI_SCENE_SYSTEMS_H
 #define PETRI_SCENE_SYSTEMS_H
 
+#include "base/table.h"
 #include "scene/input_bind.h"
 #include "scene/mirror.h"
 #include "scene/scene.h"
@@ -94,8 +95,6 @@ struct PhysicsTree {
 // prefix;id or prefix;id;symbol as a key.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
 double scene_number(const State *state, StateSlot slot, double fallback);
-// Makes room for one more element; false if memory is used up.
-bool scene_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
 
 // physics_read.c
 void physics_take_defaults(Scene *scene);

@@ -2,19 +2,16 @@
 // tested. Defaults and limits stand here and nowhere else.
 //
 // TYPE(ID, SHAPE, low, high, vital, "what is wanted, in words"): how attributes are read (AttrShape of table.h).
-// Numbers
-//     of systems beyond the limits are moved to them, those of drawings are malformed then. Without something vital a
-//     drawing node is not drawn: where a thing is counts more than how it looks.
+//     Numbers of systems beyond the limits are moved to them, those of drawings are malformed then. Without something
+//     vital a drawing node is not drawn: where a thing is counts more than how it looks.
 // NAME(ID, "attribute"): all names of attributes, each once.
 // NODE(ID, "kind", PLACE, CHILDREN, "help"), and after it its attributes. PLACE tells where a node may stand and
-// CHILDREN
-//     which may stand in it (PlaceKind). FORCE(ID, "kind", "help"): a node of force_list.h, which has the same ID.
+//     CHILDREN which may stand in it (PlaceKind). FORCE(ID, "kind", "help"): a node of force_list.h, with the same ID.
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The field is where the value goes (records.h); NOWHERE: it is
 //     ignored or, in drawings, looked up by its name. The default is IS(x); TOLD(x, "in words"); INHERITED(x, "in
 //     words"), to begin with; or NONE: for a number nan, else null. Of a vector it is the last element; the others are
 //     0.
 // ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name of an attribute of the same kind, which wins over it.
-// UNDRAWN("kind"): what Flitter shows in a window and petri does not (yet).
 // clang-format off
 #ifndef TYPE
 #define TYPE(id, shape, low, high, vital, text)
@@ -33,9 +30,6 @@
 #endif
 #ifndef ALIAS
 #define ALIAS(kind, name, of, of_text, type, field, unit) ATTR(kind, name, type, field, NONE, unit, "")
-#endif
-#ifndef UNDRAWN
-#define UNDRAWN(text)
 #endif
 
 // Of systems. Infinities are numbers, nan is none.
@@ -459,9 +453,6 @@ ATTR(STOP, COLOR, COLOR, NOWHERE, IS(1), "", "")
 
 NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for the node that it stands in and what is inside")
 ATTR(COLOR, COLOR, COLOR, TO_LOOK(color), IS(1), "", "")
-
-UNDRAWN("canvas3d")
-UNDRAWN("video")
 // clang-format on
 
 #undef TYPE
@@ -470,7 +461,6 @@ UNDRAWN("video")
 #undef FORCE
 #undef ATTR
 #undef ALIAS
-#undef UNDRAWN
 #undef STRENGTH_ROW
 #undef EASE_ROW
 #undef POWER_ROW

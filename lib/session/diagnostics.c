@@ -34,14 +34,8 @@ static bool is_told(const Diagnostics *diagnostics, uint64_t hash) {
 
 // What cannot be remembered is told again.
 static void remember(Diagnostics *diagnostics, uint64_t hash) {
-    if (diagnostics->told_count == diagnostics->told_capacity) {
-        uint32_t capacity = diagnostics->told_capacity ? diagnostics->told_capacity * 2 : 16;
-        uint64_t *told = realloc(diagnostics->told, capacity * sizeof *told);
-        if (!told)
-            return;
-        diagnostics->told = told;
-        diagnostics->told_capacity = capacity;
-    }
+    if (!heap_reserve((void **)&diagnostics->told, &diagnostics->told_capacity, diagnostics->told_count, sizeof hash))
+        return;
     diagnostics->told[diagnostics->told_count] = hash;
     if (index_add(&diagnostics->told_index, hash, diagnostics->told_count))
         diagnostics->told_count++;

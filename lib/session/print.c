@@ -2,6 +2,7 @@
 #include "session/session.h"
 
 #include "base/number.h"
+#include "base/sha256.h"
 #include "syntax/parse.h"
 #include "value/format.h"
 
@@ -13,6 +14,8 @@ typedef struct Output {
     PetriWrite *write;
     void *host;
     bool stopped;
+    Sha256 *hash; // takes the text as well, or NULL
+    bool hidden;  // from the host
 } Output;
 
 enum { PIECE = 64 << 10 };
@@ -23,7 +26,9 @@ static Output output_new(PetriSession *session, PetriWrite *write, void *host) {
 }
 
 static void output_flush(Output *out) {
-    if (out->text.len && !out->stopped)
+    if (out->hash)
+        sha256_add(out->hash, out->text.bytes, out->text.len);
+    if (out->text.len && !out->stopped && !out->hidden)
         out->stopped = !out->write(out->host, out->text.bytes, out->text.len);
     out->text.len = 0;
 }
@@ -100,6 +105,25 @@ static void print_state(Output *out, PetriSession *session) {
     }
 }
 
+// The state goes to the host if that is asked for, and into the hash if that is.
+static void print_and_hash_state(Output *out, PetriSession *session, unsigned sections, Sha256 *hash) {
+    output_flush(out);
+    out->hash = sections & PETRI_PRINT_HASH ? hash : NULL;
+    out->hidden = !(sections & PETRI_PRINT_STATE);
+    print_state(out, session);
+    output_flush(out);
+    out->hash = NULL;
+    out->hidden = false;
+}
+
+static void print_hash(Output *out, Sha256 *hash) {
+    char digits[SHA256_DIGITS];
+    sha256_end(hash, digits);
+    text_add_c(&out->text, "= ");
+    text_add(&out->text, (Str){digits, sizeof digits});
+    output_line_end(out);
+}
+
 // Each text on its line.
 static void print_lines(Output *out, const DiagSink *sink, const char *mark, bool places) {
     for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
@@ -139,12 +163,15 @@ static void print_frame(Output *out, PetriSession *session, unsigned sections) {
     print_header(out, &session->clock);
     if (sections & PETRI_PRINT_TREE)
         print_tree(out, session);
-    if (sections & PETRI_PRINT_STATE)
-        print_state(out, session);
+    Sha256 hash = sha256_new();
+    if (sections & (PETRI_PRINT_STATE | PETRI_PRINT_HASH))
+        print_and_hash_state(out, session, sections, &hash);
     if (sections & PETRI_PRINT_LOG)
         print_log(out, session, sections);
     if (sections & PETRI_PRINT_ERROR)
         print_lines(out, &session->frame.errors, "? ", true);
+    if (sections & PETRI_PRINT_HASH)
+        print_hash(out, &hash);
 }
 
 PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host) {

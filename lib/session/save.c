@@ -73,9 +73,9 @@ static void save(PetriSession *session, void *context) {
     add_entries(&out, session);
     add_systems(&out, session);
     text_add_format(&out, "end %016" PRIx64 "\n", hash_bytes(0, out.bytes, out.len));
-    const char *problem = NULL;
-    saving->done = file_replace(&session->text_arena, saving->file, text_str(&out), &problem);
-    if (!saving->done)
+    const char *problem = file_replace(saving->file, text_str(&out), 0);
+    saving->done = !problem;
+    if (problem)
         complain(session, "cannot write the state to", saving->file, problem);
 }
 
@@ -192,7 +192,7 @@ static StateSlot velocity_slot(Restore *restore, StateSlot position) {
 
 static bool read_system(Restore *restore) {
     int64_t occurrence;
-    uint32_t capacity = 0; // doubled: other things come to lie between, so growing means copying
+    uint32_t capacity = 0; // even, so that there is room for both
     SceneSystem system = {0};
     if (!read_integer(restore, &occurrence) || !take(restore, STR(" ")) || !read_key(restore, &system.prefix) ||
         !take(restore, STR("\n")))
@@ -200,11 +200,7 @@ static bool read_system(Restore *restore) {
     system.occurrence = (uint32_t)occurrence;
     StateSlot *slots = NULL;
     while (take(restore, STR("particle "))) {
-        if (system.slot_count == capacity) {
-            uint32_t larger = capacity ? capacity * 2 : 64;
-            slots = arena_grow(restore->arena, slots, capacity * sizeof *slots, larger * sizeof *slots);
-            capacity = larger;
-        }
+        slots = arena_room(restore->arena, slots, system.slot_count, &capacity, sizeof *slots);
         if (!read_key(restore, &slots[system.slot_count]) || !take(restore, STR("\n")))
             return false;
         slots[system.slot_count + 1] = velocity_slot(restore, slots[system.slot_count]);

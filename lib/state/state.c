@@ -193,16 +193,9 @@ StateSlot state_slot(State *state, Value key) {
     uint32_t found = find(state, key, hash);
     if (found != INDEX_NONE)
         return found;
-    if (state->count == state->capacity) {
-        uint32_t capacity = state->capacity ? state->capacity * 2 : 16;
-        StateEntry *entries = realloc(state->entries, capacity * sizeof *entries);
-        if (!entries)
-            return exhausted(state), STATE_NO_SLOT;
-        state->entries = entries;
-        state->capacity = capacity;
-    }
     StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
-    if (!index_add(&state->index, hash, state->count))
+    if (!heap_reserve((void **)&state->entries, &state->capacity, state->count, sizeof entry) ||
+        !index_add(&state->index, hash, state->count))
         return exhausted(state), STATE_NO_SLOT;
     if (!own_key(&state->keys, &entry.key, key)) {
         index_remove(&state->index, hash, state->count);

@@ -45,12 +45,7 @@ static uint32_t intern(SymbolTable *table, Str name) {
     uint32_t found = index_find(&table->by_name, hash, has_name, table, &name);
     if (found != INDEX_NONE)
         return found;
-    if (table->count == table->capacity) {
-        uint32_t capacity = table->capacity ? table->capacity * 2 : 64;
-        table->items = arena_grow(table->arena, table->items, table->capacity * sizeof *table->items,
-                                  capacity * sizeof *table->items);
-        table->capacity = capacity;
-    }
+    table->items = arena_room(table->arena, table->items, table->count, &table->capacity, sizeof *table->items);
     Symbol *symbol = arena_alloc(table->arena, sizeof *symbol);
     *symbol = (Symbol){.name = str_copy(table->arena, name), .number = symbol_number(name)};
     if (!index_add(&table->by_name, hash, table->count))

@@ -207,14 +207,9 @@ static StateSlot *memo_next(Vm *vm, uint32_t place) {
         return NULL;
     Memo *memo = &vm->memos[place];
     if (memo->next == memo->count) {
-        if (memo->count == memo->capacity) {
-            uint32_t capacity = memo->capacity ? memo->capacity * 2 : 4;
-            StateSlot *slots = capacity > MOST_REMEMBERED ? NULL : realloc(memo->slots, capacity * sizeof *slots);
-            if (!slots)
-                return NULL;
-            memo->slots = slots;
-            memo->capacity = capacity;
-        }
+        if (memo->count == MOST_REMEMBERED ||
+            !heap_reserve((void **)&memo->slots, &memo->capacity, memo->count, sizeof *memo->slots))
+            return NULL;
         memo->slots[memo->count++] = STATE_NO_SLOT;
     }
     return &memo->slots[memo->next++];

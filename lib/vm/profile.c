@@ -53,12 +53,8 @@ void vm_profile_end(Profile *profile) {
 }
 
 static ProfileFile *add_file(Profile *profile, const Source *source) {
-    if (profile->file_count == profile->file_capacity) {
-        uint32_t old = profile->file_capacity, capacity = old ? old * 2 : 4;
-        profile->files = arena_grow(&profile->arena, profile->files, old * sizeof *profile->files,
-                                    capacity * sizeof *profile->files);
-        profile->file_capacity = capacity;
-    }
+    profile->files = arena_room(&profile->arena, profile->files, profile->file_count, &profile->file_capacity,
+                                sizeof *profile->files);
     size_t size = source->line_count * sizeof(ProfileLine);
     ProfileFile file = {.source = source_new(&profile->arena, source->name, source->path, source->text),
                         .lines = arena_alloc(&profile->arena, size)};

@@ -8,7 +8,7 @@
 #include "petri.h"
 
 typedef struct Check {
-    Options options;
+    Options *options;
     bool shown_last;
 } Check;
 
@@ -16,7 +16,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     Check *check = host;
     // Notes belong to the diagnostic before them.
     if (diagnostic->level != PETRI_NOTE) {
-        check->shown_last = diagnostic->level == PETRI_ERROR || check->options.verbosity != LOG_QUIET;
+        check->shown_last = diagnostic->level == PETRI_ERROR || check->options->verbosity != LOG_QUIET;
     }
     if (check->shown_last) {
         fputs(diagnostic->rendered, stderr);
@@ -24,7 +24,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 }
 
 static int check_all(Check *check, const Host *host) {
-    const Options *options = &check->options;
+    const Options *options = check->options;
     PetriSession *session = NULL;
     int status = options_open(options, host, on_diagnostic, check, &session);
     if (status != OPTIONS_READ) {
@@ -43,19 +43,14 @@ static int check_all(Check *check, const Host *host) {
     return clean ? STATUS_DONE : STATUS_FAILED;
 }
 
-static int check_run(const Host *host, int argc, char **argv) {
-    Check check = {0};
-    int status = options_read(&check.options, &CHECK_COMMAND, argc, argv);
-    if (status == OPTIONS_READ && check.options.scripts.count > 0) {
-        status = check_all(&check, host);
-    } else if (status == OPTIONS_READ) {
-        if (!check.options.unreadable) {
-            message("no script found: there is no file named *.fl");
-        }
-        status = STATUS_FAILED;
+static int check_run(const Host *host, Options *options) {
+    if (options->scripts.count > 0) {
+        return check_all(&(Check){.options = options}, host);
     }
-    options_free(&check.options);
-    return status;
+    if (!options->unreadable) {
+        message("no script found: there is no file named *.fl");
+    }
+    return STATUS_FAILED;
 }
 
 const Command CHECK_COMMAND = {

@@ -3,7 +3,6 @@
 
 #include <errno.h>
 #include <fcntl.h>
-#include <stdarg.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -38,6 +37,10 @@ char *memory_copied(const char *text, size_t length) {
     return copy;
 }
 
+char *memory_text(const char *text) {
+    return memory_copied(text, strlen(text));
+}
+
 static void reserve(Bytes *text, size_t more) {
     size_t needed = text->length + more + 1;
     if (needed > text->capacity) {
@@ -53,19 +56,40 @@ void bytes_add(Bytes *text, const char *more, size_t length) {
     text->data[text->length] = '\0';
 }
 
+void bytes_add_text(Bytes *text, const char *more) {
+    bytes_add(text, more, strlen(more));
+}
+
+void bytes_format_list(Bytes *text, const char *format, va_list list) {
+    va_list again;
+    va_copy(again, list);
+    int length = vsnprintf(NULL, 0, format, list);
+    reserve(text, length < 0 ? 0 : (size_t)length);
+    vsnprintf(text->data + text->length, (size_t)(length < 0 ? 0 : length) + 1, format, again);
+    va_end(again);
+    text->length += length < 0 ? 0 : (size_t)length;
+}
+
 void bytes_format(Bytes *text, const char *format, ...) {
     va_list list;
     va_start(list, format);
-    int length = vsnprintf(NULL, 0, format, list);
+    bytes_format_list(text, format, list);
     va_end(list);
-    if (length < 0) {
-        return;
+}
+
+bool bytes_collect(void *bytes, const char *text, size_t length) {
+    bytes_add(bytes, text, length);
+    return true;
+}
+
+bool bytes_line(const Bytes *text, size_t *at, Str *line) {
+    if (*at >= text->length) {
+        return false;
     }
-    reserve(text, (size_t)length);
-    va_start(list, format);
-    vsnprintf(text->data + text->length, (size_t)length + 1, format, list);
-    va_end(list);
-    text->length += (size_t)length;
+    const char *start = text->data + *at, *end = memchr(start, '\n', text->length - *at);
+    *line = (Str){start, end == NULL ? text->length - *at : (size_t)(end - start)};
+    *at += line->len + 1;
+    return true;
 }
 
 bool bytes_read(Bytes *text, int fd) {
@@ -96,15 +120,35 @@ bool bytes_read_file(Bytes *text, const char *path) {
 }
 
 const char *bytes_replace_file(const Bytes *text, const char *path) {
-    Arena names;
-    const char *problem = NULL;
-    arena_init(&names, "names of files", (size_t)1 << 20);
-    file_replace(&names, path, (Str){text->data, text->length}, &problem);
-    arena_free(&names);
-    return problem;
+    return file_replace(path, (Str){text->data, text->length}, 0);
 }
 
 void bytes_free(Bytes *text) {
     free(text->data);
     *text = (Bytes){0};
+}
+
+void memory_drop(char **text) {
+    free(*text);
+}
+
+void texts_add(TextList *list, const char *text) {
+    list->items = memory_resized(list->items, (list->count + 1) * sizeof *list->items);
+    list->items[list->count++] = memory_text(text);
+}
+
+bool texts_hold(const TextList *list, const char *text) {
+    size_t i = 0;
+    while (i < list->count && strcmp(list->items[i], text) != 0) {
+        i++;
+    }
+    return i < list->count;
+}
+
+void texts_free(TextList *list) {
+    while (list->count > 0) {
+        free(list->items[--list->count]);
+    }
+    free(list->items);
+    list->items = NULL;
 }

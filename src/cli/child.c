@@ -13,14 +13,13 @@
 // A file that vanishes when it is closed. Unlike a pipe it takes any amount while nobody reads.
 static int unnamed_file(void) {
     const char *folder = getenv("TMPDIR");
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     bytes_format(&path, "%s/petri-XXXXXX", folder == NULL || folder[0] == '\0' ? "/tmp" : folder);
     int fd = mkstemp(path.data);
     if (fd >= 0) {
         unlink(path.data);
         fcntl(fd, F_SETFD, FD_CLOEXEC);
     }
-    bytes_free(&path);
     return fd;
 }
 

@@ -4,6 +4,7 @@
 
 #include <stdbool.h>
 #include <stddef.h>
+#include <stdint.h>
 
 struct Args;
 struct Options;
@@ -20,8 +21,11 @@ typedef struct OptionSpec {
     char letter;       // short form, or 0
     const char *value; // how help names the value; NULL for a flag
     const char *help;
-    bool (*read)(const struct Args *args, struct Options *options, void *field);
     size_t field; // where it is in Options
+    bool (*read)(const struct Args *args, void *field);
+    int64_t least; // of whole numbers
+    int64_t most;
+    const char *const *words; // to choose from, ended by NULL
 } OptionSpec;
 
 // All options; the last has no name.
@@ -43,9 +47,11 @@ typedef struct Command {
     unsigned options;     // FOR_…
     const char *needed;   // what is said where there is no operand; NULL: none is needed, or the command says it itself
     const char *no_stdin; // what is said of `-`; NULL: it stands for a script on standard input
+    const char *second;   // what is said of a second operand, if it is not of scripts
     bool many;            // takes many scripts and folders
     bool live;            // follows the wall clock and goes on until it is stopped
-    int (*run)(const Host *host, int argc, char **argv); // without the command's name; returns the exit status
+    bool raw;             // reads the words of the command line itself
+    int (*run)(const Host *host, struct Options *options); // returns the exit status
 } Command;
 
 extern const Command RUN_COMMAND;
@@ -61,6 +67,8 @@ extern const Command HELP_COMMAND;
 extern const Command *const COMMANDS[];
 // NULL if there is none of this name.
 const Command *command_find(const char *name);
+// Reads the words that follow a command's name and runs it; returns the exit status.
+int command_run(const Command *command, const Host *host, int argc, char **argv);
 
 // Prints a command's own help on standard output; returns the exit status.
 int help_for(const Command *command);
@@ -69,8 +77,14 @@ int help_version(void);
 
 // Writes `petri: text` and a newline to standard error.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);
-// The name that is nearest to `word`, if near enough to be a slip of the hand, else NULL. Call it for each candidate
-// with the same `best`, which starts at SIZE_MAX.
-bool is_nearer(const char *word, const char *candidate, size_t *best);
+
+// What a mistyped word was meant to be: the name, of those that are offered, that is nearest to it.
+typedef struct Nearest {
+    const char *word;
+    const char *name; // NULL: none is near enough to be a slip of the hand
+    size_t distance;
+} Nearest;
+// True if the name is nearer than those before it.
+bool nearest_offer(Nearest *nearest, const char *name);
 
 #endif

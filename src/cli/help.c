@@ -6,17 +6,14 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "cli/bytes.h"
 #include "cli/cli.h"
 #include "petri.h"
 
 enum { OPTION_COLUMN = 28 };
 
 Output *help_begin(void) {
-    Output *output = malloc(sizeof *output);
-    if (output == NULL) {
-        message("out of memory");
-        return NULL;
-    }
+    Output *output = memory_zeroed(sizeof *output);
     output_start(output, STDOUT_FILENO);
     return output;
 }
@@ -29,9 +26,6 @@ int help_end(Output *output) {
 
 int help_overview(void) {
     Output *output = help_begin();
-    if (output == NULL) {
-        return STATUS_FAILED;
-    }
     output_format(output, "petri %s: runs Flitter scripts that hold systems of particles\n\n", petri_version());
     output_format(output, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
@@ -78,9 +72,6 @@ void help_option(Output *output, const OptionSpec *spec) {
 
 int help_for(const Command *command) {
     Output *output = help_begin();
-    if (output == NULL) {
-        return STATUS_FAILED;
-    }
     output_format(output, "usage: petri %s%s %s\n\n%s\n", command->name, command->options == 0 ? "" : " [options]",
                   command->operands, command->details);
     output_format(output, "%s", command->options == 0 ? "" : "\n");
@@ -97,9 +88,6 @@ int help_for(const Command *command) {
 
 int help_version(void) {
     Output *output = help_begin();
-    if (output == NULL) {
-        return STATUS_FAILED;
-    }
     output_format(output, "petri %s\n", petri_version());
     return help_end(output);
 }

@@ -5,7 +5,7 @@
 #include "cli/cli.h"
 #include "cli/output.h"
 
-// NULL after a message; else to be ended.
+// To be ended.
 Output *help_begin(void);
 // Writes what is left and frees the output; returns the exit status.
 int help_end(Output *output);

@@ -1,13 +1,13 @@
 // help_command.c: `petri help`: all there is help on.
 //
 // Apart from help.c, which the program that does not draw has as well: this knows the prompt.
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/cli.h"
 #include "cli/help.h"
+#include "cli/options.h"
 #include "cli/topics.h"
 #include "petri.h"
 
@@ -15,9 +15,6 @@ enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };
 
 static int help_builtins(void) {
     Output *output = help_begin();
-    if (output == NULL) {
-        return STATUS_FAILED;
-    }
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         char head[128];
@@ -46,9 +43,6 @@ static void write_attributes(Output *output, size_t kind) {
 // All kinds of nodes that do something.
 static int help_nodes(void) {
     Output *output = help_begin();
-    if (output == NULL) {
-        return STATUS_FAILED;
-    }
     PetriNodeKind kind;
     const char *area = "";
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
@@ -81,19 +75,16 @@ static bool tell_option(Output *output, const char *word) {
 }
 
 static int unknown_topic(const char *topic) {
-    size_t best = SIZE_MAX;
-    const char *nearest = NULL;
+    Nearest nearest = {.word = topic};
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        nearest = is_nearer(topic, COMMANDS[i]->name, &best) ? COMMANDS[i]->name : nearest;
+        nearest_offer(&nearest, COMMANDS[i]->name);
     }
-    static const char *const lists[] = {"builtins", "nodes", "version"};
-    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
-        nearest = is_nearer(topic, lists[i], &best) ? lists[i] : nearest;
-    }
-    const char *word = topics_nearest(topic, &best);
-    nearest = word != NULL ? word : nearest;
-    if (nearest != NULL) {
-        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest);
+    nearest_offer(&nearest, "builtins");
+    nearest_offer(&nearest, "nodes");
+    nearest_offer(&nearest, "version");
+    topics_offer(&nearest);
+    if (nearest.name != NULL) {
+        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest.name);
     } else {
         message("there is no help on '%.60s'; 'petri help' tells what there is help on", topic);
     }
@@ -102,9 +93,6 @@ static int unknown_topic(const char *topic) {
 
 static int help_word(const char *topic) {
     Output *output = help_begin();
-    if (output == NULL) {
-        return STATUS_FAILED;
-    }
     bool found = topic[0] == '-'   ? tell_option(output, topic)
                  : topic[0] == '.' ? help_prompt(output, topic)
                                    : topics_tell(output, topic);
@@ -130,16 +118,17 @@ static int help_topic(const char *topic) {
 }
 
 // What follows is a topic, even if it looks like an option.
-static int help_run(const Host *host, int argc, char **argv) {
+static int help_run(const Host *host, Options *options) {
+    char **words = options->argv;
     (void)host;
-    if (argc > 0 && (strcmp(argv[0], "--help") == 0 || strcmp(argv[0], "-h") == 0)) {
+    if (options->argc > 0 && (strcmp(words[0], "--help") == 0 || strcmp(words[0], "-h") == 0)) {
         return help_for(&HELP_COMMAND);
     }
-    if (argc > 1) {
-        message("help is given on one thing at a time; '%s' is too many", argv[1]);
+    if (options->argc > 1) {
+        message("help is given on one thing at a time; '%s' is too many", words[1]);
         return STATUS_USAGE;
     }
-    return argc == 0 ? help_overview() : help_topic(argv[0]);
+    return options->argc == 0 ? help_overview() : help_topic(words[0]);
 }
 
 const Command HELP_COMMAND = {
@@ -154,5 +143,6 @@ const Command HELP_COMMAND = {
         "too)\n"
         "  tempo, let, radius  a value that petri gives, a word of the language, an attribute\n"
         "  --frames, .step     an option, a command of the prompt",
+    .raw = true,
     .run = help_run,
 };

@@ -11,7 +11,7 @@
 static void add_word(Bytes *text, const char *path) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:@%=-";
     if (path[0] != '\0' && path[strspn(path, plain)] == '\0') {
-        bytes_format(text, "%s", path);
+        bytes_add_text(text, path);
         return;
     }
     bytes_format(text, "'");
@@ -27,7 +27,7 @@ static void add_program(Bytes *text, const char *called) {
     size_t length = folder == NULL ? 0 : strlen(folder);
     if (length > 1 && strncmp(called, folder, length) == 0 && called[length] == '/') {
         const char *below = called + length + 1;
-        bytes_format(text, "%s", strchr(below, '/') == NULL ? "./" : "");
+        bytes_add_text(text, strchr(below, '/') == NULL ? "./" : "");
         called = below;
     }
     add_word(text, called);
@@ -35,12 +35,10 @@ static void add_program(Bytes *text, const char *called) {
 }
 
 void hint_pictures(const Host *host, const char *script) {
-    Bytes program = {0};
-    Bytes operand = {0};
+    SCOPED_BYTES program = {0};
+    SCOPED_BYTES operand = {0};
     add_program(&program, host->called);
     add_word(&operand, script);
     message("to see it: %s view %s", program.data, operand.data);
     message("to keep a picture of it: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
-    bytes_free(&program);
-    bytes_free(&operand);
 }

@@ -3,7 +3,6 @@
 #include <limits.h>
 #include <pthread.h>
 #include <signal.h>
-#include <stdint.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -34,34 +33,27 @@ static bool looks_like_file(const char *word) {
 }
 
 static bool is_script_without_suffix(const char *word) {
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     bytes_format(&path, "%s.fl", word);
     bool found = access(path.data, F_OK) == 0;
-    bytes_free(&path);
     return found;
 }
 
 static int unknown_command(const char *word) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = word};
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        if (is_nearer(word, COMMANDS[i]->name, &best)) {
-            nearest = COMMANDS[i]->name;
-        }
+        nearest_offer(&nearest, COMMANDS[i]->name);
     }
-    static const char *const lists[] = {"builtins", "nodes"};
-    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
-        if (is_nearer(word, lists[i], &best)) {
-            message("there is no command and no file '%s', did you mean 'petri help %s'?", word, lists[i]);
-            return STATUS_USAGE;
-        }
+    if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
+        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.name);
+        return STATUS_USAGE;
     }
     if (word[0] == '\0') {
         message("the name of the script is empty");
     } else if (is_script_without_suffix(word)) {
         message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
-    } else if (nearest != NULL) {
-        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest);
+    } else if (nearest.name != NULL) {
+        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.name);
     } else {
         message("there is no command and no file '%s'; 'petri help' lists the commands", word);
     }
@@ -86,10 +78,10 @@ static int dispatch(const Host *host, int argc, char **argv) {
     }
     const Command *command = command_find(first);
     if (command != NULL) {
-        return command->run(host, argc - 2, argv + 2);
+        return command_run(command, host, argc - 2, argv + 2);
     }
     if (first[0] == '-' || looks_like_file(first)) {
-        return RUN_COMMAND.run(host, argc - 1, argv + 1);
+        return command_run(&RUN_COMMAND, host, argc - 1, argv + 1);
     }
     return pass_on_all() ? pass_on(argv) : unknown_command(first);
 }

@@ -1,12 +1,10 @@
 // message.c: messages of the command itself, and the search for what a mistyped word was meant to be.
-#include <errno.h>
 #include <stdarg.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <string.h>
 #include <unistd.h>
 
-#include "base/str.h"
+#include "base/file.h"
 #include "cli/cli.h"
 
 void message(const char *format, ...) {
@@ -24,25 +22,21 @@ void message(const char *format, ...) {
     line[length] = '\n';
     length++;
     // Not by stdio, which drops what a signal interrupts: Ctrl-C comes just when there is something to say about it.
-    for (size_t done = 0; done < length;) {
-        ssize_t put = write(STDERR_FILENO, line + done, length - done);
-        if (put < 0 && errno != EINTR) {
-            break;
-        }
-        done += put < 0 ? 0 : (size_t)put;
-    }
+    file_write(STDERR_FILENO, line, length);
 }
 
-bool is_nearer(const char *word, const char *candidate, size_t *best) {
+bool nearest_offer(Nearest *nearest, const char *name) {
+    const char *word = nearest->word;
     size_t length = strlen(word);
-    size_t distance = (size_t)str_distance(str_from(word), str_from(candidate));
+    size_t distance = (size_t)str_distance(str_from(word), str_from(name));
     // A shortened word counts as near: `--def` for `--define`.
-    if (length >= 3 && strncmp(word, candidate, length) == 0) {
+    if (length >= 3 && strncmp(word, name, length) == 0) {
         distance = 1;
     }
-    if (distance > 1 + length / 5 || distance >= *best) {
-        return false;
+    bool nearer = distance <= 1 + length / 5 && (nearest->name == NULL || distance < nearest->distance);
+    if (nearer) {
+        nearest->name = name;
+        nearest->distance = distance;
     }
-    *best = distance;
-    return true;
+    return nearer;
 }

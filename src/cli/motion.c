@@ -28,7 +28,7 @@ static void add_particle(Motion *motion, const PetriParticle *particle, uint32_t
     motion->kinetic_energy += 0.5 * particle->mass * square;
     if (motion->fastest_id == NULL || speed > motion->fastest) {
         free(motion->fastest_id);
-        motion->fastest_id = memory_copied(particle->id, strlen(particle->id));
+        motion->fastest_id = memory_text(particle->id);
         motion->fastest = speed;
     }
 }

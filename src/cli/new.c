@@ -1,58 +1,33 @@
 // new.c: `petri new`: starts a script, with a dish to change.
-#include <errno.h>
-#include <fcntl.h>
 #include <string.h>
-#include <unistd.h>
+#include <sys/stat.h>
 
-#include "cli/args.h"
+#include "base/file.h"
+#include "base/replace.h"
 #include "cli/bytes.h"
 #include "cli/hints.h"
 #include "cli/new_dish.h"
+#include "cli/options.h"
 
 static bool ends_in(const char *text, const char *end) {
     size_t length = strlen(text), count = strlen(end);
     return length >= count && strcmp(text + length - count, end) == 0;
 }
 
-static bool write_all(int fd, const Bytes *text) {
-    for (size_t done = 0; done < text->length;) {
-        ssize_t put = write(fd, text->data + done, text->length - done);
-        if (put < 0 && errno != EINTR) {
-            return false;
-        }
-        done += put < 0 ? 0 : (size_t)put;
-    }
-    return true;
-}
-
 // Writes the dish to a file that must not exist yet.
 static int write_dish(const char *path) {
-    int fd = open(path, O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (fd < 0 && errno == EEXIST) {
-        message("%s is there already, and stays as it is; choose another name", path);
-        return STATUS_FAILED;
-    }
-    if (fd < 0) {
-        message("cannot make %s: %s", path, strerror(errno));
-        return STATUS_FAILED;
-    }
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     for (size_t i = 0; NEW_DISH[i] != NULL; i++) {
-        bytes_add(&text, NEW_DISH[i], strlen(NEW_DISH[i]));
+        bytes_add_text(&text, NEW_DISH[i]);
     }
-    bool written = write_all(fd, &text);
-    int error = errno;
-    bytes_free(&text);
-    if (close(fd) != 0 && written) {
-        written = false;
-        error = errno;
+    const char *problem = file_replace(path, (Str){text.data, text.length}, REPLACE_NONE);
+    struct stat info;
+    if (problem != NULL && lstat(path, &info) == 0) {
+        message("%s is there already, and stays as it is; choose another name", path);
+    } else if (problem != NULL) {
+        message("cannot write %s: %s", path, problem);
     }
-    if (!written) {
-        unlink(path); // half a script is worse than none
-        message("cannot write %s: %s", path, strerror(error));
-        return STATUS_FAILED;
-    }
-    return STATUS_DONE;
+    return problem == NULL ? STATUS_DONE : STATUS_FAILED;
 }
 
 // NAME is the file's name, with or without its suffix.
@@ -63,7 +38,7 @@ static int start_script(const Host *host, const char *name) {
         message("'%s' is not the name of a script; try 'petri new dish'", name);
         return STATUS_USAGE;
     }
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     // A name that begins with a dash would be an option to the next command.
     bytes_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name, ends_in(name, ".fl") ? "" : ".fl");
     int status = write_dish(path.data);
@@ -71,31 +46,11 @@ static int start_script(const Host *host, const char *name) {
         message("%s is a dish of drops; change it, and what you save is shown at once", path.data);
         hint_pictures(host, path.data);
     }
-    bytes_free(&path);
     return status;
 }
 
-static int new_run(const Host *host, int argc, char **argv) {
-    Args args = args_start(&NEW_COMMAND, argc, argv);
-    const char *name = NULL;
-    for (int id = args_next(&args); id != ARG_END; id = args_next(&args)) {
-        if (id == ARG_HELP) {
-            return help_for(&NEW_COMMAND);
-        }
-        if (id == ARG_WRONG) {
-            return STATUS_USAGE;
-        }
-        if (name != NULL) {
-            message("one script is started at a time; '%s' is too many", args.value);
-            return STATUS_USAGE;
-        }
-        name = args.value;
-    }
-    if (name == NULL) {
-        message("a new script needs a name: petri new NAME");
-        return STATUS_USAGE;
-    }
-    return start_script(host, name);
+static int new_run(const Host *host, Options *options) {
+    return start_script(host, options->script);
 }
 
 const Command NEW_COMMAND = {
@@ -105,5 +60,7 @@ const Command NEW_COMMAND = {
     .details =
         "Writes NAME.fl, a dish of drops that a spoon stirs, with comments that say what is what. A file that is\n"
         "there already is left alone.",
+    .needed = "a new script needs a name",
+    .second = "one script is started at a time; '%s' is too many",
     .run = new_run,
 };

@@ -1,191 +1,202 @@
 // options.c: see options.h.
 #include "cli/options.h"
 
+#include <errno.h>
+#include <inttypes.h>
 #include <math.h>
-#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include "cli/args.h"
 #include "cli/bytes.h"
+#include "cli/progress.h"
 #include "cli/script.h"
 #include "petri-draw.h"
 
-enum { DEFAULT_FRAMES = 600, MOST_THREADS = 1024, MOST_JOBS = 256 };
+enum { DEFAULT_FRAMES = 600 };
 
 // Readers take the value of an option into a field of the Options; false after a message.
 
-static bool read_flag(const Args *args, Options *options, void *field) {
+// Says that the value is wrong and what it should be; returns false.
+static bool wrong_value(const Args *args, const char *expected) {
+    message("option '--%s' expects %s, not '%s'", args->option->name, expected, args->value);
+    return false;
+}
+
+static bool read_flag(const Args *args, void *field) {
     (void)args;
-    (void)options;
     *(bool *)field = true;
     return true;
 }
 
-static bool read_unset(const Args *args, Options *options, void *field) {
+static bool read_unset(const Args *args, void *field) {
     (void)args;
-    (void)options;
     *(bool *)field = false;
     return true;
 }
 
-static bool read_text(const Args *args, Options *options, void *field) {
-    (void)options;
+// --quiet, --verbose, --debug, --trace.
+static bool read_verbosity(const Args *args, void *field) {
+    *(Verbosity *)field = (Verbosity)args->option->least;
+    return true;
+}
+
+static bool read_text(const Args *args, void *field) {
     *(const char **)field = args->value;
     return true;
 }
 
-static bool read_count(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_integer(args, 0, INT64_MAX, field);
-}
-
-static bool read_frame(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_integer(args, 0, INT64_MAX - 1, field);
-}
-
-static bool read_from_one(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_integer(args, 1, INT64_MAX, field);
-}
-
-static bool read_threads(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_integer(args, 1, MOST_THREADS, field);
-}
-
-static bool read_jobs(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_integer(args, 1, MOST_JOBS, field);
-}
-
-static bool read_positive(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_positive(args, field);
-}
-
-static bool read_fps(const Args *args, Options *options, void *field) {
-    options->fps_given = true;
-    return args_positive(args, field);
-}
-
-static bool read_time(const Args *args, Options *options, void *field) {
-    (void)options;
-    double seconds = 0;
-    bool good = petri_read_number(args->value, &seconds) && isfinite(seconds) && seconds >= 0;
-    *(double *)field = seconds;
-    return good || args_wrong_value(args, "seconds or a time code");
-}
-
-static bool section_bit(const char *word, size_t length, unsigned *bit) {
-    static const struct {
-        const char *name;
-        unsigned bit;
-    } names[] = {
-        {"tree", PETRI_PRINT_TREE},
-        {"state", PETRI_PRINT_STATE},
-        {"log", PETRI_PRINT_LOG},
-        {"error", PETRI_PRINT_ERROR},
-    };
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (strlen(names[i].name) == length && memcmp(names[i].name, word, length) == 0) {
-            *bit = names[i].bit;
-            return true;
+static bool read_whole(const Args *args, void *field) {
+    const OptionSpec *option = args->option;
+    char *end = NULL;
+    errno = 0;
+    intmax_t value = strtoimax(args->value, &end, 10);
+    bool is_number = args->value[0] >= '-' && end != args->value && *end == '\0';
+    if (!is_number || errno != 0 || value < option->least || value > option->most) {
+        SCOPED_BYTES expected = {0};
+        bytes_format(&expected, "a whole number from %" PRId64, option->least);
+        if (option->most < INT64_MAX - 1) {
+            bytes_format(&expected, " to %" PRId64, option->most);
         }
+        return wrong_value(args, expected.data);
     }
-    return false;
-}
-
-static bool read_sections(const Args *args, Options *options, void *field) {
-    unsigned *sections = field;
-    (void)options;
-    *sections = 0;
-    for (const char *word = args->value;; word++) {
-        size_t length = strcspn(word, ",");
-        unsigned bit = 0;
-        if (!section_bit(word, length, &bit)) {
-            return args_wrong_value(args, "a list of tree, state, log, error");
-        }
-        *sections |= bit;
-        word += length;
-        if (*word == '\0') {
-            return true;
-        }
-    }
-}
-
-static bool read_dump(const Args *args, Options *options, void *field) {
-    int choice = 0;
-    (void)options;
-    bool good = args_choice(args, (const char *const[]){"ast", "code", NULL}, &choice);
-    *(int *)field = choice == 0 ? PETRI_DUMP_AST : PETRI_DUMP_CODE;
-    return good;
-}
-
-static bool read_neighbours(const Args *args, Options *options, void *field) {
-    (void)options;
-    return args_choice(args, (const char *const[]){"auto", "never", "always", NULL}, field);
-}
-
-static bool read_trajectory(const Args *args, Options *options, void *field) {
-    const char *dot = strrchr(args->value, '.');
-    bool known = dot != NULL && dot != args->value && (strcmp(dot, ".xyz") == 0 || strcmp(dot, ".csv") == 0);
-    return known ? read_text(args, options, field) : args_wrong_value(args, "a file name that ends in .xyz or .csv");
-}
-
-// --quiet, --verbose, --debug, --trace.
-static bool read_verbosity(const Args *args, Options *options, void *field) {
-    (void)options;
-    char first = args->option->name[0];
-    *(Verbosity *)field = first == 'q' ? LOG_QUIET : first == 'v' ? LOG_VERBOSE : first == 'd' ? LOG_DEBUG : LOG_TRACE;
+    *(int64_t *)field = value;
     return true;
 }
 
-static bool read_colour(const Args *args, Options *options, void *field) {
-    options->monochrome = strcmp(args->value, "never") == 0;
-    return args_colour(args, field);
+static bool read_positive(const Args *args, void *field) {
+    double value = 0;
+    bool good = petri_read_number(args->value, &value) && isfinite(value) && value > 0;
+    *(double *)field = value;
+    return good || wrong_value(args, "a number above 0");
 }
 
-static bool read_definition(const Args *args, Options *options, void *field) {
-    (void)field;
+static bool read_fps(const Args *args, void *field) {
+    args->options->fps_given = true;
+    return read_positive(args, field);
+}
+
+static bool read_time(const Args *args, void *field) {
+    double seconds = 0;
+    bool good = petri_read_number(args->value, &seconds) && isfinite(seconds) && seconds >= 0;
+    *(double *)field = seconds;
+    return good || wrong_value(args, "seconds or a time code");
+}
+
+// The place of a word in a list that ends with NULL; -1 if it is not there.
+static int find_word(const char *const *words, const char *word) {
+    int i = 0;
+    while (words[i] != NULL && strcmp(words[i], word) != 0) {
+        i++;
+    }
+    return words[i] != NULL ? i : -1;
+}
+
+// One of the row's words, as its number.
+static bool read_choice(const Args *args, void *field) {
+    const char *const *words = args->option->words;
+    int choice = *(int *)field = find_word(words, args->value);
+    if (choice < 0) {
+        SCOPED_BYTES expected = {0};
+        for (int i = 0; words[i] != NULL; i++) {
+            bytes_format(&expected, "%s %s", i == 0 ? "one of" : ",", words[i]);
+        }
+        return wrong_value(args, expected.data);
+    }
+    return true;
+}
+
+// Some of tree, state, log, error, hash, as the bits PETRI_PRINT_…, which follow each other.
+static bool read_sections(const Args *args, void *field) {
+    static const char *const names[] = {"tree", "state", "log", "error", "hash", NULL};
+    unsigned *sections = field;
+    SCOPED_TEXT list = memory_text(args->value);
+    *sections = 0;
+    for (char *rest = list; rest != NULL;) {
+        int section = find_word(names, strsep(&rest, ","));
+        if (section < 0) {
+            return wrong_value(args, "a list of tree, state, log, error, hash");
+        }
+        *sections |= (unsigned)PETRI_PRINT_TREE << section;
+    }
+    return true;
+}
+
+static bool read_trajectory(const Args *args, void *field) {
+    const char *dot = strrchr(args->value, '.');
+    bool known = dot != NULL && dot != args->value && (strcmp(dot, ".xyz") == 0 || strcmp(dot, ".csv") == 0);
+    return known ? read_text(args, field) : wrong_value(args, "a file name that ends in .xyz or .csv");
+}
+
+static bool no_colour(void) {
+    const char *refused = getenv("NO_COLOR");
+    return refused != NULL && refused[0] != '\0';
+}
+
+// Whether standard error is a terminal that may be coloured.
+static bool colour_by_default(void) {
+    return progress_possible() && !no_colour();
+}
+
+static bool read_colour(const Args *args, void *field) {
+    int choice = 0;
+    bool good = read_choice(args, &choice);
+    args->options->monochrome = choice == 2;
+    *(bool *)field = choice == 0 ? colour_by_default() : choice == 1;
+    return good;
+}
+
+static bool read_definition(const Args *args, void *field) {
     const char *equals = strchr(args->value, '=');
     if (equals == NULL || equals == args->value) {
-        return args_wrong_value(args, "NAME=VALUE");
+        return wrong_value(args, "NAME=VALUE");
     }
-    options->definitions[options->definition_count++] = args->value;
+    texts_add(field, args->value);
     return true;
 }
 
 // WIDTHxHEIGHT.
-static bool read_size(const Args *args, Options *options, void *field) {
-    (void)options;
+static bool read_size(const Args *args, void *field) {
     char *end = NULL;
     long width = strtol(args->value, &end, 10);
     long height = end != args->value && (*end == 'x' || *end == 'X') ? strtol(end + 1, &end, 10) : 0;
     if (*end != '\0' || width < 1 || height < 1 || width > PETRI_MOST_PIXELS || height > PETRI_MOST_PIXELS) {
-        char expected[80];
-        snprintf(expected, sizeof expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MOST_PIXELS);
-        return args_wrong_value(args, expected);
+        SCOPED_BYTES expected = {0};
+        bytes_format(&expected, "WIDTHxHEIGHT, each from 1 to %d", PETRI_MOST_PIXELS);
+        return wrong_value(args, expected.data);
     }
     *(Size *)field = (Size){(int)width, (int)height};
     return true;
 }
 
+// Readers with what their rows say.
+#define WHOLE(from, to) read_whole, .least = from, .most = to
+#define VERBOSITY(level) read_verbosity, .least = level
+#define ONE_OF(reader, ...)                                                                                            \
+    reader, .words = (const char *const[]) {                                                                           \
+        __VA_ARGS__, NULL                                                                                              \
+    }
+
 const OptionSpec OPTIONS[] = {
 #define FIELD(type, name, at_first)
-#define OPTION(commands, name, letter, value, reader, field, help)                                                     \
-    {commands, name, letter, value, help, reader, offsetof(Options, field)},
+#define OPTION(who, long_name, short_name, shown, reader, into, text)                                                  \
+    {.commands = who,                                                                                                  \
+     .name = long_name,                                                                                                \
+     .letter = short_name,                                                                                             \
+     .value = shown,                                                                                                   \
+     .help = text,                                                                                                     \
+     .field = offsetof(Options, into),                                                                                 \
+     .read = reader},
 #include "cli/option_list.h"
 #undef FIELD
 #undef OPTION
-    {0},
+    {.name = NULL},
 };
 
-static bool read_operand(const Args *args, Options *options) {
+static bool read_operand(const Args *args) {
     const Command *command = args->command;
+    Options *options = args->options;
     bool is_stdin = script_is_stdin(args->value);
-    options->has_path = true;
     if (is_stdin && command->no_stdin != NULL && (command->many || options->script == NULL)) {
         message("%s", command->no_stdin);
         return false;
@@ -194,68 +205,67 @@ static bool read_operand(const Args *args, Options *options) {
         scripts_add(&options->scripts, args->value);
     } else if (command->many) {
         options->unreadable = !scripts_find(&options->scripts, args->value) || options->unreadable;
+    } else if (options->script != NULL && command->second != NULL) {
+        message(command->second, args->value);
+        return false;
     } else if (options->script != NULL) {
         script_second(options->script, args->value);
         return false;
-    } else if (args->value[0] == '\0') {
+    } else if (args->value[0] == '\0' && command->options != 0) {
         message("the name of the script is empty");
         return false;
-    } else {
-        options->script = args->value;
     }
+    options->script = args->value;
     return true;
 }
 
-static int read_all(Options *options, Args *args) {
+static int read_all(Args *args) {
     for (int id = args_next(args); id != ARG_END; id = args_next(args)) {
         if (id == ARG_HELP) {
-            return args_help(args);
+            return args->version ? help_version() : help_for(args->command);
         }
-        const OptionSpec *spec = args->option;
-        bool good = id == ARG_OPERAND  ? read_operand(args, options)
-                    : id == ARG_OPTION ? spec->read(args, options, (char *)options + spec->field)
+        bool good = id == ARG_OPERAND  ? read_operand(args)
+                    : id == ARG_OPTION ? args->option->read(args, (char *)args->options + args->option->field)
                                        : false;
         if (!good) {
             return STATUS_USAGE;
         }
     }
-    if (!options->has_path && args->command->needed != NULL) {
-        message("%s; usage: petri %s [options] %s", args->command->needed, args->command->name,
-                args->command->operands);
+    if (args->options->script == NULL && args->command->needed != NULL) {
+        message(args->command->options == 0 ? "%s: petri %s %s" : "%s; usage: petri %s [options] %s",
+                args->command->needed, args->command->name, args->command->operands);
         return STATUS_USAGE;
     }
-    scripts_sort(&options->scripts);
+    scripts_sort(&args->options->scripts);
     return OPTIONS_READ;
 }
 
-static bool no_colour(void) {
-    const char *refused = getenv("NO_COLOR");
-    return refused != NULL && refused[0] != '\0';
-}
-
-int options_read(Options *options, const Command *command, int argc, char **argv) {
+static int options_read(Options *options, const Command *command, int argc, char **argv) {
+    Args args = {.command = command, .options = options, .argc = argc, .argv = argv};
     *options = (Options){
 #define FIELD(type, name, at_first) .name = at_first,
 #define OPTION(commands, name, letter, value, reader, field, help)
 #include "cli/option_list.h"
 #undef FIELD
 #undef OPTION
-        // Each definition takes at least one word.
-        .definitions = memory_zeroed(((size_t)argc + 1) * sizeof *options->definitions),
+        .argc = argc,
+        .argv = argv,
     };
     options->realtime = command->live;
-    Args args = args_start(command, argc, argv);
-    int status = read_all(options, &args);
+    int status = command->raw ? OPTIONS_READ : read_all(&args);
     if (options->frames < 0) {
         options->frames = isnan(options->run_time) && !command->live ? DEFAULT_FRAMES : INT64_MAX;
     }
     return status;
 }
 
-void options_free(Options *options) {
-    free(options->definitions);
-    options->definitions = NULL;
-    scripts_free(&options->scripts);
+int command_run(const Command *command, const Host *host, int argc, char **argv) {
+    Options options;
+    int status = options_read(&options, command, argc, argv);
+    status = status == OPTIONS_READ ? command->run(host, &options) : status;
+    texts_free(&options.definitions);
+    scripts_free(&options.scripts);
+    return status;
 }
 
 int options_open(const Options *options, const Host *host,
@@ -279,9 +289,9 @@ int options_open(const Options *options, const Host *host,
         message("out of memory");
         return STATUS_FAILED;
     }
-    for (size_t i = 0; i < options->definition_count; i++) {
-        if (petri_define(*session, options->definitions[i]) != PETRI_OK) {
-            message("option '--define' expects NAME=VALUE, not '%s'", options->definitions[i]);
+    for (size_t i = 0; i < options->definitions.count; i++) {
+        if (petri_define(*session, options->definitions.items[i]) != PETRI_OK) {
+            message("option '--define' expects NAME=VALUE, not '%s'", options->definitions.items[i]);
             petri_close(session);
             return STATUS_USAGE;
         }

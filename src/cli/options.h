@@ -4,6 +4,7 @@
 
 #include <stdint.h>
 
+#include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/scripts.h"
 #include "petri.h"
@@ -22,21 +23,16 @@ typedef struct Options {
 #include "cli/option_list.h"
 #undef FIELD
 #undef OPTION
-    const char **definitions; // as many as definition_count; each "name=value"
-    size_t definition_count;
-    const char *script; // of commands for one; NULL: none was given
+    const char *script; // the operand that came last; NULL: none was given
     ScriptList scripts; // of commands for many, sorted
-    bool has_path;
-    bool unreadable; // some path could not be read
-    bool prompt;     // the session keeps forces to show and can be interrupted
+    bool unreadable;    // some path could not be read
+    bool prompt;        // the session keeps forces to show and can be interrupted
+    int argc;           // the words of the command line, from behind the command's name
+    char **argv;
 } Options;
 
 enum { OPTIONS_READ = -1 };
 
-// Reads a command's options and operands. OPTIONS_READ, or the status to exit with because help was asked for or
-// something is wrong. To be freed in either case.
-int options_read(Options *options, const Command *command, int argc, char **argv);
-void options_free(Options *options);
 // Opens a session as the options say, with the names that they define. OPTIONS_READ, or the status to exit with after
 // a message; *session is then NULL.
 int options_open(const Options *options, const Host *host,

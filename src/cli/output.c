@@ -3,34 +3,33 @@
 
 #include <errno.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <unistd.h>
 
+#include "base/file.h"
 #include "cli/cli.h"
 
 void output_start(Output *output, int fd) {
     output->fd = fd;
     output->error = 0;
-    output->used = 0;
+    output->written = output->used = 0;
 }
 
 static void write_all(Output *output, const char *text, size_t length) {
-    while (length > 0 && output->error == 0) {
-        ssize_t written = write(output->fd, text, length);
-        if (written >= 0) {
-            text += written;
-            length -= (size_t)written;
-        } else if (errno != EINTR) {
-            output->error = errno;
-        }
+    if (output->error == 0 && !file_write(output->fd, text, length)) {
+        output->error = errno;
     }
 }
 
+// A signal handler may look at any moment: what is counted as written is no longer counted as waiting.
 bool output_flush(Output *output) {
-    write_all(output, output->buffer, output->used);
+    size_t used = output->used;
+    write_all(output, output->buffer, used);
     output->used = 0;
+    atomic_signal_fence(memory_order_seq_cst);
+    output->written += used;
     return output->error == 0;
 }
 
@@ -41,8 +40,10 @@ bool output_write(void *host, const char *text, size_t length) {
     }
     if (length > sizeof output->buffer) {
         write_all(output, text, length);
+        output->written += length;
     } else {
         memcpy(output->buffer + output->used, text, length);
+        atomic_signal_fence(memory_order_seq_cst);
         output->used += length;
     }
     return output->error == 0;

@@ -9,8 +9,9 @@
 
 typedef struct Output {
     int fd;
-    int error; // errno of the first failure, 0 while all is well
-    size_t used;
+    int error;      // errno of the first failure, 0 while all is well
+    size_t written; // bytes, without those that wait
+    size_t used;    // bytes that wait
     char buffer[1 << 16];
 } Output;
 

@@ -42,7 +42,7 @@ void parameter_range(Bytes *out, const PetriParameter *parameter) {
 }
 
 void parameter_describe(Bytes *out, const PetriParameter *parameter) {
-    Bytes about = {0};
+    SCOPED_BYTES about = {0};
     parameter_range(&about, parameter);
     if (parameter->defined) {
         bytes_format(&about, "%sdefault %s", about.length == 0 ? "" : ", ", parameter->fallback);
@@ -51,23 +51,20 @@ void parameter_describe(Bytes *out, const PetriParameter *parameter) {
     if (about.length > 0) {
         bytes_format(out, "  (%s)", about.data);
     }
-    bytes_free(&about);
 }
 
 static void add_row(Table *table, const PetriParameter *parameter) {
-    Bytes value = {0}, range = {0};
-    bytes_format(&value, "%s", parameter->defined ? parameter->value : parameter->fallback);
+    SCOPED_BYTES value = {0}, range = {0};
+    bytes_add_text(&value, parameter->defined ? parameter->value : parameter->fallback);
     if (parameter->defined) {
         bytes_format(&value, " (default %s)", parameter->fallback);
     }
-    bytes_format(&range, "%s", ""); // so that there is a text
+    bytes_add_text(&range, ""); // so that there is a text
     parameter_range(&range, parameter);
     const char *const cells[COLUMNS] = {parameter->name, value.data, range.data, parameter->comment};
     for (int i = 0; i < COLUMNS; i++) {
         table_add(table, cells[i]);
     }
-    bytes_free(&value);
-    bytes_free(&range);
 }
 
 // Rows from *next on that are of one file, where they cannot be set.
@@ -96,10 +93,9 @@ size_t parameters_list(PetriSession *session, Output *output) {
                           next == 0 ? "" : "\n", parameter.file);
         }
         bool settable = parameter.settable;
-        Table table = table_new(COLUMNS);
+        SCOPED_TABLE table = table_new(COLUMNS);
         add_rows(session, &table, &next);
         table_write(&table, output);
-        table_free(&table);
         own = settable ? next : own;
     }
     return own;

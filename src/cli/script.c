@@ -77,10 +77,9 @@ static PetriStatus take(PetriSession *session, const char *name, TakeFile *take_
         }
         return status;
     }
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_add(&text, "", 0);
     PetriStatus status = read_stdin(&text) ? take_text(session, SCRIPT_STDIN, text.data, text.length) : PETRI_INVALID;
-    bytes_free(&text);
     return status;
 }
 
@@ -113,7 +112,7 @@ static Names scripts_of(const char *folder) {
     for (struct dirent *entry = NULL; entries != NULL && (entry = readdir(entries)) != NULL;) {
         if (is_script_name(entry->d_name)) {
             names.items = memory_resized(names.items, (names.count + 1) * sizeof *names.items);
-            names.items[names.count++] = memory_copied(entry->d_name, strlen(entry->d_name));
+            names.items[names.count++] = memory_text(entry->d_name);
         }
     }
     if (entries != NULL) {
@@ -136,7 +135,7 @@ static void list_scripts(const char *folder) {
     enum { MOST = 4 };
     Names names = scripts_of(folder);
     size_t length = strlen(folder);
-    Bytes list = {0};
+    SCOPED_BYTES list = {0};
     bytes_add(&list, "", 0);
     for (size_t i = 0; i < names.count && i < MOST; i++) {
         bytes_format(&list, "%s%s%s%s", i == 0 ? "" : ", ", folder, folder[length - 1] == '/' ? "" : "/",
@@ -145,7 +144,6 @@ static void list_scripts(const char *folder) {
     if (names.count > 0) {
         message("name a script in it: %s%s", list.data, names.count > MOST ? " ..." : "");
     }
-    bytes_free(&list);
     free_names(&names);
 }
 
@@ -158,15 +156,14 @@ static bool differs_in_suffix(const char *name, const char *script) {
 
 // The script in a folder whose name is nearest; NULL: none is near.
 static const char *nearest_of(const Names *names, const char *name) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = name};
     for (size_t i = 0; i < names->count; i++) {
         if (differs_in_suffix(name, names->items[i])) {
             return names->items[i];
         }
-        nearest = is_nearer(name, names->items[i], &best) ? names->items[i] : nearest;
+        nearest_offer(&nearest, names->items[i]);
     }
-    return nearest;
+    return nearest.name;
 }
 
 // A script of just this name in a folder below this one.
@@ -175,13 +172,12 @@ static bool suggest_below(const char *name) {
     bool found = false;
     for (struct dirent *entry = NULL; entries != NULL && !found && (entry = readdir(entries)) != NULL;) {
         struct stat about;
-        Bytes path = {0};
+        SCOPED_BYTES path = {0};
         bytes_format(&path, "%s/%s", entry->d_name, name);
         found = entry->d_name[0] != '.' && stat(path.data, &about) == 0 && S_ISREG(about.st_mode);
         if (found) {
             message("did you mean '%s'?", path.data);
         }
-        bytes_free(&path);
     }
     if (entries != NULL) {
         closedir(entries);

@@ -16,7 +16,7 @@ static void add(ScriptList *list, const char *path, size_t below) {
         list->capacity = list->capacity == 0 ? 64 : 2 * list->capacity;
         list->items = memory_resized(list->items, list->capacity * sizeof *list->items);
     }
-    list->items[list->count++] = (Script){.path = memory_copied(path, strlen(path)), .below = below};
+    list->items[list->count++] = (Script){.path = memory_text(path), .below = below};
 }
 
 static bool is_script_name(const char *name) {
@@ -61,11 +61,10 @@ static bool search_folder(ScriptList *list, const char *folder, size_t below) {
         if (entry->d_name[0] == '.') {
             continue;
         }
-        Bytes path = {0};
+        SCOPED_BYTES path = {0};
         size_t length = strlen(folder);
         bytes_format(&path, "%s%s%s", folder, length > 0 && folder[length - 1] == '/' ? "" : "/", entry->d_name);
         done = look_at(list, path.data, entry->d_name, below) && done;
-        bytes_free(&path);
     }
     closedir(entries);
     return done;

@@ -17,5 +17,6 @@ Table table_new(size_t columns);
 void table_add(Table *table, const char *cell);
 void table_write(const Table *table, Output *output);
 void table_free(Table *table);
+#define SCOPED_TABLE __attribute__((cleanup(table_free))) Table
 
 #endif

@@ -51,7 +51,7 @@ static void add_type(Table *table, const PetriNodeAttribute *attribute) {
 }
 
 static void tell_attributes(Output *output, size_t kind) {
-    Table table = table_new(4);
+    SCOPED_TABLE table = table_new(4);
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_attribute(kind, i, &attribute); i++) {
         char head[80], fallback[120] = "";
@@ -65,7 +65,6 @@ static void tell_attributes(Output *output, size_t kind) {
         table_add(&table, attribute.help);
     }
     table_write(&table, output);
-    table_free(&table);
 }
 
 // A kind may belong to several areas, such as `!group`.
@@ -85,7 +84,7 @@ static bool tell_node(Output *output, const char *name) {
 
 // The nodes that have an attribute of this name, each with what it means there.
 static bool tell_owners(Output *output, const char *name) {
-    Table table = table_new(3);
+    SCOPED_TABLE table = table_new(3);
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
@@ -104,7 +103,6 @@ static bool tell_owners(Output *output, const char *name) {
         output_format(output, "%s is an attribute of\n", name);
         table_write(&table, output);
     }
-    table_free(&table);
     return found;
 }
 
@@ -116,22 +114,23 @@ bool topics_tell(Output *output, const char *topic) {
     return found || (!node_only && tell_owners(output, topic));
 }
 
-const char *topics_nearest(const char *topic, size_t *best) {
-    const char *nearest = NULL;
+void topics_offer(Nearest *nearest) {
+    const char *topic = nearest->word;
     PetriBuiltin builtin;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
-        nearest = is_nearer(topic, builtin.name, best) ? builtin.name : nearest;
+        nearest_offer(nearest, builtin.name);
     }
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        nearest = is_nearer(topic + (topic[0] == '!'), kind.name, best) ? kind.name : nearest;
+        nearest->word = topic + (topic[0] == '!');
+        nearest_offer(nearest, kind.name);
+        nearest->word = topic;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
-            nearest = is_nearer(topic, attribute.name, best) ? attribute.name : nearest;
+            nearest_offer(nearest, attribute.name);
         }
     }
     for (size_t i = 0; i < TOPIC_COUNT; i++) {
-        nearest = is_nearer(topic, topics[i].word, best) ? topics[i].word : nearest;
+        nearest_offer(nearest, topics[i].word);
     }
-    return nearest;
 }

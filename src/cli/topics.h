@@ -2,12 +2,13 @@
 #ifndef PETRI_SRC_TOPICS_H
 #define PETRI_SRC_TOPICS_H
 
+#include "cli/cli.h"
 #include "cli/output.h"
 
 // Tells of the built-in function, the node (`!name` means no other), the word or the attribute of this name. False if
 // there is none.
 bool topics_tell(Output *output, const char *topic);
-// The name that is nearest, or NULL; `best` as with is_nearer.
-const char *topics_nearest(const char *topic, size_t *best);
+// Offers all of these names.
+void topics_offer(Nearest *nearest);
 
 #endif

@@ -16,7 +16,7 @@ static void add_option(Golden *golden, const Bytes *word) {
 
 // Splits the way a shell does: blanks part words; '...' keeps everything, "..." and \ protect what follows.
 static bool split_options(Golden *golden, const char *line, size_t length, Bytes *trouble) {
-    Bytes word = {0};
+    SCOPED_BYTES word = {0};
     char quote = '\0';
     bool in_word = false;
     for (size_t i = 0; i < length; i++) {
@@ -41,7 +41,6 @@ static bool split_options(Golden *golden, const char *line, size_t length, Bytes
     if (in_word) {
         add_option(golden, &word);
     }
-    bytes_free(&word);
     if (quote != '\0') {
         bytes_format(trouble, "line 1: a quote is not closed");
     }
@@ -128,16 +127,15 @@ bool golden_update(const Golden *golden, const char *path, const Bytes *output, 
     if (!*changed) {
         return true;
     }
-    Bytes updated = {0};
+    SCOPED_BYTES updated = {0};
     bytes_add(&updated, golden->text.data, golden->body);
     if (golden->body > 0 && golden->text.data[golden->body - 1] != '\n') {
-        bytes_add(&updated, "\n", 1);
+        bytes_add_text(&updated, "\n");
     }
     bytes_add(&updated, output->data, output->length);
     const char *problem = bytes_replace_file(&updated, path);
     if (problem != NULL) {
         bytes_format(trouble, "cannot write %s: %s", path, problem);
     }
-    bytes_free(&updated);
     return problem == NULL;
 }

@@ -118,7 +118,7 @@ static void add_excerpt(Bytes *trouble, Slice line, size_t at) {
     while (end < line.length && ((unsigned char)line.text[end] & 0xC0U) == 0x80U) {
         end++;
     }
-    bytes_format(trouble, "%s", start > 0 ? "..." : "");
+    bytes_add_text(trouble, start > 0 ? "..." : "");
     for (size_t i = start; i < end; i++) {
         if (line.text[i] == '\n') {
             bytes_format(trouble, "\\n");
@@ -126,7 +126,7 @@ static void add_excerpt(Bytes *trouble, Slice line, size_t at) {
             bytes_add(trouble, &line.text[i], 1);
         }
     }
-    bytes_format(trouble, "%s", end < line.length ? "..." : "");
+    bytes_add_text(trouble, end < line.length ? "..." : "");
 }
 
 typedef struct Comparison {

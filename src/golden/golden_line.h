@@ -3,7 +3,7 @@
 // Lines are compared token by token: words and signs as they are, strings by what they stand for, whatever their
 // quotes, and numbers as numbers. With a tolerance R, the numbers a and b of one value agree if
 //     max |a_i - b_i| <= R * max(1, max |a_i|, max |b_i|)
-// but a key of the state is always compared exactly.
+// but a key of the state and a hash are always compared exactly.
 #ifndef PETRI_SRC_GOLDEN_LINE_H
 #define PETRI_SRC_GOLDEN_LINE_H
 

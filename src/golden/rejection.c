@@ -13,12 +13,11 @@ enum { ANY_LINE = -1, NO_LINE = 0 };
 
 // The line that the .err file names, or NO_LINE after adding what is wrong with it.
 static long read_line_number(const char *path, Bytes *trouble) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     long line = NO_LINE;
     char rest = '\0';
     if (!bytes_read_file(&text, path)) {
         bytes_format(trouble, "cannot read %s: %s", path, strerror(errno));
-        bytes_free(&text);
         return NO_LINE;
     }
     if (strncmp(text.data, "line *", 6) == 0 && sscanf(text.data + 6, " %c", &rest) != 1) {
@@ -27,7 +26,6 @@ static long read_line_number(const char *path, Bytes *trouble) {
         bytes_format(trouble, "cannot read %s: expected 'line N' or 'line *'", path);
         line = NO_LINE;
     }
-    bytes_free(&text);
     return line;
 }
 

@@ -56,7 +56,7 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
         failed += results[i]->passed ? 0 : 1;
         seconds += results[i]->seconds;
     }
-    Bytes out = {0};
+    SCOPED_BYTES out = {0};
     bytes_format(&out, "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n");
     bytes_format(&out, "<testsuite name=\"petri\" tests=\"%zu\" failures=\"%zu\" time=\"%.3f\">\n", count, failed,
                  seconds);
@@ -68,6 +68,5 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
     if (problem != NULL) {
         message("cannot write %s: %s", path, problem);
     }
-    bytes_free(&out);
     return problem == NULL;
 }

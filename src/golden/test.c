@@ -28,7 +28,7 @@ typedef struct Case {
 
 typedef struct Suite {
     const Host *host;
-    Options options;
+    Options *options;
     Case *cases;
     size_t count;
     size_t reported; // cases whose result was printed
@@ -51,7 +51,7 @@ static char *file_beside(const char *script, const char *ending) {
 }
 
 static void add_case(Suite *suite, const Script *script) {
-    if (suite->options.filter != NULL && strstr(script->path + script->below, suite->options.filter) == NULL) {
+    if (suite->options->filter != NULL && strstr(script->path + script->below, suite->options->filter) == NULL) {
         return;
     }
     char *golden = file_beside(script->path, ".golden");
@@ -81,8 +81,8 @@ static void start_child(Suite *suite, Case *item) {
     char *folder = slash == NULL ? memory_copied(".", 1) : memory_copied(item->script, length);
     const Golden *golden = &item->golden;
     char **argv = memory_zeroed(((size_t)golden->option_count + 10) * sizeof *argv);
-    Bytes threads = {0};
-    Bytes neighbours = {0};
+    SCOPED_BYTES threads = {0};
+    SCOPED_BYTES neighbours = {0};
     int argc = 0;
     argv[argc++] = "petri";
     argv[argc++] = "run";
@@ -94,9 +94,9 @@ static void start_child(Suite *suite, Case *item) {
     for (int i = 0; i < golden->option_count; i++) {
         argv[argc++] = golden->options[i];
     }
-    add_override(argv, &argc, &threads, "threads", suite->options.as_threads);
-    add_override(argv, &argc, &neighbours, "neighbours", suite->options.as_neighbours);
-    if (suite->options.unsimplified) {
+    add_override(argv, &argc, &threads, "threads", suite->options->as_threads);
+    add_override(argv, &argc, &neighbours, "neighbours", suite->options->as_neighbours);
+    if (suite->options->unsimplified) {
         argv[argc++] = "--nosimplify";
     }
     argv[argc++] = "--";
@@ -106,8 +106,6 @@ static void start_child(Suite *suite, Case *item) {
         bytes_format(&item->result.trouble, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
-    bytes_free(&threads);
-    bytes_free(&neighbours);
     free(argv);
     free(folder);
 }
@@ -129,7 +127,7 @@ static void judge(const Suite *suite, Case *item, int status, const Bytes *outpu
         result->passed = rejection_check(item->recorded, name, status, errors, &result->trouble);
     } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         child_describe(status, errors, &result->trouble);
-    } else if (suite->options.update) {
+    } else if (suite->options->update) {
         result->passed = golden_update(&item->golden, item->recorded, output, &result->updated, &result->trouble);
     } else {
         result->passed = golden_compare(&item->golden, output, &result->trouble);
@@ -137,13 +135,11 @@ static void judge(const Suite *suite, Case *item, int status, const Bytes *outpu
 }
 
 static void end_case(const Suite *suite, Case *item, int status) {
-    Bytes output = {0};
-    Bytes errors = {0};
+    SCOPED_BYTES output = {0};
+    SCOPED_BYTES errors = {0};
     item->result.seconds = clock_seconds() - item->result.seconds;
     child_collect(&item->child, &output, &errors);
     judge(suite, item, status, &output, &errors);
-    bytes_free(&output);
-    bytes_free(&errors);
     golden_free(&item->golden);
     item->done = true;
 }
@@ -167,14 +163,14 @@ static void report_done(Suite *suite, size_t started) {
 
 // Nobody waits for results that nobody reads.
 static bool is_wanted(const Suite *suite) {
-    return suite->output.error == 0 || suite->options.junit != NULL;
+    return suite->output.error == 0 || suite->options->junit != NULL;
 }
 
 static void run_cases(Suite *suite) {
     size_t started = 0;
     int64_t running = 0;
     while ((started < suite->count && is_wanted(suite)) || running > 0) {
-        if (started < suite->count && running < suite->options.jobs && is_wanted(suite)) {
+        if (started < suite->count && running < suite->options->jobs && is_wanted(suite)) {
             Case *item = &suite->cases[started++];
             start_case(suite, item);
             running += item->done ? 0 : 1;
@@ -200,22 +196,22 @@ static bool write_junit(const Suite *suite) {
     for (size_t i = 0; i < suite->count; i++) {
         results[i] = &suite->cases[i].result;
     }
-    bool done = report_junit(suite->options.junit, results, suite->count);
+    bool done = report_junit(suite->options->junit, results, suite->count);
     free(results);
     return done;
 }
 
 static int run_suite(Suite *suite) {
-    if (suite->options.scripts.count == 0 && suite->options.unreadable) {
+    if (suite->options->scripts.count == 0 && suite->options->unreadable) {
         return STATUS_FAILED;
     }
-    suite->cases = memory_zeroed(suite->options.scripts.count * sizeof *suite->cases);
-    for (size_t i = 0; i < suite->options.scripts.count; i++) {
-        add_case(suite, &suite->options.scripts.items[i]);
+    suite->cases = memory_zeroed(suite->options->scripts.count * sizeof *suite->cases);
+    for (size_t i = 0; i < suite->options->scripts.count; i++) {
+        add_case(suite, &suite->options->scripts.items[i]);
     }
     if (suite->count == 0) {
         message("no script found that has a .golden or a .err beside it%s",
-                suite->options.filter == NULL ? "; 'petri help test' tells how to make one" : " and fits the filter");
+                suite->options->filter == NULL ? "; 'petri help test' tells how to make one" : " and fits the filter");
         return STATUS_FAILED;
     }
     run_cases(suite);
@@ -224,8 +220,8 @@ static int run_suite(Suite *suite) {
         passed += suite->cases[i].result.passed ? 1 : 0;
     }
     output_format(&suite->output, "%zu passed, %zu failed\n", passed, suite->count - passed);
-    bool reported = suite->options.junit == NULL || write_junit(suite);
-    return passed == suite->count && reported && !suite->options.unreadable ? STATUS_DONE : STATUS_FAILED;
+    bool reported = suite->options->junit == NULL || write_junit(suite);
+    return passed == suite->count && reported && !suite->options->unreadable ? STATUS_DONE : STATUS_FAILED;
 }
 
 static void free_suite(Suite *suite) {
@@ -234,21 +230,16 @@ static void free_suite(Suite *suite) {
         bytes_free(&suite->cases[i].result.trouble);
     }
     free(suite->cases);
-    options_free(&suite->options);
-    free(suite);
 }
 
-static int test_run(const Host *host, int argc, char **argv) {
-    Suite *suite = memory_zeroed(sizeof *suite);
-    suite->host = host;
-    output_start(&suite->output, STDOUT_FILENO);
-    int status = options_read(&suite->options, &TEST_COMMAND, argc, argv);
-    if (suite->options.jobs == 0) {
+static int test_run(const Host *host, Options *options) {
+    Suite suite = {.host = host, .options = options, .output.fd = STDOUT_FILENO};
+    if (options->jobs == 0) {
         long processors = sysconf(_SC_NPROCESSORS_ONLN);
-        suite->options.jobs = processors < 1 ? 1 : processors > MOST_CPUS ? MOST_CPUS : processors;
+        options->jobs = processors < 1 ? 1 : processors > MOST_CPUS ? MOST_CPUS : processors;
     }
-    status = status == OPTIONS_READ ? output_finish(&suite->output, run_suite(suite)) : status;
-    free_suite(suite);
+    int status = output_finish(&suite.output, run_suite(&suite));
+    free_suite(&suite);
     return status;
 }
 
@@ -262,7 +253,8 @@ const Command TEST_COMMAND = {
         "script must be rejected with an error in that line. Each script runs in the folder that it is in.\n\n"
         "To make a golden, write its first line and let petri write the rest:\n\n"
         "  echo '# run --frames 61 --every 20 --print state' >dish.golden\n"
-        "  petri test --update dish.fl",
+        "  petri test --update dish.fl\n\n"
+        "With --print hash a golden of many particles has one line a frame: the SHA-256 of the state.",
     .examples = "  petri test .                                    all scripts here that have a golden\n"
                 "  petri test --update dish.fl                     its golden becomes what it prints now\n",
     .needed = "nothing to test",

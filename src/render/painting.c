@@ -9,7 +9,6 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
-#include "cli/unfinished.h"
 #include "render/recording.h"
 #include "render/video.h"
 
@@ -85,9 +84,7 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
 }
 
 static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painter, const char *file) {
-    int unfinished = unfinished_begin(file);
     PetriStatus status = petri_picture_save(picture, painter, file);
-    unfinished_end(unfinished);
     if (status == PETRI_MEMORY) {
         set_trouble(painting, "out of memory");
     }
@@ -212,7 +209,7 @@ Painting *painting_start(const char *film, double film_fps, double fps) {
 bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file) {
     Job *job = memory_zeroed(sizeof *job);
     *job = (Job){.picture = picture, .for_film = for_film, .looks_back = petri_picture_looks_back(picture)};
-    job->file = file == NULL ? NULL : memory_copied(file, strlen(file));
+    job->file = file == NULL ? NULL : memory_text(file);
     pthread_mutex_lock(&painting->lock);
     while (painting->waiting_count >= QUEUE && !painting->failed) {
         pthread_cond_wait(&painting->changed, &painting->lock);
@@ -253,7 +250,7 @@ bool painting_finish(Painting *painting, PetriSession *session, bool abandon, co
     painting_tell(painting, session);
     if (painting->failed) {
         video_abandon(&painting->video);
-    } else if (painting->video.beside != NULL) {
+    } else if (painting->video.open) {
         double start = clock_seconds();
         if (!video_close(&painting->video)) {
             painting->failed = true;

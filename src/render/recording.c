@@ -7,7 +7,6 @@
 #include <unistd.h>
 
 #include "cli/bytes.h"
-#include "cli/unfinished.h"
 #include "render/video.h"
 
 // A file that was begun in this run.
@@ -30,14 +29,14 @@ static RecordedFile *find_file(const Recording *recording, const char *name) {
 static RecordedFile *add_file(Recording *recording, const char *name) {
     RecordedFile *file = memory_zeroed(sizeof *file);
     *file = (RecordedFile){.next = recording->files, .video = {.frames = -1, .errors = -1, .unfinished = -1}};
-    file->name = memory_copied(name, strlen(name));
+    file->name = memory_text(name);
     file->film = video_is_name(name);
     recording->files = file;
     return file;
 }
 
 static bool close_film(Recording *recording, RecordedFile *file) {
-    if (file->video.beside == NULL || video_close(&file->video)) {
+    if (!file->video.open || video_close(&file->video)) {
         return true;
     }
     recording->trouble = file->video.trouble;
@@ -71,9 +70,7 @@ static bool save_picture(Recording *recording, PetriPicture *picture, PetriPaint
     if (file == NULL) {
         add_file(recording, name);
     }
-    int unfinished = unfinished_begin(name);
     PetriStatus status = petri_record_save(picture, painter, index);
-    unfinished_end(unfinished);
     if (status == PETRI_MEMORY) {
         recording->trouble = "out of memory";
     }

@@ -48,13 +48,13 @@ static char *series_name(const char *name, int64_t frame) {
     } else {
         bytes_format(&text, "%*" PRId64, width, frame);
     }
-    bytes_add(&text, end, strlen(end));
+    bytes_add_text(&text, end);
     return text.data;
 }
 
 // Finds out what is to be written. False after a message.
 static bool read_output(Render *render) {
-    Options *options = &render->frames.options;
+    Options *options = render->frames.options;
     const char *end = NULL;
     if (options->output == NULL) {
         message("option '--output' is missing: petri render %s -o OUT.png", options->script);
@@ -92,13 +92,12 @@ static bool read_output(Render *render) {
 // A folder that cannot be written to is better known before the work is done.
 static bool check_folder(const char *file) {
     const char *slash = strrchr(file, '/');
-    Bytes folder = {0};
+    SCOPED_BYTES folder = {0};
     bytes_add(&folder, slash == NULL ? "." : file, slash == NULL ? 1 : (size_t)(slash - file) + 1);
     bool good = access(folder.data, W_OK | X_OK) == 0;
     if (!good) {
         message("cannot write '%s': %s", file, strerror(errno));
     }
-    bytes_free(&folder);
     return good;
 }
 
@@ -115,16 +114,15 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
 }
 
 static void output_frame(Render *render) {
-    const Options *options = &render->frames.options;
+    const Options *options = render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
     bool wanted =
         options->frame >= 0 ? number == options->frame : (number - render->frames.early) % options->every == 0;
     if (wanted && render->kind == OUTPUT_FILM) {
         draw_frame(render, true, NULL);
     } else if (wanted && render->kind == OUTPUT_SERIES) {
-        char *name = series_name(options->output, number);
+        SCOPED_TEXT name = series_name(options->output, number);
         draw_frame(render, false, name);
-        free(name);
     } else if (petri_looks_back(render->frames.session)) {
         draw_frame(render, false, NULL);
     }
@@ -134,12 +132,12 @@ static void output_frame(Render *render) {
 // neither drawn nor counted: a film does not begin with everything in one place. Files keep the numbers of their
 // frames, and whoever asks for a frame by its number gets it.
 static bool is_early(const Render *render) {
-    return render->frames.options.frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
+    return render->frames.options->frame < 0 && !petri_picture_ready(render->frames.session, &render->picture);
 }
 
 // A single picture shows the last frame that there is.
 static void output_picture(Render *render) {
-    const Options *options = &render->frames.options;
+    const Options *options = render->frames.options;
     int64_t number = petri_frame(render->frames.session).number;
     if (options->frame >= 0 && number != options->frame) {
         message("there is nothing to draw: the run ended with frame %" PRId64 ", not %" PRId64, number, options->frame);
@@ -151,7 +149,7 @@ static void output_picture(Render *render) {
 
 static void report_summary(const Render *render) {
     const Frames *frames = &render->frames;
-    Verbosity verbosity = frames->options.verbosity;
+    Verbosity verbosity = frames->options->verbosity;
     if (verbosity < LOG_NORMAL || (verbosity == LOG_NORMAL && !isatty(STDERR_FILENO))) {
         return;
     }
@@ -186,9 +184,9 @@ static int end_render(Render *render, bool going) {
     }
     if (stopped != 0) {
         report_stop(render, keeps && good);
-        return STATUS_SIGNAL + stopped;
+        return frames->state.behind ? STATUS_FAILED : STATUS_SIGNAL + stopped;
     }
-    if (!going || !good || frames->state_lost) {
+    if (!going || !good || state_file_failed(&frames->state)) {
         return STATUS_FAILED;
     }
     if (render->drawn == 0) {
@@ -201,7 +199,7 @@ static int end_render(Render *render, bool going) {
 
 static int render_frames(Render *render) {
     Frames *frames = &render->frames;
-    const Options *options = &frames->options;
+    const Options *options = frames->options;
     double fps = frames_fps(frames);
     render->painting =
         painting_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps / (double)options->every, fps);
@@ -228,7 +226,7 @@ static int render_frames(Render *render) {
 }
 
 static int render_script(Render *render) {
-    const Options *options = &render->frames.options;
+    const Options *options = render->frames.options;
     if (!read_output(render)) {
         return STATUS_USAGE;
     }
@@ -243,18 +241,17 @@ static int render_script(Render *render) {
     return render_frames(render);
 }
 
-static int render_run(const Host *host, int argc, char **argv) {
-    Render *render = memory_zeroed(sizeof *render);
-    int status = frames_open(&render->frames, &RENDER_COMMAND, host, argc, argv);
+static int render_run(const Host *host, Options *options) {
+    Render render = {.failed = false};
+    int status = frames_open(&render.frames, host, options);
     if (status == OPTIONS_READ) {
-        status = render_script(render);
+        status = render_script(&render);
     }
-    if (!piped_send(&render->piped)) {
+    if (!piped_send(&render.piped)) {
         status = STATUS_FAILED;
     }
-    piped_close(&render->piped);
-    frames_close(&render->frames);
-    free(render);
+    piped_close(&render.piped);
+    petri_close(&render.frames.session);
     return status;
 }
 

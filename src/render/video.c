@@ -6,18 +6,20 @@
 #include <signal.h>
 #include <spawn.h>
 #include <stdarg.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/unfinished.h"
 
 extern char **environ;
 
-enum { MOST_WORDS = 64, PIPE_BYTES = 1 << 20 };
+enum { MOST_WORDS = 64, PIPE_BYTES = 1 << 20, FILM = 3 };
 
 // What comes out, by suffix: words for ffmpeg. The colours of screens are those of BT.709.
 #define COLOURS "-colorspace", "bt709", "-color_primaries", "bt709", "-color_trc", "bt709"
@@ -79,9 +81,7 @@ static pid_t start(Video *video, int input, double fps) {
     for (size_t i = 0; format[i] != NULL; i++) {
         words[count++] = format[i];
     }
-    Bytes output = {0}; // a name with a colon would be taken for a protocol
-    bytes_format(&output, "file:%s", video->beside);
-    words[count] = output.data;
+    words[count] = "file:/dev/fd/3"; // the film has no name yet
 
     posix_spawn_file_actions_t files;
     posix_spawnattr_t attributes;
@@ -90,6 +90,7 @@ static pid_t start(Video *video, int input, double fps) {
     posix_spawn_file_actions_adddup2(&files, input, STDIN_FILENO);
     posix_spawn_file_actions_addopen(&files, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
     posix_spawn_file_actions_adddup2(&files, video->errors, STDERR_FILENO);
+    posix_spawn_file_actions_adddup2(&files, video->film.file, FILM);
     // A group of its own: Ctrl-C is for us to deal with.
     posix_spawnattr_init(&attributes);
     sigemptyset(&usual);
@@ -101,7 +102,6 @@ static pid_t start(Video *video, int input, double fps) {
     int error = posix_spawnp(&pid, "ffmpeg", &files, &attributes, (char **)(void *)words, environ);
     posix_spawn_file_actions_destroy(&files);
     posix_spawnattr_destroy(&attributes);
-    bytes_free(&output);
     errno = error;
     return error == 0 ? pid : -1;
 }
@@ -130,25 +130,40 @@ static void forget(Video *video) {
         close(video->errors);
     }
     unfinished_end(video->unfinished);
-    video->unfinished = -1;
-    free(video->beside);
-    free(video->target);
-    video->beside = video->target = NULL;
-    video->frames = video->errors = -1;
+    replace_abandon(&video->film);
+    video->open = false;
+    video->unfinished = video->frames = video->errors = -1;
+}
+
+static int wait_for(pid_t pid) {
+    int status = 0;
+    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
+    }
+    return status;
+}
+
+// A signal ends this process at once: ffmpeg must not go on.
+static void abandon_now(void *context) {
+    Video *video = context;
+    pid_t pid = atomic_exchange(&video->pid, 0);
+    if (pid > 0) {
+        kill(pid, SIGKILL);
+        wait_for(pid);
+    }
+    replace_abandon(&video->film);
 }
 
 bool video_open(Video *video, const char *file, int width, int height, double fps) {
-    Bytes beside = {0};
     int ends[2] = {-1, -1};
-    char *target = realpath(file, NULL); // a symbolic link stays one
-    if (target == NULL) {
-        target = memory_copied(file, strlen(file));
-    }
-    bytes_format(&beside, "%s.%ld.tmp", target, (long)getpid());
-    *video =
-        (Video){.file = file, .target = target, .beside = beside.data, .width = width, .height = height, .frames = -1};
+    *video = (Video){.file = file, .open = true, .width = width, .height = height, .frames = -1};
     video->errors = unnamed_file();
-    video->unfinished = unfinished_begin(file);
+    if (!replace_begin(&video->film, file, 0)) {
+        set_trouble(video, "cannot write '%s': %s", file, strerror(errno));
+        video->unfinished = -1;
+        forget(video);
+        return false;
+    }
+    video->unfinished = unfinished_begin(abandon_now, video);
     if (video->errors < 0 || pipe(ends) != 0) {
         set_trouble(video, "cannot start ffmpeg: %s", strerror(errno));
         forget(video);
@@ -160,11 +175,11 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
     fcntl(ends[1], F_SETPIPE_SZ, PIPE_BYTES);
 #endif
     video->frames = ends[1];
-    video->pid = start(video, ends[0], fps);
+    pid_t pid = start(video, ends[0], fps);
     int error = errno;
-    unfinished_process(video->unfinished, video->pid);
+    video->pid = pid < 0 ? 0 : pid;
     close(ends[0]);
-    if (video->pid < 0) {
+    if (pid < 0) {
         set_trouble(video, "cannot start ffmpeg, which writes '%s': %s%s", file, strerror(error),
                     error == ENOENT ? " (Debian: apt install ffmpeg)" : "");
         forget(video);
@@ -175,7 +190,7 @@ bool video_open(Video *video, const char *file, int width, int height, double fp
 
 // The last line that ffmpeg wrote.
 static void report_failure(Video *video, int status) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_add(&text, "", 0);
     if (lseek(video->errors, 0, SEEK_SET) == 0) {
         bytes_read(&text, video->errors);
@@ -192,14 +207,6 @@ static void report_failure(Video *video, int status) {
         set_trouble(video, "'%s' is not written: ffmpeg failed with status %d%s%.300s", video->file,
                     WEXITSTATUS(status), line[0] == '\0' ? "" : ": ", line);
     }
-    bytes_free(&text);
-}
-
-static int wait_for(pid_t pid) {
-    int status = 0;
-    while (waitpid(pid, &status, 0) < 0 && errno == EINTR) {
-    }
-    return status;
 }
 
 // Ends ffmpeg's input and waits for its end. False, after a message and without the film, if it has failed.
@@ -207,58 +214,43 @@ static bool finish(Video *video) {
     close(video->frames);
     video->frames = -1;
     int status = wait_for(video->pid);
-    unfinished_process(video->unfinished, 0);
+    video->pid = 0;
     if (WIFEXITED(status) && WEXITSTATUS(status) == 0) {
         return true;
     }
     report_failure(video, status);
-    unlink(video->beside);
     forget(video);
     return false;
 }
 
 bool video_add(Video *video, const uint32_t *pixels) {
-    const char *bytes = (const char *)pixels;
-    size_t left = (size_t)video->width * (size_t)video->height * sizeof *pixels;
-    while (left > 0) {
-        ssize_t put = write(video->frames, bytes, left);
-        if (put < 0 && errno == EINTR) {
-            continue;
-        }
-        if (put < 0) {
-            // It takes no more: whatever it says, the film lacks frames.
-            if (finish(video)) {
-                set_trouble(video, "'%s' is not written: ffmpeg ended before its time", video->file);
-                unlink(video->beside);
-                forget(video);
-            }
-            return false;
-        }
-        bytes += put;
-        left -= (size_t)put;
+    size_t length = (size_t)video->width * (size_t)video->height * sizeof *pixels;
+    if (file_write(video->frames, (const char *)pixels, length)) {
+        return true;
     }
-    return true;
+    // It takes no more: whatever it says, the film lacks frames.
+    if (finish(video)) {
+        set_trouble(video, "'%s' is not written: ffmpeg ended before its time", video->file);
+        forget(video);
+    }
+    return false;
 }
 
 bool video_close(Video *video) {
-    if (video->beside == NULL || !finish(video)) {
+    if (!video->open || !finish(video)) {
         return false;
     }
-    bool done = rename(video->beside, video->target) == 0;
+    bool done = replace_commit(&video->film);
     if (!done) {
         set_trouble(video, "cannot write '%s': %s", video->file, strerror(errno));
-        unlink(video->beside);
     }
     forget(video);
     return done;
 }
 
 void video_abandon(Video *video) {
-    if (video->beside == NULL) {
-        return;
+    if (video->open) {
+        abandon_now(video);
+        forget(video);
     }
-    kill(video->pid, SIGKILL);
-    wait_for(video->pid);
-    unlink(video->beside);
-    forget(video);
 }

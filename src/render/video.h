@@ -1,7 +1,7 @@
 // video.h: films, made by an ffmpeg process that gets frames through a pipe.
 //
-// The film grows in a file beside the one that is wanted and takes its name when it is complete; nothing is left behind
-// otherwise. What fails says why in `trouble`, since this is for a thread that does not write messages.
+// The film takes its name when it is complete (base/replace.h); nothing is left behind otherwise. What fails says why
+// in `trouble`, since this is for a thread that does not write messages.
 #ifndef PETRI_SRC_VIDEO_H
 #define PETRI_SRC_VIDEO_H
 
@@ -9,13 +9,15 @@
 #include <stdint.h>
 #include <sys/types.h>
 
+#include "base/replace.h"
+
 typedef struct Video {
     const char *file;
-    char *target; // the file without symbolic links; owned
-    char *beside; // the film while it grows; owned; NULL: not open
+    bool open;
+    Replacement film;
     int width;
     int height;
-    pid_t pid;
+    _Atomic pid_t pid; // 0: none
     int frames;        // pipe to ffmpeg
     int errors;        // file without a name that holds its messages
     int unfinished;    // its number there (unfinished.h)

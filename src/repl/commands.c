@@ -1,6 +1,5 @@
 // commands.c: the commands of the prompt: finding them, telling of them, and those about commands themselves.
 #include <math.h>
-#include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -36,7 +35,7 @@ const ReplCommand *repl_find_command(const char *name, size_t length) {
 }
 
 static void list_commands(Repl *repl) {
-    Table table = table_new(2);
+    SCOPED_TABLE table = table_new(2);
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
         char head[64];
@@ -46,7 +45,6 @@ static void list_commands(Repl *repl) {
         table_add(&table, command->help);
     }
     table_write(&table, &repl->output);
-    table_free(&table);
     output_format(
         &repl->output,
         "Numbers may be expressions: .resolution 1/240. Anything else is of the language. The value of an expression\n"
@@ -57,7 +55,7 @@ static void list_commands(Repl *repl) {
 }
 
 static void list_builtins(Repl *repl) {
-    Table table = table_new(2);
+    SCOPED_TABLE table = table_new(2);
     PetriBuiltin builtin;
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         char head[128];
@@ -66,11 +64,10 @@ static void list_builtins(Repl *repl) {
         table_add(&table, builtin.help);
     }
     table_write(&table, &repl->output);
-    table_free(&table);
 }
 
 static void list_nodes(Repl *repl) {
-    Table table = table_new(3);
+    SCOPED_TABLE table = table_new(3);
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         char head[80];
@@ -80,20 +77,20 @@ static void list_nodes(Repl *repl) {
         table_add(&table, kind.help);
     }
     table_write(&table, &repl->output);
-    table_free(&table);
 }
 
 static bool tell_nearest(Repl *repl, const char *topic) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = topic};
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        nearest = is_nearer(topic, command->name + (topic[0] != '.'), &best) ? command->name : nearest;
+        if (nearest_offer(&nearest, command->name + (topic[0] != '.'))) {
+            nearest.name = command->name;
+        }
     }
-    const char *word = topics_nearest(topic, &best);
-    nearest = word != NULL ? word : nearest;
-    return nearest == NULL ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
-                           : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest);
+    topics_offer(&nearest);
+    return nearest.name == NULL
+               ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
+               : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest.name);
 }
 
 static bool run_help(Repl *repl, const char *topic) {
@@ -155,9 +152,6 @@ static bool time_expression(Repl *repl, const char *expression) {
 }
 
 static bool run_time(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".time needs an expression, or a command");
-    }
     if (rest[0] != '.' || (rest[1] >= '0' && rest[1] <= '9') || rest[1] == '.') {
         return time_expression(repl, rest);
     }
@@ -175,22 +169,22 @@ static bool run_quit(Repl *repl, const char *rest) {
 }
 
 const ReplCommand OTHER_COMMANDS[] = {
-    {".time", "EXPR", "tell how long an expression takes, or a command such as .step", run_time, COMPLETE_LANGUAGE},
-    {".help", "[TOPIC]", "tell of a command, a function, a node, a word; builtins, nodes list them", run_help,
+    {".time", "EXPR", "an expression, or a command", "tell how long an expression takes, or a command such as .step",
+     run_time, COMPLETE_LANGUAGE},
+    {".help", "[TOPIC]", NULL, "tell of a command, a function, a node, a word; builtins, nodes list them", run_help,
      COMPLETE_TOPICS},
-    {".quit", "", "leave", run_quit, COMPLETE_LANGUAGE},
+    {".quit", "", NULL, "leave", run_quit, COMPLETE_LANGUAGE},
     {0},
 };
 
 static void unknown(Repl *repl, const char *name) {
-    const char *nearest = NULL;
-    size_t best = SIZE_MAX;
+    Nearest nearest = {.word = name};
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
-        nearest = is_nearer(name, command->name, &best) ? command->name : nearest;
+        nearest_offer(&nearest, command->name);
     }
-    if (nearest != NULL) {
-        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest);
+    if (nearest.name != NULL) {
+        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest.name);
     } else {
         repl_fail(repl, "there is no command '%.40s'; .help lists the commands", name);
     }
@@ -198,8 +192,8 @@ static void unknown(Repl *repl, const char *name) {
 
 void repl_command(Repl *repl, const char *line) {
     size_t length = strcspn(line, " \t\n");
-    char *name = memory_copied(line, length);
-    char *rest = word_trimmed(line + length);
+    SCOPED_TEXT name = memory_copied(line, length);
+    SCOPED_TEXT rest = word_trimmed(line + length);
     const char *alias = bare_alias(name + 1, length - 1); // .exit, .q
     const ReplCommand *command =
         alias != NULL ? repl_find_command(alias, strlen(alias)) : repl_find_command(name, length);
@@ -207,9 +201,9 @@ void repl_command(Repl *repl, const char *line) {
         unknown(repl, name);
     } else if (command->operands[0] == '\0' && rest[0] != '\0') {
         repl_fail(repl, "%s takes nothing, not '%.40s'", name, rest);
+    } else if (command->needed != NULL && rest[0] == '\0') {
+        repl_fail(repl, "%s needs %s", command->name, command->needed);
     } else if (!command->run(repl, rest)) {
         repl->failed = true;
     }
-    free(name);
-    free(rest);
 }

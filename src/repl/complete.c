@@ -2,7 +2,7 @@
 #include "repl/repl.h"
 
 #include <ctype.h>
-#include <dirent.h>
+#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -14,7 +14,6 @@ typedef struct Search {
     const char *typed;
     size_t length;
     Completion *found;
-    Bytes line; // of the state, while it comes in pieces
 } Search;
 
 static void offer(Search *search, const char *word) {
@@ -25,10 +24,9 @@ static void offer(Search *search, const char *word) {
 }
 
 static void offer_with(Search *search, const char *before, const char *word, const char *after) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_format(&text, "%s%s%s", before, word, after);
     offer(search, text.data);
-    bytes_free(&text);
 }
 
 static bool is_word(char c) {
@@ -76,26 +74,18 @@ static void offer_attributes(Search *search, const char *kind, size_t length) {
 }
 
 // The state's keys are what its lines have before ` = `.
-static bool take_state(void *host, const char *text, size_t length) {
-    Search *search = host;
-    for (size_t i = 0; i < length; i++) {
-        if (text[i] != '\n') {
-            bytes_add(&search->line, text + i, 1);
-            continue;
-        }
-        char *end = search->line.length > 0 && search->line.data[0] == '$' ? strstr(search->line.data, " = ") : NULL;
-        if (end != NULL) {
-            *end = '\0';
-            offer(search, search->line.data);
-        }
-        search->line.length = 0;
-    }
-    return true;
-}
-
 static void offer_keys(Search *search) {
-    petri_print(search->repl->session, PETRI_PRINT_STATE, take_state, search);
-    bytes_free(&search->line);
+    SCOPED_BYTES state = {0};
+    Str line;
+    size_t at = 0;
+    petri_print(search->repl->session, PETRI_PRINT_STATE, bytes_collect, &state);
+    while (bytes_line(&state, &at, &line)) {
+        const char *end = line.bytes[0] == '$' ? strstr(line.bytes, " = ") : NULL;
+        if (end != NULL) {
+            SCOPED_TEXT key = memory_copied(line.bytes, (size_t)(end - line.bytes));
+            offer(search, key);
+        }
+    }
 }
 
 static void offer_systems(Search *search) {
@@ -106,23 +96,14 @@ static void offer_systems(Search *search) {
 }
 
 static void offer_files(Search *search) {
-    size_t folder = search->length;
-    while (folder > 0 && search->typed[folder - 1] != '/') {
-        folder--;
+    SCOPED_BYTES pattern = {0};
+    glob_t found = {0};
+    bytes_format(&pattern, "%s*", search->typed);
+    glob(pattern.data, 0, NULL, &found);
+    for (size_t i = 0; i < found.gl_pathc; i++) {
+        offer(search, found.gl_pathv[i]);
     }
-    char *path = folder == 0 ? memory_copied(".", 1) : memory_copied(search->typed, folder);
-    char *before = memory_copied(search->typed, folder);
-    DIR *stream = opendir(path);
-    for (const struct dirent *entry; stream != NULL && (entry = readdir(stream)) != NULL;) {
-        if (entry->d_name[0] != '.') {
-            offer_with(search, before, entry->d_name, "");
-        }
-    }
-    if (stream != NULL) {
-        closedir(stream);
-    }
-    free(path);
-    free(before);
+    globfree(&found);
 }
 
 // The kind of the node whose attributes may be named at `at`; NULL if a value or something else is expected there.
@@ -267,7 +248,7 @@ static void find_common(Completion *completion, size_t typed) {
 }
 
 void complete_line(Repl *repl, const char *line, size_t length, Completion *completion) {
-    char *text = memory_copied(line, length);
+    SCOPED_TEXT text = memory_copied(line, length);
     Search search = {.repl = repl, .found = completion};
     *completion = (Completion){0};
     size_t name = strcspn(text, " \t");
@@ -283,7 +264,6 @@ void complete_line(Repl *repl, const char *line, size_t length, Completion *comp
         tidy(completion);
         find_common(completion, search.length);
     }
-    free(text);
 }
 
 void complete_free(Completion *completion) {

@@ -123,13 +123,12 @@ static unsigned char enter(EditLine *line, wint_t character) {
     (void)character;
     Editor *editor = editor_of(line);
     const LineInfo *info = el_line(line);
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     size_t taken = 0;
     bytes_add(&text, info->buffer, (size_t)(info->lastchar - info->buffer));
-    bytes_add(&text, "\n", 1);
+    bytes_add_text(&text, "\n");
     bool more = line_wants_more(editor->repl, text.data, text.length, &taken);
     el_cursor(line, (int)text.length); // it stops at the end
-    bytes_free(&text);
     if (!more) {
         return push(line, KEY_ACCEPT);
     }
@@ -232,20 +231,22 @@ static unsigned char complete(EditLine *line, wint_t character) {
     return result;
 }
 
+static void replace(char *text, char old, char new) {
+    while ((text = strchr(text, old)) != NULL) {
+        *text = new;
+    }
+}
+
 static void load_history(Editor *editor) {
     HistEvent event;
-    Bytes lines = {0};
+    SCOPED_BYTES lines = {0};
     saved_read(&lines);
-    for (size_t at = 0; at < lines.length;) {
-        char *end = memchr(lines.data + at, '\n', lines.length - at);
-        *end = '\0';
-        for (char *mark = strchr(lines.data + at, SAVED_LINE_END); mark != NULL; mark = strchr(mark, SAVED_LINE_END)) {
-            *mark = '\n';
-        }
-        history(editor->history, &event, H_ENTER, lines.data + at);
-        at = (size_t)(end - lines.data) + 1;
+    Str line;
+    for (size_t at = 0; bytes_line(&lines, &at, &line);) {
+        SCOPED_TEXT block = memory_copied(line.bytes, line.len);
+        replace(block, SAVED_LINE_END, '\n');
+        history(editor->history, &event, H_ENTER, block);
     }
-    bytes_free(&lines);
 }
 
 // libedit copies narrow names and never frees the copies.
@@ -336,20 +337,16 @@ static void remember(Editor *editor, const Bytes *lines) {
     if (length == 0 || length > LONGEST) {
         return;
     }
-    char *block = memory_copied(lines->data, length);
+    SCOPED_TEXT block = memory_copied(lines->data, length);
     history(editor->history, &event, H_ENTER, block);
-    for (char *end = strchr(block, '\n'); end != NULL; end = strchr(end, '\n')) {
-        *end = SAVED_LINE_END;
-    }
-    Bytes whole = {0};
+    replace(block, '\n', SAVED_LINE_END);
+    SCOPED_BYTES whole = {0};
     bytes_format(&whole, "%s\n", block);
     saved_add(&whole); // at once: a terminal that is closed ends petri without a word
-    bytes_free(&whole);
-    free(block);
 }
 
 LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
-    bool coloured = editor->repl->colour;
+    bool coloured = editor->repl->options->colour;
     snprintf(editor->prompt, sizeof editor->prompt, coloured ? "\1\033[1;32m\1%s\1\033[0m\1" : "%s", prompt);
     int count = 0;
     editor->back = 0;
@@ -366,7 +363,7 @@ LineStatus editor_read(Editor *editor, const char *prompt, Bytes *lines) {
     }
     bytes_add(lines, text, (size_t)count);
     if (lines->data[lines->length - 1] != '\n') {
-        bytes_add(lines, "\n", 1);
+        bytes_add_text(lines, "\n");
     }
     remember(editor, lines);
     return LINE_READ;

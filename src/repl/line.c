@@ -166,7 +166,7 @@ bool line_wants_more(Repl *repl, const char *text, size_t length, size_t *taken)
 static bool file_path(Bytes *path) {
     const char *folder = getenv("XDG_STATE_HOME"), *home = getenv("HOME");
     if (folder != NULL && folder[0] == '/') { // relative ones do not count, says XDG
-        bytes_format(path, "%s", folder);
+        bytes_add_text(path, folder);
     } else if (home != NULL && home[0] != '\0') {
         bytes_format(path, "%s/.local/state", home);
     } else {
@@ -177,14 +177,13 @@ static bool file_path(Bytes *path) {
 }
 
 void saved_read(Bytes *lines) {
-    Bytes path = {0};
+    SCOPED_BYTES path = {0};
     if (file_path(&path)) {
         bytes_read_file(lines, path.data);
     }
     if (lines->length > 0 && lines->data[lines->length - 1] != '\n') {
-        bytes_add(lines, "\n", 1);
+        bytes_add_text(lines, "\n");
     }
-    bytes_free(&path);
 }
 
 // Makes the folders that a file lies in; only its owner may look into new ones.
@@ -210,7 +209,7 @@ static size_t start_of_last(const Bytes *lines, size_t most) {
 }
 
 void saved_add(const Bytes *lines) {
-    Bytes path = {0}, all = {0};
+    SCOPED_BYTES path = {0}, all = {0};
     if (lines->length > 0 && file_path(&path)) {
         saved_read(&all); // again: another session may have added to it
         bytes_add(&all, lines->data, lines->length);
@@ -219,6 +218,4 @@ void saved_add(const Bytes *lines) {
         make_folders(path.data);
         bytes_replace_file(&kept, path.data);
     }
-    bytes_free(&all);
-    bytes_free(&path);
 }

@@ -150,7 +150,7 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
     if (now < first) {
         return repl_fail(repl, "there are no frames to plot; .step makes some");
     }
-    Bytes why = {0};
+    SCOPED_BYTES why = {0};
     double *values = memory_zeroed((size_t)(now - first + 1) * sizeof *values);
     repl_busy(repl);
     PetriStatus status = gather(repl, expression, first, now - first + 1, values, &why);
@@ -162,23 +162,19 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
         repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "there is nothing to plot");
     }
     free(values);
-    bytes_free(&why);
     return status == PETRI_OK && !repl->failed;
 }
 
 static bool run_plot(Repl *repl, const char *rest) {
-    char *expression = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT expression = memory_text(rest);
     int64_t count = DEFAULT_FRAMES;
     word_last_count(expression, &count);
-    bool good = expression[0] != '\0' || repl_fail(repl, ".plot needs an expression");
-    if (good && count > MOST_FRAMES) {
-        good = repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
+    if (count > MOST_FRAMES) {
+        return repl_fail(repl, "at most %d frames are plotted", MOST_FRAMES);
     }
     PetriResult result; // of the present frame: whether it is an expression at all
-    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
-    good = good && plot_frames(repl, expression, count);
-    free(expression);
-    return good;
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL)) &&
+           plot_frames(repl, expression, count);
 }
 
 enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30 };
@@ -205,7 +201,7 @@ static PetriStatus draw_picture(Repl *repl, PetriPicture *picture, uint32_t *pix
 
 static PetriStatus show_picture(Repl *repl, PetriPicture *picture) {
     int columns = 0, rows = 0, width = 0, height = 0;
-    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->colour);
+    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
     if (way == NULL) {
         return PETRI_MEMORY;
     }
@@ -250,7 +246,7 @@ static bool run_show(Repl *repl, const char *rest) {
 }
 
 const ReplCommand PLOT_COMMANDS[] = {
-    {".plot", "EXPR [N]", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
-    {".show", "", "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
+    {".plot", "EXPR [N]", "an expression", "plot a number over the last N frames (60)", run_plot, COMPLETE_LANGUAGE},
+    {".show", "", NULL, "show the frame's picture in the terminal", run_show, COMPLETE_LANGUAGE},
     {0},
 };

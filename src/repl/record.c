@@ -22,9 +22,8 @@ static bool same_folder(const char *a, const char *b) {
     char resolved[2][PATH_MAX];
     const char *const paths[] = {a, b};
     for (int i = 0; i < 2; i++) {
-        char *folder = memory_copied(paths[i], folder_length(paths[i]));
+        SCOPED_TEXT folder = memory_copied(paths[i], folder_length(paths[i]));
         bool good = realpath(folder[0] == '\0' ? "." : folder, resolved[i]) != NULL;
-        free(folder);
         if (!good) {
             return false;
         }
@@ -73,19 +72,18 @@ static bool write_script(Repl *repl, const char *path) {
     if (access(path, F_OK) == 0) {
         return repl_fail(repl, "'%s' is there already, and is another script", path);
     }
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_add(&text, repl->script_text.length == 0 ? "" : repl->script_text.data,
               repl->loaded ? repl->script_text.length : 0);
     if (text.length > 0 && text.data[text.length - 1] != '\n') {
-        bytes_add(&text, "\n", 1);
+        bytes_add_text(&text, "\n");
     }
     for (size_t i = 0; (kept = petri_prompt_statement(repl->session, i)) != NULL; i++) {
-        bytes_add(&text, kept, strlen(kept));
-        bytes_add(&text, "\n", 1);
+        bytes_add_text(&text, kept);
+        bytes_add_text(&text, "\n");
     }
     const char *problem = bytes_replace_file(&text, path);
     bool done = problem == NULL || repl_fail(repl, "cannot write '%s': %s", path, problem);
-    bytes_free(&text);
     return done;
 }
 
@@ -96,14 +94,15 @@ static bool add_options(Repl *repl, Bytes *text, int64_t frames, int64_t every) 
         bytes_format(text, " --every %" PRId64, every);
     }
     bytes_format(text, " --print state,log");
-    if (repl->record_fps) {
-        bytes_format(text, " --fps %.17g", repl->fps);
+    if (repl->options->fps_given) {
+        bytes_format(text, " --fps %.17g", repl->options->fps);
     }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        if (strpbrk(repl->definitions[i], " \t\n") != NULL) {
-            return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks", repl->definitions[i]);
+    for (size_t i = 0; i < repl->definitions.count; i++) {
+        if (strpbrk(repl->definitions.items[i], " \t\n") != NULL) {
+            return repl_fail(repl, "a golden cannot hold the definition '%s': it has blanks",
+                             repl->definitions.items[i]);
         }
-        bytes_format(text, " -D %s", repl->definitions[i]);
+        bytes_format(text, " -D %s", repl->definitions.items[i]);
     }
     bytes_format(text, "\n");
     return true;
@@ -115,7 +114,7 @@ static PetriStatus gather(Repl *repl, Bytes *text, int64_t last, int64_t every, 
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
         status = history_goto(&repl->history, repl->session, i, why);
         if (status == PETRI_OK && i % every == 0) {
-            petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, repl_collect, text);
+            petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, bytes_collect, text);
         }
     }
     return status;
@@ -123,7 +122,7 @@ static PetriStatus gather(Repl *repl, Bytes *text, int64_t last, int64_t every, 
 
 static bool record(Repl *repl, const char *golden, const char *script, int64_t every) {
     int64_t last = petri_frame(repl->session).number;
-    Bytes text = {0}, why = {0};
+    SCOPED_BYTES text = {0}, why = {0};
     bool good = may_record(repl, script) && add_options(repl, &text, last + 1, every) && write_script(repl, script);
     if (good) {
         repl_busy(repl);
@@ -141,13 +140,11 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
     if (good) {
         repl_say(repl, "frames 0 to %" PRId64 " are in %s", last, golden);
     }
-    bytes_free(&text);
-    bytes_free(&why);
     return good;
 }
 
 static bool run_record(Repl *repl, const char *rest) {
-    char *name = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT name = memory_text(rest);
     int64_t every = 1;
     word_last_count(name, &every);
     size_t length = strlen(name);
@@ -159,18 +156,14 @@ static bool run_record(Repl *repl, const char *rest) {
             break;
         }
     }
-    Bytes golden = {0}, script = {0};
+    SCOPED_BYTES golden = {0}, script = {0};
     bytes_format(&golden, "%.*s.golden", (int)length, name);
     bytes_format(&script, "%.*s.fl", (int)length, name);
-    bool good = length > 0 ? record(repl, golden.data, script.data, every) : repl_fail(repl, ".record needs a file");
-    bytes_free(&golden);
-    bytes_free(&script);
-    free(name);
-    return good;
+    return record(repl, golden.data, script.data, every);
 }
 
 const ReplCommand RECORD_COMMANDS[] = {
-    {".record", "FILE [K]", "write each K-th frame from the first on as a golden for petri test", run_record,
+    {".record", "FILE [K]", "a file", "write each K-th frame from the first on as a golden for petri test", run_record,
      COMPLETE_FILES},
     {0},
 };

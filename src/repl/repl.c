@@ -58,15 +58,14 @@ bool repl_interrupted(void) {
 }
 
 void repl_say(Repl *repl, const char *format, ...) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     char line[1024];
     va_list list;
     va_start(list, format);
     vsnprintf(line, sizeof line, format, list);
     va_end(list);
-    bytes_format(&text, repl->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
+    bytes_format(&text, repl->options->colour ? "\033[2m-- %s\033[0m\n" : "-- %s\n", line);
     output_write(&repl->output, text.data, text.length);
-    bytes_free(&text);
 }
 
 bool repl_fail(Repl *repl, const char *format, ...) {
@@ -92,11 +91,6 @@ bool repl_status(Repl *repl, PetriStatus status) {
     return status == PETRI_OK;
 }
 
-bool repl_collect(void *bytes, const char *text, size_t length) {
-    bytes_add(bytes, text, length);
-    return true;
-}
-
 bool repl_write(void *host, const char *text, size_t length) {
     Repl *repl = host;
     return output_write(&repl->output, text, length);
@@ -118,9 +112,8 @@ static void take_language(Repl *repl, const char *text, size_t length) {
     PetriStatus status = petri_prompt(repl->session, text, length, repl_write, repl, &done);
     repl_idle(repl);
     if (done.hidden != NULL) {
-        char *name = memory_copied(done.hidden, strlen(done.hidden));
+        SCOPED_TEXT name = memory_text(done.hidden);
         repl_tell_hidden(repl, name);
-        free(name);
     }
     if (done.nodes > 0) {
         repl_say(repl, "in the scene from the next step on; .drop takes it out");
@@ -130,7 +123,7 @@ static void take_language(Repl *repl, const char *text, size_t length) {
 
 // What begins with a dot and is no number, or what people type without one.
 static void take_text(Repl *repl, const char *text, size_t length) {
-    Bytes remark = {0};
+    SCOPED_BYTES remark = {0};
     size_t start = strspn(text, " \t");
     if (text[start] == '.' && (text[start + 1] < '0' || text[start + 1] > '9') && text[start + 1] != '.') {
         repl_command(repl, text + start);
@@ -140,7 +133,6 @@ static void take_text(Repl *repl, const char *text, size_t length) {
     if (remark.length > 0 && (repl->failed || bare_alias(text + start, strcspn(text + start, " \t\n")) != NULL)) {
         repl_say(repl, "%s", remark.data);
     }
-    bytes_free(&remark);
 }
 
 void repl_take(Repl *repl, const char *text, size_t length) {
@@ -162,14 +154,13 @@ static void make_prompt(const Repl *repl, char *prompt, size_t size) {
 static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
     size_t taken = 0;
     while (line_wants_more(repl, text->data, text->length, &taken)) {
-        Bytes line = {0};
+        SCOPED_BYTES line = {0};
         LineStatus status = line_read(reader, "... ", &line);
         bytes_add(text, line.data, line.length);
-        bytes_free(&line);
         if (status != LINE_READ) {
             return status;
         }
-        bytes_add(text, "\n", 1);
+        bytes_add_text(text, "\n");
     }
     if (!line_is_blank(text->data + taken)) {
         bytes_add(next, text->data + taken, text->length - taken - 1);
@@ -180,7 +171,7 @@ static LineStatus read_rest(Repl *repl, LineReader *reader, Bytes *text, Bytes *
 
 // One input: its first line is in `text`.
 static LineStatus handle(Repl *repl, LineReader *reader, Bytes *text, Bytes *next) {
-    bytes_add(text, "\n", 1);
+    bytes_add_text(text, "\n");
     LineStatus status = read_rest(repl, reader, text, next);
     if (status != LINE_INTERRUPTED) { // what the end of the input cuts off is tried as it is
         repl_take(repl, text->data, text->length);
@@ -264,46 +255,24 @@ static int run_session(Repl *repl, const char *state) {
     return repl->any_failed && !repl->terminal ? STATUS_FAILED : STATUS_DONE;
 }
 
-void repl_keep_definition(Repl *repl, const char *definition) {
-    repl->definitions = memory_resized(repl->definitions, (repl->definition_count + 1) * sizeof *repl->definitions);
-    repl->definitions[repl->definition_count++] = memory_copied(definition, strlen(definition));
-}
-
-static int repl_run(const Host *host, int argc, char **argv) {
-    Repl *repl = memory_zeroed(sizeof *repl);
-    Options options;
-    output_start(&repl->output, STDOUT_FILENO);
-    int status = options_read(&options, &REPL_COMMAND, argc, argv);
+static int repl_run(const Host *host, Options *options) {
+    Repl repl = {.options = options, .output.fd = STDOUT_FILENO};
+    repl.script = options->script == NULL ? NULL : memory_text(options->script);
+    for (size_t i = 0; i < options->definitions.count; i++) {
+        texts_add(&repl.definitions, options->definitions.items[i]);
+    }
+    options->prompt = true;
+    int status = options_open(options, host, on_diagnostic, &repl, &repl.session);
     if (status == OPTIONS_READ) {
-        repl->limit = options.limit;
-        repl->colour = options.colour;
-        repl->record_fps = options.fps_given;
-        repl->fps = options.fps;
-        repl->script = options.script == NULL ? NULL : memory_copied(options.script, strlen(options.script));
-        for (size_t i = 0; i < options.definition_count; i++) {
-            repl_keep_definition(repl, options.definitions[i]);
-        }
-        options.prompt = true;
-        status = options_open(&options, host, on_diagnostic, repl, &repl->session);
+        status = output_finish(&repl.output, run_session(&repl, options->state_file));
     }
-    if (status == OPTIONS_READ) {
-        status = output_finish(&repl->output, run_session(repl, options.state_file));
-    }
-    options_free(&options);
-    history_free(&repl->history);
-    petri_close(&repl->session);
-    watch_free(repl->files);
-    for (size_t i = 0; i < repl->watched_count; i++) {
-        free(repl->watched[i]);
-    }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        free(repl->definitions[i]);
-    }
-    free(repl->watched);
-    free(repl->definitions);
-    free(repl->script);
-    bytes_free(&repl->script_text);
-    free(repl);
+    history_free(&repl.history);
+    petri_close(&repl.session);
+    watch_free(repl.files);
+    texts_free(&repl.watched);
+    texts_free(&repl.definitions);
+    free(repl.script);
+    bytes_free(&repl.script_text);
     return status;
 }
 

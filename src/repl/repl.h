@@ -3,37 +3,32 @@
 #define PETRI_SRC_REPL_H
 
 #include "cli/bytes.h"
-#include "cli/cli.h"
+#include "cli/options.h"
 #include "cli/output.h"
 #include "cli/watch.h"
 #include "petri.h"
 #include "repl/history.h"
 
 typedef struct Repl {
+    Options *options;
     PetriSession *session;
     ReplHistory history;
     Output output;
-    Watch *files;      // NULL: changes are not noticed
-    char *script;      // NULL: none was named
-    bool loaded;       // the script named is the one that is running
-    Bytes script_text; // as it was loaded
-    bool changed;      // the script's files have changed since: it is reloaded before the next step
-    char **watched;    // expressions that are printed after each step
-    size_t watched_count;
-    int64_t limit; // frames that .run and .until make at the most
-    bool terminal; // a person types and reads
-    bool colour;
+    Watch *files;          // NULL: changes are not noticed
+    char *script;          // NULL: none was named
+    bool loaded;           // the script named is the one that is running
+    Bytes script_text;     // as it was loaded
+    bool changed;          // the script's files have changed since: it is reloaded before the next step
+    TextList watched;      // expressions that are printed after each step
+    bool terminal;         // a person types and reads
     bool utf8;             // other characters than ASCII can be shown
     bool failed;           // the input at hand was in error
     bool any_failed;       // some input was
     bool wrong_definition; // the script cannot take a value that was set
     bool quit;
-    bool incomplete;    // a step was interrupted: of the frame at hand only the state is there
-    bool rates_changed; // .tempo or .fps was used since the script was loaded
-    bool record_fps;    // --fps was given: goldens must say so
-    double fps;
-    char **definitions; // of -D and .set, as given
-    size_t definition_count;
+    bool incomplete;      // a step was interrupted: of the frame at hand only the state is there
+    bool rates_changed;   // .tempo or .fps was used since the script was loaded
+    TextList definitions; // of -D and .set, as given
 } Repl;
 
 // Writes a remark, `-- text`, in a line of its own.
@@ -44,12 +39,8 @@ __attribute__((format(printf, 2, 3))) bool repl_fail(Repl *repl, const char *for
 bool repl_status(Repl *repl, PetriStatus status);
 // Takes one line or suite, which is not blank: a command or something of the language.
 void repl_take(Repl *repl, const char *text, size_t length);
-// A PetriWrite to Bytes, and one to the output; `host` is the Bytes or the Repl.
-bool repl_collect(void *bytes, const char *text, size_t length);
+// A PetriWrite to the output.
 bool repl_write(void *repl, const char *text, size_t length);
-
-// Keeps a definition for recordings.
-void repl_keep_definition(Repl *repl, const char *definition);
 
 // While `busy`, Ctrl-C interrupts the session. Tells whether it was typed since, when that ends.
 void repl_busy(Repl *repl);
@@ -78,6 +69,7 @@ typedef enum Completes {
 typedef struct ReplCommand {
     const char *name;     // with its dot
     const char *operands; // "": it takes none
+    const char *needed;   // what is missing where there is none; NULL: nothing
     const char *help;
     bool (*run)(Repl *repl, const char *rest); // false if it failed, after a message
     Completes complete;                        // how its operand goes on

@@ -11,67 +11,55 @@
 
 enum { MOST_CELLS = 4000000, MOST_NAMES = 6 };
 
-typedef struct Line {
-    const char *text;
-    size_t length;
-} Line;
-
 typedef struct Lines {
-    Line *items;
+    Str *items;
     size_t count;
 } Lines;
 
 static Lines split(const Bytes *text) {
     Lines lines = {0};
-    size_t capacity = 0;
-    for (size_t at = 0; at < text->length;) {
-        const char *start = text->data + at;
-        const char *end = memchr(start, '\n', text->length - at);
-        size_t length = end == NULL ? text->length - at : (size_t)(end - start);
+    Str line;
+    size_t at = 0, capacity = 0;
+    while (bytes_line(text, &at, &line)) {
         if (lines.count == capacity) {
             capacity = capacity == 0 ? 64 : capacity * 2;
             lines.items = memory_resized(lines.items, capacity * sizeof *lines.items);
         }
-        lines.items[lines.count++] = (Line){start, length};
-        at += length + 1;
+        lines.items[lines.count++] = line;
     }
     return lines;
 }
 
-static bool same(const Line *a, const Line *b) {
-    return a->length == b->length && memcmp(a->text, b->text, a->length) == 0;
-}
-
 // The name that a line binds, if it looks like one that does.
-static Line bound_name(const Line *line) {
+static Str bound_name(Str line) {
     static const char *const words[] = {"let ", "func "};
     size_t at = 0;
-    while (at < line->length && (line->text[at] == ' ' || line->text[at] == '\t')) {
+    while (at < line.len && (line.bytes[at] == ' ' || line.bytes[at] == '\t')) {
         at++;
     }
     for (size_t i = 0; i < 2; i++) {
         size_t length = strlen(words[i]);
-        at += line->length - at > length && memcmp(line->text + at, words[i], length) == 0 ? length : 0;
+        at += line.len - at > length && memcmp(line.bytes + at, words[i], length) == 0 ? length : 0;
     }
     size_t end = at;
-    while (end < line->length && (line->text[end] == '_' || (unsigned char)line->text[end] >= 0x80 ||
-                                  strchr("=(;!@#$:%&|<>*/+-.,)[]{}'\" \t", line->text[end]) == NULL)) {
+    while (end < line.len && (line.bytes[end] == '_' || (unsigned char)line.bytes[end] >= 0x80 ||
+                              strchr("=(;!@#$:%&|<>*/+-.,)[]{}'\" \t", line.bytes[end]) == NULL)) {
         end++;
     }
-    bool binds = end > at && end < line->length && strchr("=(;", line->text[end]) != NULL;
-    return (Line){line->text + at, binds ? end - at : 0};
+    bool binds = end > at && end < line.len && strchr("=(;", line.bytes[end]) != NULL;
+    return (Str){line.bytes + at, binds ? end - at : 0};
 }
 
 typedef struct Names {
-    Line items[MOST_NAMES];
+    Str items[MOST_NAMES];
     size_t count;
 } Names;
 
-static void add_name(Names *names, const Line *line) {
-    Line name = bound_name(line);
-    bool known = name.length == 0 || names->count == MOST_NAMES;
+static void add_name(Names *names, const Str *line) {
+    Str name = bound_name(*line);
+    bool known = name.len == 0 || names->count == MOST_NAMES;
     for (size_t i = 0; i < names->count && !known; i++) {
-        known = same(&names->items[i], &name);
+        known = str_equal(names->items[i], name);
     }
     if (!known) {
         names->items[names->count++] = name;
@@ -79,12 +67,12 @@ static void add_name(Names *names, const Line *line) {
 }
 
 // lengths[i][j]: of the longest common subsequence of the lines from i and from j on.
-static uint32_t *common_lengths(const Line *a, size_t rows, const Line *b, size_t columns) {
+static uint32_t *common_lengths(const Str *a, size_t rows, const Str *b, size_t columns) {
     uint32_t *lengths = memory_zeroed((rows + 1) * (columns + 1) * sizeof *lengths);
     for (size_t i = rows; i-- > 0;) {
         uint32_t *row = lengths + i * (columns + 1), *next = row + columns + 1;
         for (size_t j = columns; j-- > 0;) {
-            row[j] = same(&a[i], &b[j]) ? next[j + 1] + 1 : next[j] > row[j + 1] ? next[j] : row[j + 1];
+            row[j] = str_equal(a[i], b[j]) ? next[j + 1] + 1 : next[j] > row[j + 1] ? next[j] : row[j + 1];
         }
     }
     return lengths;
@@ -95,13 +83,13 @@ typedef struct Counts {
     size_t removed;
 } Counts;
 
-static Counts compare(const Line *a, size_t rows, const Line *b, size_t columns, Names *names) {
+static Counts compare(const Str *a, size_t rows, const Str *b, size_t columns, Names *names) {
     Counts counts = {0};
     bool small = rows == 0 || columns < MOST_CELLS / rows;
     uint32_t *lengths = small ? common_lengths(a, rows, b, columns) : NULL;
     size_t i = 0, j = 0;
     while (i < rows || j < columns) {
-        if (lengths != NULL && i < rows && j < columns && same(&a[i], &b[j])) {
+        if (lengths != NULL && i < rows && j < columns && str_equal(a[i], b[j])) {
             i++;
             j++;
         } else if (j < columns && (i == rows || lengths == NULL ||
@@ -129,10 +117,10 @@ static void add_count(Bytes *what, size_t count, const char *verb) {
 static void describe_changes(const Bytes *before, const Bytes *after, Bytes *what) {
     Lines a = split(before), b = split(after);
     size_t start = 0, rows = a.count, columns = b.count;
-    while (start < rows && start < columns && same(&a.items[start], &b.items[start])) {
+    while (start < rows && start < columns && str_equal(a.items[start], b.items[start])) {
         start++;
     }
-    while (rows > start && columns > start && same(&a.items[rows - 1], &b.items[columns - 1])) {
+    while (rows > start && columns > start && str_equal(a.items[rows - 1], b.items[columns - 1])) {
         rows--;
         columns--;
     }
@@ -144,9 +132,9 @@ static void describe_changes(const Bytes *before, const Bytes *after, Bytes *wha
     add_count(what, counts.added, "added");
     add_count(what, counts.removed, "removed");
     for (size_t i = 0; i < names.count; i++) {
-        bytes_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].length, names.items[i].text);
+        bytes_format(what, "%s%.*s", i == 0 ? " (" : ", ", (int)names.items[i].len, names.items[i].bytes);
     }
-    bytes_format(what, "%s", names.count == 0 ? "" : ")");
+    bytes_add_text(what, names.count == 0 ? "" : ")");
     free(a.items);
     free(b.items);
 }
@@ -187,7 +175,7 @@ bool repl_load(Repl *repl, const char *file) {
     repl->rates_changed = repl->rates_changed && status != PETRI_OK;
     if (status == PETRI_OK && file != repl->script) {
         free(repl->script);
-        repl->script = memory_copied(file, strlen(file));
+        repl->script = memory_text(file);
     }
     return loaded(repl, status);
 }
@@ -225,7 +213,7 @@ bool repl_notice(Repl *repl, bool at_prompt) {
     if (repl->files == NULL || !watch_changed(repl->files)) {
         return false;
     }
-    Bytes now = {0}, what = {0};
+    SCOPED_BYTES now = {0}, what = {0};
     bool changed = repl->script != NULL && bytes_read_file(&now, repl->script);
     if (changed) {
         repl->changed = true;
@@ -239,8 +227,6 @@ bool repl_notice(Repl *repl, bool at_prompt) {
                  what.length == 0 ? "" : what.data);
         output_flush(&repl->output);
     }
-    bytes_free(&now);
-    bytes_free(&what);
     return changed;
 }
 
@@ -254,9 +240,6 @@ static bool run_drop(Repl *repl, const char *rest) {
 }
 
 static bool run_load(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".load needs a file");
-    }
     if (script_is_stdin(rest)) {
         return repl_fail(repl, "the prompt reads what is typed from standard input: the script must be a file");
     }
@@ -268,11 +251,7 @@ static bool run_load(Repl *repl, const char *rest) {
 }
 
 static bool run_save(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".save needs a file");
-    }
     if (petri_save(repl->session, rest) != PETRI_OK) {
-        repl->failed = true;
         return false;
     }
     repl_say(repl, "the state after frame %" PRId64 " is in %s", petri_frame(repl->session).number, rest);
@@ -280,14 +259,10 @@ static bool run_save(Repl *repl, const char *rest) {
 }
 
 static bool run_restore(Repl *repl, const char *rest) {
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".restore needs a file");
-    }
     if (access(rest, R_OK) != 0) {
         return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
     }
     if (petri_restore(repl->session, rest) != PETRI_OK) {
-        repl->failed = true;
         return false;
     }
     repl_say(repl, "the next frame is the one after %" PRId64, petri_frame(repl->session).number);
@@ -296,10 +271,10 @@ static bool run_restore(Repl *repl, const char *rest) {
 }
 
 const ReplCommand SCRIPT_COMMANDS[] = {
-    {".drop", "[all]", "take out what was typed: nodes; with all, names as well", run_drop, COMPLETE_LANGUAGE},
-    {".load", "FILE", "load another script and begin with an empty state", run_load, COMPLETE_FILES},
-    {".reload", "", "load the script anew; state and frame number stay", run_reload, COMPLETE_LANGUAGE},
-    {".save", "FILE", "write the state to a file", run_save, COMPLETE_FILES},
-    {".restore", "FILE", "take the state from a file; the history begins there", run_restore, COMPLETE_FILES},
+    {".drop", "[all]", NULL, "take out what was typed: nodes; with all, names as well", run_drop, COMPLETE_LANGUAGE},
+    {".load", "FILE", "a file", "load another script and begin with an empty state", run_load, COMPLETE_FILES},
+    {".reload", "", NULL, "load the script anew; state and frame number stay", run_reload, COMPLETE_LANGUAGE},
+    {".save", "FILE", "a file", "write the state to a file", run_save, COMPLETE_FILES},
+    {".restore", "FILE", "a file", "take the state from a file; the history begins there", run_restore, COMPLETE_FILES},
     {0},
 };

@@ -19,18 +19,17 @@ static bool is_bound(const Repl *repl, const char *name) {
     for (size_t i = 0; (known = petri_name(repl->session, i)) != NULL; i++) {
         seen += is_of(known, name);
     }
-    for (size_t i = 0; i < repl->definition_count; i++) {
-        defined += is_of(repl->definitions[i], name);
+    for (size_t i = 0; i < repl->definitions.count; i++) {
+        defined += is_of(repl->definitions.items[i], name);
     }
     return seen > defined;
 }
 
 // `-- CELLS = 200  (1..500)  how many`
 static void say_parameter(Repl *repl, const PetriParameter *parameter) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     parameter_describe(&text, parameter);
     repl_say(repl, "%s%s%s", text.data, parameter->comment[0] == '\0' ? "" : "  ", parameter->comment);
-    bytes_free(&text);
 }
 
 // What has become of a name that was set.
@@ -59,7 +58,7 @@ static bool set(Repl *repl, const char *name, const char *definition) {
     }
     petri_config_free(before);
     if (good) {
-        repl_keep_definition(repl, definition);
+        texts_add(&repl->definitions, definition);
         report_set(repl, name, petri_diagnostic_count(repl->session, PETRI_WARNING) > warnings);
     }
     return good;
@@ -88,16 +87,13 @@ static bool run_set(Repl *repl, const char *rest) {
         return run_parameters(repl, rest);
     }
     size_t length = strcspn(rest, " \t=");
-    char *name = memory_copied(rest, length);
+    SCOPED_TEXT name = memory_copied(rest, length);
     const char *value = rest + length + strspn(rest + length, " \t");
     bool given = *value != '\0';
-    char *text = word_trimmed(value + (*value == '='));
-    Bytes definition = {0};
+    SCOPED_TEXT text = word_trimmed(value + (*value == '='));
+    SCOPED_BYTES definition = {0};
     bytes_format(&definition, "%s=%s", name, text);
     bool good = given ? set(repl, name, definition.data) : show_one(repl, name);
-    bytes_free(&definition);
-    free(text);
-    free(name);
     return good;
 }
 
@@ -119,24 +115,26 @@ static bool read_rate(Repl *repl, const char *rest, double *value) {
     return word_number(repl, rest, value) && (*value > 0 || repl_fail(repl, "'%s' is no number above 0", rest));
 }
 
-static bool run_tempo(Repl *repl, const char *rest) {
-    double tempo = 0;
-    if (rest[0] != '\0' && !(read_rate(repl, rest, &tempo) && petri_set_tempo(repl->session, tempo) == PETRI_OK)) {
-        return false;
+// Shows a rate of the clock, after a change if one is asked for.
+static bool show_rate(Repl *repl, const char *rest, const char *name, PetriStatus change(PetriSession *, double)) {
+    double rate = 0;
+    if (rest[0] != '\0') {
+        if (!read_rate(repl, rest, &rate) || change(repl->session, rate) != PETRI_OK) {
+            return false;
+        }
+        repl->rates_changed = true;
     }
-    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
-    show_number(repl, "tempo", petri_frame(repl->session).tempo);
+    PetriFrame frame = petri_frame(repl->session);
+    show_number(repl, name, change == petri_set_tempo ? frame.tempo : frame.fps);
     return true;
 }
 
+static bool run_tempo(Repl *repl, const char *rest) {
+    return show_rate(repl, rest, "tempo", petri_set_tempo);
+}
+
 static bool run_fps(Repl *repl, const char *rest) {
-    double fps = 0;
-    if (rest[0] != '\0' && !(read_rate(repl, rest, &fps) && petri_set_fps(repl->session, fps) == PETRI_OK)) {
-        return false;
-    }
-    repl->rates_changed = repl->rates_changed || rest[0] != '\0';
-    show_number(repl, "fps", petri_frame(repl->session).fps);
-    return true;
+    return show_rate(repl, rest, "fps", petri_set_fps);
 }
 
 static bool run_resolution(Repl *repl, const char *rest) {
@@ -158,13 +156,13 @@ static bool run_resolution(Repl *repl, const char *rest) {
 }
 
 const ReplCommand SETTING_COMMANDS[] = {
-    {".parameters", "", "list the script's parameters: value, default, range, comment", run_parameters,
+    {".parameters", "", NULL, "list the script's parameters: value, default, range, comment", run_parameters,
      COMPLETE_LANGUAGE},
-    {".set", "[NAME [VALUE]]", "give a parameter of the script a value, as -D does; or show it", run_set,
+    {".set", "[NAME [VALUE]]", NULL, "give a parameter of the script a value, as -D does; or show it", run_set,
      COMPLETE_PARAMETERS},
-    {".tempo", "[T]", "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
-    {".fps", "[F]", "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
-    {".resolution", "[R | off]", "show or change the longest simulation step of all systems", run_resolution,
+    {".tempo", "[T]", NULL, "show or change the beats a minute", run_tempo, COMPLETE_LANGUAGE},
+    {".fps", "[F]", NULL, "show or change the frames a second", run_fps, COMPLETE_LANGUAGE},
+    {".resolution", "[R | off]", NULL, "show or change the longest simulation step of all systems", run_resolution,
      COMPLETE_LANGUAGE},
     {0},
 };

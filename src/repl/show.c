@@ -12,7 +12,7 @@
 
 enum { AROUND = 3 }; // lines of the screen that a long output leaves: the command, the closing line, the prompt
 
-// Text that comes in pieces, cut into lines for a filter.
+// Looks through the lines of a section of the frame's text.
 typedef struct Filter {
     Repl *repl;
     const char *wanted;
@@ -20,39 +20,26 @@ typedef struct Filter {
     size_t found;
     size_t lines; // that were to be written, of which the first `most` are
     size_t most;
-    bool header; // the `@` line is still to come
-    Bytes line;
     void (*take)(struct Filter *filter, const char *line, size_t length);
 } Filter;
 
-static bool filter_lines(void *host, const char *text, size_t length) {
-    Filter *filter = host;
-    while (length > 0) {
-        const char *end = memchr(text, '\n', length);
-        size_t taken = end == NULL ? length : (size_t)(end - text) + 1;
-        bytes_add(&filter->line, text, taken);
-        text += taken;
-        length -= taken;
-        if (end != NULL) {
-            if (!filter->header) {
-                filter->take(filter, filter->line.data, filter->line.length);
-            }
-            filter->header = false;
-            filter->line.length = 0;
-        }
-    }
-    return filter->repl->output.error == 0 && !repl_interrupted();
+static bool collect_unless_stopped(void *bytes, const char *text, size_t length) {
+    return bytes_collect(bytes, text, length) && !repl_interrupted();
 }
 
-// Writes a section of the frame's text through a filter; returns how much it has found.
+// Writes a section through a filter; returns how much it has found.
 static size_t print_filtered(Repl *repl, unsigned section, Filter *filter) {
-    filter->repl = repl;
-    filter->header = true;
+    SCOPED_BYTES text = {0};
+    Str line;
+    size_t at = 0;
     filter->depth = SIZE_MAX;
     repl_busy(repl);
-    petri_print(repl->session, section, filter_lines, filter);
+    petri_print(repl->session, section, collect_unless_stopped, &text);
+    bytes_line(&text, &at, &line); // the frame's `@` line
+    while (bytes_line(&text, &at, &line) && filter->repl->output.error == 0 && !repl_interrupted()) {
+        filter->take(filter, line.bytes, line.len + 1);
+    }
     repl_idle(repl);
-    bytes_free(&filter->line);
     return filter->found;
 }
 
@@ -84,24 +71,20 @@ static void take_entry(Filter *filter, const char *line, size_t length) {
 }
 
 static bool run_state(Repl *repl, const char *rest) {
-    char *asked = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT asked = memory_text(rest);
     // A number alone is a key.
-    size_t most = strpbrk(asked, " \t") != NULL || strcmp(asked, "all") == 0 ? word_lines(repl, asked, AROUND)
-                                                                             : word_lines(repl, (char[]){""}, AROUND);
+    bool counted = strpbrk(asked, " \t") != NULL || strcmp(asked, "all") == 0;
+    size_t most = word_lines(repl, counted ? asked : (char[]){""}, AROUND);
     const char *prefix = asked + (asked[0] == '$');
     bool enclosed = prefix[0] == '(';
-    char *wanted = memory_copied(prefix + enclosed, strlen(prefix + enclosed));
-    size_t length = strlen(wanted);
-    if (enclosed && length > 0 && wanted[length - 1] == ')') {
-        wanted[length - 1] = '\0';
-    }
-    Filter filter = {.wanted = wanted, .take = take_entry, .most = most};
+    size_t length = strlen(prefix) - enclosed;
+    length -= enclosed && length > 0 && prefix[length] == ')';
+    SCOPED_TEXT wanted = memory_copied(prefix + enclosed, length);
+    Filter filter = {.wanted = wanted, .repl = repl, .take = take_entry, .most = most};
     if (print_filtered(repl, PETRI_PRINT_STATE, &filter) == 0) {
         repl_say(repl, wanted[0] == '\0' ? "the state is empty" : "nothing in the state is under %s", wanted);
     }
     tell_rest(&filter, ".state", asked);
-    free(wanted);
-    free(asked);
     return true;
 }
 
@@ -119,28 +102,19 @@ static void take_node(Filter *filter, const char *line, size_t length) {
     }
 }
 
-static bool show_tree(Repl *repl, const char *asked, size_t most) {
+static bool run_tree(Repl *repl, const char *rest) {
+    SCOPED_TEXT asked = memory_text(rest);
+    size_t most = word_lines(repl, asked, AROUND);
     const char *kind = asked + (asked[0] == '!');
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
     repl_idle(repl);
-    if (!repl_status(repl, status)) {
-        return false;
-    }
-    Filter filter = {.wanted = kind, .take = take_node, .most = most};
-    if (print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0) {
+    Filter filter = {.repl = repl, .wanted = kind, .take = take_node, .most = most};
+    if (status == PETRI_OK && print_filtered(repl, PETRI_PRINT_TREE, &filter) == 0) {
         repl_say(repl, kind[0] == '\0' ? "the frame has no nodes" : "the frame has no node !%s", kind);
     }
     tell_rest(&filter, ".tree", asked);
-    return true;
-}
-
-static bool run_tree(Repl *repl, const char *rest) {
-    char *asked = memory_copied(rest, strlen(rest));
-    size_t most = word_lines(repl, asked, AROUND);
-    bool good = show_tree(repl, asked, most);
-    free(asked);
-    return good;
+    return repl_status(repl, status);
 }
 
 static bool is_meant(const char *name, const char *wanted) {
@@ -160,13 +134,10 @@ static bool each_system(Repl *repl, const Wish *wish, void (*show)(Repl *, size_
     size_t count = 0, shown = 0;
     repl_complete_frame(repl);
     for (; petri_system(repl->session, count, &system); count++) {
-        char *name = memory_copied(system.name, strlen(system.name)); // the next call takes it
-        system.name = name;
-        if (is_meant(name, wanted)) {
+        if (is_meant(system.name, wanted)) {
             show(repl, count, &system, wish);
             shown++;
         }
-        free(name);
     }
     if (count == 0) {
         repl_say(repl, petri_frame(repl->session).number < 0
@@ -179,14 +150,11 @@ static bool each_system(Repl *repl, const Wish *wish, void (*show)(Repl *, size_
 }
 
 static void add_vector(Table *table, const double *vector, uint32_t dimensions) {
-    char number[40];
-    Bytes cell = {0};
+    SCOPED_BYTES cell = {0};
     for (uint32_t k = 0; k < dimensions && vector != NULL; k++) {
-        snprintf(number, sizeof number, "%s%.6g", k == 0 ? "" : ";", vector[k]);
-        bytes_add(&cell, number, strlen(number));
+        bytes_format(&cell, "%s%.6g", k == 0 ? "" : ";", vector[k]);
     }
     table_add(table, vector == NULL ? "-" : cell.data);
-    bytes_free(&cell);
 }
 
 static void add_number(Table *table, double x) {
@@ -203,7 +171,7 @@ static uint32_t count_anchors(const Repl *repl, size_t number) {
 }
 
 static void show_particles(Repl *repl, size_t number, const PetriSystem *system, const Wish *wish) {
-    Table table = table_new(5);
+    SCOPED_TABLE table = table_new(5);
     PetriParticle particle;
     uint32_t anchors = count_anchors(repl, number), moving = system->particle_count - anchors;
     output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
@@ -227,7 +195,6 @@ static void show_particles(Repl *repl, size_t number, const PetriSystem *system,
         }
     }
     table_write(&table, &repl->output);
-    table_free(&table);
     if (system->particle_count > wish->most) {
         repl_say(repl, "%zu more; .particles%s%s all shows all", system->particle_count - wish->most,
                  wish->system[0] == '\0' ? "" : " ", wish->system);
@@ -236,10 +203,9 @@ static void show_particles(Repl *repl, size_t number, const PetriSystem *system,
 
 static bool run_particles(Repl *repl, const char *rest) {
     enum { AROUND_TABLE = 5 }; // lines of the screen beside the rows: command, title, heads, closing line, prompt
-    char *system = memory_copied(rest, strlen(rest));
+    SCOPED_TEXT system = memory_text(rest);
     Wish wish = {.system = system, .most = word_lines(repl, system, AROUND_TABLE)};
     bool good = each_system(repl, &wish, show_particles);
-    free(system);
     return good;
 }
 
@@ -249,8 +215,8 @@ static void show_energy(Repl *repl, size_t number, const PetriSystem *system, co
     output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
                   motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
     if (motion.moving > 0) {
-        Bytes fastest = {0};
-        Table table = table_new(2);
+        SCOPED_BYTES fastest = {0};
+        SCOPED_TABLE table = table_new(2);
         table_add(&table, "  kinetic energy");
         add_number(&table, motion.kinetic_energy);
         table_add(&table, "  momentum");
@@ -259,8 +225,6 @@ static void show_energy(Repl *repl, size_t number, const PetriSystem *system, co
         bytes_format(&fastest, "%s at %.6g", motion.fastest_id, motion.fastest);
         table_add(&table, fastest.data);
         table_write(&table, &repl->output);
-        table_free(&table);
-        bytes_free(&fastest);
     }
     motion_free(&motion);
 }
@@ -271,53 +235,46 @@ static bool run_energy(Repl *repl, const char *wanted) {
 
 static bool run_watch(Repl *repl, const char *rest) {
     PetriResult result;
-    for (size_t i = 0; i < repl->watched_count && rest[0] == '\0'; i++) {
-        repl_say(repl, "%s", repl->watched[i]);
+    for (size_t i = 0; i < repl->watched.count && rest[0] == '\0'; i++) {
+        repl_say(repl, "%s", repl->watched.items[i]);
     }
     if (rest[0] == '\0') {
         return true;
     }
-    Bytes value = {0};
-    if (petri_evaluate(repl->session, rest, PETRI_Z, &result, repl_collect, &value) != PETRI_OK) {
-        bytes_free(&value);
-        repl->failed = true;
+    SCOPED_BYTES value = {0};
+    if (petri_evaluate(repl->session, rest, PETRI_Z, &result, bytes_collect, &value) != PETRI_OK) {
         return false;
     }
     output_format(&repl->output, "%s = %s\n", rest, value.data);
-    bytes_free(&value);
-    for (size_t i = 0; i < repl->watched_count; i++) {
-        if (strcmp(rest, repl->watched[i]) == 0) {
-            return true; // once is enough
-        }
+    if (!texts_hold(&repl->watched, rest)) { // once is enough
+        texts_add(&repl->watched, rest);
     }
-    repl->watched = memory_resized(repl->watched, (repl->watched_count + 1) * sizeof *repl->watched);
-    repl->watched[repl->watched_count++] = memory_copied(rest, strlen(rest));
     return true;
 }
 
 static bool run_unwatch(Repl *repl, const char *rest) {
-    size_t kept = 0, count = repl->watched_count;
+    size_t kept = 0, count = repl->watched.count;
     for (size_t i = 0; i < count; i++) {
-        if (rest[0] == '\0' || strcmp(rest, repl->watched[i]) == 0) {
-            free(repl->watched[i]);
+        if (rest[0] == '\0' || strcmp(rest, repl->watched.items[i]) == 0) {
+            free(repl->watched.items[i]);
         } else {
-            repl->watched[kept++] = repl->watched[i];
+            repl->watched.items[kept++] = repl->watched.items[i];
         }
     }
-    repl->watched_count = kept;
+    repl->watched.count = kept;
     return rest[0] == '\0' || kept < count || repl_fail(repl, "'%s' is not watched", rest);
 }
 
 const ReplCommand SHOW_COMMANDS[] = {
-    {".state", "[KEY] [N|all]", "print the state, or the part of it under a key such as :cells; N lines of it",
+    {".state", "[KEY] [N|all]", NULL, "print the state, or the part of it under a key such as :cells; N lines of it",
      run_state, COMPLETE_KEYS},
-    {".tree", "[KIND] [N|all]", "print the frame's nodes, or those of a kind", run_tree, COMPLETE_KINDS},
-    {".particles", "[SYSTEM] [N|all]", "print particles as a table: id, position, velocity, speed, force",
+    {".tree", "[KIND] [N|all]", NULL, "print the frame's nodes, or those of a kind", run_tree, COMPLETE_KINDS},
+    {".particles", "[SYSTEM] [N|all]", NULL, "print particles as a table: id, position, velocity, speed, force",
      run_particles, COMPLETE_SYSTEMS},
-    {".energy", "[SYSTEM]", "print kinetic energy, momentum and the fastest particle of each system", run_energy,
+    {".energy", "[SYSTEM]", NULL, "print kinetic energy, momentum and the fastest particle of each system", run_energy,
      COMPLETE_SYSTEMS},
-    {".watch", "[EXPR]", "print the expression after each step; alone, list what is watched", run_watch,
+    {".watch", "[EXPR]", NULL, "print the expression after each step; alone, list what is watched", run_watch,
      COMPLETE_LANGUAGE},
-    {".unwatch", "[EXPR]", "watch it no more; alone, nothing any more", run_unwatch, COMPLETE_LANGUAGE},
+    {".unwatch", "[EXPR]", NULL, "watch it no more; alone, nothing any more", run_unwatch, COMPLETE_LANGUAGE},
     {0},
 };

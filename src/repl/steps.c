@@ -16,39 +16,37 @@ typedef struct Walk {
 
 // Adds `EXPR = value` for each expression that is watched.
 static void add_watched(Repl *repl, Bytes *text) {
-    for (size_t i = 0; i < repl->watched_count; i++) {
+    for (size_t i = 0; i < repl->watched.count; i++) {
         PetriResult result;
-        Bytes value = {0};
-        const char *expression = repl->watched[i];
-        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, repl_collect, &value);
+        SCOPED_BYTES value = {0};
+        const char *expression = repl->watched.items[i];
+        PetriStatus status = petri_evaluate(repl->session, expression, PETRI_Z, &result, bytes_collect, &value);
         bytes_format(text, "%s = ", expression);
         bytes_add(text, status == PETRI_OK ? value.data : "?", status == PETRI_OK ? value.length : 1);
-        bytes_add(text, "\n", 1);
-        bytes_free(&value);
+        bytes_add_text(text, "\n");
     }
 }
 
 // The frame's text; true if there is more to it than its first line.
 static bool describe(Repl *repl, Bytes *text) {
-    petri_print(repl->session, PETRI_PRINT_LOG, repl_collect, text);
+    petri_print(repl->session, PETRI_PRINT_LOG, bytes_collect, text);
     add_watched(repl, text);
     return memchr(text->data, '\n', text->length) != text->data + text->length - 1;
 }
 
 void repl_show_frame(Repl *repl) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     if (petri_frame(repl->session).number < 0) {
         repl_say(repl, "before the first frame");
         return;
     }
     describe(repl, &text);
     output_write(&repl->output, text.data, text.length);
-    bytes_free(&text);
 }
 
 // Writes a frame if it has something to say or is the last; whether it did.
 static bool show_step(Repl *repl, Progress *progress, bool last) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bool shown = describe(repl, &text) || last;
     if (shown) {
         progress_erase(progress);
@@ -57,7 +55,6 @@ static bool show_step(Repl *repl, Progress *progress, bool last) {
             output_flush(&repl->output);
         }
     }
-    bytes_free(&text);
     return shown;
 }
 
@@ -142,7 +139,7 @@ static PetriStatus go(Repl *repl, int64_t frame, Bytes *why) {
 }
 
 static bool go_to(Repl *repl, int64_t frame) {
-    Bytes why = {0};
+    SCOPED_BYTES why = {0};
     repl_refresh(repl);
     repl->failed = false;
     repl_busy(repl);
@@ -156,7 +153,6 @@ static bool go_to(Repl *repl, int64_t frame) {
     } else {
         repl_status(repl, status);
     }
-    bytes_free(&why);
     if (status == PETRI_OK || stopped) {
         repl_show_frame(repl);
     }
@@ -171,7 +167,7 @@ static bool run_step(Repl *repl, const char *rest) {
 static bool run_run(Repl *repl, const char *rest) {
     double seconds = 0;
     if (rest[0] == '\0') {
-        return walk_frames(repl, &(Walk){.count = repl->limit, .limited = true});
+        return walk_frames(repl, &(Walk){.count = repl->options->limit, .limited = true});
     }
     if (!word_number(repl, rest, &seconds)) {
         return false;
@@ -180,32 +176,22 @@ static bool run_run(Repl *repl, const char *rest) {
         return repl_fail(repl, "'%s' is no time: seconds, or a time code such as 1:30", rest);
     }
     double frames = ceil(seconds * petri_frame(repl->session).fps - 1e-9);
-    bool limited = frames > (double)repl->limit;
-    return walk_frames(repl, &(Walk){.count = limited ? repl->limit : (int64_t)frames, .limited = limited});
+    bool limited = frames > (double)repl->options->limit;
+    return walk_frames(repl, &(Walk){.count = limited ? repl->options->limit : (int64_t)frames, .limited = limited});
 }
 
 static bool run_until(Repl *repl, const char *rest) {
-    char *expression = memory_copied(rest, strlen(rest));
-    int64_t limit = repl->limit;
-    bool good = word_limit(repl, expression, &limit);
-    if (good && expression[0] == '\0') {
-        good = repl_fail(repl, ".until needs an expression");
+    SCOPED_TEXT expression = memory_text(rest);
+    int64_t limit = repl->options->limit;
+    if (!word_limit(repl, expression, &limit)) {
+        return false;
+    }
+    if (expression[0] == '\0') {
+        return repl_fail(repl, ".until needs an expression");
     }
     PetriResult result; // of the present frame: whether it is an expression at all
-    good = good && repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL));
-    good = good && walk_frames(repl, &(Walk){.count = limit, .until = expression});
-    free(expression);
-    return good;
-}
-
-// Adds what the first frame of the history is.
-static void add_start(const Repl *repl, Bytes *text) {
-    const char *why = repl->history.why;
-    if (why == NULL) {
-        bytes_format(text, "this is the start");
-    } else {
-        bytes_format(text, "the history begins here (%s)", why);
-    }
+    return repl_status(repl, petri_evaluate(repl->session, expression, PETRI_Z, &result, NULL, NULL)) &&
+           walk_frames(repl, &(Walk){.count = limit, .until = expression});
 }
 
 static bool run_back(Repl *repl, const char *rest) {
@@ -216,22 +202,19 @@ static bool run_back(Repl *repl, const char *rest) {
     if (count <= ago) {
         return go_to(repl, petri_frame(repl->session).number - count);
     }
-    Bytes start = {0};
-    add_start(repl, &start);
+    SCOPED_BYTES start = {0}; // what the first frame of the history is
+    const char *why = repl->history.why;
+    bytes_format(&start, why == NULL ? "this is the start" : "the history begins here (%s)", why);
     if (ago > 0) {
         repl_say(repl, "there are only %" PRId64 " frames to go back: %s", ago, start.data);
     } else {
         repl_fail(repl, "there is nothing to go back to: %s", start.data);
     }
-    bytes_free(&start);
     return ago > 0 && go_to(repl, repl->history.first);
 }
 
 static bool run_go(Repl *repl, const char *rest) {
     int64_t frame = -1;
-    if (rest[0] == '\0') {
-        return repl_fail(repl, ".goto needs the number of a frame");
-    }
     return word_count(repl, rest, -1, &frame) && go_to(repl, frame);
 }
 
@@ -250,12 +233,14 @@ static bool run_reset(Repl *repl, const char *rest) {
 }
 
 const ReplCommand STEP_COMMANDS[] = {
-    {".step", "[N]", "make N frames (1)", run_step, COMPLETE_LANGUAGE},
-    {".run", "[T]", "make frames for T seconds of the script's time, or until Ctrl-C", run_run, COMPLETE_LANGUAGE},
-    {".until", "EXPR [--limit N]", "make frames until the expression is true, N at the most", run_until,
+    {".step", "[N]", NULL, "make N frames (1)", run_step, COMPLETE_LANGUAGE},
+    {".run", "[T]", NULL, "make frames for T seconds of the script's time, or until Ctrl-C", run_run,
      COMPLETE_LANGUAGE},
-    {".back", "[N]", "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
-    {".goto", "FRAME", "go to a frame, back or forward; -1 is before the first", run_go, COMPLETE_LANGUAGE},
-    {".reset", "", "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
+    {".until", "EXPR [--limit N]", "an expression", "make frames until the expression is true, N at the most",
+     run_until, COMPLETE_LANGUAGE},
+    {".back", "[N]", NULL, "go back N frames (1), or to the start if there are fewer", run_back, COMPLETE_LANGUAGE},
+    {".goto", "FRAME", "the number of a frame", "go to a frame, back or forward; -1 is before the first", run_go,
+     COMPLETE_LANGUAGE},
+    {".reset", "", NULL, "go back to where the session began", run_reset, COMPLETE_LANGUAGE},
     {0},
 };

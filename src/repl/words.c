@@ -25,7 +25,7 @@ static void cut_end(char *text) {
 
 char *word_trimmed(const char *text) {
     text += strspn(text, BLANKS);
-    char *copy = memory_copied(text, strlen(text));
+    char *copy = memory_text(text);
     cut_end(copy);
     return copy;
 }
@@ -82,10 +82,9 @@ bool word_limit(Repl *repl, char *text, int64_t *limit) {
         char *end = word + strcspn(word, BLANKS);
         char *after = end + strspn(end, BLANKS);
         if ((at == text || is_blank(at[-1])) && (at == text || *after == '\0')) {
-            char *number = memory_copied(word, (size_t)(end - word));
+            SCOPED_TEXT number = memory_copied(word, (size_t)(end - word));
             bool good = number[0] != '\0' ? word_count(repl, number, 1, limit)
                                           : repl_fail(repl, "--limit needs a number of frames");
-            free(number);
             memmove(at, after, strlen(after) + 1);
             cut_end(text);
             return good;
@@ -207,19 +206,18 @@ static bool take_alias(Repl *repl, const char *word, size_t length, const char *
         bytes_format(remark, "%.*s is a name here; the command is %s", (int)length, word, command);
         return false;
     }
-    Bytes line = {0};
+    SCOPED_BYTES line = {0};
     size_t inner = strlen(rest);
     bool called = !alone && rest[0] == '(' && rest[inner - 1] == ')'; // help(sin)
     bytes_format(&line, "%s %.*s", command, (int)(alone ? 0 : inner - 2 * called), rest + called);
     repl_command(repl, line.data);
-    bytes_free(&line);
     return true;
 }
 
 bool bare_take(Repl *repl, const char *text, Bytes *remark) {
-    char *line = word_trimmed(text);
+    SCOPED_TEXT line = word_trimmed(text);
     size_t length = word_length(line);
-    char *rest = word_trimmed(line + length);
+    SCOPED_TEXT rest = word_trimmed(line + length);
     bool alias = bare_alias(line, length) != NULL, command = line[0] != '.' && repl_find_command(line, length) != NULL,
          done = false;
     if ((alias || command) && strchr(line, '\n') == NULL) {
@@ -232,7 +230,5 @@ bool bare_take(Repl *repl, const char *text, Bytes *remark) {
             bytes_format(remark, "commands begin with a dot: did you mean .%s?", line);
         }
     }
-    free(line);
-    free(rest);
     return done;
 }

@@ -3,6 +3,7 @@
 
 #include <inttypes.h>
 #include <math.h>
+#include <pthread.h>
 #include <signal.h>
 #include <stdio.h>
 #include <unistd.h>
@@ -11,45 +12,54 @@
 #include "cli/script.h"
 #include "cli/unfinished.h"
 
-enum { SECONDS_BETWEEN_SAVES = 5 };
 // Seconds: timeout(1) sends its signal twice, which is no second wish.
 static const double SAME_SIGNAL = 0.2;
 
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
 
-static void on_interrupt(int signal_number) {
+static pthread_t main_thread;
+
+static void on_signal(int number) {
     static const char note[] = "\r\033[Kpetri: stopping after this frame; Ctrl-C again stops at once\n";
     static double first;
+    if (!pthread_equal(pthread_self(), main_thread)) {
+        pthread_kill(main_thread, number); // which then is at nothing else
+        return;
+    }
     if (interrupted) {
         if (clock_seconds() - first > SAME_SIGNAL) {
-            unfinished_abandon();
-            signal(signal_number, SIG_DFL);
-            raise(signal_number);
+            unfinished_act();
+            signal(number, SIG_DFL);
+            raise(number);
         }
         return;
     }
     first = clock_seconds();
-    interrupted = signal_number;
-    if (signal_number == SIGINT && isatty(STDERR_FILENO)) {
+    interrupted = number;
+    if (number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
         (void)ignored;
     }
 }
 
-// The first Ctrl-C (or SIGTERM) ends the run after the frame at hand, with its state saved and what was drawn kept; a
-// second one ends the process, should that take too long.
-static void catch_interrupt(void) {
-    struct sigaction action = {.sa_handler = on_interrupt};
+// The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) ends the run after the frame at hand, with its
+// state saved and what was drawn kept; a second one ends the process, should that take too long.
+static void catch_signals(void) {
+    struct sigaction action = {.sa_handler = on_signal}, before;
+    main_thread = pthread_self();
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
     sigaction(SIGTERM, &action, NULL);
+    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
+        sigaction(SIGHUP, &action, NULL);
+    }
 }
 
 static bool wants_diagnostic(Frames *frames, PetriLevel level) {
     // Notes belong to the diagnostic before them.
     if (level != PETRI_NOTE) {
-        frames->shown_last = level == PETRI_ERROR || frames->options.verbosity > LOG_QUIET;
+        frames->shown_last = level == PETRI_ERROR || frames->options->verbosity > LOG_QUIET;
     }
     return frames->shown_last;
 }
@@ -63,21 +73,13 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     }
 }
 
-int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv) {
-    int status = options_read(&frames->options, command, argc, argv);
-    if (status != OPTIONS_READ) {
-        return status;
-    }
-    return options_open(&frames->options, host, on_diagnostic, frames, &frames->session);
-}
-
-void frames_close(Frames *frames) {
-    petri_close(&frames->session);
-    options_free(&frames->options);
+int frames_open(Frames *frames, const Host *host, Options *options) {
+    frames->options = options;
+    return options_open(options, host, on_diagnostic, frames, &frames->session);
 }
 
 bool frames_load(Frames *frames) {
-    PetriStatus status = script_load(frames->session, frames->options.script);
+    PetriStatus status = script_load(frames->session, frames->options->script);
     if (status == PETRI_MEMORY) {
         message("out of memory");
     }
@@ -86,56 +88,45 @@ bool frames_load(Frames *frames) {
 
 double frames_fps(const Frames *frames) {
     double fps = petri_frame(frames->session).fps;
-    return fps > 0 ? fps : frames->options.fps;
+    return fps > 0 ? fps : frames->options->fps;
 }
 
-// A file that could not be read is left alone: it may be all that is left of something.
-static void save_state(Frames *frames) {
-    if (frames->options.state_file != NULL && !frames->state_lost) {
-        int unfinished = unfinished_begin(frames->options.state_file);
-        frames->state_lost = petri_save(frames->session, frames->options.state_file) != PETRI_OK;
-        unfinished_end(unfinished);
-        frames->saved = clock_seconds();
+static void save_state(Frames *frames, bool at_once) {
+    const char *news = state_file_save(&frames->state, frames->session, at_once);
+    if (news != NULL) {
+        progress_erase(&frames->progress);
+        message("%s", news);
     }
-}
-
-static void restore_state(Frames *frames) {
-    const char *file = frames->options.state_file;
-    frames->state_lost = petri_restore(frames->session, file) != PETRI_OK;
-    if (frames->state_lost) {
-        message("the run starts afresh; '%s' is left alone and nothing is saved", file);
-    }
-    save_state(frames); // now, so that a file that cannot be written is known before the work is done
 }
 
 static int64_t expected_frames(const Frames *frames) {
-    double by_time = frames->options.run_time * frames_fps(frames);
-    if (!isnan(by_time) && by_time < (double)frames->options.frames) {
+    double by_time = frames->options->run_time * frames_fps(frames);
+    if (!isnan(by_time) && by_time < (double)frames->options->frames) {
         return (int64_t)ceil(by_time);
     }
-    return frames->options.frames;
+    return frames->options->frames;
 }
 
 void frames_begin(Frames *frames) {
-    if (frames->options.state_file != NULL) {
-        restore_state(frames);
+    if (state_file_restore(&frames->state, frames->session, frames->options->state_file)) {
+        save_state(frames, true); // so that a file that cannot be written is known before the work is done
     }
-    catch_interrupt();
-    bool shows_progress = frames->options.verbosity > LOG_QUIET && progress_possible();
+    catch_signals();
+    bool shows_progress = frames->options->verbosity > LOG_QUIET && progress_possible();
     progress_start(&frames->progress, shows_progress, expected_frames(frames));
-    frames->start = frames->saved = clock_seconds();
+    frames->start = clock_seconds();
 }
 
 bool frames_due(const Frames *frames) {
     int64_t counted = frames->done - frames->early;
-    if (interrupted || counted >= frames->options.frames) {
+    if (interrupted || counted >= frames->options->frames) {
         return false;
     }
-    if (isnan(frames->options.run_time)) {
+    if (isnan(frames->options->run_time)) {
         return true;
     }
-    double time = frames->options.realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
-    return time < frames->options.run_time;
+    double time = frames->options->realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
+    return time < frames->options->run_time;
 }
 
 bool frames_step(Frames *frames) {
@@ -148,16 +139,14 @@ bool frames_step(Frames *frames) {
         return false;
     }
     frames->done++;
-    if (clock_seconds() - frames->saved > SECONDS_BETWEEN_SAVES) {
-        save_state(frames);
-    }
+    save_state(frames, false);
     return true;
 }
 
 void frames_end(Frames *frames, bool going) {
     progress_erase(&frames->progress);
     if (going) {
-        save_state(frames);
+        save_state(frames, true);
     }
 }
 

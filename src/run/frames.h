@@ -1,30 +1,28 @@
 // frames.h: the loop over a script's frames, for the commands that have one.
 //
-// frames_open, frames_load, frames_begin; while frames_due: frames_step; frames_end; frames_close.
+// frames_open, frames_load, frames_begin; while frames_due: frames_step; frames_end; petri_close.
 #ifndef PETRI_SRC_FRAMES_H
 #define PETRI_SRC_FRAMES_H
 
 #include "cli/options.h"
 #include "cli/progress.h"
+#include "cli/state_file.h"
 #include "petri.h"
 
 typedef struct Frames {
-    Options options;
+    Options *options;
     PetriSession *session;
     Progress progress;
-    int64_t done;          // frames that were made
-    int64_t early;         // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
-    double start;          // seconds of the monotonic clock
-    double saved;          // when the state was saved last
-    bool state_lost;       // the state file could not be read or written
+    int64_t done;  // frames that were made
+    int64_t early; // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
+    double start;  // seconds of the monotonic clock
+    StateFile state;
     bool shown_last;       // the last diagnostic that was no note was shown
     bool wrong_definition; // the script cannot take a value of -D
 } Frames;
 
-// Reads the command line and opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first,
-// and stay where it is.
-int frames_open(Frames *frames, const Command *command, const Host *host, int argc, char **argv);
-void frames_close(Frames *frames);
+// Opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first, and stay where it is.
+int frames_open(Frames *frames, const Host *host, Options *options);
 // Loads the script; false if that failed, which has been told.
 bool frames_load(Frames *frames);
 // Takes the state from its file and from here on catches signals and shows progress.

@@ -25,7 +25,7 @@ typedef struct Run {
 } Run;
 
 static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
-    if (run->frames.options.verbosity < (printed ? LOG_DEBUG : LOG_TRACE)) {
+    if (run->frames.options->verbosity < (printed ? LOG_DEBUG : LOG_TRACE)) {
         return;
     }
     progress_erase(&run->frames.progress);
@@ -42,26 +42,20 @@ static bool write_text(void *host, const char *text, size_t length) {
     return output_write(&run->output, text, length);
 }
 
-static bool collect(void *bytes, const char *text, size_t length) {
-    bytes_add(bytes, text, length);
-    return true;
-}
-
 // Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
-    Bytes text = {0};
-    petri_print(run->frames.session, sections, collect, &text);
+    SCOPED_BYTES text = {0};
+    petri_print(run->frames.session, sections, bytes_collect, &text);
     const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
     if (end + 1 < text.data + text.length) {
         write_text(run, text.data, text.length);
     }
-    bytes_free(&text);
 }
 
 // What is printed and recorded of a frame.
 static void output_frame(Run *run) {
     double start = clock_seconds();
-    unsigned sections = run->frames.options.sections;
+    unsigned sections = run->frames.options->sections;
     if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0) {
         print_if_any(run, sections);
     } else if (sections != 0) {
@@ -69,10 +63,10 @@ static void output_frame(Run *run) {
     } else {
         petri_print_log(run->frames.session, write_text, run);
     }
-    if (run->to_terminal || run->frames.options.realtime) {
+    if (run->to_terminal || run->frames.options->realtime) {
         output_flush(&run->output);
     }
-    if (run->trajectory.beside != NULL) {
+    if (run->trajectory.open) {
         trajectory_add(&run->trajectory, run->frames.session);
     }
     run->stats.output_seconds += clock_seconds() - start;
@@ -84,7 +78,7 @@ static bool run_frame(Run *run) {
     }
     PetriFrame frame = petri_frame(run->frames.session);
     stats_count(&run->stats, run->frames.session);
-    bool printed = frame.number % run->frames.options.every == 0;
+    bool printed = frame.number % run->frames.options->every == 0;
     if (printed) {
         output_frame(run);
     }
@@ -98,14 +92,14 @@ static bool write_message(void *host, const char *text, size_t length) {
 }
 
 static void report_profile(Run *run) {
-    if (run->frames.options.profile && run->stats.frames > 0) {
+    if (run->frames.options->profile && run->stats.frames > 0) {
         petri_profile(run->frames.session, run->stats.output_seconds, write_message, NULL);
     }
 }
 
 // What there is to see is told to a person who watches, and to nobody else.
 static void report_pictures(const Run *run) {
-    const Options *options = &run->frames.options;
+    const Options *options = run->frames.options;
     if (options->verbosity != LOG_NORMAL || !isatty(STDERR_FILENO) || !petri_drawable(run->frames.session) ||
         script_is_stdin(options->script)) {
         return;
@@ -114,7 +108,7 @@ static void report_pictures(const Run *run) {
 }
 
 static void report_summary(Run *run) {
-    Verbosity verbosity = run->frames.options.verbosity;
+    Verbosity verbosity = run->frames.options->verbosity;
     bool wanted = verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO));
     if (!wanted || run->output.error != 0) {
         return;
@@ -138,13 +132,13 @@ static int run_frames(Run *run) {
     bool recorded = trajectory_close(&run->trajectory);
     report_profile(run);
     report_summary(run);
-    if (frames->options.stats) {
+    if (frames->options->stats) {
         stats_print(&run->stats, frames->session, clock_seconds() - frames->start);
     }
-    if (frames_signal() != 0) {
+    if (frames_signal() != 0 && !frames->state.behind && recorded) {
         return STATUS_SIGNAL + frames_signal();
     }
-    if (!going || !recorded || frames->state_lost) {
+    if (frames_signal() != 0 || !going || !recorded || state_file_failed(&frames->state)) {
         return STATUS_FAILED;
     }
     report_pictures(run);
@@ -152,15 +146,15 @@ static int run_frames(Run *run) {
 }
 
 static int list_parameters(Run *run) {
-    if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options.verbosity > LOG_QUIET) {
+    if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options->verbosity > LOG_QUIET) {
         message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
-                script_shown(run->frames.options.script));
+                script_shown(run->frames.options->script));
     }
     return STATUS_DONE;
 }
 
 static int run_session(Run *run) {
-    const Options *options = &run->frames.options;
+    const Options *options = run->frames.options;
     if (!frames_load(&run->frames)) {
         return run->frames.wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
@@ -177,24 +171,16 @@ static int run_session(Run *run) {
     return run_frames(run);
 }
 
-static int run_run(const Host *host, int argc, char **argv) {
-    Run *run = calloc(1, sizeof *run);
-    if (run == NULL) {
-        message("out of memory");
-        return STATUS_FAILED;
-    }
-    output_start(&run->output, STDOUT_FILENO);
-    run->to_terminal = isatty(STDOUT_FILENO);
-    run->host = host;
-    int status = frames_open(&run->frames, &RUN_COMMAND, host, argc, argv);
-    if (status == OPTIONS_READ && show_wanted(&run->frames.options, argc, argv)) {
-        show(&run->frames.options, host, argc, argv);
+static int run_run(const Host *host, Options *options) {
+    Run run = {.host = host, .output.fd = STDOUT_FILENO, .to_terminal = isatty(STDOUT_FILENO)};
+    int status = frames_open(&run.frames, host, options);
+    if (status == OPTIONS_READ && show_wanted(options)) {
+        show(options, host);
     }
     if (status == OPTIONS_READ) {
-        status = output_finish(&run->output, run_session(run));
+        status = output_finish(&run.output, run_session(&run));
     }
-    frames_close(&run->frames);
-    free(run);
+    petri_close(&run.frames.session);
     return status;
 }
 

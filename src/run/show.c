@@ -27,14 +27,14 @@ static bool view_knows(const char *word) {
     return strncmp(word, "--", 2) != 0 || is_named(word, "show");
 }
 
-bool show_wanted(const Options *options, int argc, char **argv) {
+bool show_wanted(const Options *options) {
 #ifdef HAVE_CHAFA
     bool at_terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) && progress_possible();
 #else
     bool at_terminal = false;
 #endif
-    for (int i = 0; i < argc; i++) {
-        if (!view_knows(argv[i])) {
+    for (int i = 0; i < options->argc; i++) {
+        if (!view_knows(options->argv[i])) {
             return false;
         }
     }
@@ -60,25 +60,24 @@ static bool is_drawable(const Options *options, const Host *host) {
     return drawable;
 }
 
-void show(const Options *options, const Host *host, int argc, char **argv) {
+void show(const Options *options, const Host *host) {
     if (!is_drawable(options, host)) {
         return;
     }
     char frames[32];
     snprintf(frames, sizeof frames, "--frames=%" PRId64, options->frames);
-    char **words = memory_zeroed(((size_t)argc + 6) * sizeof *words);
+    char **words = memory_zeroed(((size_t)options->argc + 6) * sizeof *words);
     char called[] = "view", terminal[] = "--terminal", verbose[] = "--verbose";
-    char *program = memory_copied(host->called, strlen(host->called));
+    SCOPED_TEXT program = memory_text(host->called);
     char *const first[] = {program, called, terminal, verbose, frames};
     int count = (int)(sizeof first / sizeof first[0]);
     memcpy(words, first, sizeof first);
-    for (int i = 0; i < argc; i++) {
-        if (!is_named(argv[i], "show")) {
-            words[count++] = argv[i];
+    for (int i = 0; i < options->argc; i++) {
+        if (!is_named(options->argv[i], "show")) {
+            words[count++] = options->argv[i];
         }
     }
     fflush(NULL);
     pass_on(words);
-    free(program);
     free(words);
 }

@@ -54,7 +54,7 @@ void stats_print(const Stats *stats, PetriSession *session, double seconds) {
     PetriSystem system;
     for (size_t i = 0; petri_system(session, i, &system); i++) {
         Bytes name = {0}; // its text lasts only until the next particle is read
-        bytes_format(&name, "%s", system.name);
+        bytes_add_text(&name, system.name);
         system.name = name.data;
         print_system(session, i, &system);
         bytes_free(&name);

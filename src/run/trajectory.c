@@ -6,15 +6,17 @@
 #include "run/trajectory.h"
 
 #include <errno.h>
-#include <fcntl.h>
 #include <inttypes.h>
+#include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
+#include "cli/unfinished.h"
 
 enum { XYZ_DIMENSIONS = 3 };
 
@@ -26,21 +28,33 @@ static bool complain(Trajectory *trajectory, int error) {
     return false;
 }
 
+// A signal ends this process at once, wherever it is: what is there of whole frames is kept.
+static void keep_now(void *context) {
+    Trajectory *trajectory = context;
+    Output *output = &trajectory->output;
+    int fd = output->fd;
+    if (trajectory->file.file < 0 || trajectory->file.direct || trajectory->whole == 0) {
+        return;
+    }
+    // Of what waits, some may have been written just now: it is written once more.
+    if (output->error == 0 && lseek(fd, (off_t)output->written, SEEK_SET) >= 0 &&
+        file_write(fd, output->buffer, output->used) && ftruncate(fd, (off_t)trajectory->whole) == 0) {
+        replace_commit(&trajectory->file);
+    }
+}
+
 bool trajectory_open(Trajectory *trajectory, const char *path) {
-    Bytes beside = {0};
-    bytes_format(&beside, "%s.%ld.tmp", path, (long)getpid());
     trajectory->path = path;
     trajectory->failed = false;
     trajectory->dimensions = 0;
+    trajectory->whole = 0;
     trajectory->csv = strcmp(path + strlen(path) - 4, ".csv") == 0;
-    int fd = open(beside.data, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
-    if (fd < 0) {
-        complain(trajectory, errno);
-        bytes_free(&beside);
-        return false;
+    trajectory->open = replace_begin(&trajectory->file, path, 0);
+    if (!trajectory->open) {
+        return complain(trajectory, errno);
     }
-    trajectory->beside = beside.data;
-    output_start(&trajectory->output, fd);
+    output_start(&trajectory->output, trajectory->file.file);
+    trajectory->unfinished = unfinished_begin(keep_now, trajectory);
     return true;
 }
 
@@ -128,7 +142,7 @@ static void add_csv(Trajectory *trajectory, PetriSession *session) {
         add_csv_header(trajectory, session);
     }
     for (size_t s = 0; petri_system(session, s, &system); s++) {
-        char *name = memory_copied(system.name, strlen(system.name)); // it is valid until the next call only
+        char *name = memory_text(system.name); // it is valid until the next call only
         for (uint32_t i = 0; i < system.particle_count && petri_particle(session, s, i, &particle); i++) {
             output_format(output, "%" PRId64 ",%.17g", frame.number, frame.time);
             add_csv_text(output, name);
@@ -148,29 +162,24 @@ void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     } else {
         add_csv(trajectory, session);
     }
+    atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment
+    trajectory->whole = trajectory->output.written + trajectory->output.used;
     if (trajectory->output.error != 0) {
         complain(trajectory, trajectory->output.error);
     }
 }
 
 bool trajectory_close(Trajectory *trajectory) {
-    if (trajectory->beside == NULL) {
+    if (!trajectory->open) {
         return true;
     }
     bool done = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
-    if (done && fsync(trajectory->output.fd) != 0) {
-        done = complain(trajectory, errno);
-    }
-    if (close(trajectory->output.fd) != 0 && done) {
-        done = complain(trajectory, errno);
-    }
-    if (done && rename(trajectory->beside, trajectory->path) != 0) {
-        done = complain(trajectory, errno);
-    }
+    unfinished_end(trajectory->unfinished);
     if (!done) {
-        unlink(trajectory->beside);
+        replace_abandon(&trajectory->file);
+    } else if (!replace_commit(&trajectory->file)) {
+        done = complain(trajectory, errno);
     }
-    free(trajectory->beside);
-    trajectory->beside = NULL;
+    trajectory->open = false;
     return done;
 }

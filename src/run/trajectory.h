@@ -4,14 +4,18 @@
 
 #include <stdint.h>
 
+#include "base/replace.h"
 #include "cli/output.h"
 #include "petri.h"
 
-// Written beside its final name, which it gets when it is complete.
+// It takes its name when it is complete (base/replace.h).
 typedef struct Trajectory {
     const char *path;
-    bool csv;            // else XYZ
-    char *beside;        // NULL: nothing is open
+    bool csv; // else XYZ
+    bool open;
+    Replacement file;
+    int unfinished;      // its number there
+    size_t whole;        // bytes up to the last frame's end
     uint32_t dimensions; // of a CSV's columns: the most that a system of the first frame has
     bool failed;         // told already
     Output output;
@@ -21,7 +25,8 @@ typedef struct Trajectory {
 bool trajectory_open(Trajectory *trajectory, const char *path);
 // Adds the last frame of a session. If it cannot be written there is a message, and `failed` is set.
 void trajectory_add(Trajectory *trajectory, PetriSession *session);
-// Puts the file in its place. False after a message if that or an earlier writing failed; then no file is left.
+// Puts the file in its place, as does a signal that ends the process at once, with the frames that are whole. False
+// after a message if that or an earlier writing failed; the old file is then untouched.
 bool trajectory_close(Trajectory *trajectory);
 
 #endif

@@ -48,14 +48,14 @@ void overlay_painter_free(OverlayPainter *painter) {
 
 // One line as a string of the language.
 static void add_string(Bytes *script, const char *line, size_t length) {
-    bytes_add(script, "'", 1);
+    bytes_add_text(script, "'");
     for (size_t i = 0; i < length; i++) {
         if (line[i] == '\'' || line[i] == '\\') {
-            bytes_add(script, "\\", 1);
+            bytes_add_text(script, "\\");
         }
         bytes_add(script, &line[i], 1);
     }
-    bytes_add(script, "'", 1);
+    bytes_add_text(script, "'");
 }
 
 typedef struct Panel {
@@ -95,7 +95,7 @@ static void add_panel(Bytes *script, const Panel *panel, double x, double y, con
         bytes_format(script, "            !text point=%.2f;%.2f color=%s center=false text=", x + PADDING, base,
                      look->front);
         add_string(script, line, end == NULL ? strlen(line) : (size_t)(end - line));
-        bytes_add(script, "\n", 1);
+        bytes_add_text(script, "\n");
         line = end == NULL ? NULL : end + 1;
     }
 }
@@ -158,14 +158,13 @@ static void use_size(OverlayPainter *painter, int width, int height) {
 }
 
 static void redraw(OverlayPainter *painter, const Overlay *overlay, double scale) {
-    Bytes script = {0};
+    SCOPED_BYTES script = {0};
     painter->any = overlay->status[0] != '\0' || overlay->notice[0] != '\0' || overlay->trouble[0] != '\0' ||
                    overlay->mark[0] != '\0';
     if (painter->any) {
         write_scene(&script, overlay, scale, painter->width, painter->height);
         painter->any = draw_scene(painter, &script);
     }
-    bytes_free(&script);
     painter->drawn = *overlay;
     painter->scale = scale;
 }

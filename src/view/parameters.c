@@ -69,9 +69,8 @@ static void describe(World *world, size_t chosen, Bytes *text) {
 static ParameterAct set(ParameterKeys *keys, World *world, const char *value, Bytes *text) {
     PetriParameter parameter;
     petri_parameter(world->session, keys->chosen, &parameter);
-    char *name = memory_copied(parameter.name, strlen(parameter.name));
+    SCOPED_TEXT name = memory_text(parameter.name);
     bool done = world_set_parameter(world, name, value);
-    free(name);
     describe(world, keys->chosen, text);
     return done ? PARAMETER_CHANGES : PARAMETER_TELLS;
 }

@@ -4,7 +4,6 @@
 // the process ends, short of SIGKILL, the terminal is given back as it was.
 #include "view/display.h"
 
-#include <errno.h>
 #include <poll.h>
 #include <pthread.h>
 #include <signal.h>
@@ -14,6 +13,7 @@
 #include <termios.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "view/terminal_keys.h"
@@ -53,24 +53,11 @@ static struct {
     struct termios settings;
 } terminal;
 
-static void write_all(const char *text, size_t length) {
-    while (length > 0) {
-        ssize_t written = write(STDOUT_FILENO, text, length);
-        if (written < 0 && errno != EINTR) {
-            return;
-        }
-        if (written > 0) {
-            text += written;
-            length -= (size_t)written;
-        }
-    }
-}
-
 // Safe in signal handlers.
 static void give_back(void) {
     if (terminal.entered) {
         terminal.entered = 0;
-        write_all(LEAVE, sizeof LEAVE - 1);
+        file_write(STDOUT_FILENO, LEAVE, sizeof LEAVE - 1);
         if (terminal.has_settings) {
             tcsetattr(STDIN_FILENO, TCSAFLUSH, &terminal.settings);
         }
@@ -130,7 +117,7 @@ static void enter(void) {
         tcsetattr(STDIN_FILENO, TCSAFLUSH, &raw);
     }
     terminal.entered = 1;
-    write_all(ENTER, sizeof ENTER - 1);
+    file_write(STDOUT_FILENO, ENTER, sizeof ENTER - 1);
 }
 
 static void measure(Display *display) {
@@ -142,10 +129,9 @@ static void measure(Display *display) {
 
 static void terminal_set_title(Display *display, const char *title) {
     overlay_set(display->title, sizeof display->title, title);
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     bytes_format(&text, "\033]0;%s\033\\", display->title);
-    write_all(text.data, text.length);
-    bytes_free(&text);
+    file_write(STDOUT_FILENO, text.data, text.length);
 }
 
 static void terminal_close(Display *display) {
@@ -153,7 +139,7 @@ static void terminal_close(Display *display) {
         return;
     }
     if (terminal.entered && terminal_picture_is_graphics(display->way)) {
-        write_all(TAKE_AWAY, sizeof TAKE_AWAY - 1);
+        file_write(STDOUT_FILENO, TAKE_AWAY, sizeof TAKE_AWAY - 1);
     }
     give_back();
     terminal_picture_free(display->way);
@@ -297,19 +283,18 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
         message("out of memory");
         return false;
     }
-    Bytes out = {0};
-    bytes_format(&out, "%s", BEGIN);
+    SCOPED_BYTES out = {0};
+    bytes_add_text(&out, BEGIN);
     if (display->clear || !same_lines(overlay, &display->shown)) {
         bytes_format(&out, "\033[0%sm\033[2J", display->colour ? ";40" : ""); // bars are black, as in a window
     }
     if (terminal_picture_is_graphics(display->way)) {
-        bytes_format(&out, "%s", TAKE_AWAY);
+        bytes_add_text(&out, TAKE_AWAY);
     }
     add_picture(&out, display, text, length);
     add_overlay(&out, display, overlay);
     bytes_format(&out, "\033[0m%s", END);
-    write_all(out.data, out.length);
-    bytes_free(&out);
+    file_write(STDOUT_FILENO, out.data, out.length);
     free(text);
     display->shown = *overlay;
     display->clear = false;

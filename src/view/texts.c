@@ -46,11 +46,10 @@ void view_update_trouble(View *view) {
 }
 
 static void add_parameters(View *view, char *text, size_t size) {
-    Bytes more = {0};
+    SCOPED_BYTES more = {0};
     size_t length = strlen(text);
     parameter_status(&view->parameters, &view->world, &more);
     snprintf(text + length, size - length, "%s", more.length == 0 ? "" : more.data);
-    bytes_free(&more);
 }
 
 void view_update_status(View *view) {

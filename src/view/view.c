@@ -11,8 +11,8 @@
 #include "cli/progress.h"
 #include "view/view.h"
 
-// Seconds: the longest sleep (a saved script is seen after at most that); between two saves of the state.
-static const double LONGEST_SLEEP = 0.05, BETWEEN_SAVES = 5;
+// Seconds: a saved script is seen after at most that.
+static const double LONGEST_SLEEP = 0.05;
 enum { MOST_EVENTS = 256, DEFAULT_SIZE = 512 };
 
 // A signal handler can reach nothing but a global.
@@ -35,7 +35,7 @@ static void catch_interrupts(void) {
 // The window's size and title, of which the script may change its mind at any time.
 static void follow_script(View *view) {
     int width = DEFAULT_SIZE, height = DEFAULT_SIZE;
-    const char *title = view->world.options.script;
+    const char *title = view->world.options->script;
     if (view->world.picture != NULL) {
         petri_picture_size(view->world.picture, &width, &height);
         const char *own = petri_picture_title(view->world.picture);
@@ -62,14 +62,11 @@ static void step(View *view) {
         view_update_status(view);
     }
     view->redraw = true;
-    if (clock_seconds() - view->saved > BETWEEN_SAVES) {
-        world_save(&view->world);
-        view->saved = clock_seconds();
-    }
+    world_save(&view->world, false);
 }
 
 static bool at_end(const View *view) {
-    const Options *options = &view->world.options;
+    const Options *options = view->world.options;
     if (view->world.frames >= options->frames) {
         return true;
     }
@@ -145,7 +142,7 @@ static void reset(View *view) {
 
 // Keys for the script's parameters; what they do is seen at once.
 static void change_parameters(View *view, const char *key) {
-    Bytes text = {0};
+    SCOPED_BYTES text = {0};
     ParameterAct act = parameter_key(&view->parameters, &view->world, key, &text);
     if (act != PARAMETER_OTHER) {
         view_notice(view, "%s", text.data);
@@ -155,7 +152,6 @@ static void change_parameters(View *view, const char *key) {
         view->step_once = view->step_once || view->paused;
         view_update_trouble(view);
     }
-    bytes_free(&text);
 }
 
 static void obey(View *view, const char *key) {
@@ -303,7 +299,7 @@ static void run_loop(View *view) {
             step(view);
         }
         // A run that is to end by itself ends when nothing more can come.
-        if (view->world.halted && (view->world.options.frames < INT64_MAX || !isnan(view->world.options.run_time))) {
+        if (view->world.halted && (view->world.options->frames < INT64_MAX || !isnan(view->world.options->run_time))) {
             return;
         }
         view_measure_rate(view);
@@ -315,7 +311,7 @@ static void run_loop(View *view) {
 
 // A window if there is a screen for it, else the terminal.
 static bool open_display(View *view) {
-    const Options *options = &view->world.options;
+    const Options *options = view->world.options;
     bool window = !options->terminal && window_display() != NULL && window_has_screen();
     if (!window && terminal_display() == NULL) {
         message(options->terminal || window_display() != NULL
@@ -336,24 +332,24 @@ static bool open_display(View *view) {
 
 // To a person who watches, as the other commands do; on the screen that is there again after the pictures.
 static void report_summary(const View *view) {
-    Verbosity verbosity = view->world.options.verbosity;
+    Verbosity verbosity = view->world.options->verbosity;
     double seconds = clock_seconds() - view->start;
     if (verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO))) {
         message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
     }
-    if (view->world.options.terminal && verbosity == LOG_VERBOSE) {
-        hint_pictures(view->host, view->world.options.script);
+    if (view->world.options->terminal && verbosity == LOG_VERBOSE) {
+        hint_pictures(view->host, view->world.options->script);
     } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
         message("it was shown in the terminal, for this petri was built without SDL; './dev build' adds windows");
     }
 }
 
 static int run_view(View *view) {
-    view->start = view->saved = view->measured = clock_seconds();
+    view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
     view->redraw = true;
-    if (view->world.options.frames > 0) {
+    if (view->world.options->frames > 0) {
         step(view); // before anything opens: it tells the size
     }
     follow_script(view);
@@ -370,27 +366,24 @@ static int run_view(View *view) {
         return STATUS_FAILED;
     }
     if (!view->world.halted) {
-        world_save(&view->world);
+        world_save(&view->world, true);
     }
     report_summary(view);
     bool failed = view->world.halted || view->world.failed || view->broken;
-    return interrupted ? STATUS_SIGNAL + interrupted : failed ? STATUS_FAILED : STATUS_DONE;
+    if (interrupted && !view->world.state.behind) {
+        return STATUS_SIGNAL + interrupted;
+    }
+    return failed || state_file_failed(&view->world.state) ? STATUS_FAILED : STATUS_DONE;
 }
 
-static int view_run(const Host *host, int argc, char **argv) {
-    View *view = memory_zeroed(sizeof *view);
-    view->host = host;
-    int status = options_read(&view->world.options, &VIEW_COMMAND, argc, argv);
+static int view_run(const Host *host, Options *options) {
+    View view = {.host = host};
+    int status = world_open(&view.world, host, options);
     if (status == OPTIONS_READ) {
-        status = world_open(&view->world, host);
-        if (status == OPTIONS_READ) {
-            status = run_view(view);
-        }
-        world_close(&view->world);
+        status = run_view(&view);
     }
-    options_free(&view->world.options);
-    free(view->pixels);
-    free(view);
+    world_close(&view.world);
+    free(view.pixels);
     return status;
 }
 

@@ -21,7 +21,6 @@ typedef struct View {
     bool broken; // the display, or memory for it, is gone
     double start;
     double drawn; // when the picture was drawn last
-    double saved;
     double notice_ends; // INFINITY: it stays
     // The frame rate
     double measured;

@@ -8,7 +8,7 @@ enum { MOST_TEXT = 3500 };
 void warnings_add(Warnings *warnings, const PetriDiagnostic *diagnostic) {
     warnings->count += diagnostic->level == PETRI_NOTE ? 0 : 1;
     if (warnings->text.length < MOST_TEXT) {
-        bytes_format(&warnings->text, "%s", diagnostic->rendered);
+        bytes_add_text(&warnings->text, diagnostic->rendered);
     }
 }
 

@@ -119,8 +119,9 @@ static Display *window_open(const char *title, int width, int height, bool colou
     SDL_SetMainReady();
     if (start_video()) {
         fit_screen(&width, &height);
+        // Shown when it has its renderer: SDL may replace the window for that one.
         display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
-                                           SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI);
+                                           SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN);
     }
     if (display->window != NULL) {
         SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
@@ -132,6 +133,7 @@ static Display *window_open(const char *title, int width, int height, bool colou
         window_close(display);
         return NULL;
     }
+    SDL_ShowWindow(display->window);
     return display;
 }
 

@@ -17,7 +17,7 @@ static void log_text(World *world, const char *text) {
     if (!world->mute) {
         fputs(text, stderr);
     } else if (world->log.length < MOST_LOG) {
-        bytes_add(&world->log, text, strlen(text));
+        bytes_add_text(&world->log, text);
     }
 }
 
@@ -25,14 +25,14 @@ static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
     World *world = context;
     world->wrong_definition = world->wrong_definition || is_wrong_definition(diagnostic);
     if (diagnostic->level != PETRI_NOTE) { // notes belong to the diagnostic before them
-        world->shown = diagnostic->level == PETRI_ERROR || world->options.verbosity > LOG_QUIET;
+        world->shown = diagnostic->level == PETRI_ERROR || world->options->verbosity > LOG_QUIET;
     }
     if (world->shown) {
         log_text(world, diagnostic->rendered);
         warnings_add(&world->warnings, diagnostic);
     }
     if (diagnostic->level == PETRI_ERROR && world->trouble.length < MOST_TROUBLE) {
-        bytes_format(&world->trouble, "%s", diagnostic->rendered);
+        bytes_add_text(&world->trouble, diagnostic->rendered);
     }
 }
 
@@ -61,7 +61,7 @@ static void head_trouble(World *world, const char *line) {
 
 // The script, and what it includes and imports as far as that is known.
 static bool watch_sources(World *world) {
-    bool watched = watch_file(world->watch, world->options.script);
+    bool watched = watch_file(world->watch, world->options->script);
     const char *source;
     for (size_t i = 0; watched && (source = petri_source(world->session, i)) != NULL; i++) {
         watched = watch_file(world->watch, source);
@@ -70,26 +70,20 @@ static bool watch_sources(World *world) {
 }
 
 static int load_first(World *world) {
-    PetriStatus status = script_load(world->session, world->options.script);
+    PetriStatus status = script_load(world->session, world->options->script);
     if (status != PETRI_OK) {
         if (status == PETRI_MEMORY) {
             message("out of memory");
         }
         return world->wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
-    if (world->options.state_file != NULL) {
-        world->state_lost = petri_restore(world->session, world->options.state_file) != PETRI_OK;
-        if (world->state_lost) {
-            message("the view starts afresh; '%s' is left alone and nothing is saved", world->options.state_file);
-            world->failed = true;
-        }
-    }
+    state_file_restore(&world->state, world->session, world->options->state_file);
     return OPTIONS_READ;
 }
 
-int world_open(World *world, const Host *host) {
-    world->host = host;
-    int status = options_open(&world->options, host, on_diagnostic, world, &world->session);
+int world_open(World *world, const Host *host, const Options *options) {
+    world->options = options;
+    int status = options_open(options, host, on_diagnostic, world, &world->session);
     if (status != OPTIONS_READ) {
         return status;
     }
@@ -129,7 +123,7 @@ static void record(World *world) {
 // Of an early frame, unless there is a picture that can stay for so long, only the size is wanted.
 static void take_picture(World *world) {
     PetriPictureOptions options = petri_default_picture_options();
-    options.automatic = world->options.automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    options.automatic = world->options->automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     world->early = !petri_picture_ready(world->session, &options);
     if (world->early && world->picture != NULL) {
         return;
@@ -162,7 +156,7 @@ bool world_step(World *world) {
     take_picture(world);
     world->frames += world->early ? 0 : 1;
     cut_trouble(world, before); // faults of a frame that went on are told on standard error, as in a run
-    if (world->options.verbosity >= LOG_DEBUG) {
+    if (world->options->verbosity >= LOG_DEBUG) {
         char line[200];
         snprintf(line, sizeof line, "petri: frame %" PRId64 ": script %.3f ms, physics %.3f ms, %" PRIu64 " steps\n",
                  frame.number, frame.evaluation_seconds * 1e3, frame.physics_seconds * 1e3, frame.physics_steps);
@@ -188,7 +182,7 @@ bool world_reload(World *world) {
     Warnings before = world->warnings;
     world->warnings = (Warnings){0};
     forget_trouble(world);
-    bool loaded = petri_reload(world->session, world->options.script) == PETRI_OK;
+    bool loaded = petri_reload(world->session, world->options->script) == PETRI_OK;
     choose_warnings(world, &before, loaded);
     if (loaded) {
         world->halted = world->broken = false;
@@ -240,7 +234,7 @@ bool world_screenshot(World *world, char *name, size_t size) {
         snprintf(name, size, "a picture, for there is none");
         return false;
     }
-    base_name(world->options.script, base, sizeof base);
+    base_name(world->options->script, base, sizeof base);
     int64_t frame = petri_picture_frame(world->picture);
     snprintf(name, size, "%s-%05" PRId64 ".png", base, frame);
     for (int i = 2; access(name, F_OK) == 0; i++) {
@@ -251,10 +245,12 @@ bool world_screenshot(World *world, char *name, size_t size) {
     return saved;
 }
 
-void world_save(World *world) {
-    if (world->options.state_file != NULL && !world->state_lost) {
-        world->state_lost = petri_save(world->session, world->options.state_file) != PETRI_OK;
-        world->failed = world->failed || world->state_lost;
+void world_save(World *world, bool at_once) {
+    const char *news = state_file_save(&world->state, world->session, at_once);
+    if (news != NULL) {
+        log_text(world, "petri: ");
+        log_text(world, news);
+        log_text(world, "\n");
     }
 }
 

@@ -7,14 +7,14 @@
 
 #include "cli/bytes.h"
 #include "cli/options.h"
+#include "cli/state_file.h"
 #include "cli/watch.h"
 #include "petri-draw.h"
 #include "render/recording.h"
 #include "view/warnings.h"
 
 typedef struct World {
-    Options options;
-    const Host *host;
+    const Options *options;
     PetriSession *session;
     PetriPainter *painter;
     PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
@@ -26,7 +26,7 @@ typedef struct World {
     bool halted;    // a frame could not be made; the next load or reset goes on
     bool broken;    // the script on disk cannot be loaded; an earlier version is running
     bool failed;    // something could not be read, written or recorded
-    bool state_lost;
+    StateFile state;
     bool wrong_definition; // the script cannot take a value of -D
     // Messages
     bool mute;         // standard error belongs to the display: messages are kept in `log` until it is closed
@@ -37,7 +37,7 @@ typedef struct World {
 } World;
 
 // Opens and loads; the status to exit with, or OPTIONS_READ. The options have been read. Close in either case.
-int world_open(World *world, const Host *host);
+int world_open(World *world, const Host *host, const Options *options);
 void world_close(World *world);
 // One frame and its picture; records what the script asks for. False if it could not be made.
 bool world_step(World *world);
@@ -50,10 +50,11 @@ bool world_set_parameter(World *world, const char *name, const char *value);
 void world_reset(World *world);
 // What is wrong, "" if nothing is. Valid until the next call.
 const char *world_trouble(const World *world);
+// Saves the state every few seconds, or at once.
+void world_save(World *world, bool at_once);
 // Writes the last frame's picture to a PNG file that did not exist, named after script and frame, in this folder. False
 // if it cannot be written. `name` gets what it is called.
 bool world_screenshot(World *world, char *name, size_t size);
-void world_save(World *world);
 // Writes what was kept while standard error was not ours, and writes there from now on.
 void world_unmute(World *world);
 

@@ -2,24 +2,13 @@
 # smoke.sh: the bench prints whole tables, and CSV and Markdown agree with them. No figure is judged.
 # usage: smoke.sh PATH-OF-BENCH PATH-OF-PEERS
 set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
 bench=$1
 peers=$2
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
-faults=0
-
-# check NAME COMMAND...: the command must succeed.
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        echo "ok $name"
-    else
-        echo "FAIL $name: $*"
-        faults=$((faults + 1))
-    fi
-}
 refuses() { ! "$@" >"$work/refused" 2>&1; }
 
 # csv_is_whole FILE COLUMNS...: as many fields in each row as in the first, these columns among them, at least one row,
@@ -105,4 +94,4 @@ without_lammps() { PATH="$work/bin" "$bench" --peers >"$work/refused" 2>&1; [ $?
 check "no LAMMPS" without_lammps
 check "no LAMMPS, said so" grep -q 'there is no LAMMPS here' "$work/refused"
 
-[ "$faults" -eq 0 ] || { cat "$work/err"; exit 1; }
+finish || { cat "$work/err"; exit 1; }

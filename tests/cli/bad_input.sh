@@ -66,8 +66,6 @@ check "also in modules and includes" out_is "@0 time=0 beat=0
 !k
 !n a=2"
 
-# repeat COUNT TEXT
-repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }
 { printf '!n a=0' && repeat 5000000 ';1' && echo; } >long.fl
 petri run --frames 1 long.fl
 check "a line of 10 MB is a script" status_is 0

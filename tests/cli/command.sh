@@ -104,6 +104,16 @@ petri run --frames 1 --print tree,log --define x=2 count.fl
 check "--print takes several sections" out_is "@0 time=0 beat=0
 !n a=0 b=2
 > 0"
+printf '!counter state=:c initial=1\ndebug(frame)\n!n\n' >counter.fl
+petri run --frames 2 --every 2 --print hash,log,tree counter.fl
+check "--print hash is a line behind the other sections" out_is "@0 time=0 beat=0
+!counter state=:c initial=1
+!n
+> 0
+= $(printf '$:c = 1\n$(:c;:time) = 0\n' | sha256sum | cut -d ' ' -f 1)"
+cp out both
+petri run --frames 2 --every 2 --print hash,log,tree,state counter.fl
+check "… the same with the state" [ "$(grep -v '^\$' out)" = "$(cat both)" ]
 petri run --realtime --frames 2 --fps 50 -D x=1 count.fl
 check "--realtime runs" lines_are out 2
 petri run --realtime --frames 1 --print tree -D x=1 count.fl

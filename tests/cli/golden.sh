@@ -89,6 +89,29 @@ check "errors of a frame do not count if the golden has none" passes
 echo '? something else' >>g/error.golden
 verdict error
 check "errors of a frame count if the golden has some" fails
+
+# hashes of the state
+printf '!counter state=:c\n' >g/hash.fl
+hash=$(printf '$:c = 0\n$(:c;:time) = 0\n' | sha256sum | cut -d ' ' -f 1)
+printf '# run --frames 1 --print hash\n@0 time=0 beat=0\n= %s\n' "$hash" >g/hash.golden
+verdict hash
+check "a hash is that of the state's text" passes
+sed -i 's/= ./= x/' g/hash.golden
+verdict hash
+check "another hash fails" fails
+printf '!counter state=:c initial=1\n' >g/hash.fl
+printf '# run --frames 2 --print hash\n' >g/hash.golden
+petri test --update g/hash.fl
+verdict hash
+check "--update records hashes" passes
+# The second one is 869da8…, which begins with a number.
+sed -i 's/^= 869da8/= 869.0da8/' g/hash.golden
+check "the test below is one" has g/hash.golden 869.0
+verdict hash
+check "digits of a hash are no number" fails
+sed -i 's/^= 869.0da8/= 868da8/; s/^# run.*/&\n# tolerance 10/' g/hash.golden
+verdict hash
+check "a tolerance is nothing to a hash" fails
 printf '!n\n' >g/oops.fl
 for first in '# run --frames 1 --no-such-option' '# run "--frames 1' 'run' ''; do
     printf '%s\n@0 time=0 beat=0\n' "$first" >g/oops.golden

@@ -46,7 +46,7 @@ check "so is a link that leads nowhere" status_is 1
 check "… and nothing is made behind it" [ ! -e nowhere.fl ]
 petri new absent/newdish
 check "a folder that is not there is an error" status_is 1
-check "… which names the file" has err "cannot make absent/newdish.fl: "
+check "… which names the file" has err "cannot write absent/newdish.fl: "
 mkdir -p folder
 petri new folder/newdish.fl
 check "a suffix and a folder may be given" [ -s folder/newdish.fl ]

@@ -1,36 +1,20 @@
 #!/bin/sh
-# run.sh ROOT: what ROOT/dev says and does on a bare machine: packages, questions, root, network, compiler, tests. Nothing
+# run.sh: what ./dev says and does on a bare machine: packages, questions, root, network, compiler, tests. Nothing
 # is installed or compiled: its PATH has stand-ins that note how they are called and do what the real ones would tell.
 # shellcheck disable=SC2016 # dollars are for the stand-ins
 set -u
-root=$(cd "$1" && pwd)
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
-passed=0
-failed=0
-
-# check NAME COMMAND...: the command must succeed.
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-        echo "ok $name"
-    else
-        failed=$((failed + 1))
-        echo "FAIL $name: $* (exit status $status)"
-        sed 's/^/  stdout: /' "$work/out" | tail -n 15
-        sed 's/^/  stderr: /' "$work/err" | tail -n 15
-        sed 's/^/  called: /' "$work/calls" | tail -n 15
-    fi
+cd "$work" || exit 1
+tell_more() {
+    for file in out err calls; do
+        sed "s/^/  $file: /" $file | tail -n 15
+    done
 }
-status_is() { [ "$status" -eq "$1" ]; }
-has() { grep -Fq -e "$2" "$work/$1"; }
-lacks() { ! has "$@"; }
-empty() { [ ! -s "$work/$1" ]; }
-count_is() { [ "$(grep -Fc -e "$2" "$work/$1")" -eq "$3" ]; }
-lines_at_most() { [ "$(wc -l <"$work/$1")" -le "$2" ]; }
+lines_at_most() { [ "$(wc -l <"$1")" -le "$2" ]; }
 
 # stand_in NAME: a program with this text.
 stand_in() {
@@ -316,5 +300,4 @@ if [ -n "$script" ] && "$script" -qec true /dev/null >/dev/null 2>&1 </dev/null;
 else
     echo "skipped: the questions, for there are no pseudo-terminals"
 fi
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

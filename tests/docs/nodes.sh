@@ -37,15 +37,18 @@ trap 'exit 1' INT TERM HUP
         print kind, name, fallback > (work "/" area ".help")
     }'
 
+# For awk: what a heading is linked by.
+slug='
+    function slug(text) {
+        text = tolower(text)
+        gsub(/[^a-z0-9 _-]/, "", text)
+        gsub(/ /, "-", text)
+        return text
+    }'
+
 # The same from a document.
 read_document() { # FILE
-    awk '
-        function slug(text) {
-            text = tolower(text)
-            gsub(/[^a-z0-9 _-]/, "", text)
-            gsub(/ /, "-", text)
-            return text
-        }
+    awk "$slug"'
         /^```/ { code = !code }
         code { next }
         /^#+ / {
@@ -149,13 +152,7 @@ for document in lib/physics/README.md lib/canvas/README.md; do
 done
 # … and so must headings that they name.
 for document in lib/physics/README.md lib/canvas/README.md; do
-    awk -v document="$document" '
-        function slug(text) {
-            text = tolower(text)
-            gsub(/[^a-z0-9 _-]/, "", text)
-            gsub(/ /, "-", text)
-            return text
-        }
+    awk -v document="$document" "$slug"'
         /^```/ { code = !code }
         !code && /^#+ / { sub(/^#+ /, ""); there[slug($0)] = 1 }
         !code {

@@ -2,6 +2,8 @@
 # run.sh BUILD draws|none SANITIZERS: installs what BUILD holds into a folder, moves that elsewhere, and tries it: the
 # command and the program that it starts, the hints that it gives, the library.
 set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
 build=$(cd "$1" && pwd)
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
@@ -9,23 +11,6 @@ trap 'exit 130' INT TERM
 cd "$work" || exit 1
 SHELL=/bin/sh # that of `script`
 export SHELL
-passed=0
-failed=0
-
-# check NAME COMMAND...: the command must succeed.
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-        echo "ok $name"
-    else
-        failed=$((failed + 1))
-        echo "FAIL $name: $*"
-        cat out 2>/dev/null
-    fi
-}
-has() { grep -Fq -e "$2" "$1"; }
 helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }
 
 DESTDIR=$work/made meson install -C "$build" --no-rebuild >log 2>&1
@@ -120,5 +105,4 @@ EOF
     status=$?
     check "and draws, if it can" [ $status -eq "$([ "$2" = draws ] && echo 0 || echo 2)" ]
 fi
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

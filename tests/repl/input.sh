@@ -1,8 +1,9 @@
 #!/bin/sh
 # input.sh PETRI: input that no one means to give at the prompt: an answer each, never a crash.
 set -u
-here=$(cd "$(dirname "$0")" && pwd)
-petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
 work=$(mktemp -d) || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
@@ -10,52 +11,33 @@ cp -R "$here"/*.fl "$here"/lib "$work"
 cd "$work" || exit 1
 LC_ALL=C.UTF-8
 export LC_ALL
-passed=0
-failed=0
-
-# check NAME COMMAND...
-check() {
-    name=$1
-    shift
-    if "$@"; then
-        passed=$((passed + 1))
-        echo "ok $name"
-    else
-        failed=$((failed + 1))
-        echo "FAIL $name: $* (exit status $status)"
-        head -c 600 out
-    fi
-}
 
 # The prompt's answer to the file in; status and output are kept.
 petri() {
     timeout 100 "$petri" repl "$@" <in >out 2>&1
     status=$?
 }
-status_is() { [ "$status" -eq "$1" ]; }
-has() { grep -Fq -e "$1" out; }
-lacks() { ! has "$1"; }
-repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }
+says() { has out "$1"; }
 
 { printf 'sum(0' && repeat 500000 ';1' && printf ')\n1+1\n'; } >in
 petri
-check "a line of 1 MB is evaluated" has 500000
-check "what comes after it, too" has "
+check "a line of 1 MB is evaluated" says 500000
+check "what comes after it, too" says "
 2"
 check "1 MB is not echoed" [ "$(wc -c <out)" -lt 2000 ]
 check "nothing is wrong with 1 MB" status_is 0
 { printf '0' && repeat 500000 ';1' && printf ';;\n1+1\n'; } >in
 petri
-check "a mistake at the end of 1 MB has its column" has "prompt:1:1000003: error: "
+check "a mistake at the end of 1 MB has its column" says "prompt:1:1000003: error: "
 check "a mistake is seen in the exit status" status_is 1
 { printf '.' && repeat 1000000 'x' && printf '\n.step ' && repeat 100000 '9' && printf '\n'; } >in
 petri
-check "a command of 1 MB is none" has "there is no command '.xxx"
-check "a number of 100000 digits is none" has "is no whole number"
+check "a command of 1 MB is none" says "there is no command '.xxx"
+check "a number of 100000 digits is none" says "is no whole number"
 check "messages stay short" [ "$(wc -c <out)" -lt 3000 ]
 { repeat 3000 '(' && printf '\n1+1\n'; } >in
 petri
-check "3000 open parentheses are one error" has "1000"
+check "3000 open parentheses are one error" says "1000"
 { printf 'func f(x)\n' && repeat 2000 '    x
 ' && printf '\nf(1)\n'; } >in
 petri
@@ -63,7 +45,7 @@ check "a suite of 2000 lines" status_is 0
 printf '1\0002\n3\n\377\376\n4\n\r\n5\r\n' >in
 petri
 check "no text is an error" status_is 1
-check "and the prompt goes on" has "
+check "and the prompt goes on" says "
 5"
 : >in
 petri cells.fl
@@ -71,10 +53,10 @@ check "no input at all is fine" status_is 0
 printf 'for i in ..3' >in
 petri
 check "the end of the input in a statement is an error" status_is 1
-check "which is told" has "expected an indented block"
+check "which is told" says "expected an indented block"
 printf '1+2' >in
 petri
-check "the last line needs no end" has "
+check "the last line needs no end" says "
 3"
 
 printf '1\n' >in
@@ -88,12 +70,12 @@ check "two scripts" status_is 2
 status=$?
 check "a definition without a value" status_is 2
 petri --state missing.state cells.fl
-check "a state file that is missing" has "cannot read 'missing.state'"
+check "a state file that is missing" says "cannot read 'missing.state'"
 printf '.step 3\n.save here.state\n' >in
 petri cells.fl
 printf '.step\n' >in
 petri --state here.state cells.fl
-check "a session that begins with a state" has "@3 time=0.05"
+check "a session that begins with a state" says "@3 time=0.05"
 
 # Endless work is stopped by a signal, and with it the session, for nobody types.
 (
@@ -103,17 +85,16 @@ check "a session that begins with a state" has "@3 time=0.05"
     timeout -s INT 2 "$petri" repl cells.fl >out 2>&1
     echo $? >code
 }
-check "a signal stops .until" has "interrupted after"
+check "a signal stops .until" says "interrupted after"
 (
     printf 'func f(n)\n    if n\n        f(n-1)+f(n-1)\n    else\n        1\n\nf(100)\n'
     sleep 3
 ) | timeout -s INT 2 "$petri" repl >out 2>&1
-check "and an evaluation" has "petri: interrupted"
+check "and an evaluation" says "petri: interrupted"
 "$petri" repl <&- >out 2>&1
 status=$?
 check "closed standard input is the end" [ "$status" -le 1 ]
 yes 1 | head -n 20000 | "$petri" repl 2>err | head -n 2 >out
 check "a closed pipe ends it quietly" [ ! -s err ]
 
-echo "$passed passed, $failed failed"
-[ "$failed" -eq 0 ]
+finish

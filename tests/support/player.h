@@ -80,6 +80,14 @@ static inline void player_reopen(Player *player, const PetriOptions *options) {
     player_open_with(player, options);
 }
 
+// A fresh session whose frames come in real time.
+static inline void player_realtime(Player *player, double fps) {
+    PetriOptions options = player_options(player);
+    options.realtime = true;
+    options.fps = fps;
+    player_reopen(player, &options);
+}
+
 // What has been told since this was asked last. Valid until the next diagnostic.
 static inline const char *player_told(Player *player) {
     player->told.len = 0;

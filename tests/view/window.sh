@@ -54,7 +54,7 @@ tell_more() {
 # The server takes away the window of a view that has ended when it comes to it: it must not be taken for the next one's.
 none_is_left() { ! find_window; }
 find_window() {
-    window=$(xdotool search --name "^$title\$" 2>/dev/null | tail -n 1)
+    window=$(xdotool search --onlyvisible --name "^$title\$" 2>/dev/null | tail -n 1)
     [ -n "$window" ]
 }
 view() {
@@ -387,7 +387,7 @@ check "they are what petri render draws" cmp -s film/2.png wanted.png
 
 # The frames in which particles cannot be seen yet are neither shown nor recorded, also after a reset, even while paused.
 cat >early.fl <<'END'
-%pragma fps 4
+%pragma fps 1
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
 !window size=300;200 title='early'
@@ -396,7 +396,7 @@ cat >early.fl <<'END'
     !record filename=concat('early/';frame;'.png')
 END
 mkdir early
-view early early.fl --frames 60
+view early early.fl --frames 120
 check "a view begins with black" point 150 100 000000
 check "then the particles are seen" point 150 100 00ff00
 press space

@@ -3,8 +3,6 @@
 
 #include "base/file.h"
 
-#include <errno.h>
-
 static Arena arena;
 static Folder folder;
 
@@ -64,28 +62,6 @@ static void test_version(void **state) {
     assert_false(file_version(&arena, folder_file(&folder, "none"), &third));
 }
 
-static void test_replace(void **state) {
-    (void)state;
-    const char *problem = NULL;
-    assert_true(file_replace(&arena, folder_file(&folder, "new"), STR("one"), &problem));
-    assert_string_equal(content("new", 100), "one");
-    assert_true(file_replace(&arena, folder_file(&folder, "new"), STR(""), &problem));
-    assert_string_equal(content("new", 100), "");
-    assert_true(file_replace(&arena, folder_file(&folder, "new"), STR("a longer text"), &problem));
-    assert_string_equal(content("new", 100), "a longer text");
-    int files = 0;
-    DIR *entries = opendir(folder.path);
-    for (struct dirent *entry; (entry = readdir(entries));)
-        files += entry->d_name[0] != '.';
-    closedir(entries);
-    assert_int_equal(files, 1); // nothing is left beside it
-    assert_false(file_replace(&arena, folder_file(&folder, "no/such/folder"), STR("x"), &problem));
-    assert_non_null(problem);
-    errno = EINVAL; // left from something else
-    assert_false(file_replace(&arena, folder.path, STR("x"), &problem));
-    assert_string_equal(problem, strerror(EISDIR));
-}
-
 static void test_canonical(void **state) {
     (void)state;
     folder_write(&folder, "a", "");
@@ -103,7 +79,6 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         FILE_TEST(test_read),
         FILE_TEST(test_version),
-        FILE_TEST(test_replace),
         FILE_TEST(test_canonical),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

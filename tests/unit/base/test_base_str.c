@@ -197,6 +197,15 @@ static void test_hex_colours(void **state) {
     arena_free(&arena);
 }
 
+static void test_word_number(void **state) {
+    (void)state;
+    assert_int_equal(str_word_number(STR("one"), "one two three"), 0);
+    assert_int_equal(str_word_number(STR("three"), "one two three"), 2);
+    assert_int_equal(str_word_number(STR("thre"), "one two three"), -1);
+    assert_int_equal(str_word_number(STR(""), "one two three"), -1);
+    assert_int_equal(str_word_number(STR("one"), ""), -1);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_utf8_round_trip),
@@ -207,6 +216,7 @@ int main(void) {
         cmocka_unit_test(test_distance),
         cmocka_unit_test(test_text),
         cmocka_unit_test(test_hex_colours),
+        cmocka_unit_test(test_word_number),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

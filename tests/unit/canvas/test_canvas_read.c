@@ -1,36 +1,8 @@
 // Reading nodes into a drawing: types, words, reports. What the nodes look like is tested by tests/pictures.
-#include "check.h"
 #include "nodes.h"
+#include "schema.h"
 
 #include "canvas/read.h"
-
-typedef struct Fixture {
-    Arena arena;
-    SymbolTable symbols;
-    Schema schema;
-    char told[2000];
-} Fixture;
-
-static void note(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text) {
-    (void)origin;
-    Fixture *f = host;
-    (void)level, (void)key;
-    size_t len = strlen(f->told);
-    snprintf(f->told + len, sizeof f->told - len, "%.*s %.*s [%s]\n", (int)node.len, node.bytes, (int)text.len,
-             text.bytes, code);
-}
-
-static void begin(Fixture *f) {
-    *f = (Fixture){0};
-    arena_init(&f->arena, "test", SIZE_MAX);
-    f->symbols = symbol_table_new(&f->arena);
-    schema_init(&f->schema, &f->symbols, (SchemaHost){f, note});
-}
-
-static void end(Fixture *f) {
-    symbol_table_free(&f->symbols);
-    arena_free(&f->arena);
-}
 
 static const Symbol *name(Fixture *f, const char *text) {
     return symbol_intern(&f->symbols, str_from(text));

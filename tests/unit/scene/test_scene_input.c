@@ -121,6 +121,17 @@ static void test_names_of_keys(void **state) {
     assert_non_null(strstr(player_state(player), "$:zed = 1\n"));
 }
 
+// The last of the long names and the first of the short ones.
+static void test_keys_differ(void **state) {
+    Player *player = *state;
+    player_run(player, "!window\n    !key name=:menu state=:m\n    !key name=:a state=:a\n!see m=$:m a=$:a\n", 1);
+    press(player, "menu", true);
+    assert_text("menu", next(player), "!see m=1 a=0\n");
+    press(player, "a", true);
+    press(player, "menu", false);
+    assert_text("a", next(player), "!see m=0 a=1\n");
+}
+
 static void test_mistakes(void **state) {
     static const struct {
         const char *script;
@@ -180,9 +191,10 @@ static void test_comes_and_goes(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_silent),     PLAYER_TEST(test_pointer), PLAYER_TEST(test_click_between_frames),
-        PLAYER_TEST(test_not_finite), PLAYER_TEST(test_key),     PLAYER_TEST(test_names_of_keys),
-        PLAYER_TEST(test_mistakes),   PLAYER_TEST(test_places),  PLAYER_TEST(test_comes_and_goes),
+        PLAYER_TEST(test_silent),      PLAYER_TEST(test_pointer), PLAYER_TEST(test_click_between_frames),
+        PLAYER_TEST(test_not_finite),  PLAYER_TEST(test_key),     PLAYER_TEST(test_names_of_keys),
+        PLAYER_TEST(test_mistakes),    PLAYER_TEST(test_places),  PLAYER_TEST(test_comes_and_goes),
+        PLAYER_TEST(test_keys_differ),
     };
     return cmocka_run_group_tests_name("input", tests, NULL, NULL);
 }

@@ -46,6 +46,10 @@ static void test_text_lengths(void **state) {
     assert_text("copied", player_tree(player), "!a x='s'\n");
 }
 
+#define STATE "$(:c;'k') = 1.25;2.25\n$(:c;'k';:time) = 0.25\n$\"it's\" = :a\n$(\"it's\";:time) = 0.25\n"
+// printf of that | sha256sum
+#define STATE_HASH "= 1d40801a6533593b67849dffa0352f51200276585fe3c23a3c9adf4ccb34336d\n"
+
 static void test_print(void **state) {
     Player *player = *state;
     player_run(player,
@@ -60,13 +64,14 @@ static void test_print(void **state) {
         {0, "@1 time=0.25 beat=0.25\n"},
         {PETRI_PRINT_TREE, "@1 time=0.25 beat=0.25\n"
                            "!counter state=:c;'k' initial=1;2\n!counter state=\"it's\" rate=0 initial=:a\n!a\n"},
-        {PETRI_PRINT_STATE,
-         "@1 time=0.25 beat=0.25\n"
-         "$(:c;'k') = 1.25;2.25\n$(:c;'k';:time) = 0.25\n$\"it's\" = :a\n$(\"it's\";:time) = 0.25\n"},
+        {PETRI_PRINT_STATE, "@1 time=0.25 beat=0.25\n" STATE},
         {PETRI_PRINT_LOG, "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n"},
         {PETRI_PRINT_ERROR, "@1 time=0.25 beat=0.25\n? not callable: a string (t.fl:8)\n"},
         {PETRI_PRINT_LOG | PETRI_PRINT_ERROR,
          "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n? not callable: a string (t.fl:8)\n"},
+        {PETRI_PRINT_HASH, "@1 time=0.25 beat=0.25\n" STATE_HASH},
+        {PETRI_PRINT_HASH | PETRI_PRINT_STATE | PETRI_PRINT_ERROR,
+         "@1 time=0.25 beat=0.25\n" STATE "? not callable: a string (t.fl:8)\n" STATE_HASH},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         player_print(player, rows[i].sections);

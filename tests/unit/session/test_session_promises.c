@@ -76,10 +76,7 @@ static void test_toggles_rewind(void **state) {
 // Real time: what a script sees of it goes back, too.
 static void test_performance_rewinds(void **state) {
     Player *player = *state;
-    PetriOptions options = player_options(player);
-    options.realtime = true;
-    options.fps = 500;
-    player_reopen(player, &options);
+    player_realtime(player, 500);
     player_run(player, "!a p=performance", 3);
     PetriSnapshot *snapshot = petri_snapshot(player->session);
     PetriResult before, after;

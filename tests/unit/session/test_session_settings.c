@@ -115,10 +115,7 @@ static void test_options(void **state) {
     player_reopen(player, &options);
     player_run(player, "!a v=fps;run_time;time\n", 13);
     assert_text("options", player_tree(player), "!a v=24;2.5;0.5\n");
-    options = player_options(player);
-    options.realtime = true;
-    options.fps = 1000;
-    player_reopen(player, &options);
+    player_realtime(player, 1000);
     player_run(player, "!a v=realtime;frame;(clock>1e9);(performance>=0.5 and performance<=2);(time>0)\n", 3);
     assert_text("realtime", player_tree(player), "!a v=1;2;1;1;1\n");
     player_run(player, "!a v=beat;delta;performance\n", 1);
@@ -142,10 +139,7 @@ static void test_hold(void **state) {
     player_step(player, 1);
     assert_number("lockstep", petri_frame(player->session).time, 3.0 / 60);
 
-    PetriOptions options = player_options(player);
-    options.realtime = true;
-    options.fps = 10;
-    player_reopen(player, &options);
+    player_realtime(player, 10);
     assert_number("nothing loaded", petri_due(player->session), 0);
     player_run(player, "!a\n", 2);
     double due = petri_due(player->session), before = petri_frame(player->session).time;
@@ -178,9 +172,7 @@ static void assert_starts(Player *player, const char *what) {
 
 static void test_wall_clock_starts(void **state) {
     Player *player = *state;
-    PetriOptions options = player_options(player);
-    options.realtime = true;
-    player_reopen(player, &options);
+    player_realtime(player, 60);
     player_run(player, "%pragma fps 100\n!a v=time;beat\n", 0);
     assert_starts(player, "loaded");
     nap(0.05);
@@ -198,10 +190,7 @@ static void test_wall_clock_starts(void **state) {
 // Where a session goes back to, its time goes back to as well, and on from there as if nothing had been in between.
 static void test_wall_clock_goes_back(void **state) {
     Player *player = *state;
-    PetriOptions options = player_options(player);
-    options.realtime = true;
-    options.fps = 20;
-    player_reopen(player, &options);
+    player_realtime(player, 20);
     player_run(player, "!a v=time\n", 0);
     PetriSnapshot *none = petri_snapshot(player->session);
     player_step(player, 2);

@@ -1,0 +1,249 @@
+// replace.c: see replace.h.
+#define _GNU_SOURCE // O_TMPFILE
+#include "base/replace.h"
+
+#include "base/file.h"
+
+#include <dirent.h>
+#include <errno.h>
+#include <fcntl.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <string.h>
+#include <sys/file.h>
+#include <sys/random.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#ifndef O_PATH
+#define O_PATH O_RDONLY
+#endif
+// Names of new files, until they have their own: a prefix, 16 hexadecimal digits, a suffix.
+#define PREFIX ".petri-"
+#define SUFFIX ".tmp"
+enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MOST_TRIES = 100, MOST_SWEPT = 4096 };
+
+static int open_at(int folder, const char *name, int flags, mode_t mode) {
+    int file;
+    do
+        file = openat(folder, name, flags | O_CLOEXEC | O_NOCTTY, mode);
+    while (file < 0 && errno == EINTR);
+    return file;
+}
+
+// By hand, for a signal handler may need it.
+static bool make_name(char name[NAME_MAX + 1]) {
+    uint64_t number;
+    if (getentropy(&number, sizeof number) != 0)
+        return false;
+    memcpy(name, PREFIX, PREFIX_LENGTH);
+    for (int i = 0; i < DIGITS; i++, number >>= 4)
+        name[PREFIX_LENGTH + i] = "0123456789abcdef"[number & 15];
+    memcpy(name + PREFIX_LENGTH + DIGITS, SUFFIX, sizeof SUFFIX);
+    return true;
+}
+
+static bool is_ours(const char *name) {
+    return strlen(name) == PREFIX_LENGTH + DIGITS + sizeof SUFFIX - 1 && memcmp(name, PREFIX, PREFIX_LENGTH) == 0 &&
+           strspn(name + PREFIX_LENGTH, "0123456789abcdef") == DIGITS &&
+           strcmp(name + PREFIX_LENGTH + DIGITS, SUFFIX) == 0;
+}
+
+// Removes what a process left that was killed at the wrong moment: nobody has it locked.
+static void sweep(int folder) {
+    int again = open_at(folder, ".", O_RDONLY | O_DIRECTORY, 0);
+    DIR *entries = again < 0 ? NULL : fdopendir(again);
+    const struct dirent *entry;
+    for (int i = 0; entries && i < MOST_SWEPT && (entry = readdir(entries)); i++) {
+        int file = is_ours(entry->d_name) ? open_at(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0) : -1;
+        if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
+            unlinkat(folder, entry->d_name, 0);
+        if (file >= 0)
+            close(file);
+    }
+    if (entries)
+        closedir(entries);
+    else if (again >= 0)
+        close(again);
+}
+
+// Only who holds the lock is at work on a file. Where there are no locks, nobody sweeps either.
+static bool lock(int file) {
+    return flock(file, LOCK_EX | LOCK_NB) == 0 || errno != EWOULDBLOCK;
+}
+
+// Gives the file, which has no name, one in its folder.
+static bool link_file(const Replacement *r, const char *name) {
+    char path[64] = "/proc/self/fd/", digits[16];
+    char *end = path + strlen(path);
+    int count = 0;
+    for (int file = r->file; count == 0 || file > 0; file /= 10)
+        digits[count++] = (char)('0' + file % 10);
+    while (count > 0)
+        *end++ = digits[--count];
+    *end = '\0';
+    return name ? linkat(AT_FDCWD, path, r->folder, name, AT_SYMLINK_FOLLOW) == 0 : access(path, F_OK) == 0;
+}
+
+// Opens a file that has no name. False if there is no such thing here, or it could not get one later.
+static bool open_unnamed(Replacement *r) {
+#ifdef O_TMPFILE
+    r->file = open_at(r->folder, ".", O_TMPFILE | O_WRONLY, 0666);
+    if (r->file < 0)
+        return false;
+    if (lock(r->file) && link_file(r, NULL))
+        return true;
+    close(r->file);
+    r->file = -1;
+#endif
+    return false;
+}
+
+static bool open_named(Replacement *r) {
+    struct stat info;
+    for (int i = 0; i < MOST_TRIES && make_name(r->beside); i++) {
+        r->file = open_at(r->folder, r->beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+        if (r->file < 0 && errno != EEXIST)
+            break;
+        // Who sweeps may have been faster than the lock.
+        if (r->file >= 0 && lock(r->file) && fstat(r->file, &info) == 0 && info.st_nlink > 0)
+            return true;
+        if (r->file >= 0)
+            close(r->file);
+        r->file = -1;
+    }
+    r->beside[0] = '\0';
+    return false;
+}
+
+static bool give_up(Replacement *r, int error) {
+    replace_abandon(r);
+    errno = error;
+    return false;
+}
+
+bool replace_begin_in(Replacement *r, int folder, const char *name, unsigned flags) {
+    struct stat info;
+    size_t length = strlen(name);
+    *r = (Replacement){.file = -1, .folder = folder, .only_new = flags & REPLACE_NONE};
+    if (length == 0 || length > NAME_MAX)
+        return give_up(r, length == 0 ? ENOENT : ENAMETOOLONG);
+    memcpy(r->name, name, length + 1);
+    bool exists = fstatat(folder, name, &info, AT_SYMLINK_NOFOLLOW) == 0;
+    if (exists && r->only_new)
+        return give_up(r, EEXIST);
+    if (exists && !S_ISREG(info.st_mode))
+        return give_up(r, S_ISLNK(info.st_mode) ? ELOOP : S_ISDIR(info.st_mode) ? EISDIR : ENXIO);
+    bool named = flags & REPLACE_NAMED || !open_unnamed(r);
+    if (exists || named)
+        sweep(folder);
+    return !named || open_named(r) || give_up(r, errno);
+}
+
+// Of our own streams, by whatever name, or -1.
+static int find_stream(const struct stat *info) {
+    struct stat stream;
+    for (int fd = STDOUT_FILENO; fd <= STDERR_FILENO; fd++)
+        if (fstat(fd, &stream) == 0 && stream.st_dev == info->st_dev && stream.st_ino == info->st_ino)
+            return fd;
+    return -1;
+}
+
+bool replace_begin(Replacement *r, const char *path, unsigned flags) {
+    char target[PATH_MAX];
+    struct stat info;
+    *r = (Replacement){.file = -1, .folder = -1};
+    if (flags & REPLACE_NONE && lstat(path, &info) == 0) {
+        errno = EEXIST;
+        return false;
+    }
+    if (stat(path, &info) == 0 && !S_ISDIR(info.st_mode)) {
+        int stream = find_stream(&info);
+        r->direct = stream >= 0 || !S_ISREG(info.st_mode);
+        if (r->direct) {
+            r->file = stream >= 0 ? fcntl(stream, F_DUPFD_CLOEXEC, 0) : open_at(AT_FDCWD, path, O_WRONLY, 0);
+            return r->file >= 0;
+        }
+    }
+    if (!file_resolve(path, target))
+        return false;
+    char *name = strrchr(target, '/') + 1;
+    char first = name[0];
+    name[0] = '\0';
+    int folder = open_at(AT_FDCWD, target, O_RDONLY | O_DIRECTORY, 0);
+    if (folder < 0 && errno == EACCES)
+        folder = open_at(AT_FDCWD, target, O_PATH | O_DIRECTORY, 0);
+    name[0] = first;
+    if (folder < 0)
+        return false;
+    return replace_begin_in(r, folder, name, flags);
+}
+
+// Some file systems cannot do it, which is no failure.
+static bool sync_file(int file) {
+    int result;
+    do
+        result = fsync(file);
+    while (result != 0 && errno == EINTR);
+    return result == 0 || errno == EINVAL || errno == EBADF;
+}
+
+// A link is only made where nothing is; a new name is put over what is there.
+static bool put_in_place(Replacement *r, bool exists) {
+    bool named = r->beside[0] != '\0';
+    if (!named && (r->only_new || !exists)) {
+        if (link_file(r, r->name))
+            return true;
+        if (errno != EEXIST || r->only_new)
+            return false;
+    }
+    for (int i = 0; !named && i < MOST_TRIES && make_name(r->beside); i++) {
+        named = link_file(r, r->beside);
+        if (!named && errno != EEXIST)
+            break;
+    }
+    if (!named) {
+        r->beside[0] = '\0';
+        return false;
+    }
+    if (r->only_new) // the temporary name goes with replace_abandon
+        return linkat(r->folder, r->beside, r->folder, r->name, 0) == 0;
+    if (renameat(r->folder, r->beside, r->folder, r->name) != 0)
+        return false;
+    r->beside[0] = '\0';
+    return true;
+}
+
+bool replace_commit(Replacement *r) {
+    struct stat info;
+    if (r->direct) {
+        sync_file(r->file);
+        int file = r->file;
+        r->file = -1;
+        return close(file) == 0 || errno == EINTR;
+    }
+    bool exists = fstatat(r->folder, r->name, &info, AT_SYMLINK_NOFOLLOW) == 0;
+    if (exists && !S_ISREG(info.st_mode))
+        return give_up(r, EEXIST);
+    if (exists) {
+        (void)!fchown(r->file, info.st_uid, info.st_gid);
+        (void)!fchmod(r->file, info.st_mode & 07777);
+    }
+    if (!sync_file(r->file) || !put_in_place(r, exists))
+        return give_up(r, errno);
+    if (!sync_file(r->folder)) // the name, too, must reach the disk
+        return give_up(r, errno);
+    replace_abandon(r);
+    return true;
+}
+
+void replace_abandon(Replacement *r) {
+    if (r->beside[0] != '\0')
+        unlinkat(r->folder, r->beside, 0);
+    if (r->file >= 0)
+        close(r->file);
+    if (r->folder >= 0)
+        close(r->folder);
+    r->file = r->folder = -1;
+    r->beside[0] = '\0';
+}

@@ -1,0 +1,52 @@
+# check.sh: checks that are counted, for tests in shell. Sourced; `here` is the folder of the test, `root` the project.
+here=$(cd "$(dirname "$0")" && pwd)
+root=${here%/tests/*}
+passed=0
+failed=0
+status=
+
+# check NAME COMMAND...: the command must succeed. `status` is told if the test keeps exit statuses there.
+check() {
+    name=$1
+    shift
+    if "$@"; then
+        passed=$((passed + 1))
+        echo "ok $name"
+    else
+        failed=$((failed + 1))
+        echo "FAIL $name: $*${status:+ (exit status $status)}"
+        tell_more
+    fi
+}
+
+# tell_more: what helps to see why a check has failed; tests may have one of their own.
+tell_more() {
+    for file in out err; do
+        [ ! -s "$file" ] || head -c 600 "$file" | sed "s/^/  $file: /"
+    done
+}
+
+# finish: the last line, and the status of the test.
+finish() {
+    echo "$passed passed, $failed failed"
+    [ "$failed" -eq 0 ]
+}
+
+# program PATH: the same from the root; ends the test if there is no such program.
+program() {
+    if [ ! -x "$1" ]; then
+        echo "usage: $0 PATH-OF-PETRI ..." >&2
+        exit 2
+    fi
+    echo "$(cd "$(dirname "$1")" && pwd)/$(basename "$1")"
+}
+
+status_is() { [ "$status" -eq "$1" ]; }
+has() { grep -Fq -e "$2" "$1"; }
+lacks() { ! has "$@"; }
+empty() { [ ! -s "$1" ]; }
+exists() { [ -e "$1" ]; }
+count_is() { [ "$(grep -Fc -e "$2" "$1")" -eq "$3" ]; }
+lines_are() { [ "$(wc -l <"$1")" -eq "$2" ]; }
+# repeat COUNT TEXT
+repeat() { awk -v n="$1" -v s="$2" 'BEGIN { for (i = 0; i < n; i++) printf "%s", s }'; }

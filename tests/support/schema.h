@@ -1,0 +1,37 @@
+// schema.h: symbols and the table of nodes for tests of what reads nodes; what readers say is kept.
+#ifndef PETRI_TESTS_SCHEMA_H
+#define PETRI_TESTS_SCHEMA_H
+
+#include "check.h"
+
+#include "schema/reader.h"
+
+typedef struct Fixture {
+    Arena arena;
+    SymbolTable symbols;
+    Schema schema;
+    char told[2000]; // `!node text [code]`, one line each
+} Fixture;
+
+static inline void fixture_tell(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
+                                Str text) {
+    (void)level, (void)origin, (void)key;
+    Fixture *f = host;
+    size_t len = strlen(f->told);
+    snprintf(f->told + len, sizeof f->told - len, "%.*s %.*s [%s]\n", (int)node.len, node.bytes, (int)text.len,
+             text.bytes, code);
+}
+
+static inline void begin(Fixture *f) {
+    *f = (Fixture){0};
+    arena_init(&f->arena, "test", SIZE_MAX);
+    f->symbols = symbol_table_new(&f->arena);
+    schema_init(&f->schema, &f->symbols, (SchemaHost){f, fixture_tell});
+}
+
+static inline void end(Fixture *f) {
+    symbol_table_free(&f->symbols);
+    arena_free(&f->arena);
+}
+
+#endif

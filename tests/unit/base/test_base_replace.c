@@ -1,0 +1,184 @@
+// test_base_replace.c: files that are replaced as a whole.
+#include "folder.h"
+
+#include "base/file.h"
+#include "base/replace.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <sys/file.h>
+
+static Arena arena;
+static Folder folder;
+
+static int setup(void **state) {
+    (void)state;
+    arena_init(&arena, "test", SIZE_MAX);
+    folder_open(&folder);
+    return 0;
+}
+
+static int teardown(void **state) {
+    (void)state;
+    folder_close(&folder);
+    arena_free(&arena);
+    return 0;
+}
+
+#define FILE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
+
+static void expect(const char *name, const char *text) {
+    Str bytes;
+    const char *problem;
+    assert_true(file_read(&arena, folder_file(&folder, name), true, 1000, &bytes, NULL, &problem));
+    assert_string_equal(bytes.bytes, text);
+}
+
+static int count_files(void) {
+    int files = 0;
+    DIR *entries = opendir(folder.path);
+    for (struct dirent *entry; (entry = readdir(entries));)
+        files += strcmp(entry->d_name, ".") != 0 && strcmp(entry->d_name, "..") != 0;
+    closedir(entries);
+    return files;
+}
+
+static mode_t mode_of(const char *name) {
+    struct stat info;
+    assert_int_equal(lstat(folder_file(&folder, name), &info), 0);
+    return info.st_mode;
+}
+
+// Both ways to make the new file must do the same.
+static const unsigned ways[] = {0, REPLACE_NAMED};
+
+static void test_whole(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        assert_null(file_replace(folder_file(&folder, "new"), STR("one"), ways[i]));
+        expect("new", "one");
+        assert_null(file_replace(folder_file(&folder, "new"), STR(""), ways[i]));
+        expect("new", "");
+        assert_null(file_replace(folder_file(&folder, "new"), STR("a longer text"), ways[i]));
+        expect("new", "a longer text");
+        assert_int_equal(count_files(), 1);
+        assert_int_equal(unlink(folder_file(&folder, "new")), 0);
+    }
+    assert_string_equal(file_replace(folder_file(&folder, "no/folder"), STR("x"), 0), strerror(ENOENT));
+    assert_string_equal(file_replace("", STR("x"), 0), strerror(ENOENT));
+    errno = EINVAL; // left from something else
+    assert_string_equal(file_replace(folder.path, STR("x"), 0), strerror(EISDIR));
+}
+
+static void test_permissions(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        folder_write(&folder, "secret", "old");
+        assert_int_equal(chmod(folder_file(&folder, "secret"), 0640), 0);
+        assert_null(file_replace(folder_file(&folder, "secret"), STR("new"), ways[i]));
+        assert_int_equal(mode_of("secret") & 07777, 0640);
+    }
+    mode_t mask = umask(027);
+    assert_null(file_replace(folder_file(&folder, "fresh"), STR("new"), 0));
+    umask(mask);
+    assert_int_equal(mode_of("fresh") & 07777, 0640);
+}
+
+static void test_links(void **state) {
+    (void)state;
+    folder_write(&folder, "target", "old");
+    assert_int_equal(symlink("target", folder_file(&folder, "link")), 0);
+    assert_null(file_replace(folder_file(&folder, "link"), STR("new"), 0));
+    assert_true(S_ISLNK(mode_of("link")));
+    expect("target", "new");
+    assert_int_equal(symlink("later", folder_file(&folder, "first")), 0);
+    assert_int_equal(symlink("first", folder_file(&folder, "second")), 0);
+    assert_null(file_replace(folder_file(&folder, "second"), STR("made"), 0));
+    assert_true(S_ISLNK(mode_of("second")) && S_ISLNK(mode_of("first")));
+    expect("later", "made");
+    assert_int_equal(symlink("round", folder_file(&folder, "round")), 0);
+    assert_string_equal(file_replace(folder_file(&folder, "round"), STR("x"), 0), strerror(ELOOP));
+    Replacement replacement; // who has resolved the path himself follows no link
+    int open_folder = open(folder.path, O_RDONLY | O_DIRECTORY);
+    assert_false(replace_begin_in(&replacement, open_folder, "link", 0));
+    assert_int_equal(errno, ELOOP);
+}
+
+static void test_no_regular_file(void **state) {
+    (void)state;
+    assert_int_equal(mkfifo(folder_file(&folder, "pipe"), 0600), 0);
+    int reader = open(folder_file(&folder, "pipe"), O_RDONLY | O_NONBLOCK);
+    assert_null(file_replace(folder_file(&folder, "pipe"), STR("text"), 0));
+    char got[8] = "";
+    assert_int_equal(read(reader, got, sizeof got), 4);
+    assert_memory_equal(got, "text", 4);
+    close(reader);
+    assert_true(S_ISFIFO(mode_of("pipe")));
+    assert_int_equal(symlink("/dev/full", folder_file(&folder, "full")), 0);
+    assert_string_equal(file_replace(folder_file(&folder, "full"), STR("x"), 0), strerror(ENOSPC));
+    assert_null(file_replace("/dev/null", STR("x"), 0));
+    struct stat info;
+    assert_true(stat("/dev/null", &info) == 0 && S_ISCHR(info.st_mode));
+    assert_true(stat("/dev/full", &info) == 0 && S_ISCHR(info.st_mode));
+}
+
+static void test_only_new(void **state) {
+    (void)state;
+    for (int i = 0; i < 2; i++) {
+        assert_null(file_replace(folder_file(&folder, "new"), STR("one"), REPLACE_NONE | ways[i]));
+        assert_string_equal(file_replace(folder_file(&folder, "new"), STR("two"), REPLACE_NONE | ways[i]),
+                            strerror(EEXIST));
+        expect("new", "one");
+        unlink(folder_file(&folder, "new"));
+        // Somebody else is faster.
+        Replacement replacement;
+        assert_true(replace_begin(&replacement, folder_file(&folder, "new"), REPLACE_NONE | ways[i]));
+        folder_write(&folder, "new", "theirs");
+        assert_false(replace_commit(&replacement));
+        assert_int_equal(errno, EEXIST);
+        expect("new", "theirs");
+        assert_int_equal(count_files(), 1);
+        unlink(folder_file(&folder, "new"));
+    }
+}
+
+static void test_abandoned(void **state) {
+    (void)state;
+    folder_write(&folder, "old", "old");
+    for (int i = 0; i < 2; i++) {
+        Replacement replacement;
+        assert_true(replace_begin(&replacement, folder_file(&folder, "old"), ways[i]));
+        assert_true(file_write(replacement.file, "half", 4));
+        assert_int_equal(count_files(), 1 + i);
+        replace_abandon(&replacement);
+        replace_abandon(&replacement);
+        expect("old", "old");
+        assert_int_equal(count_files(), 1);
+    }
+}
+
+// What was left by a process that was killed goes with the next file; what one at work has stays.
+static void test_swept(void **state) {
+    (void)state;
+    folder_write(&folder, "old", "old");
+    folder_write(&folder, ".petri-0123456789abcdef.tmp", "left");
+    folder_write(&folder, ".petri-0123456789abcdef.tmp.mine", "another's");
+    folder_write(&folder, ".petri-fedcba9876543210.tmp", "of one at work");
+    int file = open(folder_file(&folder, ".petri-fedcba9876543210.tmp"), O_RDONLY);
+    assert_int_equal(flock(file, LOCK_EX), 0);
+    assert_null(file_replace(folder_file(&folder, "old"), STR("new"), 0));
+    assert_int_equal(count_files(), 3);
+    expect(".petri-fedcba9876543210.tmp", "of one at work");
+    close(file);
+    assert_null(file_replace(folder_file(&folder, "another"), STR("new"), REPLACE_NAMED));
+    assert_int_equal(count_files(), 3);
+    expect(".petri-0123456789abcdef.tmp.mine", "another's");
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        FILE_TEST(test_whole),    FILE_TEST(test_permissions), FILE_TEST(test_links), FILE_TEST(test_no_regular_file),
+        FILE_TEST(test_only_new), FILE_TEST(test_abandoned),   FILE_TEST(test_swept),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
