@@ -97,9 +97,9 @@ static void test_sizes(void **state) {
     options.height = -1;
     take(player, options, PETRI_INVALID);
     player_run(player, "!window\n    !canvas\n", 1);
-    check_size(player, petri_default_picture_options(), 1920, 1080);
+    check_size(player, petri_default_picture_options(), 512, 512);
     player_run(player, "!window\n    !canvas size=30;20\n", 1);
-    check_size(player, petri_default_picture_options(), 30, 20);
+    check_size(player, petri_default_picture_options(), 512, 512);
 }
 
 // Which of several things is drawn.
