@@ -258,7 +258,10 @@ static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *pictur
     if (result == PETRI_OK)
         result = draw_pixels(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width, height,
                              (size_t)cairo_image_surface_get_stride(surface), faults);
-    if (result == PETRI_OK) {
+    const uint32_t *pixels = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
+    if (result == PETRI_OK && picture->opaque) { // rows of 32-bit pixels have no gaps
+        result = encode_png_pixels(out, pixels, width, height, false) ? PETRI_OK : PETRI_MEMORY;
+    } else if (result == PETRI_OK) {
         cairo_surface_mark_dirty(surface);
         result = result_of(cairo_surface_write_to_png_stream(surface, collect, out));
     }

@@ -90,20 +90,22 @@ else
     # record
     cat >record.fl <<'END'
 !window size=20;20
-    !canvas
-        !rect size=10 fill=true
     !record filename=("frame";frame;".png") if frame%2 else null
+        !canvas
+            !rect size=10 fill=true
 END
     petri render record.fl -o last.png --frames 4
     check "!record writes pictures of the frames that it is in" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
     check "… as the output would be" cmp -s frame3.png last.png
-    printf '!window size=300;300\n    !canvas\n        !ellipse point=10+frame;50 radius=40 fill=true\n    !record filename="same.png"\n' >record.fl
+    printf '!window size=300;300\n    !record filename="deep/er/same.png"\n        !canvas\n            !ellipse point=10+frame;50 radius=40 fill=true\n' >record.fl
+    petri render record.fl -o first.png --frames 1
+    rm -r deep
     petri render record.fl -o last.png --frames 60
-    check "!record may write the same file in each frame" status_is 0
-    check "… in their order: the last stays" cmp -s same.png last.png
+    check "!record may name the same file in each frame" status_is 0
+    check "… it is written once, and its folders are made" cmp -s deep/er/same.png first.png
     petri run record.fl --frames 4
     check "run leaves !record alone" status_is 0
-    printf '!window size=20;20\n    !canvas\n    !record filename="x.txt"\n' >record.fl
+    printf '!window size=20;20\n    !record filename="x.txt"\n        !canvas\n' >record.fl
     petri render record.fl -o last.png --frames 4
     check "!record to another kind of file is an error" one_error
 
@@ -112,9 +114,9 @@ END
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
 !window size=20;20
-    !canvas
-        !rect size=20 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
     !record filename=concat("early-";frame;".png")
+        !canvas
+            !rect size=20 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
 END
     printf '!window size=20;20\n    !canvas\n        !rect size=20 fill=true color=0;1;0\n' >green.fl
     petri render green.fl -o green.png --frames 1

@@ -209,8 +209,8 @@ static bool run(const char *folder, const char *name, const char *write) {
 
 // What all programs have in common is read by the same code: once is enough.
 static bool in_common(const char *attribute) {
-    static const char *const names[] = {"id",        "hidden", "composite", "blend",  "alpha",
-                                        "colorbits", "border", "repeat",    "nearest"};
+    static const char *const names[] = {"size",  "id",        "hidden", "composite", "blend",
+                                        "alpha", "colorbits", "border", "repeat",    "nearest"};
     static const char *const programs[] = {"window", "offscreen", "record", "canvas", "image"};
     static const char *const later[] = {"passes", "downsample", "downsample_passes", "vertex", "fragment", "keystone"};
     for (size_t i = 0; i < sizeof later / sizeof later[0]; i++)
