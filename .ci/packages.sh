@@ -12,12 +12,15 @@ command -v re2c           : re2c
 pkg-config --exists cairo : libcairo2-dev
 pkg-config --exists pangocairo : libpango1.0-dev
 pkg-config --exists libjpeg : libjpeg-dev
+pkg-config --exists libpng  : libpng-dev
 pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows and films:
+# For windows, films, effects and three dimensions:
 BUILD_NEEDS="$RUN_NEEDS
+pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
+test -n "\$(ls /usr/lib/*/dri/swrast_dri.so 2>/dev/null)" : libgl1-mesa-dri libegl1 libgles2
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 "
@@ -48,7 +51,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 cmocka x11 mpfr'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy cmocka x11 mpfr'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

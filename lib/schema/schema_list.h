@@ -342,7 +342,7 @@ ATTR(COUNTER, RESET, ANY, TO_COUNTER(reset), NONE, "", "while true, the value is
     ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape by itself; the current path is left alone") \
     ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline by itself; the current path is left alone")
 
-#include "schema/schema_pictures.h"
+#include "schema/pictures_list.h"
 
 NODE(CANVAS, "canvas", PICTURE, DRAWING, "a sheet to draw on: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)

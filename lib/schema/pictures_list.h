@@ -1,4 +1,4 @@
-// schema_pictures.h: the rows of schema_list.h for the tree of pictures (spec pictures.md): windows, what stands in them,
+// pictures_list.h: the rows of schema_list.h for the tree of pictures (spec pictures.md): windows, what stands in them,
 // effects. Included by schema_list.h and nothing else.
 // clang-format off
 
