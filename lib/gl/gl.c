@@ -40,7 +40,19 @@ static void look_at_limits(Gl *gl) {
     gl->halves = gl->floats || epoxy_has_gl_extension("GL_EXT_color_buffer_half_float");
     gl->float_filter = epoxy_has_gl_extension("GL_OES_texture_float_linear");
     glGenFramebuffers(1, &gl->framebuffer);
-    glGenVertexArrays(1, &gl->empty);
+    static const float corners[4][2] = {{-1, -1}, {1, -1}, {-1, 1}, {1, 1}};
+    static const unsigned char nothing[4];
+    glGenTextures(1, &gl->nothing);
+    glBindTexture(GL_TEXTURE_2D, gl->nothing);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA8, 1, 1, 0, GL_RGBA, GL_UNSIGNED_BYTE, nothing);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glGenVertexArrays(1, &gl->strip);
+    glGenBuffers(1, &gl->corners);
+    glBindVertexArray(gl->strip);
+    glBindBuffer(GL_ARRAY_BUFFER, gl->corners);
+    glBufferData(GL_ARRAY_BUFFER, sizeof corners, corners, GL_STATIC_DRAW);
+    glVertexAttribPointer(0, 2, GL_FLOAT, GL_FALSE, 0, NULL);
+    glEnableVertexAttribArray(0);
 }
 
 Gl *gl_open(const char **problem) {
@@ -72,7 +84,9 @@ void gl_close(Gl *gl) {
             gl_images_close(gl);
             gl_programs_close(gl);
             glDeleteFramebuffers(1, &gl->framebuffer);
-            glDeleteVertexArrays(1, &gl->empty);
+            glDeleteVertexArrays(1, &gl->strip);
+            glDeleteBuffers(1, &gl->corners);
+            glDeleteTextures(1, &gl->nothing);
             gl_leave(gl);
         }
         eglDestroyContext(gl->display, gl->context);

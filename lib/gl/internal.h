@@ -18,7 +18,9 @@ struct Gl {
     bool halves;
     bool float_filter; // floats can be read between pixels
     GLuint framebuffer;
-    GLuint empty; // a vertex array without attributes
+    GLuint strip; // vertex array of four corners: attribute 0
+    GLuint corners;
+    GLuint nothing; // a texture of one transparent pixel
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;

@@ -3,8 +3,6 @@
 
 #include "gl/internal.h"
 
-#include <stdio.h>
-
 GlEdge gl_edge(const DrawNode *node, GlEdge usual) {
     const AttrValue *repeat = draw_attr(node, ATTR_REPEAT);
     if (draw_attr(node, ATTR_BORDER))
@@ -77,29 +75,4 @@ bool gl_add_merge(Text *out, const DrawNode *node, uint32_t inputs, GlEdge edge)
                         i);
     text_add_c(out, "    return m;\n}\n");
     return true;
-}
-
-static void set_texture(unsigned program, const char *name, unsigned unit, GlImage image) {
-    glActiveTexture(GL_TEXTURE0 + unit);
-    glBindTexture(GL_TEXTURE_2D, image.texture);
-    glUniform1i(glGetUniformLocation(program, name), (GLint)unit);
-}
-
-void gl_set_merge(unsigned program, const DrawNode *node, const GlImage *inputs, uint32_t count, GlImage first,
-                  GlImage last) {
-    char name[20];
-    const AttrValue *border = draw_attr(node, ATTR_BORDER), *repeat = draw_attr(node, ATTR_REPEAT);
-    glUseProgram(program);
-    for (uint32_t i = 0; i < count; i++) {
-        snprintf(name, sizeof name, "texture%u", i);
-        set_texture(program, name, i, inputs[i]);
-    }
-    set_texture(program, "first", count, first);
-    set_texture(program, "last", count + 1, last);
-    glActiveTexture(GL_TEXTURE0);
-    if (border)
-        glUniform4f(glGetUniformLocation(program, "border"), (float)border->as.numbers[0], (float)border->as.numbers[1],
-                    (float)border->as.numbers[2], (float)border->as.numbers[3]);
-    if (repeat)
-        glUniform2i(glGetUniformLocation(program, "repeated"), repeat->as.numbers[0] != 0, repeat->as.numbers[1] != 0);
 }

@@ -15,8 +15,5 @@ GlEdge gl_edge(const DrawNode *node, GlEdge usual);
 // border; vec4 take(sampler2D t, vec2 uv), which reads a picture with the node's edges; vec4 merged(vec2 uv), all
 // inputs laid over each other. False if the node's word for that is unknown and there are several.
 bool gl_add_merge(Text *out, const DrawNode *node, uint32_t inputs, GlEdge edge);
-// Sets the uniforms that gl_add_merge declares: units 0 to count−1 are the inputs, then `first`, `last`.
-void gl_set_merge(unsigned program, const DrawNode *node, const GlImage *inputs, uint32_t count, GlImage first,
-                  GlImage last);
 
 #endif

@@ -4,12 +4,12 @@
 #include <stdlib.h>
 #include <string.h>
 
-// Four corners without any buffer.
 const char gl_quad[] = "#version 300 es\n"
+                       "in vec2 position;\n"
                        "out vec2 coord;\n"
                        "void main() {\n"
-                       "    coord = vec2(gl_VertexID & 1, gl_VertexID >> 1);\n"
-                       "    gl_Position = vec4(2.0 * coord - 1.0, 0.0, 1.0);\n"
+                       "    coord = 0.5 * position + 0.5;\n"
+                       "    gl_Position = vec4(position, 0.0, 1.0);\n"
                        "}\n";
 
 struct GlProgram {
@@ -65,6 +65,7 @@ static void build(GlProgram *program) {
     program->program = glCreateProgram();
     if (attach(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem) &&
         attach(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
+        glBindAttribLocation(program->program, 0, "position");
         glLinkProgram(program->program);
         glGetProgramiv(program->program, GL_LINK_STATUS, &good);
         glGetProgramiv(program->program, GL_INFO_LOG_LENGTH, &length);
@@ -112,7 +113,7 @@ unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, Str *problem
 
 void gl_draw_quad(Gl *gl, unsigned program) {
     glUseProgram(program);
-    glBindVertexArray(gl->empty);
+    glBindVertexArray(gl->strip);
     glDisable(GL_DEPTH_TEST);
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);

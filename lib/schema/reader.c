@@ -5,6 +5,7 @@
 #include "schema/reader.h"
 
 #include "value/format.h"
+#include "value/seed.h"
 
 #include <math.h>
 #include <string.h>
@@ -403,6 +404,9 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
         return read_numbers(reader, v, true, attr);
     case SHAPE_LIST:
         return read_numbers(reader, v, false, attr);
+    case SHAPE_SEED:
+        attr->as.numbers[0] = (double)(int64_t)value_exact_hash(v) / 281474976710656.0;
+        return true;
     case SHAPE_FLAG:
         attr->as.flag = value_true(v);
         return true;
@@ -428,12 +432,18 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
         const Value v = node->attrs[i].value;
         const SchemaSlot *slot = slot_of(first, end, guess, node->attrs[i].name);
         guess = slot < end ? slot + 1 : first;
+        AttrValue *attr = &attrs[*count];
         if (slot == end) {
-            report_unknown(reader, node->attrs[i].name);
+            *attr = (AttrValue){.name = ATTR_NONE};
+            if (reader->kind != KIND_SHADER)
+                report_unknown(reader, node->attrs[i].name);
+            else if (read_numbers(reader, v, false, attr)) { // its program may ask for any name
+                attr->own = str_to_c(reader->arena, node->attrs[i].name->name);
+                ++*count;
+            }
             continue;
         }
         const SchemaRow *found = &schema_rows[slot - slots];
-        AttrValue *attr = &attrs[*count];
         *attr = (AttrValue){.name = found->alias ? found->alias : found->name, .row = (uint16_t)(slot - slots)};
         if (!read_drawn(reader, found, v, attr)) {
             report_shape(reader, found, v);

@@ -80,9 +80,10 @@ void reader_fill(const Reader *reader, void *record);
 
 // An attribute that was read.
 typedef struct AttrValue {
-    uint16_t name;  // AttrName
-    uint16_t row;   // of its kind
-    uint32_t count; // of numbers
+    uint16_t name;   // AttrName
+    uint16_t row;    // of its kind
+    uint32_t count;  // of numbers
+    const char *own; // the name of an ATTR_NONE: what a program may ask for, in `list`
     union AttrData {
         double numbers[4]; // of points, sizes, colours (always four), a weight, up to four amounts
         const double *list;

@@ -1,6 +1,7 @@
 // table.c: see table.h.
 #include "schema/table.h"
 
+#include "maths/random.h"
 #include "schema/records.h"
 
 #include <math.h>

@@ -64,6 +64,7 @@ typedef enum AttrShape {
     SHAPE_TRIPLE,  // double[3]; likewise
     SHAPE_QUAD,    // double[4]; likewise
     SHAPE_LIST,    // any doubles
+    SHAPE_SEED,    // double: the seed hash of any value, / 2^48
     SHAPE_POINTS,  // an even number of doubles
     SHAPE_COLOR,   // double[4]
     SHAPE_FLAG,    // bool

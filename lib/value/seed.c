@@ -59,6 +59,10 @@ static uint64_t hash_vector(Value v, bool floored) {
     return hash;
 }
 
+uint64_t value_exact_hash(Value seed) {
+    return hash_vector(seed, false);
+}
+
 uint64_t value_seed_hash(Value seed) {
     return hash_vector(seed, true);
 }
