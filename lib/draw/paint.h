@@ -12,6 +12,8 @@
 #include "draw/automatic.h"
 #include "draw/texture.h"
 
+enum { PICTURE_NAMES = 24 };
+
 // One of `window` and `automatic` is there.
 typedef struct CanvasPicture {
     const DrawNode *const *tops; // all windows of the frame
@@ -19,8 +21,11 @@ typedef struct CanvasPicture {
     const DrawNode *window; // the one that is shown
     const DrawNode *direct; // the canvas that is all of it; or NULL
     bool looks_back;        // some window needs the frames before
-    PetriFrame frame;       // its numbers
-    uint64_t serial;        // no other picture has this number
+    double beat;
+    const char *names[PICTURE_NAMES]; // beat, time and the like, for programs
+    double numbers[PICTURE_NAMES];
+    uint32_t name_count;
+    uint64_t serial; // no other picture has this number
     const AutoPicture *automatic;
     double width; // in the script's units
     double height;

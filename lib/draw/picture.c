@@ -324,7 +324,9 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     arena_init(&picture->arena, "picture", shown.memory_bytes);
     Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_INVALID;
-    picture->picture.frame = petri_frame(session);
+    picture->picture.beat = petri_frame(session).beat;
+    picture->picture.name_count =
+        session_numbers(session, picture->picture.names, picture->picture.numbers, PICTURE_NAMES);
     if (shown.number >= 0)
         status = session_protect(session, &picture->arena, make_protected, &request) == PETRI_OK ? request.status
                                                                                                  : PETRI_MEMORY;

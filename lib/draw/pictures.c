@@ -225,7 +225,11 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
         images[i] = inputs[i]->image;
     }
     bool again = past && past->picture && past->picture->gl == gl;
-    GlFrame frame = {.beats = past ? walk->picture->frame.beat - walk->beat : 0};
+    const CanvasPicture *picture = walk->picture;
+    GlFrame frame = {.beats = past ? picture->beat - walk->beat : 0,
+                     .names = picture->names,
+                     .numbers = picture->numbers,
+                     .name_count = picture->name_count};
     GlEffect effect = {.node = node,
                        .inputs = images,
                        .count = count,
@@ -375,7 +379,7 @@ PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, D
                  .frame = &pictures->frames[pictures->now],
                  .before = before,
                  .beat = pictures->beat};
-    pictures->beat = picture->frame.beat;
+    pictures->beat = picture->beat;
     forget_old(&walk);
     Arena *arenas[] = {&walk.frame->arena, &painter->arena, faults->arena};
     ArenaEnd end = arena_protect(arenas, 3, make_tops, &walk);

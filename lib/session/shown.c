@@ -14,6 +14,23 @@ Shown session_shown(PetriSession *session) {
                    .memory_bytes = session->options.memory_bytes};
 }
 
+uint32_t session_numbers(PetriSession *session, const char *names[], double numbers[], uint32_t room) {
+    static const char *const all[] = {
+#define ENGINE_NAME(id, text, is_static) text,
+#include "program/engine_names.h"
+#undef ENGINE_NAME
+    };
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < sizeof all / sizeof *all && count < room; i++) {
+        Value v = session->vm.globals[i];
+        if (v.kind != VALUE_NUMBERS || v.len != 1)
+            continue;
+        names[count] = all[i];
+        numbers[count++] = v.as.number;
+    }
+    return count;
+}
+
 bool petri_drawable(PetriSession *session) {
     const Node *window;
     SceneView view;

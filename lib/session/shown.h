@@ -21,6 +21,9 @@ typedef struct Shown {
 
 Shown session_shown(PetriSession *session);
 
+// The names of the frame that are numbers, `beat` and the like; at most `room`. Returns how many there are.
+uint32_t session_numbers(PetriSession *session, const char *names[], double numbers[], uint32_t room);
+
 // Memory that stays with the session, always of the same size, for the room that draws; zeros before frame 0. Within a
 // protected call.
 void *session_drawing(PetriSession *session, size_t size);
