@@ -29,6 +29,7 @@ TEST_NEEDS="$BUILD_NEEDS
 pkg-config --exists cmocka: libcmocka-dev
 command -v tmux           : tmux
 command -v pgrep          : procps
+command -v strace         : strace
 command -v Xvfb           : xvfb
 command -v xdotool        : xdotool
 command -v xprop          : x11-utils
@@ -44,6 +45,7 @@ TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
 CROSS_NEEDS='
 command -v aarch64-linux-gnu-gcc: gcc-aarch64-linux-gnu libc6-dev-arm64-cross
 command -v qemu-aarch64  : qemu-user
+command -v musl-gcc      : musl-tools
 '
 PEER_NEEDS='
 command -v lmp   : lammps

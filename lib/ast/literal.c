@@ -63,15 +63,11 @@ double literal_timecode(Str token) {
     return (seconds + 60 * minutes) + 3600 * hours;
 }
 
-static int hex_digit(char c) {
-    return is_digit(c) ? c - '0' : c >= 'a' && c <= 'f' ? c - 'a' + 10 : c >= 'A' && c <= 'F' ? c - 'A' + 10 : -1;
-}
-
 // \x, \u and \U: exactly `digits` hexadecimal digits.
 static const char *hex_escape(Text *out, Str body, size_t *at, int digits) {
     uint32_t code_point = 0;
     for (int i = 0; i < digits; i++) {
-        int digit = *at < body.len ? hex_digit(body.bytes[*at]) : -1;
+        int digit = *at < body.len ? str_hex_digit(body.bytes[*at]) : -1;
         if (digit < 0)
             return "a \\x, \\u or \\U escape needs exactly 2, 4 or 8 hexadecimal digits";
         code_point = code_point << 4 | (uint32_t)digit;

@@ -3,25 +3,27 @@
 #include "base/cpu.h"
 
 #include <sched.h>
+#include <stdlib.h>
 #include <string.h>
 
 static const char *const names[CPU_LEVELS] = {"scalar", "avx2", "avx512"};
 
-CpuLevel cpu_detect(void) {
+Cpu cpu_here;
+
+// Before main, so that it is constant for all that follows.
+__attribute__((constructor)) static void look(void) {
 #if defined(__x86_64__)
     __builtin_cpu_init();
-    if (!__builtin_cpu_supports("avx2"))
-        return CPU_SCALAR;
     bool wide = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
                 __builtin_cpu_supports("avx512vl") && __builtin_cpu_supports("avx512bw");
-    return wide ? CPU_AVX512 : CPU_AVX2;
-#else
-    return CPU_SCALAR;
+    cpu_here.level = !__builtin_cpu_supports("avx2") ? CPU_SCALAR : wide ? CPU_AVX512 : CPU_AVX2;
+    cpu_choose(getenv("PETRI_CPU"), &cpu_here.level);
+    cpu_here.fma = cpu_here.level > CPU_SCALAR && __builtin_cpu_supports("fma");
 #endif
 }
 
 bool cpu_choose(const char *wish, CpuLevel *level) {
-    *level = cpu_detect();
+    *level = cpu_here.level;
     if (!wish || !*wish)
         return true;
     for (int i = 0; i < CPU_LEVELS; i++) {

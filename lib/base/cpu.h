@@ -7,10 +7,16 @@
 // Each level includes the ones before it. Results are the same on all of them.
 typedef enum CpuLevel { CPU_SCALAR, CPU_AVX2, CPU_AVX512, CPU_LEVELS } CpuLevel;
 
-// The highest level that the processor and the operating system support.
-CpuLevel cpu_detect(void);
-// `wish` ("scalar", "avx2" or "avx512", as in the environment variable PETRI_CPU), lowered to what cpu_detect() finds.
-// NULL or an empty text stand for no wish. False if there is no such level; *level is then the detected one.
+// What the processor and the operating system support, lowered to the environment variable PETRI_CPU as it is when the
+// process begins. Nobody writes it after that.
+typedef struct Cpu {
+    CpuLevel level; // the highest
+    bool fma;       // fused multiply-add may be used to find results: the level is above scalar, the processor has it
+} Cpu;
+extern Cpu cpu_here;
+
+// `wish` ("scalar", "avx2" or "avx512", as in PETRI_CPU), lowered to cpu_here.level. NULL or an empty text stand for no
+// wish. False if there is no such level; *level is then cpu_here.level.
 bool cpu_choose(const char *wish, CpuLevel *level);
 const char *cpu_name(CpuLevel level);
 

@@ -80,13 +80,7 @@ static void add_printable(Text *out, Str line) {
 }
 
 Str diag_text(const Diag *diag) {
-    enum { LONGEST = 400 };
-    if (diag->text.len <= LONGEST)
-        return diag->text;
-    size_t len = LONGEST; // a script may have names of megabytes: cut between two characters
-    while (len > 0 && ((unsigned char)diag->text.bytes[len] & 0xc0) == 0x80)
-        len--;
-    return (Str){diag->text.bytes, len};
+    return str_cut(diag->text, 400); // a script may have names of megabytes
 }
 
 static void add_text(Text *out, const Diag *diag) {
@@ -102,8 +96,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     SourcePlace place = {0};
     if (diag->source) {
         place = source_locate(diag->source, diag->span.start);
-        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, (int)diag->source->name.len, diag->source->name.bytes,
-                        place.line, place.column, plain);
+        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, STR_ARGS(diag->source->name), place.line, place.column, plain);
     }
     text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
     add_text(out, diag);
@@ -122,7 +115,7 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         format_caret_line(out, line, column, width, plain);
     }
     if (diag->hint.len)
-        text_add_format(out, "    %.*s\n", (int)diag->hint.len, diag->hint.bytes);
+        text_add_format(out, "    %.*s\n", STR_ARGS(diag->hint));
 }
 
 Str diag_one_line(Arena *arena, const Diag *diag) {
@@ -130,7 +123,7 @@ Str diag_one_line(Arena *arena, const Diag *diag) {
     add_text(&out, diag);
     if (diag->source) {
         SourcePlace place = source_locate(diag->source, diag->span.start);
-        text_add_format(&out, " (%.*s:%u)", (int)diag->source->name.len, diag->source->name.bytes, place.line);
+        text_add_format(&out, " (%.*s:%u)", STR_ARGS(diag->source->name), place.line);
     }
     return text_str(&out);
 }

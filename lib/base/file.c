@@ -22,12 +22,15 @@ bool file_exists(const char *path) {
     return stat(path, &info) == 0;
 }
 
-bool file_version(Arena *arena, const char *path, Str *version) {
+bool file_version(Arena *arena, const Reach *reach, const char *path, Str *version) {
     struct stat info;
-    if (stat(path, &info) != 0)
-        return false;
-    *version = version_of(arena, &info);
-    return true;
+    int file = reach ? reach_open(reach, path, O_RDONLY | O_NONBLOCK) : -1;
+    bool found = reach ? file >= 0 && fstat(file, &info) == 0 : stat(path, &info) == 0;
+    if (file >= 0)
+        close(file);
+    if (found)
+        *version = version_of(arena, &info);
+    return found;
 }
 
 typedef struct Reading {
@@ -63,12 +66,12 @@ static void read_all(void *context) {
     reading->bytes = (Str){buffer, len};
 }
 
-bool file_read(Arena *arena, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
+bool file_read(Arena *arena, const Reach *reach, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
                const char **problem) {
-    int file = open(path, O_RDONLY | O_CLOEXEC | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
+    int file = reach_open(reach, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
-        *problem = strerror(errno);
+        *problem = reach && errno == EXDEV ? reach_refusal(arena, reach, REACH_READ, path) : strerror(errno);
         if (file >= 0)
             close(file);
         return false;
@@ -113,12 +116,15 @@ const char *file_replace(const char *path, Str bytes, unsigned flags) {
     Replacement replacement;
     if (!replace_begin(&replacement, path, flags))
         return strerror(errno);
-    if (!file_write(replacement.file, bytes.bytes, bytes.len)) {
-        const char *problem = strerror(errno);
-        replace_abandon(&replacement);
-        return problem;
-    }
-    return replace_commit(&replacement) ? NULL : strerror(errno);
+    return file_finish(&replacement, bytes);
+}
+
+const char *file_finish(Replacement *replacement, Str bytes) {
+    if (file_write(replacement->file, bytes.bytes, bytes.len))
+        return replace_commit(replacement) ? NULL : strerror(errno);
+    const char *problem = strerror(errno);
+    replace_abandon(replacement);
+    return problem;
 }
 
 bool file_resolve(const char *path, char resolved[PATH_MAX]) {

@@ -6,6 +6,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 enum { NUMBER_TEXT = 40 }; // room for any formatted number
 
@@ -23,6 +24,12 @@ static inline double number_floor(double x) {
         return floor(x);
     double whole = (double)(int64_t)x;
     return whole == x ? x : whole - (whole > x);
+}
+
+static inline uint64_t number_bits(double x) {
+    uint64_t bits;
+    memcpy(&bits, &x, sizeof bits);
+    return bits;
 }
 
 // Is none of n numbers inf or nan? x - x is 0 for finite x only; unlike isfinite it vectorizes with every compiler.

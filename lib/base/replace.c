@@ -82,7 +82,13 @@ static bool link_file(const Replacement *r, const char *name) {
     while (count > 0)
         *end++ = digits[--count];
     *end = '\0';
-    return name ? linkat(AT_FDCWD, path, r->folder, name, AT_SYMLINK_FOLLOW) == 0 : access(path, F_OK) == 0;
+    if (!name)
+        return access(path, F_OK) == 0;
+    int result;
+    do
+        result = linkat(AT_FDCWD, path, r->folder, name, AT_SYMLINK_FOLLOW);
+    while (result != 0 && errno == EINTR);
+    return result == 0;
 }
 
 // Opens a file that has no name. False if there is no such thing here, or it could not get one later.
@@ -208,7 +214,11 @@ static bool put_in_place(Replacement *r, bool exists) {
     }
     if (r->only_new) // the temporary name goes with replace_abandon
         return linkat(r->folder, r->beside, r->folder, r->name, 0) == 0;
-    if (renameat(r->folder, r->beside, r->folder, r->name) != 0)
+    int result;
+    do
+        result = renameat(r->folder, r->beside, r->folder, r->name);
+    while (result != 0 && errno == EINTR);
+    if (result != 0)
         return false;
     r->beside[0] = '\0';
     return true;

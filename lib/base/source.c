@@ -3,21 +3,26 @@
 
 #include <string.h>
 
+size_t source_unify_lines(char *bytes, size_t len) {
+    size_t kept = 0;
+    for (size_t i = 0; i < len; i++) {
+        bool line_feed_follows = i + 1 < len && bytes[i + 1] == '\n';
+        if (bytes[i] != '\r')
+            bytes[kept++] = bytes[i];
+        else if (!line_feed_follows)
+            bytes[kept++] = '\n';
+    }
+    return kept;
+}
+
 // A byte-order mark is left out, CR LF and lone CR become LF; a missing last LF and a NUL sentinel are added.
 static Str normalise_lines(Arena *arena, Str text) {
     if (str_starts_with(text, STR("\xef\xbb\xbf")))
         text = (Str){text.bytes + 3, text.len - 3};
     char *bytes = arena_alloc(arena, text.len + 2);
-    size_t len = 0;
-    for (size_t i = 0; i < text.len; i++) {
-        if (text.bytes[i] != '\r') {
-            bytes[len++] = text.bytes[i];
-        } else {
-            bytes[len++] = '\n';
-            if (i + 1 < text.len && text.bytes[i + 1] == '\n')
-                i++;
-        }
-    }
+    if (text.len)
+        memcpy(bytes, text.bytes, text.len);
+    size_t len = source_unify_lines(bytes, text.len);
     if (len == 0 || bytes[len - 1] != '\n')
         bytes[len++] = '\n';
     bytes[len] = 0;
@@ -73,5 +78,5 @@ Str path_join(Arena *arena, Str directory, Str path) {
     if (directory.len == 0 || (path.len && path.bytes[0] == '/'))
         return path;
     const char *slash = directory.bytes[directory.len - 1] == '/' ? "" : "/";
-    return str_format(arena, "%.*s%s%.*s", (int)directory.len, directory.bytes, slash, (int)path.len, path.bytes);
+    return str_format(arena, "%.*s%s%.*s", STR_ARGS(directory), slash, STR_ARGS(path));
 }

@@ -36,6 +36,8 @@ typedef struct SourcePlace {
 // Copies everything into the arena, leaves a byte-order mark out, turns CR LF and CR into LF and ends the last line.
 // Text must be below 4 GiB.
 const Source *source_new(Arena *arena, Str name, Str path, Str text);
+// CR LF and CR become LF, in place; returns the length then.
+size_t source_unify_lines(char *bytes, size_t len);
 SourcePlace source_locate(const Source *source, uint32_t offset);
 // The part of a path up to and including the last slash.
 Str path_directory(Str path);

@@ -41,6 +41,14 @@ bool str_ends_with(Str text, Str suffix) {
            (text.len >= suffix.len && str_equal((Str){text.bytes + (text.len - suffix.len), suffix.len}, suffix));
 }
 
+Str str_cut(Str text, size_t most) {
+    if (text.len <= most)
+        return text;
+    while (most > 0 && ((unsigned char)text.bytes[most] & 0xc0) == 0x80)
+        most--;
+    return (Str){text.bytes, most};
+}
+
 int str_word_number(Str word, const char *list) {
     size_t len = 0;
     for (int i = 0; *list; list += len + (list[len] == ' '), i++) {
@@ -91,6 +99,15 @@ int str_distance(Str a, Str b) {
         row = oldest;
     }
     return above[b.len];
+}
+
+bool str_try_nearest(StrNearest *nearest, Str name) {
+    int distance = str_distance(nearest->wanted, name);
+    if (distance >= nearest->limit)
+        return false;
+    nearest->limit = distance;
+    nearest->found = name;
+    return true;
 }
 
 Text text_new(Arena *arena) {
@@ -149,7 +166,7 @@ Str text_str(const Text *text) {
     return (Str){text->bytes, text->len};
 }
 
-static int hex_digit(char c) {
+int str_hex_digit(char c) {
     return c >= '0' && c <= '9'   ? c - '0'
            : c >= 'a' && c <= 'f' ? c - 'a' + 10
            : c >= 'A' && c <= 'F' ? c - 'A' + 10
@@ -169,9 +186,9 @@ static void add_part(Text *text, unsigned part) {
 bool text_add_hex_colour(Text *text, Str hex) {
     size_t skip = str_starts_with(hex, STR("#")) ? 1 : str_starts_with(hex, STR("0x")) ? 2 : 0, count = 0;
     unsigned digits[8];
-    for (; skip + count < hex.len && hex_digit(hex.bytes[skip + count]) >= 0; count++)
+    for (; skip + count < hex.len && str_hex_digit(hex.bytes[skip + count]) >= 0; count++)
         if (count < 8)
-            digits[count] = (unsigned)hex_digit(hex.bytes[skip + count]);
+            digits[count] = (unsigned)str_hex_digit(hex.bytes[skip + count]);
     char next = skip + count < hex.len ? hex.bytes[skip + count] : ' ';
     bool ends = !(next == '_' || (next >= '0' && next <= '9') || ((next | 32) >= 'a' && (next | 32) <= 'z'));
     if (!skip || !ends || !(count == 3 || count == 4 || count == 6 || count == 8))

@@ -15,6 +15,8 @@ typedef struct Str {
 } Str;
 
 #define STR(literal) ((Str){literal, sizeof(literal) - 1})
+// What the format %.*s takes.
+#define STR_ARGS(str) (int)(str).len, (str).bytes
 
 Str str_from(const char *text);
 bool str_equal(Str a, Str b);
@@ -25,6 +27,8 @@ Str str_copy(Arena *arena, Str text);
 char *str_to_c(Arena *arena, Str text);
 bool str_starts_with(Str text, Str prefix);
 bool str_ends_with(Str text, Str suffix);
+// The text, or as many whole characters of it as `most` bytes hold.
+Str str_cut(Str text, size_t most);
 // Which of the words of a list, which spaces part, it is, from 0; -1 if it is none.
 int str_word_number(Str word, const char *list);
 // Text without white space (space, tab, CR, LF, VT, FF) at both ends.
@@ -33,6 +37,15 @@ Str str_trim(Str text);
 // Number of edits (insert, delete, replace, swap of neighbours) that turn a into b, for "did you mean"; names longer
 // than 64 bytes are taken as far apart.
 int str_distance(Str a, Str b);
+
+// The nearest of some names to one that is not there. `limit` is a distance that is too far, at first.
+typedef struct StrNearest {
+    Str wanted;
+    int limit;
+    Str found; // empty: none was near
+} StrNearest;
+// Looks at one more name; true if it is the nearest so far.
+bool str_try_nearest(StrNearest *nearest, Str name);
 
 // Text under construction. `bytes` lives in the arena; `text_str` is valid until the next append.
 typedef struct Text {
@@ -51,6 +64,8 @@ void text_add_format(Text *text, const char *format, ...) __attribute__((format(
 void text_add_va(Text *text, const char *format, va_list args) __attribute__((format(printf, 2, 0)));
 Str text_str(const Text *text);
 
+// Its value, or -1.
+int str_hex_digit(char c);
 // Appends the colour that a text such as #f80, #ff8800 or 0xff8800 begins with (alpha may follow) as r;g;b of numbers
 // from 0 to 1; false, with nothing appended, if it begins with none.
 bool text_add_hex_colour(Text *text, Str hex);

@@ -7,18 +7,18 @@
 #include <string.h>
 
 const Builtin builtin_table[] = {
-#define BUILTIN(name, function, parameters, required, fixed, variadic, named, pure, help)                              \
-    {name, function, parameters, required, fixed, variadic, named, pure, help},
+#define BUILTIN(name, parameters, required, fixed, variadic, named, pure, help)                                        \
+    {#name, builtin_##name, parameters, required, fixed, variadic, named, pure, help},
 #include "builtin/builtin_list.h"
 #undef BUILTIN
 };
-const uint32_t builtin_count = sizeof builtin_table / sizeof builtin_table[0];
+const uint32_t builtin_table_count = sizeof builtin_table / sizeof builtin_table[0];
 
 // No row has more parameters before "...", which a test checks.
 enum { MOST_FIXED = 8 };
 
 const Builtin *builtin_find(Str name) {
-    uint32_t low = 0, high = builtin_count;
+    uint32_t low = 0, high = builtin_table_count;
     while (low < high) {
         uint32_t middle = low + (high - low) / 2;
         int order = str_compare(str_from(builtin_table[middle].name), name);
@@ -32,9 +32,17 @@ const Builtin *builtin_find(Str name) {
     return NULL;
 }
 
-void builtin_fault(BuiltinContext *context, const char *name, const char *text) {
-    if (context->fault)
-        context->fault(context->host, str_format(context->arena, "%s: %s", name, text));
+Value builtin_fault(BuiltinContext *context, const char *name, const char *format, ...) {
+    if (!context->fault)
+        return VALUE_NULL;
+    Text text = text_new(context->arena);
+    text_add_format(&text, "%s: ", name);
+    va_list args;
+    va_start(args, format);
+    text_add_va(&text, format, args);
+    va_end(args);
+    context->fault(context->host, text_str(&text));
+    return VALUE_NULL;
 }
 
 // The name of parameter i, which must exist, from the text "xs, ys=0".
@@ -54,19 +62,13 @@ static uint32_t parameter_find(const Builtin *builtin, Str name) {
 }
 
 static Value bad_count(BuiltinContext *context, const Builtin *builtin, uint32_t count) {
-    const char *text = str_to_c(context->arena, str_format(context->arena, "%s arguments: %u given to %s(%s)",
-                                                           count < builtin->required ? "too few" : "too many", count,
-                                                           builtin->name, builtin->parameters));
-    builtin_fault(context, builtin->name, text);
-    return VALUE_NULL;
+    return builtin_fault(context, builtin->name, "%s arguments: %u given to %s(%s)",
+                         count < builtin->required ? "too few" : "too many", count, builtin->name, builtin->parameters);
 }
 
 static Value bad_name(BuiltinContext *context, const Builtin *builtin, const char *what, Str name) {
-    int len = name.len < 100 ? (int)name.len : 100;
-    Str text =
-        str_format(context->arena, "%s '%.*s' for %s(%s)", what, len, name.bytes, builtin->name, builtin->parameters);
-    builtin_fault(context, builtin->name, str_to_c(context->arena, text));
-    return VALUE_NULL;
+    return builtin_fault(context, builtin->name, "%s '%.*s' for %s(%s)", what, name.len < 100 ? (int)name.len : 100,
+                         name.bytes, builtin->name, builtin->parameters);
 }
 
 // The call when not every parameter has its argument by position.

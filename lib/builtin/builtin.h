@@ -6,6 +6,7 @@
 #ifndef PETRI_BUILTIN_BUILTIN_H
 #define PETRI_BUILTIN_BUILTIN_H
 
+#include "base/reach.h"
 #include "value/node.h"
 #include "value/value.h"
 
@@ -18,6 +19,7 @@ typedef struct BuiltinContext {
     const SymbolTable *symbols;          // for texts
     FileCache *files;                    // NULL: file functions find no file
     NoiseCache *noise;                   // NULL: permutations are made anew for each call
+    const Reach *reach;                  // NULL: all files may be used
     Str directory;                       // relative file names start here (L13.3); "" is the working directory
     void (*fault)(void *host, Str text); // a diagnostic at the place of the call
     void (*log)(void *host, Str text);   // a line of debug()
@@ -39,7 +41,7 @@ typedef struct Builtin {
 } Builtin;
 
 extern const Builtin builtin_table[];
-extern const uint32_t builtin_count;
+extern const uint32_t builtin_table_count;
 
 // The row of a name, or NULL.
 const Builtin *builtin_find(Str name);
@@ -48,8 +50,9 @@ const Builtin *builtin_find(Str name);
 Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                    const Symbol *const *names, const Value *named, uint32_t named_count);
 
-// Reports "NAME: text" as a diagnostic.
-void builtin_fault(BuiltinContext *context, const char *name, const char *text);
+// Reports "NAME: text" as a diagnostic; null.
+Value builtin_fault(BuiltinContext *context, const char *name, const char *format, ...)
+    __attribute__((format(printf, 3, 4)));
 
 // A constant that is visible like a built-in (L4.2): true false null inf nan pi π tau 𝜏. False if there is none.
 bool builtin_constant(Str name, Value *value);

@@ -45,7 +45,6 @@ static Value rgb_of_hsl(Arena *arena, double h, double s, double l) {
 }
 
 Value builtin_hsl(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 3))
         return VALUE_NULL;
     const double *x = args[0].as.numbers;
@@ -54,7 +53,6 @@ Value builtin_hsl(BuiltinContext *context, const Value *args, uint32_t count) {
 
 // B11.2: l = v*(1 - s/2), s' = (v - l)/min(l, 1 - l).
 Value builtin_hsv(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!value_is_numeric(args[0]) || args[0].len > 3)
         return VALUE_NULL;
     const double *x = value_numbers(&args[0]);
@@ -89,7 +87,6 @@ static void black_body(double t, bool normalize, double *rgb) {
 }
 
 Value builtin_colortemp(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!value_is_numeric(args[0]))
         return VALUE_NULL;
     uint32_t len = args[0].len;
@@ -130,7 +127,6 @@ static Value rgb_of_oklab(Arena *arena, double l, double a, double b) {
 }
 
 Value builtin_oklab(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 3))
         return VALUE_NULL;
     const double *lab = args[0].as.numbers;
@@ -138,7 +134,6 @@ Value builtin_oklab(BuiltinContext *context, const Value *args, uint32_t count) 
 }
 
 Value builtin_oklch(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 3))
         return VALUE_NULL;
     const double *lch = args[0].as.numbers;

@@ -86,18 +86,8 @@ static bool is_word(Str text, const char *word) {
     return text.len == strlen(word) && strncasecmp(text.bytes, word, text.len) == 0;
 }
 
-// The digits without underscores, in place of a copy.
-static double parse_decimal(Arena *arena, Str text) {
-    char *digits = arena_alloc(arena, text.len);
-    size_t len = 0;
-    for (size_t i = 0; i < text.len; i++)
-        if (text.bytes[i] != '_')
-            digits[len++] = text.bytes[i];
-    return number_parse((Str){digits, len});
-}
-
 // Is the field a number, apart from white space around it?
-static bool read_number(Arena *arena, Str field, double *x) {
+static bool read_number(Str field, double *x) {
     Str text = str_trim(field);
     bool negative = text.len && text.bytes[0] == '-';
     if (text.len && (text.bytes[0] == '-' || text.bytes[0] == '+')) {
@@ -111,7 +101,7 @@ static bool read_number(Arena *arena, Str field, double *x) {
     else if (is_word(text, "nan"))
         *x = NAN;
     else if (scan_decimal(text) == text.len)
-        *x = parse_decimal(arena, text);
+        *x = number_parse(text);
     else
         return false;
     *x = negative ? -*x : *x;
@@ -157,7 +147,7 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
         Str field = {text, scan_field(file->contents, &at, text, &last)};
         text += field.len;
         items[i].type = ITEM_NUMBER;
-        if (read_number(arena, field, &items[i].as.number))
+        if (read_number(field, &items[i].as.number))
             continue;
         strings[i].text = field;
         items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
@@ -172,25 +162,18 @@ static Value row_value(BuiltinContext *context, const CsvFile *file, uint32_t ro
 }
 
 // A row number: a number, floored, or one string that reads as an integer. Symbols are numbers below 0 and so no rows.
-static bool read_row_number(Arena *arena, Value v, double *row) {
-    if (is_scalar(v)) {
+static bool read_row_number(Value v, double *row) {
+    if (is_scalar(v))
         *row = floor(v.as.number);
-    } else {
-        if (v.len != 1 || v.as.items[0].type != ITEM_STRING)
-            return false;
-        Str text = str_trim(v.as.items[0].as.string->text), digits = text;
-        if (digits.len && (digits.bytes[0] == '-' || digits.bytes[0] == '+'))
-            digits = (Str){digits.bytes + 1, digits.len - 1};
-        if (digits.len == 0 || builtin_scan_digits(digits) != digits.len || !read_number(arena, text, row))
-            return false;
-    }
+    else if (v.len != 1 || v.as.items[0].type != ITEM_STRING || !builtin_is_integer(v.as.items[0].as.string->text) ||
+             !read_number(v.as.items[0].as.string->text, row))
+        return false;
     return *row >= 0;
 }
 
 Value builtin_csv(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     double row;
-    if (!read_row_number(context->arena, args[1], &row))
+    if (!read_row_number(args[1], &row))
         return VALUE_NULL;
     const CsvFile *file = file_cache_get(context, "csv", parse_csv, args[0]);
     if (!file || row >= file->row_count)

@@ -5,8 +5,17 @@
 enum { BUILTIN_MANY = 4 };
 
 Value builtin_too_long(BuiltinContext *context, const char *name) {
-    builtin_fault(context, name, "result is too long");
-    return VALUE_NULL;
+    return builtin_fault(context, name, "result is too long");
+}
+
+Value builtin_texts(Arena *arena, const Str *texts, uint32_t count) {
+    String *strings = arena_alloc_array(arena, count, sizeof *strings);
+    Item *items = arena_alloc_array(arena, count, sizeof *items);
+    for (uint32_t i = 0; i < count; i++) {
+        strings[i].text = texts[i];
+        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
+    }
+    return (Value){.len = count, .kind = VALUE_MIXED, .as.items = items};
 }
 
 Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len) {
@@ -30,7 +39,7 @@ Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany 
     if (x.len < BUILTIN_MANY || !value_is_numeric(x))
         return builtin_each(arena, x, f);
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
-    many(cpu_detect(), x.as.numbers, x.len, result);
+    many(cpu_here.level, x.as.numbers, x.len, result);
     return value_numbers_view(result, x.len);
 }
 
@@ -76,4 +85,11 @@ size_t builtin_scan_digits(Str text) {
                                          at + 1 < text.len && is_digit(text.bytes[at + 1]))))
         at++;
     return at;
+}
+
+bool builtin_is_integer(Str text) {
+    text = str_trim(text);
+    if (text.len && (text.bytes[0] == '-' || text.bytes[0] == '+'))
+        text = (Str){text.bytes + 1, text.len - 1};
+    return text.len > 0 && builtin_scan_digits(text) == text.len;
 }

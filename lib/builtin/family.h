@@ -6,7 +6,7 @@
 
 #include "base/cpu.h"
 
-#define BUILTIN(name, function, ...) BuiltinCall function;
+#define BUILTIN(name, ...) BuiltinCall builtin_##name;
 #include "builtin/builtin_list.h"
 #undef BUILTIN
 
@@ -35,11 +35,19 @@ static inline Value value_or(Value v, Value fallback) {
 // Reports "NAME: result is too long" and gives null.
 Value builtin_too_long(BuiltinContext *context, const char *name);
 
+// Texts, at least one, as a vector; their bytes are borrowed.
+Value builtin_texts(Arena *arena, const Str *texts, uint32_t count);
+
 // A copy of `len` numbers as a vector.
 Value builtin_numbers(Arena *arena, const double *numbers, uint32_t len);
 
 // f of each element; null unless x is numeric (B1.1).
 Value builtin_each(Arena *arena, Value x, double (*f)(double));
+
+#define ELEMENT_WISE(name, function)                                                                                   \
+    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
+        return builtin_each(context->arena, args[0], function);                                                        \
+    }
 
 // The same with a function that takes many numbers at once and gives the bits of f (maths/many.h).
 typedef void BuiltinMany(CpuLevel level, const double *x, size_t count, double *to);
@@ -55,5 +63,7 @@ Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len);
 
 // Reads digits with single underscores between them, as far as they go; returns how many bytes that is.
 size_t builtin_scan_digits(Str text);
+// Is a text an integer: such digits, perhaps with a sign and white space around?
+bool builtin_is_integer(Str text);
 
 #endif

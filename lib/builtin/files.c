@@ -57,7 +57,7 @@ FileCache *file_cache_new(void) {
     return cache;
 }
 
-static void cache_clear(FileCache *cache) {
+void file_cache_clear(FileCache *cache) {
     for (uint32_t i = 0; i < cache->count; i++)
         arena_free(&cache->entries[i]->arena);
     cache->entries = NULL;
@@ -69,7 +69,7 @@ static void cache_clear(FileCache *cache) {
 void file_cache_free(FileCache *cache) {
     if (!cache)
         return;
-    cache_clear(cache);
+    file_cache_clear(cache);
     index_free(&cache->index);
     Arena arena = cache->arena; // the cache dies with its arena
     arena_free(&arena);
@@ -111,12 +111,14 @@ static const char *describe(int error) {
 }
 
 // Reads up to `size` bytes; a file that has grown meanwhile has another stamp and is read again at the next call.
-static bool read_bytes(const char *path, char *bytes, size_t size, size_t *len, const char **problem) {
+static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
+                       const char **problem) {
     // A pipe put in the file's place must not block.
-    int file = open(path, O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+    int file = reach_open(context->reach, path, O_RDONLY | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
-        *problem = describe(errno);
+        *problem = context->reach && errno == EXDEV ? reach_refusal(context->arena, context->reach, REACH_READ, path)
+                                                    : describe(errno);
         if (file >= 0)
             close(file);
         return false;
@@ -140,7 +142,7 @@ static bool read_bytes(const char *path, char *bytes, size_t size, size_t *len, 
 }
 
 // The memory is taken before the file is opened: an allocation may not return (base/arena.h).
-static const void *load(FileEntry *entry, const char *path, const char **problem) {
+static const void *load(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
         *problem = describe(entry->stamp.error);
         return NULL;
@@ -151,7 +153,7 @@ static const void *load(FileEntry *entry, const char *path, const char **problem
     }
     size_t size = (size_t)entry->stamp.size, len;
     char *bytes = arena_alloc(&entry->arena, size);
-    if (!read_bytes(path, bytes, size, &len, problem))
+    if (!read_bytes(context, path, bytes, size, &len, problem))
         return NULL;
     return entry->parse(&entry->arena, bytes, len, problem);
 }
@@ -171,7 +173,7 @@ static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
 
 static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
     if (cache->count == MOST_ENTRIES)
-        cache_clear(cache);
+        file_cache_clear(cache);
     cache->entries = arena_room(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
     FileEntry *entry = arena_alloc(&cache->arena, sizeof *entry);
     *entry = (FileEntry){.path = str_copy(&cache->arena, key->path), .parse = key->parse};
@@ -206,8 +208,7 @@ static void shed(FileCache *cache, const FileEntry *kept) {
 
 static void warn(BuiltinContext *context, const char *function, Str name, const char *problem) {
     int len = name.len < 200 ? (int)name.len : 200;
-    Str text = str_format(context->arena, "cannot read '%.*s': %s", len, name.bytes, problem);
-    builtin_fault(context, function, str_to_c(context->arena, text));
+    builtin_fault(context, function, "cannot read '%.*s': %s", len, name.bytes, problem);
 }
 
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name) {
@@ -234,7 +235,7 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
     entry->parsed = NULL;
     shed(cache, entry);
     const char *problem = NULL;
-    entry->parsed = load(entry, c_path, &problem);
+    entry->parsed = load(context, entry, c_path, &problem);
     entry->tried = true;
     if (!entry->parsed) {
         arena_free(&entry->arena);
@@ -252,18 +253,6 @@ bool file_is_text(const char *bytes, size_t len, const char **problem) {
     return good;
 }
 
-size_t file_normalise_lines(char *bytes, size_t len) {
-    size_t kept = 0;
-    for (size_t i = 0; i < len; i++) {
-        bool line_feed_follows = i + 1 < len && bytes[i + 1] == '\n';
-        if (bytes[i] != '\r')
-            bytes[kept++] = bytes[i];
-        else if (!line_feed_follows)
-            bytes[kept++] = '\n';
-    }
-    return kept;
-}
-
 static const Str *contents_new(Arena *arena, const char *bytes, size_t len) {
     Str contents = {bytes, len};
     return arena_copy(arena, &contents, sizeof contents);
@@ -272,16 +261,14 @@ static const Str *contents_new(Arena *arena, const char *bytes, size_t len) {
 static const void *parse_text(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
-    return contents_new(arena, bytes, file_normalise_lines(bytes, len));
+    return contents_new(arena, bytes, source_unify_lines(bytes, len));
 }
 
 static const void *parse_bytes(Arena *arena, char *bytes, size_t len, const char **problem) {
-    (void)problem;
     return contents_new(arena, bytes, len);
 }
 
 Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (value_text(context->arena, context->symbols, args[0]).len == 0)
         return VALUE_NULL;
     const Str *text = file_cache_get(context, "read", parse_text, args[0]);
@@ -289,7 +276,6 @@ Value builtin_read(BuiltinContext *context, const Value *args, uint32_t count) {
 }
 
 Value builtin_read_bytes(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     const Str *contents = file_cache_get(context, "read_bytes", parse_bytes, args[0]);
     if (!contents || contents->len == 0)
         return VALUE_NULL;

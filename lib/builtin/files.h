@@ -11,6 +11,8 @@
 // NULL if memory is used up.
 FileCache *file_cache_new(void);
 void file_cache_free(FileCache *cache);
+// Forgets all files, for when others may be used.
+void file_cache_clear(FileCache *cache);
 
 // Turns the bytes of a file, which lie in `arena` and may be changed, into what is kept: something in `arena`. NULL
 // with *problem set means that the file counts as unreadable.
@@ -20,8 +22,7 @@ typedef const void *FileParse(Arena *arena, char *bytes, size_t len, const char 
 // of which the first attempt is reported as a fault of `function`.
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name);
 
-// For parsers: true if the bytes are UTF-8; CR LF and CR become LF, in place.
+// For parsers: true if the bytes are UTF-8.
 bool file_is_text(const char *bytes, size_t len, const char **problem);
-size_t file_normalise_lines(char *bytes, size_t len);
 
 #endif

@@ -4,6 +4,7 @@
 #include "base/source.h"
 
 #include <dirent.h>
+#include <errno.h>
 #include <limits.h>
 #include <stdlib.h>
 #include <string.h>
@@ -77,6 +78,7 @@ enum { MOST_LISTINGS = 1 << 18, MOST_FOUND = 1 << 20 };
 
 typedef struct Glob {
     Arena *arena;
+    const Reach *reach;
     Str *parts;
     uint32_t part_count;
     bool only_directories;
@@ -85,6 +87,7 @@ typedef struct Glob {
     uint32_t found_capacity;
     uint32_t listings;
     bool too_much;
+    const char *refused; // a folder that may not be looked at, or NULL
 } Glob;
 
 static bool is_deep(Str part) {
@@ -143,6 +146,11 @@ static size_t list_directory(Glob *glob, const char *path, Str **names) {
         glob->too_much = true;
     if (glob->too_much)
         return 0;
+    char resolved[PATH_MAX];
+    if (!reach_resolve(glob->reach, REACH_READ, path, resolved)) {
+        glob->refused = errno == EXDEV ? path : glob->refused;
+        return 0;
+    }
     size_t count = 0, size = 0;
     scan_directory(path, NULL, NULL, &count, &size);
     *names = arena_alloc_array(glob->arena, count, sizeof **names);
@@ -227,41 +235,36 @@ static Value glob_value(Glob *glob) {
         bool again = i > 0 && str_equal(found[i], found[i - 1]);
         if (again || !realpath(str_to_c(arena, found[i]), resolved))
             continue;
+        if (!reach_has(glob->reach, REACH_READ, resolved)) {
+            glob->refused = str_to_c(arena, found[i]);
+            continue;
+        }
         Str path = str_from(resolved);
         if (utf8_find_error(path) == path.len)
             paths[count++] = str_copy(arena, path);
     }
     if (count == 0)
         return VALUE_NULL;
-    paths = builtin_sort_texts(arena, paths, count);
-    String *strings = arena_alloc_array(arena, count, sizeof *strings);
-    Item *items = arena_alloc_array(arena, count, sizeof *items);
-    for (uint32_t i = 0; i < count; i++) {
-        strings[i].text = paths[i];
-        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
-    }
-    return (Value){.len = count, .kind = VALUE_MIXED, .as.items = items};
+    return builtin_texts(arena, builtin_sort_texts(arena, paths, count), count);
 }
 
 Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Str pattern = value_text(context->arena, context->symbols, args[0]);
-    if (pattern.len == 0 || pattern.bytes[0] == '/') {
-        builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
-        return VALUE_NULL;
-    }
+    if (pattern.len == 0 || pattern.bytes[0] == '/')
+        return builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
     if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
-    Glob glob = {.arena = context->arena};
+    Glob glob = {.arena = context->arena, .reach = context->reach};
     glob_parse(&glob, pattern);
     Str start = context->directory.len ? context->directory : STR(".");
     if (glob.part_count)
         walk(&glob, start, 0);
     else
         glob_found(&glob, start);
-    if (glob.too_much) {
-        builtin_fault(context, "glob", "too many directories or matches");
-        return VALUE_NULL;
-    }
-    return glob.found_count ? glob_value(&glob) : VALUE_NULL;
+    if (glob.too_much)
+        return builtin_fault(context, "glob", "too many directories or matches");
+    Value paths = glob.found_count ? glob_value(&glob) : VALUE_NULL;
+    if (glob.refused)
+        builtin_fault(context, "glob", reach_refusal(context->arena, context->reach, REACH_READ, glob.refused));
+    return paths;
 }

@@ -25,16 +25,9 @@ static double turns_acos(double x) {
     return maths_acos(x) / BUILTIN_TAU;
 }
 
-#define ELEMENT_WISE(name, function)                                                                                   \
-    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        (void)count;                                                                                                   \
-        return builtin_each(context->arena, args[0], function);                                                        \
-    }
-
 // Functions that are faster for many numbers at once
 #define ELEMENT_WISE_MANY(name, function, many)                                                                        \
     Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        (void)count;                                                                                                   \
         return builtin_each_many(context->arena, args[0], function, many);                                             \
     }
 
@@ -61,7 +54,6 @@ ELEMENT_WISE(builtin_acos, turns_acos)
 
 // B1.4: roundhalfaway(x * s) / s with s = 10^d, which is 0 for d < 0.
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Value xs = args[0], ys = value_or(args[1], value_number(0));
     if (!value_is_numeric(xs) || !is_scalar(ys))
         return VALUE_NULL;
@@ -81,7 +73,6 @@ Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) 
 }
 
 Value builtin_polar(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!value_is_numeric(args[0]))
         return VALUE_NULL;
     uint32_t len = args[0].len;
@@ -97,12 +88,10 @@ Value builtin_polar(BuiltinContext *context, const Value *args, uint32_t count) 
 }
 
 static double pair_angle(const double *xy, uint32_t count) {
-    (void)count;
     return maths_atan2(xy[1], xy[0]) / BUILTIN_TAU;
 }
 
 static double pair_length(const double *xy, uint32_t count) {
-    (void)count;
     return sqrt(xy[0] * xy[0] + xy[1] * xy[1]);
 }
 
@@ -123,12 +112,10 @@ static Value each_pair(Arena *arena, const Value *args, double (*f)(const double
 }
 
 Value builtin_angle(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     return each_pair(context->arena, args, pair_angle);
 }
 
 Value builtin_length(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     return each_pair(context->arena, args, pair_length);
 }
 
@@ -152,7 +139,6 @@ Value builtin_hypot(BuiltinContext *context, const Value *args, uint32_t count) 
 }
 
 Value builtin_dot(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)context, (void)count;
     if (!value_is_numeric(args[0]) || !value_is_numeric(args[1]))
         return VALUE_NULL;
     const double *x = value_numbers(&args[0]), *y = value_numbers(&args[1]);
@@ -167,7 +153,6 @@ Value builtin_dot(BuiltinContext *context, const Value *args, uint32_t count) {
 }
 
 Value builtin_cross(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 3) || !is_numeric_of(args[1], 3))
         return VALUE_NULL;
     const double *a = args[0].as.numbers, *b = args[1].as.numbers;
@@ -176,7 +161,6 @@ Value builtin_cross(BuiltinContext *context, const Value *args, uint32_t count) 
 }
 
 Value builtin_normalize(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!value_is_numeric(args[0]))
         return VALUE_NULL;
     const double *x = value_numbers(&args[0]);
@@ -194,7 +178,6 @@ Value builtin_normalize(BuiltinContext *context, const Value *args, uint32_t cou
 }
 
 static double map_one(const double *x, uint32_t count) {
-    (void)count;
     return (1 - x[0]) * x[1] + x[0] * x[2];
 }
 
@@ -204,7 +187,6 @@ Value builtin_map(BuiltinContext *context, const Value *args, uint32_t count) {
 
 // The high limit wins if the two are crossed; a nan is below both (B2.8).
 static double clamp_one(const double *x, uint32_t count) {
-    (void)count;
     double raised = x[0] > x[1] ? x[0] : x[1];
     return x[2] < raised ? x[2] : raised;
 }

@@ -45,7 +45,6 @@ static void inverse_4x4(const double *m, double *result) {
 }
 
 Value builtin_inverse(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     double result[16];
     if (is_numeric_of(args[0], 9))
         inverse_3x3(args[0].as.numbers, result);
@@ -82,7 +81,6 @@ static bool view_axes(BuiltinContext *context, Value direction, Value up, Value 
 }
 
 Value builtin_point_towards(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Value axes[3];
     if (!view_axes(context, args[0], args[1], axes))
         return VALUE_NULL;

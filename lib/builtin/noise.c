@@ -188,10 +188,8 @@ Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t coun
         return VALUE_NULL;
     if (outcome == GRID_TOO_LONG)
         return builtin_too_long(context, "octnoise");
-    if (octaves > MOST_OCTAVES) {
-        builtin_fault(context, "octnoise", "more than 1024 octaves");
-        return VALUE_NULL;
-    }
+    if (octaves > MOST_OCTAVES)
+        return builtin_fault(context, "octnoise", "more than 1024 octaves");
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
     sum_octaves(context, &grid, value_seed_hash(args[0]), (uint32_t)octaves, args[2].as.number, result);
     return value_numbers_view(result, grid.len);

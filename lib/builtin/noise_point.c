@@ -105,7 +105,8 @@ static NoiseVertex vertex_late(int all, int coordinate, int late, int units) {
     return v;
 }
 
-// Two candidates with their scores and coordinate masks; the flags are "big" in B10.9 and unused in B10.8.
+// Two candidates with their scores and coordinate masks; the flags are "big" in B10.9 and unused in B10.8. At the far
+// corner of the cell the least scores win, so they count negative.
 typedef struct Candidates {
     double a, b;
     unsigned mask_a, mask_b;
@@ -125,17 +126,21 @@ static void take_greater(Candidates *c, double score, unsigned mask, bool flag) 
     }
 }
 
-// The score replaces the greater candidate if it is less.
-static void take_less(Candidates *c, double score, unsigned mask, bool flag) {
-    if (c->a <= c->b && score < c->b) {
-        c->b = score;
-        c->mask_b = mask;
-        c->flag_b = flag;
-    } else if (c->a > c->b && score < c->a) {
-        c->a = score;
-        c->mask_a = mask;
-        c->flag_a = flag;
-    }
+// Regions A and B in three and four dimensions: the row of extra vertices in one of two tables.
+typedef struct Choice {
+    bool alone; // the corner of the cell is nearer than one of the candidates
+    unsigned row;
+} Choice;
+
+static inline Choice choose_at_corner(const NoisePoint *point, int dims, bool far) {
+    double sign = far ? -1 : 1, u = sign * ((far ? dims : 1) - point->sum);
+    unsigned flip = far ? (1u << dims) - 1 : 0;
+    Candidates c = {.a = sign * point->frac[0], .mask_a = 1 ^ flip, .b = sign * point->frac[1], .mask_b = 2 ^ flip};
+    for (int i = 2; i < dims; i++)
+        take_greater(&c, sign * point->frac[i], 1u << i ^ flip, false);
+    if (u > c.a || u > c.b)
+        return (Choice){true, c.b > c.a ? c.mask_b : c.mask_a};
+    return (Choice){false, far ? c.mask_a & c.mask_b : c.mask_a | c.mask_b};
 }
 
 // --- two dimensions (B10.7)
@@ -183,24 +188,6 @@ double noise_point_2(const uint8_t *permutation, const double *c) {
 
 // --- three dimensions (B10.8)
 
-static const NoiseVertex *extras_3a(const double *f, double sum) {
-    Candidates c = {.a = f[0], .mask_a = 1, .b = f[1], .mask_b = 2};
-    take_greater(&c, f[2], 4, false);
-    double u = 1 - sum;
-    if (u > c.a || u > c.b)
-        return NOISE_EXT3_ORIGIN1[c.b > c.a ? c.mask_b : c.mask_a];
-    return NOISE_EXT3_ORIGIN2[c.mask_a | c.mask_b];
-}
-
-static const NoiseVertex *extras_3b(const double *f, double sum) {
-    Candidates c = {.a = f[0], .mask_a = 6, .b = f[1], .mask_b = 5};
-    take_less(&c, f[2], 3, false);
-    double u = 3 - sum;
-    if (u < c.a || u < c.b)
-        return NOISE_EXT3_CORNER2[c.b < c.a ? c.mask_b : c.mask_a];
-    return NOISE_EXT3_CORNER1[c.mask_a & c.mask_b];
-}
-
 static void extras_3c(const double *f, NoiseVertex extra[2]) {
     static const unsigned far_masks[3] = {3, 5, 6}, near_masks[3] = {4, 2, 1};
     const double sums[3] = {f[0] + f[1], f[0] + f[2], f[1] + f[2]};
@@ -238,10 +225,12 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
     const NoiseVertex *extra = between;
     if (point.sum <= 1) {
         value = add_vertices(&point, 0, NOISE_CORE3_A, 4, 3);
-        extra = extras_3a(point.frac, point.sum);
+        Choice choice = choose_at_corner(&point, 3, false);
+        extra = choice.alone ? NOISE_EXT3_ORIGIN1[choice.row] : NOISE_EXT3_ORIGIN2[choice.row];
     } else if (point.sum >= 2) {
         value = add_vertices(&point, 0, NOISE_CORE3_B, 4, 3);
-        extra = extras_3b(point.frac, point.sum);
+        Choice choice = choose_at_corner(&point, 3, true);
+        extra = choice.alone ? NOISE_EXT3_CORNER2[choice.row] : NOISE_EXT3_CORNER1[choice.row];
     } else {
         value = add_vertices(&point, 0, NOISE_CORE3_C, 6, 3);
         extras_3c(point.frac, between);
@@ -251,88 +240,42 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
 
 // --- four dimensions (B10.9)
 
-static const NoiseVertex *extras_4a(const double *f, double sum) {
-    Candidates c = {.a = f[0], .mask_a = 1, .b = f[1], .mask_b = 2};
-    take_greater(&c, f[2], 4, false);
-    take_greater(&c, f[3], 8, false);
-    double u = 1 - sum;
-    if (u > c.a || u > c.b)
-        return NOISE_EXT4_ORIGIN1[c.b > c.a ? c.mask_b : c.mask_a];
-    return NOISE_EXT4_ORIGIN2[c.mask_a | c.mask_b];
-}
-
-static const NoiseVertex *extras_4b(const double *f, double sum) {
-    Candidates c = {.a = f[0], .mask_a = 14, .b = f[1], .mask_b = 13};
-    take_less(&c, f[2], 11, false);
-    take_less(&c, f[3], 7, false);
-    double u = 4 - sum;
-    if (u < c.a || u < c.b)
-        return NOISE_EXT4_CORNER3[c.b < c.a ? c.mask_b : c.mask_a];
-    return NOISE_EXT4_CORNER2[c.mask_a & c.mask_b];
-}
-
-// The first scores of region C: of each of three pairs of opposite edges the greater. All start big.
-static Candidates candidates_4c(const double *f, double sum) {
-    double xy = f[0] + f[1], xz = f[0] + f[2], xw = f[0] + f[3], yz = f[1] + f[2], yw = f[1] + f[3], zw = f[2] + f[3];
+// The first scores of region C: of each of three pairs of opposite edges the greater; D (`far`) mirrors C. All start
+// big.
+static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
+    double sign = far ? -1 : 1;
+    unsigned flip = far ? 15 : 0;
+    double xy = sign * (f[0] + f[1]), xz = sign * (f[0] + f[2]), xw = sign * (f[0] + f[3]);
+    double yz = sign * (f[1] + f[2]), yw = sign * (f[1] + f[3]), zw = sign * (f[2] + f[3]);
     Candidates c = {.flag_a = true, .flag_b = true};
     c.a = xy > zw ? xy : zw;
-    c.mask_a = xy > zw ? 3 : 12;
+    c.mask_a = (xy > zw ? 3 : 12) ^ flip;
     c.b = xz > yw ? xz : yw;
-    c.mask_b = xz > yw ? 5 : 10;
-    take_greater(&c, xw > yz ? xw : yz, xw > yz ? 9 : 6, true);
+    c.mask_b = (xz > yw ? 5 : 10) ^ flip;
+    take_greater(&c, xw > yz ? xw : yz, (xw > yz ? 9 : 6) ^ flip, true);
     for (int i = 0; i < 4; i++)
-        take_greater(&c, 2 - sum + f[i], 1u << i, false);
+        take_greater(&c, sign * ((far ? 3 : 2) - sum + f[i]), 1u << i ^ flip, false);
     return c;
 }
 
-static void extras_4c(const double *f, double sum, NoiseVertex extra[3]) {
-    Candidates c = candidates_4c(f, sum);
+static inline void extras_4cd(const double *f, double sum, bool far, NoiseVertex extra[3]) {
+    Candidates c = candidates_4cd(f, sum, far);
+    unsigned either = c.mask_a | c.mask_b, both = c.mask_a & c.mask_b;
     if (c.flag_a && c.flag_b) {
-        unsigned either = c.mask_a | c.mask_b, both = c.mask_a & c.mask_b;
-        extra[0] = vertex_of_mask(either, 1, 0, 3);
-        extra[1] = vertex_of_mask(either, 1, -1, 2);
-        extra[2] = vertex_late(0, lowest_bit(both), 2, 2);
+        extra[0] = far ? vertex_late(0, lowest_bit(both), 1, 1) : vertex_of_mask(either, 1, 0, 3);
+        extra[1] = far ? vertex_late(0, lowest_bit(both), 2, 2) : vertex_of_mask(either, 1, -1, 2);
+        extra[2] = far ? vertex_late(1, lowest_gap(either), -2, 2) : vertex_late(0, lowest_bit(both), 2, 2);
         return;
     }
-    unsigned first = c.flag_a ? c.mask_a : c.flag_b ? c.mask_b : c.mask_a | c.mask_b;
-    extra[0] = NOISE_EXT4_ORIGIN2[first][1];
-    extra[1] = NOISE_EXT4_ORIGIN2[first][2];
-    if (c.flag_a || c.flag_b)
-        extra[2] = vertex_late(0, lowest_bit(c.flag_a ? c.mask_b : c.mask_a), 2, 2);
+    unsigned first = c.flag_a ? c.mask_a : c.flag_b ? c.mask_b : far ? both : either;
+    const NoiseVertex *row = far ? NOISE_EXT4_CORNER2[first] : NOISE_EXT4_ORIGIN2[first];
+    unsigned other = c.flag_a ? c.mask_b : c.mask_a;
+    extra[0] = row[1];
+    extra[1] = row[2];
+    if (!c.flag_a && !c.flag_b)
+        extra[2] = far ? vertex_of_mask(15, 1, 0, 4) : vertex_of_mask(0, 0, 0, 0);
     else
-        extra[2] = vertex_of_mask(0, 0, 0, 0);
-}
-
-// Region D mirrors C: of each pair of opposite edges the lesser.
-static Candidates candidates_4d(const double *f, double sum) {
-    double xy = f[0] + f[1], xz = f[0] + f[2], xw = f[0] + f[3], yz = f[1] + f[2], yw = f[1] + f[3], zw = f[2] + f[3];
-    Candidates c = {.flag_a = true, .flag_b = true};
-    c.a = xy < zw ? xy : zw;
-    c.mask_a = xy < zw ? 12 : 3;
-    c.b = xz < yw ? xz : yw;
-    c.mask_b = xz < yw ? 10 : 5;
-    take_less(&c, xw < yz ? xw : yz, xw < yz ? 6 : 9, true);
-    for (int i = 0; i < 4; i++)
-        take_less(&c, 3 - sum + f[i], 15u & ~(1u << i), false);
-    return c;
-}
-
-static void extras_4d(const double *f, double sum, NoiseVertex extra[3]) {
-    Candidates c = candidates_4d(f, sum);
-    if (c.flag_a && c.flag_b) {
-        unsigned both = c.mask_a & c.mask_b, either = c.mask_a | c.mask_b;
-        extra[0] = vertex_late(0, lowest_bit(both), 1, 1);
-        extra[1] = vertex_late(0, lowest_bit(both), 2, 2);
-        extra[2] = vertex_late(1, lowest_gap(either), -2, 2);
-        return;
-    }
-    unsigned first = c.flag_a ? c.mask_a : c.flag_b ? c.mask_b : c.mask_a & c.mask_b;
-    extra[0] = NOISE_EXT4_CORNER2[first][1];
-    extra[1] = NOISE_EXT4_CORNER2[first][2];
-    if (c.flag_a || c.flag_b)
-        extra[2] = vertex_late(1, lowest_gap(c.flag_a ? c.mask_b : c.mask_a), -2, 2);
-    else
-        extra[2] = vertex_of_mask(15, 1, 0, 4);
+        extra[2] = far ? vertex_late(1, lowest_gap(other), -2, 2) : vertex_late(0, lowest_bit(other), 2, 2);
 }
 
 double noise_point_4(const uint8_t *permutation, const double *c) {
@@ -344,16 +287,18 @@ double noise_point_4(const uint8_t *permutation, const double *c) {
     const NoiseVertex *extra = between;
     if (point.sum <= 1) {
         value = add_vertices(&point, 0, NOISE_CORE4_A, 5, 4);
-        extra = extras_4a(point.frac, point.sum);
+        Choice choice = choose_at_corner(&point, 4, false);
+        extra = choice.alone ? NOISE_EXT4_ORIGIN1[choice.row] : NOISE_EXT4_ORIGIN2[choice.row];
     } else if (point.sum >= 3) {
         value = add_vertices(&point, 0, NOISE_CORE4_B, 5, 4);
-        extra = extras_4b(point.frac, point.sum);
+        Choice choice = choose_at_corner(&point, 4, true);
+        extra = choice.alone ? NOISE_EXT4_CORNER3[choice.row] : NOISE_EXT4_CORNER2[choice.row];
     } else if (point.sum <= 2) {
         value = add_vertices(&point, 0, NOISE_CORE4_C, 10, 4);
-        extras_4c(point.frac, point.sum, between);
+        extras_4cd(point.frac, point.sum, false, between);
     } else {
         value = add_vertices(&point, 0, NOISE_CORE4_D, 10, 4);
-        extras_4d(point.frac, point.sum, between);
+        extras_4cd(point.frac, point.sum, true, between);
     }
     return add_vertices(&point, value, extra, 3, 4) / NOISE_N[4];
 }

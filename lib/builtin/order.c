@@ -62,10 +62,8 @@ static Value extreme(BuiltinContext *context, const char *name, const Value *arg
         best = extreme_number(value_numbers(&args[0]), args[0].len, sign);
     } else {
         best = extreme_item(args[0].as.items, args[0].len, sign);
-        if (best == NO_POSITION) {
-            builtin_fault(context, name, "elements cannot be ordered");
-            return VALUE_NULL;
-        }
+        if (best == NO_POSITION)
+            return builtin_fault(context, name, "elements cannot be ordered");
     }
     return position ? value_number(best) : value_element(context->arena, args[0], best);
 }
@@ -138,7 +136,6 @@ static bool all_texts(Value v) {
 }
 
 Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Arena *arena = context->arena;
     Value v = args[0];
     if (v.len < 2)
@@ -147,21 +144,12 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
         double *numbers = arena_copy(arena, v.as.numbers, v.len * sizeof *numbers);
         return value_numbers_view(builtin_sort_numbers(arena, numbers, v.len), v.len);
     }
-    if (!all_texts(v)) {
-        builtin_fault(context, "sort", "elements cannot be ordered");
-        return VALUE_NULL;
-    }
+    if (!all_texts(v))
+        return builtin_fault(context, "sort", "elements cannot be ordered");
     Str *texts = arena_alloc_array(arena, v.len, sizeof *texts);
     for (uint32_t i = 0; i < v.len; i++)
         texts[i] = v.as.items[i].as.string->text;
-    texts = builtin_sort_texts(arena, texts, v.len);
-    String *strings = arena_alloc_array(arena, v.len, sizeof *strings);
-    Item *items = arena_alloc_array(arena, v.len, sizeof *items);
-    for (uint32_t i = 0; i < v.len; i++) {
-        strings[i].text = texts[i];
-        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
-    }
-    return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
+    return builtin_texts(arena, builtin_sort_texts(arena, texts, v.len), v.len);
 }
 
 // --- counting (B3.4)
@@ -234,8 +222,7 @@ static uint32_t census_count(const Census *census, Item item) {
     return found;
 }
 
-Value builtin_count_equal(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
+Value builtin_count(BuiltinContext *context, const Value *args, uint32_t count) {
     Arena *arena = context->arena;
     if (args[0].len == 0)
         return VALUE_NULL;

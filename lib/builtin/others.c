@@ -4,7 +4,6 @@
 #include "value/format.h"
 
 Value builtin_debug(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (context->log) {
         Text text = text_new(context->arena);
         format_debug(&text, context->symbols, args[0]);
@@ -14,12 +13,9 @@ Value builtin_debug(BuiltinContext *context, const Value *args, uint32_t count) 
 }
 
 Value builtin_sample(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)context, (void)count;
     return value_or(args[2], VALUE_NULL);
 }
 
 Value builtin_measure_text(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)args, (void)count;
-    builtin_fault(context, "measure_text", "text is measured only where it is drawn");
-    return VALUE_NULL;
+    return builtin_fault(context, "measure_text", "text is measured only where it is drawn");
 }

@@ -21,7 +21,6 @@ static Value quaternion_value(Arena *arena, Quaternion q) {
 
 // B5.1: cos(h); k*axis with h half the angle and k = sin(h)/|axis|.
 Value builtin_quaternion(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 3) || !is_scalar(args[1]))
         return VALUE_NULL;
     const double *axis = args[0].as.numbers;
@@ -57,7 +56,6 @@ static Value turn(Arena *arena, Quaternion a, const double *v) {
 }
 
 Value builtin_qmul(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 4))
         return VALUE_NULL;
     if (is_numeric_of(args[1], 3))
@@ -76,7 +74,6 @@ static Quaternion half_turn(double ax, double ay, double az) {
 }
 
 Value builtin_qbetween(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_numeric_of(args[0], 3) || !is_numeric_of(args[1], 3))
         return VALUE_NULL;
     const double *a = args[0].as.numbers, *b = args[1].as.numbers;
@@ -95,7 +92,6 @@ Value builtin_qbetween(BuiltinContext *context, const Value *args, uint32_t coun
 
 // B5.4: (b a^-1)^t a.
 Value builtin_slerp(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_scalar(args[0]) || !is_numeric_of(args[1], 4) || !is_numeric_of(args[2], 4))
         return VALUE_NULL;
     Quaternion a = quaternion_of(args[1]), b = quaternion_of(args[2]);

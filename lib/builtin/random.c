@@ -3,20 +3,14 @@
 
 #include "value/seed.h"
 
-Value builtin_uniform(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)context, (void)count;
-    return value_stream(STREAM_UNIFORM, value_seed_hash(value_or(args[0], VALUE_NULL)));
-}
+#define STREAM(name, kind)                                                                                             \
+    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
+        return value_stream(kind, value_seed_hash(value_or(args[0], VALUE_NULL)));                                     \
+    }
 
-Value builtin_beta(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)context, (void)count;
-    return value_stream(STREAM_BETA, value_seed_hash(value_or(args[0], VALUE_NULL)));
-}
-
-Value builtin_normal(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)context, (void)count;
-    return value_stream(STREAM_NORMAL, value_seed_hash(value_or(args[0], VALUE_NULL)));
-}
+STREAM(builtin_uniform, STREAM_UNIFORM)
+STREAM(builtin_beta, STREAM_BETA)
+STREAM(builtin_normal, STREAM_NORMAL)
 
 // The place that element i of `len` is exchanged with: i + floor(item_i * (len - i)), at most len - 1.
 static uint32_t shuffle_partner(Value source, uint32_t i, uint32_t len) {
@@ -25,12 +19,9 @@ static uint32_t shuffle_partner(Value source, uint32_t i, uint32_t len) {
 }
 
 Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Value source = args[0], xs = args[1];
-    if (source.kind != VALUE_STREAM || source.stream == STREAM_NORMAL) {
-        builtin_fault(context, "shuffle", "the source must be a uniform or beta stream");
-        return VALUE_NULL;
-    }
+    if (source.kind != VALUE_STREAM || source.stream == STREAM_NORMAL)
+        return builtin_fault(context, "shuffle", "the source must be a uniform or beta stream");
     if (xs.len <= 1)
         return xs.len ? xs : VALUE_NULL;
     if (xs.kind == VALUE_NUMBERS) {

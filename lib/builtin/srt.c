@@ -3,6 +3,7 @@
 #include "builtin/files.h"
 
 #include "base/number.h"
+#include "base/source.h"
 
 #include <string.h>
 
@@ -27,13 +28,6 @@ static bool take_part(Str *text, Str separator, Str *part) {
     size_t used = part->len + (found ? separator.len : 0);
     *text = (Str){text->bytes + used, text->len - used};
     return found;
-}
-
-static bool is_integer(Str text) {
-    text = str_trim(text);
-    if (text.len && (text.bytes[0] == '-' || text.bytes[0] == '+'))
-        text = (Str){text.bytes + 1, text.len - 1};
-    return text.len > 0 && builtin_scan_digits(text) == text.len;
 }
 
 static bool read_digits(Str text, double *x) {
@@ -78,7 +72,7 @@ static bool read_section(Str section, Subtitle *subtitle) {
     Str number, times, start;
     if (section.len && section.bytes[section.len - 1] == '\n') // ends the last line of the file
         section.len--;
-    if (!take_part(&section, STR("\n"), &number) || !is_integer(number))
+    if (!take_part(&section, STR("\n"), &number) || !builtin_is_integer(number))
         return false;
     take_part(&section, STR("\n"), &times);
     if (!take_part(&times, STR("-->"), &start) || !read_time(start, &subtitle->start) ||
@@ -92,7 +86,7 @@ static bool read_section(Str section, Subtitle *subtitle) {
 static const void *parse_srt(Arena *arena, char *bytes, size_t len, const char **problem) {
     if (!file_is_text(bytes, len, problem))
         return NULL;
-    Str all = {bytes, file_normalise_lines(bytes, len)}, rest = all, section;
+    Str all = {bytes, source_unify_lines(bytes, len)}, rest = all, section;
     uint32_t count = 1;
     while (take_part(&rest, STR("\n\n"), &section))
         count++;
@@ -115,7 +109,6 @@ static bool is_shown(const Subtitle *subtitle, double time) {
 }
 
 Value builtin_srt(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!is_scalar(args[1]))
         return VALUE_NULL;
     const SrtFile *file = file_cache_get(context, "srt", parse_srt, args[0]);
@@ -129,16 +122,14 @@ Value builtin_srt(BuiltinContext *context, const Value *args, uint32_t count) {
         return VALUE_NULL;
     if (len > VALUE_MAX_LEN)
         return builtin_too_long(context, "srt");
-    String *strings = arena_alloc_array(context->arena, len, sizeof *strings);
-    Item *items = arena_alloc_array(context->arena, len, sizeof *items);
+    Str *lines = arena_alloc_array(context->arena, len, sizeof *lines);
     uint32_t line = 0;
     for (uint32_t i = 0; i < file->count; i++) {
         Str text = file->subtitles[i].text, part;
         for (uint32_t k = 0; is_shown(&file->subtitles[i], time) && k < file->subtitles[i].line_count; k++, line++) {
             take_part(&text, STR("\n"), &part);
-            strings[line].text = str_copy(context->arena, part);
-            items[line] = (Item){ITEM_STRING, .as.string = &strings[line]};
+            lines[line] = str_copy(context->arena, part);
         }
     }
-    return (Value){.len = (uint32_t)len, .kind = VALUE_MIXED, .as.items = items};
+    return builtin_texts(context->arena, lines, line);
 }

@@ -5,7 +5,6 @@
 #include <string.h>
 
 Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (!value_is_numeric(args[0]))
         return VALUE_NULL;
     const double *x = value_numbers(&args[0]);
@@ -13,17 +12,14 @@ Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
     for (uint32_t i = 0; i < args[0].len; i++) {
         double code_point = floor(x[i]);
         // Surrogates are not characters: UTF-8 cannot hold them (E7).
-        if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff)) {
-            builtin_fault(context, "chr", "not a code point");
-            return VALUE_NULL;
-        }
+        if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff))
+            return builtin_fault(context, "chr", "not a code point");
         text_add_code_point(&text, (uint32_t)code_point);
     }
     return value_string(context->arena, text_str(&text));
 }
 
 Value builtin_ord(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Str text = value_text(context->arena, context->symbols, args[0]);
     size_t len = utf8_length(text);
     if (len > VALUE_MAX_LEN)
@@ -64,40 +60,32 @@ static size_t count_pieces(Str text, Str separator) {
 
 // The pieces are slices of the text, which lives as long as the value that it was taken from.
 static Value split_text(Arena *arena, Str text, Str separator, uint32_t len) {
-    String *strings = arena_alloc_array(arena, len, sizeof *strings);
-    Item *items = arena_alloc_array(arena, len, sizeof *items);
+    Str *pieces = arena_alloc_array(arena, len, sizeof *pieces);
     size_t at = 0;
     for (uint32_t i = 0; i < len; i++) {
         size_t end = find_separator(text, separator, at);
-        strings[i].text = (Str){text.bytes + at, end - at};
-        items[i] = (Item){ITEM_STRING, .as.string = &strings[i]};
+        pieces[i] = (Str){text.bytes + at, end - at};
         at = end + separator.len;
     }
-    return (Value){.len = len, .kind = VALUE_MIXED, .as.items = items};
+    return builtin_texts(arena, pieces, len);
 }
 
 Value builtin_split(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (args[0].len == 0 || (!is_absent(args[1]) && args[1].len == 0))
         return VALUE_NULL;
     Str text = value_text(context->arena, context->symbols, args[0]);
     Str separator = is_absent(args[1]) ? STR("\n") : value_text(context->arena, context->symbols, args[1]);
-    if (separator.len == 0) {
-        builtin_fault(context, "split", "the separator is empty");
-        return VALUE_NULL;
-    }
+    if (separator.len == 0)
+        return builtin_fault(context, "split", "the separator is empty");
     size_t pieces = count_pieces(text, separator);
-    if (pieces == 0) {
-        builtin_fault(context, "split", "nothing between separators");
-        return VALUE_NULL;
-    }
+    if (pieces == 0)
+        return builtin_fault(context, "split", "nothing between separators");
     if (pieces > VALUE_MAX_LEN)
         return builtin_too_long(context, "split");
     return split_text(context->arena, text, separator, (uint32_t)pieces);
 }
 
 Value builtin_concat(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     if (args[0].len == 0)
         return VALUE_NULL;
     if (args[0].len == 1 && args[0].kind == VALUE_MIXED && args[0].as.items[0].type == ITEM_STRING)

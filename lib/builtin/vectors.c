@@ -4,7 +4,6 @@
 #include <math.h>
 
 Value builtin_len(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)context, (void)count;
     return value_number(args[0].len);
 }
 
@@ -83,22 +82,18 @@ static Value fold(BuiltinContext *context, const char *name, const Value *args, 
 }
 
 Value builtin_sum(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     return fold(context, "sum", args, FOLD_SUM);
 }
 
 Value builtin_product(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     return fold(context, "product", args, FOLD_PRODUCT);
 }
 
 Value builtin_mean(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     return fold(context, "mean", args, FOLD_MEAN);
 }
 
 Value builtin_accumulate(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     double width;
     if (!sum_arguments(args, &width) || !value_is_numeric(args[0]))
         return VALUE_NULL;

@@ -65,12 +65,6 @@ static double snap(double x) {
     return ease(x, sqrt);
 }
 
-#define ELEMENT_WISE(name, function)                                                                                   \
-    Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        (void)count;                                                                                                   \
-        return builtin_each(context->arena, args[0], function);                                                        \
-    }
-
 ELEMENT_WISE(builtin_bounce, bounce)
 ELEMENT_WISE(builtin_sawtooth, phase)
 ELEMENT_WISE(builtin_sharkfin, sharkfin)
@@ -94,7 +88,6 @@ static double impulse(double x, double c) {
 
 // The length is that of xs, also if there are more centres.
 Value builtin_impulse(BuiltinContext *context, const Value *args, uint32_t count) {
-    (void)count;
     Value xs = args[0], cs = value_or(args[1], value_number(0.25));
     if (!value_is_numeric(xs) || !value_is_numeric(cs))
         return VALUE_NULL;

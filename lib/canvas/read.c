@@ -1,10 +1,14 @@
 // read.c: see read.h.
 #include "canvas/read.h"
 
+#include "base/source.h"
+
+#include <errno.h>
+
 static void report_misplaced(const Reader *reader, const Node *child, bool known) {
     Text out = text_new(reader->arena);
     Str name = child->kind->name;
-    text_add_format(&out, "'!%.*s' ", (int)name.len, name.bytes);
+    text_add_format(&out, "'!%.*s' ", STR_ARGS(name));
     text_add_c(&out, known ? "has no effect here; it is left out" : "is not drawn; it is left out");
     bool exists = !known && schema_is_undrawn(name);
     if (!known && !exists)
@@ -14,6 +18,27 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
                      : exists ? "undrawn-node"
                               : "unknown-node",
                      node_place(child, NULL), name, text_str(&out));
+}
+
+// A file out of reach is told here, where the place is known; who is to write it finds out again.
+static bool may_use_file(const Reader *reader, const DrawNode *node) {
+    const Reach *reach = reader->schema->reach;
+    const AttrValue *name = reach ? draw_attr(node, ATTR_FILENAME) : NULL;
+    bool writes = reader->kind == KIND_RECORD;
+    ReachKind kind = writes ? REACH_WRITE : REACH_READ;
+    char resolved[PATH_MAX];
+    if (!name || name->as.text.len == 0)
+        return true;
+    const char *path = str_to_c(reader->arena, path_join(reader->arena, reach->directory, name->as.text));
+    if (reach_resolve(reach, kind, path, resolved) || errno != EXDEV)
+        return true;
+    const SchemaHost *host = &reader->schema->host;
+    Origin place = node_place(reader->node, reader->schema->slots[name->row].name);
+    host->report(host->host, writes ? DIAG_ERROR : DIAG_WARNING, writes ? "cannot-write" : "cannot-read", &place,
+                 writes ? STR("!record") : STR("!image"), STR("filename"),
+                 str_format(reader->arena, "cannot %s '%s': %s", writes ? "write" : "read", name->as.text.bytes,
+                            reach_refusal(reader->arena, reach, kind, path)));
+    return writes;
 }
 
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind);
@@ -42,6 +67,8 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
     *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs};
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
+        return NULL;
+    if (!may_use_file(&reader, out))
         return NULL;
     read_children(&reader, out);
     return out;

@@ -16,7 +16,7 @@ struct Picture {
     char *path;
     char *version;            // changes when the file does
     cairo_surface_t *surface; // NULL: cannot be read
-    const char *problem;      // then why; borrowed
+    char *problem;            // then why
 };
 
 static void picture_free(Picture *picture) {
@@ -24,6 +24,7 @@ static void picture_free(Picture *picture) {
         cairo_surface_destroy(picture->surface);
     free(picture->path);
     free(picture->version);
+    free(picture->problem);
     free(picture);
 }
 
@@ -88,7 +89,7 @@ static cairo_surface_t *decode(Str bytes, const char **problem) {
     return NULL;
 }
 
-static Picture *load(PetriPainter *painter, const char *path, Str version) {
+static Picture *load(PetriPainter *painter, const Reach *reach, const char *path, Str version) {
     Picture *picture = calloc(1, sizeof *picture);
     if (!picture)
         arena_exhausted(&painter->arena);
@@ -100,20 +101,22 @@ static Picture *load(PetriPainter *painter, const char *path, Str version) {
     }
     ArenaMark mark = arena_mark(&painter->arena);
     Str bytes;
-    if (file_read(&painter->arena, path, true, MOST_BYTES, &bytes, NULL, &picture->problem))
-        picture->surface = decode(bytes, &picture->problem);
+    const char *problem = NULL;
+    if (file_read(&painter->arena, reach, path, true, MOST_BYTES, &bytes, NULL, &problem))
+        picture->surface = decode(bytes, &problem);
+    picture->problem = strdup(problem ? problem : "");
     arena_rewind(&painter->arena, mark);
     return picture;
 }
 
-static const Picture *find(PetriPainter *painter, const char *path) {
+static const Picture *find(PetriPainter *painter, const Reach *reach, const char *path) {
     Str version = STR("");
-    file_version(&painter->arena, path, &version);
+    file_version(&painter->arena, reach, path, &version);
     for (Picture *picture = painter->images; picture; picture = picture->next)
         if (strcmp(picture->path, path) == 0 && str_equal(str_from(picture->version), version))
             return picture;
     forget(painter, path);
-    Picture *picture = load(painter, path, version);
+    Picture *picture = load(painter, reach, path, version);
     picture->next = painter->images;
     painter->images = picture;
     return picture;
@@ -189,10 +192,11 @@ static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *pi
     if (!name || name->as.text.len == 0)
         return NULL;
     Arena *arena = &painter->arena;
-    const Picture *found = find(painter, str_to_c(arena, path_join(arena, picture->directory, name->as.text)));
+    const Reach *reach = &picture->reach;
+    const Picture *found = find(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name->as.text)));
     if (!found->surface)
         draw_report(faults, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name->as.text.bytes,
-                    found->problem);
+                    found->problem ? found->problem : "");
     return found->surface;
 }
 

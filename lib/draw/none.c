@@ -12,6 +12,8 @@ PetriPainter *petri_painter_open(void) {
 }
 
 void petri_painter_close(PetriPainter **handle) {
+    if (!handle)
+        return;
     free(*handle);
     *handle = NULL;
 }

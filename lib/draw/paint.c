@@ -23,6 +23,8 @@ PetriPainter *petri_painter_open(void) {
 }
 
 void petri_painter_close(PetriPainter **handle) {
+    if (!handle)
+        return;
     PetriPainter *painter = *handle;
     *handle = NULL;
     if (!painter)

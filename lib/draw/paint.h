@@ -8,6 +8,7 @@
 #include "petri-draw.h"
 
 #include "base/diag.h"
+#include "base/reach.h"
 #include "canvas/drawing.h"
 #include "draw/automatic.h"
 #include "draw/texture.h"
@@ -29,8 +30,8 @@ typedef struct CanvasPicture {
     const AutoPicture *automatic;
     double width; // in the script's units
     double height;
-    bool opaque;   // nothing is transparent: black where nothing is drawn
-    Str directory; // what relative file names start from
+    bool opaque; // nothing is transparent: black where nothing is drawn
+    Reach reach; // of the files that it names
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;

@@ -4,9 +4,13 @@
 #include "base/file.h"
 #include "draw/pictures.h"
 
+#include <errno.h>
+#include <string.h>
+
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
                                size_t stride) {
-    if (!picture_is_good_size(width, height) || stride % sizeof *pixels || stride < (size_t)width * sizeof *pixels)
+    if (!picture || !painter || !pixels || !picture_is_good_size(width, height) || stride % sizeof *pixels ||
+        stride < (size_t)width * sizeof *pixels)
         return PETRI_INVALID;
     return draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->faults);
 }
@@ -29,6 +33,8 @@ static bool find_format(const char *file, bool recorded, CanvasFormat *format) {
 }
 
 bool petri_picture_format(const char *file) {
+    if (!file)
+        return false;
     CanvasFormat format;
     return find_format(file, false, &format);
 }
@@ -45,6 +51,7 @@ typedef struct Saving {
     CanvasFormat format;
     const char *file;
     const Recorded *record; // NULL: the picture itself
+    const Reach *reach;     // NULL: any file
     Arena arena;            // the file's bytes, apart from the picture's data and its faults
     PetriStatus status;
 } Saving;
@@ -59,8 +66,15 @@ static void save(void *context) {
     else
         saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width,
                                      picture->height, &saving->arena, &bytes, &picture->faults);
-    const char *problem = saving->status == PETRI_OK ? file_replace(saving->file, bytes, 0) : NULL;
-    if (problem) {
+    if (saving->status != PETRI_OK)
+        return;
+    Replacement file;
+    bool begun = reach_replace(saving->reach, saving->file, &file);
+    bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
+    const char *problem = begun ? file_finish(&file, bytes) : strerror(errno);
+    if (refused) {
+        saving->status = PETRI_INVALID;
+    } else if (problem) {
         report_file(picture, saving->file, problem);
         saving->status = PETRI_INVALID;
     }
@@ -73,26 +87,25 @@ static void report_name(void *context) {
                                : "a picture's name ends in .png, .svg or .pdf");
 }
 
-static PetriStatus save_file(PetriPicture *picture, PetriPainter *painter, const char *file, const Recorded *record) {
-    Saving saving = {.picture = picture,
-                     .painter = painter,
-                     .format = CANVAS_PNG,
-                     .file = file,
-                     .record = record,
-                     .status = PETRI_INVALID};
-    Arena *arenas[] = {&saving.arena, &picture->arena};
-    arena_init(&saving.arena, "file", SIZE_MAX);
-    bool known = find_format(file, record != NULL, &saving.format);
-    ArenaEnd end = arena_protect(arenas, 2, known ? save : report_name, &saving);
-    arena_free(&saving.arena);
-    return end == ARENA_DONE ? saving.status : PETRI_MEMORY;
+static PetriStatus save_picture(Saving *saving) {
+    if (!saving->picture || !saving->painter || !saving->file)
+        return PETRI_INVALID;
+    Arena *arenas[] = {&saving->arena, &saving->picture->arena};
+    arena_init(&saving->arena, "file", SIZE_MAX);
+    bool known = find_format(saving->file, saving->record != NULL, &saving->format);
+    ArenaEnd end = arena_protect(arenas, 2, known ? save : report_name, saving);
+    arena_free(&saving->arena);
+    return end == ARENA_DONE ? saving->status : PETRI_MEMORY;
 }
 
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
-    return save_file(picture, painter, file, NULL);
+    return save_picture(
+        &(Saving){.picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID});
 }
 
 PetriStatus petri_picture_make(PetriPicture *picture, PetriPainter *painter) {
+    if (!picture || !painter)
+        return PETRI_INVALID;
     return draw_make(painter, &picture->picture, &picture->faults);
 }
 
@@ -113,9 +126,11 @@ static void fill_record(void *context) {
     const DrawNode *node = asking->recorded->node;
     const Texture *texture = asking->recorded->texture;
     Arena *arena = &asking->picture->arena;
-    Str name = draw_attr(node, ATTR_FILENAME)->as.text;
+    const Reach *reach = &asking->picture->picture.reach;
+    const char *file = str_to_c(arena, path_join(arena, reach->directory, draw_attr(node, ATTR_FILENAME)->as.text));
     *asking->record = (PetriRecord){
-        .file = str_to_c(arena, path_join(arena, asking->picture->picture.directory, name)),
+        .file = file,
+        .refused = !reach_make_folders(reach, file),
         .width = texture->width,
         .height = texture->height,
         .pixels = texture->bytes,
@@ -133,6 +148,8 @@ static const Recorded *find_record(const PetriPicture *picture, const PetriPaint
 }
 
 bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record) {
+    if (!picture || !painter || !record)
+        return false;
     Asking asking = {picture, find_record(picture, painter, index), record};
     Arena *arenas[] = {&picture->arena};
     return asking.recorded && arena_protect(arenas, 1, fill_record, &asking) == ARENA_DONE;
@@ -142,5 +159,11 @@ PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size
     PetriRecord record;
     if (!petri_picture_record(picture, painter, index, &record))
         return PETRI_INVALID;
-    return save_file(picture, painter, record.file, find_record(picture, painter, index));
+    return save_picture(&(Saving){.picture = picture,
+                                  .painter = painter,
+                                  .format = CANVAS_PNG,
+                                  .file = record.file,
+                                  .record = find_record(picture, painter, index),
+                                  .reach = &picture->picture.reach,
+                                  .status = PETRI_INVALID});
 }

@@ -250,6 +250,8 @@ static bool choose_pixels(Request *request) {
 enum { LONGEST_START = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
+    if (!session || !options)
+        return false;
     Shown shown = session_shown(session);
     const Node *window = find_window(&shown, options->window);
     bool own = window && canvas_in_window(shown.schema, window) && options->automatic != PETRI_AUTO_ALWAYS;
@@ -264,6 +266,8 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
 }
 
 bool petri_looks_back(PetriSession *session) {
+    if (!session)
+        return false;
     Shown shown = session_shown(session);
     return any_looks_back(&shown);
 }
@@ -279,7 +283,7 @@ static bool make_picture(Request *request) {
     bool automatic = options->automatic == PETRI_AUTO_ALWAYS || (!drawable && systems > 0);
     picture->frame = shown->number;
     picture->title = "";
-    picture->picture.directory = str_copy(&picture->arena, shown->directory);
+    picture->picture.reach = reach_copy(&picture->arena, shown->reach);
     if (options->automatic == PETRI_AUTO_ALWAYS && systems == 0) {
         request->problem = "there is nothing to draw by itself: the frame has no !physics";
         return false;
@@ -316,6 +320,8 @@ static void make_protected(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
+    if (!session || !options || !out)
+        return PETRI_INVALID;
     *out = NULL;
     Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
@@ -344,6 +350,8 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
 }
 
 void petri_picture_free(PetriPicture **handle) {
+    if (!handle)
+        return;
     PetriPicture *picture = *handle;
     *handle = NULL;
     if (!picture)
@@ -354,22 +362,26 @@ void petri_picture_free(PetriPicture **handle) {
 }
 
 void petri_picture_size(const PetriPicture *picture, int *width, int *height) {
+    if (!picture || !width || !height)
+        return;
     *width = picture->width;
     *height = picture->height;
 }
 
 const char *petri_picture_title(const PetriPicture *picture) {
-    return picture->title;
+    return picture ? picture->title : "";
 }
 
 int64_t petri_picture_frame(const PetriPicture *picture) {
-    return picture->frame;
+    return picture ? picture->frame : -1;
 }
 
 bool petri_picture_looks_back(const PetriPicture *picture) {
-    return picture->picture.looks_back && picture->picture.window != NULL;
+    return picture && picture->picture.looks_back && picture->picture.window != NULL;
 }
 
 void petri_picture_tell(PetriSession *session, PetriPicture *picture) {
+    if (!session || !picture)
+        return;
     session_tell_all(session, &picture->faults);
 }

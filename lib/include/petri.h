@@ -10,6 +10,8 @@
 //   one that is running, and a frame that hits a limit or is interrupted leaves the state as it was.
 // - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
 //   the library prints, exits or changes the process's locale, signals or working directory.
+// - Where NULL is not said to mean something, it is answered with PETRI_INVALID, false, NULL or 0, and nothing is done.
+// - After fork, the child may close the sessions that it has from its parent, and do nothing else with them.
 #ifndef PETRI_H
 #define PETRI_H
 
@@ -69,6 +71,11 @@ typedef struct PetriOptions {
     // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
     // only evaluation is interrupted.
     bool interruptible;
+    // The files that a script may use: it reads below its own folder, the current one and `read_folders`, it writes
+    // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
+    const char *const *read_folders;
+    const char *const *write_folders;
+    bool no_files;    // … it uses none at all, and imports none
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
@@ -92,7 +99,7 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 PetriStatus petri_load(PetriSession *session, const char *file);
 // The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
-// The same, while frame numbers, time and beat go on: for a script that was changed. Of tempo and fps, those count anew
+// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of tempo and fps, those count anew
 // whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
 // told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);

@@ -64,17 +64,13 @@ static double exact_trig(double x, Trig trig) {
     return result;
 }
 
-double exact_sin(double x) {
-    return exact_trig(x, SINE);
-}
-
-double exact_cos(double x) {
-    return exact_trig(x, COSINE);
-}
-
-double exact_tan(double x) {
-    return exact_trig(x, TANGENT);
-}
+#define EXACT(name, function, which)                                                                                   \
+    double exact_##name(double x) {                                                                                    \
+        return function(x, which);                                                                                     \
+    }
+EXACT(sin, exact_trig, SINE)
+EXACT(cos, exact_trig, COSINE)
+EXACT(tan, exact_trig, TANGENT)
 
 // --- arcs
 
@@ -249,17 +245,9 @@ static double exact_logarithm(double x, const uint64_t *scale) {
     return result;
 }
 
-double exact_log(double x) {
-    return exact_logarithm(x, NULL);
-}
-
-double exact_log2(double x) {
-    return exact_logarithm(x, wide_log2_e);
-}
-
-double exact_log10(double x) {
-    return exact_logarithm(x, wide_log10_e);
-}
+EXACT(log, exact_logarithm, NULL)
+EXACT(log2, exact_logarithm, wide_log2_e)
+EXACT(log10, exact_logarithm, wide_log10_e)
 
 // --- power
 

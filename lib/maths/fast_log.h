@@ -33,8 +33,9 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Bits from = bits_of(x) - bits_set(LOG_FIRST), row = from >> 44 & bits_set(255);
     Real m = real_of(bits_of(x) - (from & bits_set(UINT64_C(0xfff) << 52)));
     Real k = lanes_exponent(from);
-    Four entry = real_look_up_four(log_table, row);
-    Real r = entry.a, lh = entry.b, ll = entry.c;
+    Real entry[4];
+    real_look_up_row(log_table, row, entry);
+    Real r = entry[0], lh = entry[1], ll = entry[2];
 #if HAS_FMA
     Real z = real_muladd(r, m, real_set(-1));
 #else

@@ -70,9 +70,10 @@ KERNEL Row turn_row(Bits n) {
     Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), place = n & bits_set(255);
     place = (place ^ backwards) + (backwards & bits_set(257));
     Bits sine_sign = (n & bits_set(512)) << 54, cosine_sign = ((n + bits_set(256)) & bits_set(512)) << 54;
-    Four row = real_look_up_four(turn_table, place);
-    return (Row){real_flip(row.a, sine_sign), real_flip(row.b, sine_sign), real_flip(row.c, cosine_sign),
-                 real_flip(row.d, cosine_sign)};
+    Real row[4];
+    real_look_up_row(turn_table, place, row);
+    return (Row){real_flip(row[0], sine_sign), real_flip(row[1], sine_sign), real_flip(row[2], cosine_sign),
+                 real_flip(row[3], cosine_sign)};
 }
 
 // The same a quarter turn further.

@@ -17,15 +17,15 @@
 #define NAMED(name, instance) JOIN(name, instance)
 #define FUNCTION(name) NAMED(name, INSTANCE)
 
-double FUNCTION(exp)(double x) {
-    double result;
-    return exp_lanes(x, &result) ? result : exact_exp(x);
-}
-
-double FUNCTION(log)(double x) {
-    double result;
-    return log_lanes(x, &result) ? result : exact_log(x);
-}
+#define FAST(name, fast)                                                                                               \
+    double FUNCTION(name)(double x) {                                                                                  \
+        double result;                                                                                                 \
+        return fast(x, &result) ? result : exact_##name(x);                                                            \
+    }
+FAST(exp, exp_lanes)
+FAST(log, log_lanes)
+FAST(asin, asin_fast)
+FAST(acos, acos_fast)
 
 double FUNCTION(log2)(double x) {
     double result;
@@ -82,16 +82,6 @@ double FUNCTION(tan)(double x) {
         return exact_tan(x);
     Turn turn = is_large(x) ? large_turn(x) : turn_reduce(x);
     return tan_fast(&turn, &result) ? result : exact_tan(x);
-}
-
-double FUNCTION(asin)(double x) {
-    double result;
-    return asin_fast(x, &result) ? result : exact_asin(x);
-}
-
-double FUNCTION(acos)(double x) {
-    double result;
-    return acos_fast(x, &result) ? result : exact_acos(x);
 }
 
 double FUNCTION(atan2)(double y, double x) {

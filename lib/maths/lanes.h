@@ -160,40 +160,73 @@ KERNEL Real real_look_up(const double *table, Bits index) {
 #endif
 }
 
-// Row `index` of a table of four columns: its columns per lane. One load a lane and an exchange of places are faster
-// than four gathers.
-typedef struct Four {
-    Real a, b, c, d;
-} Four;
+KERNEL Real real_load(const double *from) {
+    Real r;
+    memcpy(&r, from, sizeof r);
+    return r;
+}
 
-KERNEL Four real_look_up_four(const double (*table)[4], Bits index) {
-#if LANES == 1
-    const double *row = table[index];
-    return (Four){row[0], row[1], row[2], row[3]};
-#elif LANES == 4 && defined(__AVX2__)
-    __m256d a = _mm256_loadu_pd(table[index[0]]), b = _mm256_loadu_pd(table[index[1]]);
-    __m256d c = _mm256_loadu_pd(table[index[2]]), d = _mm256_loadu_pd(table[index[3]]);
-    __m256d even_ab = _mm256_unpacklo_pd(a, b), odd_ab = _mm256_unpackhi_pd(a, b);
-    __m256d even_cd = _mm256_unpacklo_pd(c, d), odd_cd = _mm256_unpackhi_pd(c, d);
-    return (Four){_mm256_permute2f128_pd(even_ab, even_cd, 0x20), _mm256_permute2f128_pd(odd_ab, odd_cd, 0x20),
-                  _mm256_permute2f128_pd(even_ab, even_cd, 0x31), _mm256_permute2f128_pd(odd_ab, odd_cd, 0x31)};
-#elif LANES == 8 && defined(__AVX512F__)
-#define ROW(lane) _mm256_loadu_pd(table[index[lane]])
-#define ROWS(lane) _mm512_insertf64x4(_mm512_castpd256_pd512(ROW(lane)), ROW(lane + 4), 1)
-    __m512d a = ROWS(0), b = ROWS(1), c = ROWS(2), d = ROWS(3);
-#undef ROWS
-#undef ROW
-    __m512d even_ab = _mm512_unpacklo_pd(a, b), odd_ab = _mm512_unpackhi_pd(a, b);
-    __m512d even_cd = _mm512_unpacklo_pd(c, d), odd_cd = _mm512_unpackhi_pd(c, d);
-    __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
-    return (Four){_mm512_permutex2var_pd(even_ab, low, even_cd), _mm512_permutex2var_pd(odd_ab, low, odd_cd),
-                  _mm512_permutex2var_pd(even_ab, high, even_cd), _mm512_permutex2var_pd(odd_ab, high, odd_cd)};
-#else
-    const double *first = table[0];
-    index <<= 2;
-    return (Four){real_look_up(first, index), real_look_up(first + 1, index), real_look_up(first + 2, index),
-                  real_look_up(first + 3, index)};
+KERNEL void real_store(double *to, Real a) {
+    memcpy(to, &a, sizeof a);
+}
+
+#if defined(__AVX2__)
+typedef double Quad __attribute__((vector_size(32)));
+
+// The columns of four rows.
+KERNEL void quads_transpose(Quad *r) {
+    Quad a = _mm256_unpacklo_pd(r[0], r[1]), b = _mm256_unpackhi_pd(r[0], r[1]);
+    Quad c = _mm256_unpacklo_pd(r[2], r[3]), d = _mm256_unpackhi_pd(r[2], r[3]);
+    r[0] = _mm256_permute2f128_pd(a, c, 0x20);
+    r[1] = _mm256_permute2f128_pd(b, d, 0x20);
+    r[2] = _mm256_permute2f128_pd(a, c, 0x31);
+    r[3] = _mm256_permute2f128_pd(b, d, 0x31);
+}
 #endif
+
+// The columns of rows of four, one row per lane. One load a lane and an exchange of places are faster than four
+// gathers.
+KERNEL void real_load_rows(const double *const *rows, Real *columns) {
+#if LANES == 1
+    for (int m = 0; m < 4; m++)
+        columns[m] = rows[0][m];
+#elif LANES == 4 && defined(__AVX2__)
+    for (int lane = 0; lane < LANES; lane++)
+        columns[lane] = real_load(rows[lane]);
+    quads_transpose(columns);
+#elif LANES == 8 && defined(__AVX512F__)
+    Real pairs[4];
+    for (int lane = 0; lane < 4; lane++) {
+        __m512d lower = _mm512_castpd256_pd512(_mm256_loadu_pd(rows[lane]));
+        pairs[lane] = _mm512_insertf64x4(lower, _mm256_loadu_pd(rows[lane + 4]), 1);
+    }
+    Real even_ab = _mm512_unpacklo_pd(pairs[0], pairs[1]), odd_ab = _mm512_unpackhi_pd(pairs[0], pairs[1]);
+    Real even_cd = _mm512_unpacklo_pd(pairs[2], pairs[3]), odd_cd = _mm512_unpackhi_pd(pairs[2], pairs[3]);
+    __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+    columns[0] = _mm512_permutex2var_pd(even_ab, low, even_cd);
+    columns[1] = _mm512_permutex2var_pd(odd_ab, low, odd_cd);
+    columns[2] = _mm512_permutex2var_pd(even_ab, high, even_cd);
+    columns[3] = _mm512_permutex2var_pd(odd_ab, high, odd_cd);
+#else
+    for (int m = 0; m < 4; m++) {
+        double lanes[LANES];
+        for (int lane = 0; lane < LANES; lane++)
+            lanes[lane] = rows[lane][m];
+        columns[m] = real_load(lanes);
+    }
+#endif
+}
+
+// Row `index` of a table of four columns: its columns per lane.
+KERNEL void real_look_up_row(const double (*table)[4], Bits index, Real *columns) {
+#if LANES == 1
+    const double *rows[] = {table[index]};
+#else
+    const double *rows[LANES];
+    for (int lane = 0; lane < LANES; lane++)
+        rows[lane] = table[index[lane]];
+#endif
+    real_load_rows(rows, columns);
 }
 
 // The upper 12 bits, as signed numbers.

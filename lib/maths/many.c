@@ -9,7 +9,7 @@ static const ManyInstance *instance(CpuLevel level) {
 #if defined(__x86_64__)
     if (level == CPU_AVX512)
         return &maths_many_avx512;
-    if (level == CPU_AVX2 && __builtin_cpu_supports("fma"))
+    if (level == CPU_AVX2 && cpu_here.fma)
         return &maths_many_avx2;
 #endif
     (void)level;

@@ -8,6 +8,7 @@
 
 #include "maths/fast_exp.h"
 #include "maths/fast_log.h"
+#include "maths/fast_random.h"
 #include "maths/fast_turn.h"
 
 #define JOIN(name, instance) name##instance
@@ -15,12 +16,9 @@
 
 // Up to LANES numbers; what is missing is 1, which each function takes.
 KERNEL Real load(const double *from, size_t count) {
-    Real r;
-    if (count >= LANES) {
-        memcpy(&r, from, sizeof r);
-        return r;
-    }
-    r = real_set(1);
+    if (count >= LANES)
+        return real_load(from);
+    Real r = real_set(1);
     memcpy(&r, from, count * sizeof *from);
     return r;
 }
@@ -34,36 +32,36 @@ KERNEL Lanes lanes_left(Lanes good, size_t count) {
     return ~good & (count >= LANES ? ALL_LANES : (1u << count) - 1);
 }
 
-// For each lane of a set, lowest first.
-#define FOR_EACH_LANE(lane, left)                                                                                      \
-    for (unsigned lane = 0; left >> lane; lane++)                                                                      \
+// Asks for the lanes of a set once more.
+static __attribute__((noinline)) void again(double (*function)(double x), Lanes left, Real in, double *to) {
+    double x[LANES];
+    real_store(x, in);
+    for (unsigned lane = 0; left >> lane; lane++)
         if (left >> lane & 1)
-
-static void exp_many(const double *x, size_t count, double *to) {
-    for (size_t i = 0; i < count; i += LANES) {
-        Real in = load(x + i, count - i), out;
-        Lanes left = lanes_left(exp_lanes(in, &out), count - i);
-        store(to + i, count - i, out);
-        if (left) {
-            double again[LANES];
-            memcpy(again, &in, sizeof in);
-            FOR_EACH_LANE(lane, left) to[i + lane] = maths_exp(again[lane]);
-        }
-    }
+            to[lane] = function(x[lane]);
 }
 
-static void log_many(const double *x, size_t count, double *to) {
-    for (size_t i = 0; i < count; i += LANES) {
-        Real in = load(x + i, count - i), out;
-        Lanes left = lanes_left(log_lanes(in, &out), count - i);
-        store(to + i, count - i, out);
-        if (left) {
-            double again[LANES];
-            memcpy(again, &in, sizeof in);
-            FOR_EACH_LANE(lane, left) to[i + lane] = maths_log(again[lane]);
-        }
-    }
+// The sine of turns: the quarters go to the row of the table, so that no lane needs another function than the others.
+KERNEL Lanes turns_sin_lanes(Real t, Real *result) {
+    Real quarters = t * real_set(4);
+    Bits quadrant;
+    Real angle = (quarters - real_steps(quarters, 1, &quadrant)) * real_set(1.5707963267948966);
+    return sin_lanes(angle, quadrant, result) & lanes_less(real_absolute(quarters), real_set(0x1p50));
 }
+
+#define MANY(name, fast, function)                                                                                     \
+    static void name##_many(const double *x, size_t count, double *to) {                                               \
+        for (size_t i = 0; i < count; i += LANES) {                                                                    \
+            Real in = load(x + i, count - i), out;                                                                     \
+            Lanes left = lanes_left(fast(in, &out), count - i);                                                        \
+            store(to + i, count - i, out);                                                                             \
+            if (left)                                                                                                  \
+                again(function, left, in, to + i);                                                                     \
+        }                                                                                                              \
+    }
+MANY(exp, exp_lanes, maths_exp)
+MANY(log, log_lanes, maths_log)
+MANY(turns_sin, turns_sin_lanes, turns_sin)
 
 static void sin_cos_many(const double *x, size_t count, double *sines, double *cosines) {
     for (size_t i = 0; i < count; i += LANES) {
@@ -72,12 +70,8 @@ static void sin_cos_many(const double *x, size_t count, double *sines, double *c
         store(sines + i, count - i, sine);
         store(cosines + i, count - i, cosine);
         if (left) {
-            double again[LANES];
-            memcpy(again, &in, sizeof in);
-            FOR_EACH_LANE(lane, left) {
-                sines[i + lane] = maths_sin(again[lane]);
-                cosines[i + lane] = maths_cos(again[lane]);
-            }
+            again(maths_sin, left, in, sines + i);
+            again(maths_cos, left, in, cosines + i);
         }
     }
 }
@@ -89,43 +83,13 @@ static void pow_many(const double *x, const double *y, size_t step, size_t count
         store(to + i, count - i, out);
         if (left) {
             double bases[LANES], powers[LANES];
-            memcpy(bases, &base, sizeof base);
-            memcpy(powers, &power, sizeof power);
-            FOR_EACH_LANE(lane, left) to[i + lane] = maths_pow(bases[lane], powers[lane]);
+            real_store(bases, base);
+            real_store(powers, power);
+            for (unsigned lane = 0; left >> lane; lane++)
+                if (left >> lane & 1)
+                    to[i + lane] = maths_pow(bases[lane], powers[lane]);
         }
     }
-}
-
-// The quarters go to the row of the table, so that no lane needs another function than the others.
-static void turns_sin_many(const double *t, size_t count, double *to) {
-    for (size_t i = 0; i < count; i += LANES) {
-        Real in = load(t + i, count - i), quarters = in * real_set(4), out;
-        Bits quadrant;
-        Real angle = (quarters - real_steps(quarters, 1, &quadrant)) * real_set(1.5707963267948966);
-        Lanes good = sin_lanes(angle, quadrant, &out) & lanes_less(real_absolute(quarters), real_set(0x1p50));
-        Lanes left = lanes_left(good, count - i);
-        store(to + i, count - i, out);
-        if (left) {
-            double again[LANES];
-            memcpy(again, &in, sizeof in);
-            FOR_EACH_LANE(lane, left) to[i + lane] = turns_sin(again[lane]);
-        }
-    }
-}
-
-KERNEL Bits swap_halves(Bits x) {
-    return x << 32 | x >> 32;
-}
-
-// random_raw (random.c) for LANES items
-KERNEL Bits raw_lanes(Bits key, Bits item) {
-    Bits y = item * key, z = y + key, x = y;
-    x = swap_halves(x * x + y);
-    x = swap_halves(x * x + z);
-    x = swap_halves(x * x + y);
-    Bits t = x * x + z;
-    x = swap_halves(t);
-    return t ^ ((x * x + y) >> 32);
 }
 
 // A whole number to the nearest double: the upper half behind the exponent of 2^84, the lower one behind that of 2^52.

@@ -1,11 +1,12 @@
 // maths.c: the public functions: each calls the instance for this processor. All instances give the same bits.
 #include "maths/maths.h"
 
+#include "base/cpu.h"
 #include "maths/doubles.h"
 #include "maths/fast.h"
 
 #if defined(__x86_64__) && !defined(__FMA__)
-#define PICK(name) (__builtin_cpu_supports("fma") ? maths_##name##_fma : maths_##name##_plain)
+#define PICK(name) (cpu_here.fma ? maths_##name##_fma : maths_##name##_plain)
 #else
 #define PICK(name) maths_##name##_plain
 #endif

@@ -2,6 +2,7 @@
 #include "maths/random.h"
 
 #include "base/number.h"
+#include "maths/fast_random.h"
 #include "maths/many.h"
 #include "maths/maths.h"
 
@@ -11,7 +12,7 @@
 // What is left of x ≥ 0 after the nearest whole number (the even one of two), exactly, and that number modulo 4.
 static double quarter_rest(double x, unsigned *quadrant) {
     *quadrant = 0;
-    if (x >= 9007199254740992.0) {
+    if (!(x < 9007199254740992.0)) {
         // A whole number, infinity or nan; from 2^63 on a multiple of 4.
         if (x < 9223372036854775808.0)
             *quadrant = (uint64_t)x & 3;
@@ -54,18 +55,8 @@ uint64_t random_hash_number(double x) {
     return bits;
 }
 
-static uint64_t swap_halves(uint64_t x) {
-    return x << 32 | x >> 32;
-}
-
 uint64_t random_raw(uint64_t key, uint64_t i) {
-    uint64_t y = i * key, z = y + key, x = y;
-    x = swap_halves(x * x + y);
-    x = swap_halves(x * x + z);
-    x = swap_halves(x * x + y);
-    uint64_t t = x * x + z;
-    x = swap_halves(t);
-    return t ^ ((x * x + y) >> 32);
+    return raw_lanes(key, i);
 }
 
 double random_uniform(uint64_t key, uint64_t i) {

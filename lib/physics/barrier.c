@@ -1,5 +1,5 @@
 // barrier.c: bounces off hard boundaries (4.4). Soft ones, and the formulas used here, are in single_formulas.h.
-#define PETRI_LANES 1
+#define LANES 1
 #include "physics/single_formulas.h"
 
 static double particle_height(const Columns *columns, size_t i, const PhysForce *barrier, double start) {

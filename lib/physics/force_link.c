@@ -1,6 +1,6 @@
 // force_link.c: forces between two given particles (4.1, `!distance`).
 // The formulas are in pair_formulas.h; a link has one lane.
-#define PETRI_LANES 1
+#define LANES 1
 #include "physics/internal.h"
 #include "physics/pair_formulas.h"
 

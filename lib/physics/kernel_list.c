@@ -53,11 +53,19 @@ KERNEL void blocks(const PairPass *pass, PairShape shape, const ListView *view, 
         block_forces(pass, shape, view, block);
 }
 
-// The most frequent case without its loop over forces.
+static bool all_plain(const PairPass *pass) {
+    bool plain = true;
+    for (size_t t = 0; t < pass->term_count; t++)
+        plain &= power_is_plain(pass->terms[t].power);
+    return plain;
+}
+
 #define LIST_KERNEL(n)                                                                                                 \
     static void forces_##n(const PairPass *pass, const ListView *view, size_t first, size_t end) {                     \
         if (view->sources)                                                                                             \
             blocks(pass, (PairShape){n, LEAD_NONE, REST_ANY}, view, first, end);                                       \
+        else if (all_plain(pass))                                                                                      \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_PLAIN}, view, first, end);                                     \
         else                                                                                                           \
             blocks(pass, (PairShape){n, LEAD_NONE, REST_TOUCH}, view, first, end);                                     \
     }
@@ -81,8 +89,8 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
         Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
         for (size_t k = 0; k < dimensions; k++) {
             parts[k] = real_gather(pass->position + k * pass->stride, view->column + s);
-            Real d = real_sub(parts[k], real_load(view->built[k] + s));
-            square = real_add(square, real_mul(d, d));
+            Real d = parts[k] - real_load(view->built[k] + s);
+            square += d * d;
         }
         Real radius = real_gather(pass->radius, view->column + s);
         parts[radius_part(dimensions)] = radius;
@@ -116,13 +124,13 @@ KERNEL size_t list_find(const ListView *view, size_t dimensions, const NearQuery
     for (size_t s = first; s < end; s += LANES) {
         Real square = real_zero();
         for (size_t k = 0; k < dimensions; k++) {
-            Real d = real_sub(real_load(view->built[k] + s), real_set(query->place[k]));
-            square = real_add(square, real_mul(d, d));
+            Real d = real_load(view->built[k] + s) - real_set(query->place[k]);
+            square += d * d;
         }
-        Real reach = real_add(real_load(view->radius + s), real_set(query->radius));
-        reach = real_add(real_larger(reach, real_set(query->bound)), real_set(query->skin));
+        Real reach = real_load(view->radius + s) + real_set(query->radius);
+        reach = real_larger(reach, real_set(query->bound)) + real_set(query->skin);
         // Both may overflow; the pair is listed then.
-        Mask close = real_at_most_where(mask_first(end - s), square, real_mul(reach, reach));
+        Mask close = real_at_most_where(mask_first(end - s), square, reach * reach);
         size_t found = mask_numbers(close, (uint32_t)s, to + count);
         count += found;
     }

@@ -23,7 +23,7 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
     if (!pair_geometry(shape, target, &partner, live, &pair))
         return;
     if (shape.lead != LEAD_NONE) {
-        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid};
+        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false};
         Mask applies = mask_and(pair.valid, rows->lead);
         if (!whole)
             applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
@@ -41,10 +41,10 @@ static void finish_mixed(const PairPass *pass, Tile *tile, bool lead, size_t m, 
             real_transpose(tile->rest[t][m]);
     for (size_t k = 0; k < LANES; k++) {
         if (lead)
-            *total = real_sub(*total, tile->lead[m][k]);
+            *total = *total - tile->lead[m][k];
         for (size_t t = 0; t < pass->term_count; t++)
             if (tile->hits >> t & 1)
-                *total = real_sub(*total, tile->rest[t][m][k]);
+                *total = *total - tile->rest[t][m][k];
     }
 }
 
@@ -63,7 +63,7 @@ KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_
         } else {
 #pragma GCC unroll 8
             for (size_t k = 0; k < LANES; k++)
-                total = real_sub(total, tile->lead[m][k]);
+                total -= tile->lead[m][k];
         }
         if (columns == LANES)
             real_store(force, total);

@@ -42,7 +42,7 @@ void sweep_all_one(SweepPass *pass, size_t first, size_t end) {
 KERNEL Mask hits(const SweepPass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
-    Real start = real_sub(real_set(-0.0), real_load(pass->columns->radius + block->first));
+    Real start = real_set(-0.0) - real_load(pass->columns->radius + block->first);
     for (uint32_t b = 0; b < pass->barrier_count; b++)
         clear = real_at_most_where(clear, real_zero(), height_above(&barriers[b]->given, n, block, start));
     return mask_and(block->live, mask_not(clear));

@@ -35,12 +35,13 @@ typedef struct Pairs {
     const PairEnd *target;
     const PairEnd *partner;
     Mask touch; // lanes with l < r₁+r₂ where neither radius is 0
+    bool plain; // no exponent of the pass needs a function (power.h)
 } Pairs;
 
 // S · (a · b) / (D · D),  D = max(r₁+r₂, l)
 KERNEL Real inverse_square(const Pairs *pairs, Real a, Real b) {
     Real distance = real_larger(pairs->geometry->reach, pairs->geometry->length);
-    return real_div(real_mul(real_set(pairs->term->strength), real_mul(a, b)), real_mul(distance, distance));
+    return real_set(pairs->term->strength) * (a * b) / (distance * distance);
 }
 
 // K = S · (m₁ · m₂) / (D · D)
@@ -55,18 +56,19 @@ KERNEL Real pair_electrostatic(const Pairs *pairs) {
 
 // K = (r₁+r₂ − l)^power · S
 KERNEL Real pair_collision(const Pairs *pairs) {
-    Real depth = real_sub(pairs->geometry->reach, pairs->geometry->length);
-    return real_mul(real_power(pairs->touch, depth, pairs->term->power), real_set(pairs->term->strength));
+    Real depth = pairs->geometry->reach - pairs->geometry->length;
+    Real power = real_power(pairs->plain, pairs->touch, depth, pairs->term->power);
+    return power * real_set(pairs->term->strength);
 }
 
 // K = S · o · (l − a),  o = r₁+r₂ − l,  a = |r₁−r₂| · overlap + (r₁+r₂) · (1 − overlap)
 KERNEL Real pair_adhesion(const Pairs *pairs) {
     const PairGeometry *geometry = pairs->geometry;
     double overlap = pairs->term->overlap;
-    Real depth = real_sub(geometry->reach, geometry->length);
-    Real difference = real_absolute(real_sub(pairs->target->radius, pairs->partner->radius));
-    Real rest = real_add(real_mul(difference, real_set(overlap)), real_mul(geometry->reach, real_set(1 - overlap)));
-    return real_mul(real_mul(real_set(pairs->term->strength), depth), real_sub(geometry->length, rest));
+    Real depth = geometry->reach - geometry->length;
+    Real difference = real_absolute(pairs->target->radius - pairs->partner->radius);
+    Real rest = difference * real_set(overlap) + geometry->reach * real_set(1 - overlap);
+    return real_set(pairs->term->strength) * depth * (geometry->length - rest);
 }
 
 // K of a link. False: no force.
@@ -76,8 +78,8 @@ KERNEL bool link_distance(const PhysForce *link, double strength, Real length, R
     bool near = link->has_minimum && mask_any(real_less(length, real_set(link->minimum)));
     if (!near && !(link->has_maximum && mask_any(real_less(real_set(link->maximum), length))))
         return false;
-    Real beyond = near ? real_sub(real_set(link->minimum), length) : real_sub(length, real_set(link->maximum));
-    *k = real_mul(real_power(mask_first(LANES), beyond, link->power), real_set(near ? -strength : strength));
+    Real beyond = near ? real_set(link->minimum) - length : length - real_set(link->maximum);
+    *k = real_power(false, mask_first(LANES), beyond, link->power) * real_set(near ? -strength : strength);
     return true;
 }
 

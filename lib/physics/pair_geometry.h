@@ -9,6 +9,7 @@
 enum { LEAD_NONE = PHYS_FORCE_KINDS }; // else the lead is the PhysForceKind
 typedef enum PairRest {
     REST_NONE,
+    REST_PLAIN, // forces of contact only, no exponent needs a function (power.h)
     REST_TOUCH, // forces of contact only
     REST_ANY,
 } PairRest;
@@ -18,6 +19,10 @@ typedef struct PairShape {
     int lead;
     PairRest rest;
 } PairShape;
+
+KERNEL bool rest_touches(PairShape shape) {
+    return shape.rest == REST_PLAIN || shape.rest == REST_TOUCH;
+}
 
 // What the leading force needs of both ends.
 KERNEL ForceNeed lead_need(PairShape shape) {
@@ -72,8 +77,8 @@ KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
 // Forces that need contact: pairs that surely have none are dropped before the square root. The filter is a hair too
 // wide, so that rounding cannot drop a pair with l < r₁+r₂, however small the numbers are.
 KERNEL Mask pair_near(Mask live, Real square, Real reach) {
-    Real wide = real_mul(real_mul(reach, reach), real_set(1 + 0x1p-48));
-    return real_less_where(live, square, real_add(wide, real_set(DBL_MIN)));
+    Real wide = reach * reach * real_set(1 + 0x1p-48);
+    return real_less_where(live, square, wide + real_set(DBL_MIN));
 }
 
 // False if none of the pairs `live` can have a force.
@@ -81,21 +86,21 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
                           PairGeometry *pair) {
     Real square = real_zero();
     for (size_t k = 0; k < shape.dimensions; k++) {
-        pair->unit[k] = real_sub(partner->place[k], target->place[k]);
-        Real part = real_mul(pair->unit[k], pair->unit[k]);
-        square = k ? real_add(square, part) : part; // 0 + part is part: a square is never -0
+        pair->unit[k] = partner->place[k] - target->place[k];
+        Real part = pair->unit[k] * pair->unit[k];
+        square = k ? square + part : part; // 0 + part is part: a square is never -0
     }
-    pair->reach = real_add(target->radius, partner->radius);
-    if (shape.lead == LEAD_NONE && shape.rest == REST_TOUCH) {
+    pair->reach = target->radius + partner->radius;
+    if (shape.lead == LEAD_NONE && rest_touches(shape)) {
         live = pair_near(live, square, pair->reach);
         if (!mask_any(live))
             return false;
     }
     pair->length = real_sqrt(square);
     pair->valid = real_at_most_where(real_less_where(live, real_zero(), square), square, real_set(DBL_MAX));
-    Real inverse = real_div(real_set(1), pair->length);
+    Real inverse = real_set(1) / pair->length;
     for (size_t k = 0; k < shape.dimensions; k++)
-        pair->unit[k] = real_mul(pair->unit[k], inverse);
+        pair->unit[k] *= inverse;
     return true;
 }
 

@@ -1,6 +1,6 @@
 // pair_rows.c: one particle against a range, pair by pair: the formulas with one lane, for any number of dimensions and
 // of forces.
-#define PETRI_LANES 1
+#define LANES 1
 #include "physics/pair_formulas.h"
 #include "physics/pair_wave.h"
 

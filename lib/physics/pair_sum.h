@@ -15,7 +15,7 @@ typedef struct Tile {
 KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Real coefficient, Real *sum,
                      Real (*column)[LANES], size_t k) {
     for (size_t m = 0; m < shape.dimensions; m++) {
-        Real f = real_mul(pair->unit[m], coefficient);
+        Real f = pair->unit[m] * coefficient;
         sum[m] = real_add_where(applies, sum[m], f);
         if (column)
             column[m][k] = real_keep(applies, f);
@@ -34,12 +34,12 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
     Mask touch = pair_touch(pair);
     if (mask_any(touch))
         touch = both_there(touch, target->radius, partner->radius);
-    else if (shape.rest == REST_TOUCH)
+    else if (rest_touches(shape))
         return;
     for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
         Real coefficient;
-        Pairs pairs = {&pass->terms[t], pair, target, partner, touch};
-        Mask applies = pair_apply(&pairs, shape.rest == REST_TOUCH, &coefficient);
+        Pairs pairs = {&pass->terms[t], pair, target, partner, touch, shape.rest == REST_PLAIN};
+        Mask applies = pair_apply(&pairs, rest_touches(shape), &coefficient);
         if (!mask_any(applies))
             continue;
         if (tile && !(tile->hits >> t & 1)) {

@@ -13,13 +13,19 @@ static __attribute__((noinline, unused)) Real power_by_lane(Mask mask, Real base
     return real_load(lanes);
 }
 
-// An exponent below 0 counts as 0. What the other lanes hold is of no use.
-KERNEL Real real_power(Mask mask, Real base, double power) {
+// Exponents that need no function.
+static inline bool power_is_plain(double power) {
+    return power == 1 || power == 2 || power <= 0;
+}
+
+// An exponent below 0 counts as 0. What the other lanes hold is of no use. `plain`: it is known that the exponent is.
+// A loop should know, as a call in it, even one that is never made, takes the registers away from the rest.
+KERNEL Real real_power(bool plain, Mask mask, Real base, double power) {
     if (power == 1)
         return base;
     if (power == 2)
-        return real_mul(base, base);
-    return power_by_lane(mask, base, power < 0 ? 0.0 : power);
+        return base * base;
+    return plain || power <= 0 ? real_set(1) : power_by_lane(mask, base, power);
 }
 
 #endif

@@ -70,9 +70,9 @@ KERNEL Mask where_not_zero(Mask mask, Real x) {
 KERNEL void single_constant(const Singles *s) {
     const PhysForce *given = &s->force->given;
     for (size_t k = 0; k < s->n; k++) {
-        Real acceleration = real_mul(vector_part(given->vector2, k), s->block->mass);
-        Real sum = real_add(vector_part(given->vector, k), acceleration);
-        push(s->block, k, s->block->live, real_mul(sum, real_set(s->force->strength)));
+        Real acceleration = vector_part(given->vector2, k) * s->block->mass;
+        Real sum = vector_part(given->vector, k) + acceleration;
+        push(s->block, k, s->block->live, sum * real_set(s->force->strength));
     }
 }
 
@@ -80,8 +80,8 @@ KERNEL void single_constant(const Singles *s) {
 KERNEL void single_field(const Singles *s) {
     Real charge = real_load(s->columns->charge + s->block->first);
     for (size_t k = 0; k < s->n; k++) {
-        Real along = real_mul(real_set(s->force->strength), vector_part(s->force->given.vector, k));
-        push(s->block, k, s->block->live, real_mul(along, charge));
+        Real along = real_set(s->force->strength) * vector_part(s->force->given.vector, k);
+        push(s->block, k, s->block->live, along * charge);
     }
 }
 
@@ -90,31 +90,31 @@ KERNEL void single_drag(const Singles *s) {
     PhysVector flow = s->force->given.vector;
     Real square = real_zero();
     for (size_t k = 0; k < s->n; k++) {
-        Real relative = real_sub(velocity_part(s->block, k), vector_part(flow, k));
-        square = real_add(square, real_mul(relative, relative));
+        Real relative = velocity_part(s->block, k) - vector_part(flow, k);
+        square += relative * relative;
     }
-    Real c = real_mul(real_set(s->force->strength), real_sqrt(square));
-    c = real_mul(c, real_load(s->columns->section + s->block->first));
-    Real limit = real_div(s->block->mass, real_set(s->pass->delta));
+    Real c = real_set(s->force->strength) * real_sqrt(square);
+    c *= real_load(s->columns->section + s->block->first);
+    Real limit = s->block->mass / real_set(s->pass->delta);
     // This way round a NaN (0 · ∞) stays one: the force does not act, instead of stopping the particle.
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     for (size_t k = 0; k < s->n; k++) {
-        Real relative = real_sub(velocity_part(s->block, k), vector_part(flow, k));
+        Real relative = velocity_part(s->block, k) - vector_part(flow, k);
         Real *sum = &s->block->force[k * s->block->step];
-        *sum = real_sub_where(applies, *sum, real_mul(relative, c));
+        *sum = real_sub_where(applies, *sum, relative * c);
     }
 }
 
 // r ≠ 0 and m ≠ 0:  gravity_k · (S · (m − r^n · density))
 KERNEL void single_buoyancy(const Singles *s) {
     const PhysForce *given = &s->force->given;
-    Real displaced = real_mul(real_load(s->columns->volume + s->block->first), real_set(given->density));
-    Real weight = real_mul(real_set(s->force->strength), real_sub(s->block->mass, displaced));
+    Real displaced = real_load(s->columns->volume + s->block->first) * real_set(given->density);
+    Real weight = real_set(s->force->strength) * (s->block->mass - displaced);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     applies = where_not_zero(applies, s->block->mass);
     for (size_t k = 0; k < s->n; k++)
-        push(s->block, k, applies, real_mul(vector_part(given->vector, k), weight));
+        push(s->block, k, applies, vector_part(given->vector, k) * weight);
 }
 
 #if LANES == 1
@@ -138,7 +138,7 @@ KERNEL void single_random(const Singles *s) {
         for (size_t k = 0; k < s->n && bits >> lane & 1; k++)
             lanes[k][lane] = *next++;
     for (size_t k = 0; k < s->n; k++)
-        push(s->block, k, s->block->live, real_mul(real_set(s->force->strength), real_load(lanes[k])));
+        push(s->block, k, s->block->live, real_set(s->force->strength) * real_load(lanes[k]));
 }
 
 #endif
@@ -147,8 +147,8 @@ KERNEL void single_random(const Singles *s) {
 KERNEL Real height_above(const PhysForce *barrier, size_t n, const Block *block, Real start) {
     Real sum = start;
     for (size_t k = 0; k < n; k++) {
-        Real along = real_sub(place_part(block, k), vector_part(barrier->vector, k));
-        sum = real_add(sum, real_mul(along, vector_part(barrier->vector2, k)));
+        Real along = place_part(block, k) - vector_part(barrier->vector, k);
+        sum += along * vector_part(barrier->vector2, k);
     }
     return sum;
 }
@@ -170,10 +170,10 @@ KERNEL void single_barrier(const Singles *s) {
         above = real_less_where(mask_and(block->live, mask_not(below)), maximum, height);
     if (!mask_any(below) && !mask_any(above))
         return;
-    Real depth = real_select(below, real_sub(minimum, height), real_sub(height, maximum));
-    Real size = real_mul(real_power(mask_or(below, above), depth, barrier->power), real_set(s->force->strength));
+    Real depth = real_select(below, minimum - height, height - maximum);
+    Real size = real_power(false, mask_or(below, above), depth, barrier->power) * real_set(s->force->strength);
     for (size_t k = 0; k < s->n; k++) {
-        Real f = real_mul(vector_part(barrier->vector2, k), size), *sum = &block->force[k * block->step];
+        Real f = vector_part(barrier->vector2, k) * size, *sum = &block->force[k * block->step];
         *sum = real_sub_where(above, real_add_where(below, *sum, f), f);
     }
 }
@@ -197,7 +197,7 @@ KERNEL void single_apply(const Singles *s) {
 
 // v_k + F_k · c
 KERNEL Real pushed_part(const Block *block, size_t k, Real c) {
-    return real_add(velocity_part(block, k), real_mul(block->force[k * block->step], c));
+    return velocity_part(block, k) + block->force[k * block->step] * c;
 }
 
 // m ≠ 0 and every component of the force is finite:
@@ -208,23 +208,23 @@ KERNEL void move(size_t n, Block *block, double delta, double speed_of_light) {
     Mask pushed = where_not_zero(block->live, block->mass);
     for (size_t k = 0; k < n; k++)
         pushed = real_at_most_where(pushed, real_absolute(block->force[k * block->step]), real_set(DBL_MAX));
-    Real c = real_div(real_set(delta), block->mass), square = real_zero();
+    Real c = real_set(delta) / block->mass, square = real_zero();
     for (size_t k = 0; k < n; k++) {
         Real v = pushed_part(block, k, c);
-        square = real_add(square, real_mul(v, v));
+        square += v * v;
     }
     Mask fast = mask_first(0);
     Real factor = real_zero();
     if (speed_of_light > 0)
         fast = real_less_where(pushed, real_set(speed_of_light * speed_of_light), square);
     if (mask_any(fast))
-        factor = real_div(real_set(speed_of_light), real_sqrt(square));
+        factor = real_set(speed_of_light) / real_sqrt(square);
     for (size_t k = 0; k < n; k++) {
         Real v = pushed_part(block, k, c), *velocity = &block->velocity[k * block->step];
         if (mask_any(fast))
-            v = real_select(fast, real_mul(v, factor), v);
+            v = real_select(fast, v * factor, v);
         *velocity = real_select(pushed, v, *velocity);
-        block->place[k * block->step] = real_add(place_part(block, k), real_mul(*velocity, real_set(delta)));
+        block->place[k * block->step] = place_part(block, k) + *velocity * real_set(delta);
     }
 }
 

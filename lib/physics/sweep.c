@@ -7,12 +7,12 @@
 // around it. Returns how many there are.
 static uint32_t collect(const PhysSystem *system, uint32_t group, Stage stage, uint32_t already) {
     const Group *groups = system->groups.bytes;
-    const Force **chain = (const Force **)system->chain.bytes + already;
+    const Force **chain = system->chain.bytes;
     uint32_t count = 0;
     for (uint32_t g = groups[group].nearest[stage]; g != NO_GROUP; g = phys_next_above(groups, g, stage)) {
         ForceRange range = phys_forces(system, g, stage);
         for (const Force *force = range.begin; force < range.end; force++)
-            chain[count++] = force;
+            chain[already + count++] = force;
     }
     return count;
 }

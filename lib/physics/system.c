@@ -28,7 +28,7 @@ PhysSystem *phys_new(void) {
     Neighbours *lists = memory->lists;
     *system = (PhysSystem){.home = home, .lists = lists};
     memset(lists, 0, PHYS_MOST_LISTS * sizeof *lists);
-    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detect()});
+    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_here.level});
     phys_begin(system, 1);
     return system;
 }
@@ -51,7 +51,7 @@ void phys_free(PhysSystem *system) {
 }
 
 void phys_set_options(PhysSystem *system, const PhysOptions *options) {
-    CpuLevel best = cpu_detect();
+    CpuLevel best = cpu_here.level;
     system->options = *options;
     if (options->threads <= 0)
         system->options.threads = cpu_count();

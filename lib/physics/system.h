@@ -80,7 +80,7 @@ void phys_threads_free(PhysThreads *threads);
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
-    CpuLevel cpu; // at most cpu_detect()
+    CpuLevel cpu; // at most cpu_here.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
     bool keep_forces;  // for phys_force_on; costs one store per particle and step

@@ -6,6 +6,7 @@
 #include <sched.h>
 #include <stdatomic.h>
 #include <stdlib.h>
+#include <unistd.h>
 
 // What there is to claim, in one word: number of the job, whether it must be begun in order, its shares, and those
 // claimed already from its front and from its back. Every other thread takes from the back, so that a thread meets much
@@ -22,6 +23,7 @@ struct PhysThreads {
     int count; // that are running, without the caller
     atomic_int serving;
     pthread_t threads[PHYS_MOST_THREADS];
+    pid_t process; // which they are of: a child that was forked off has none of them
     bool started;
     int wanted;
     // the job
@@ -111,7 +113,7 @@ PhysThreads *phys_threads_new(int count) {
     PhysThreads *threads = aligned_alloc(64, sizeof *threads);
     if (!threads)
         return NULL;
-    *threads = (PhysThreads){.wanted = count <= 0 ? cpu_count() : count};
+    *threads = (PhysThreads){.process = getpid(), .wanted = count <= 0 ? cpu_count() : count};
     if (threads->wanted > PHYS_MOST_THREADS)
         threads->wanted = PHYS_MOST_THREADS;
     pthread_mutex_init(&threads->mutex, NULL);
@@ -130,6 +132,10 @@ static void start(PhysThreads *threads) {
 void phys_threads_free(PhysThreads *threads) {
     if (!threads)
         return;
+    if (threads->process != getpid()) {
+        free(threads);
+        return;
+    }
     pthread_mutex_lock(&threads->mutex);
     threads->stop = true;
     pthread_cond_broadcast(&threads->wake);

@@ -10,6 +10,8 @@
 //   until not (more and (lockstep or this is the frame's first step and performance > 1.5))
 #include "physics/internal.h"
 
+#include <math.h>
+
 // Brings into simulation order what has changed since the last frame. False if memory is used up.
 static bool arrange(PhysSystem *system) {
     if (system->failed)
@@ -45,7 +47,7 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     bool more = remaining > 0;
     while (more) {
         double delta = time->resolution < remaining ? time->resolution : remaining;
-        if (result.steps == PHYS_MAX_STEPS || last + delta == last) {
+        if (result.steps == PHYS_MAX_STEPS || last + delta == last || !isfinite(result.clock + delta)) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }

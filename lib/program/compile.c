@@ -296,8 +296,7 @@ static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file
     const CompileHost *host = &compiler->options->host;
     include.ast = host->include(host->host, path, &include.source, &why);
     if (!include.ast)
-        include.fault = str_format(compiler->arena, "cannot include '%.*s': %.*s", (int)path.len, path.bytes,
-                                   (int)why.len, why.bytes);
+        include.fault = str_format(compiler->arena, "cannot include '%.*s': %.*s", STR_ARGS(path), STR_ARGS(why));
     return include;
 }
 

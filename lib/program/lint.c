@@ -26,8 +26,7 @@ void lint_bind(Compiler *compiler, const Binding *binding) {
     Str name = binding->name->name;
     if (wanted(compiler) && is_builtin(name))
         compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
-                       str_format(compiler->arena, "'%.*s' hides the built-in of that name", (int)name.len, name.bytes),
-                       (Str){0});
+                       str_format(compiler->arena, "'%.*s' hides the built-in of that name", STR_ARGS(name)), (Str){0});
 }
 
 // Loops may run for their number of rounds only, and a name that starts with an underscore says that it is not used.
@@ -44,8 +43,7 @@ void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
     for (const Binding *binding = scope; binding != end; binding = binding->outer)
         if (!binding->used && !may_be_unused(binding))
             warn(compiler, binding->span, "unused-name",
-                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], (int)binding->name->name.len,
-                            binding->name->name.bytes));
+                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
 }
 
 // In the words of the call itself (lib/builtin), so that it is told once if the first frame gets there.
@@ -82,15 +80,13 @@ static void lint_user_call(Compiler *compiler, const Ast *ast, const Ast *functi
     for (uint32_t i = 0; i < code->named_count; i++)
         if (!find_param(params, code->names[i]))
             warn(compiler, ast->span, "wrong-arguments",
-                 str_format(arena, "the function has no parameter '%.*s'", (int)code->names[i]->name.len,
-                            code->names[i]->name.bytes));
+                 str_format(arena, "the function has no parameter '%.*s'", STR_ARGS(code->names[i]->name)));
     // A template may leave its first parameter to a suite that is not there.
     for (uint32_t i = code->arg_count; i < params->count && ast->kind == AST_CALL; i++) {
         const Ast *param = params->children[i];
         if (param->count == 0 && !is_named(code, param->name))
             warn(compiler, ast->span, "wrong-arguments",
-                 str_format(arena, "no argument for '%.*s', which has no default", (int)param->name->name.len,
-                            param->name->name.bytes));
+                 str_format(arena, "no argument for '%.*s', which has no default", STR_ARGS(param->name->name)));
     }
 }
 
@@ -110,8 +106,8 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
 
 static void warn_negation(Compiler *compiler, Span span, Str name) {
     warn_hint(compiler, span, "node-as-test",
-              str_format(compiler->arena, "'!%.*s' is a node, which is always true", (int)name.len, name.bytes),
-              str_format(compiler->arena, "to negate write not %.*s", (int)name.len, name.bytes));
+              str_format(compiler->arena, "'!%.*s' is a node, which is always true", STR_ARGS(name)),
+              str_format(compiler->arena, "to negate write not %.*s", STR_ARGS(name)));
 }
 
 static const Node *constant_node(const Expr *expr) {
@@ -168,10 +164,10 @@ void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
         return;
     Arena *arena = compiler->arena;
     Str name = value_text(arena, compiler->symbols, file->as.value);
-    Str path = path_join(arena, compiler->source->directory, name), version;
-    if (name.len && !file_version(arena, str_to_c(arena, path), &version))
+    Str path = path_join(arena, compiler->source->directory, name);
+    if (name.len && !file_exists(str_to_c(arena, path)))
         warn(compiler, ast->span, "cannot-import",
-             str_format(arena, "cannot import '%.*s': there is no such file", (int)path.len, path.bytes));
+             str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
 }
 
 void lint_pragma(Compiler *compiler, const Ast *pragma) {
@@ -185,5 +181,5 @@ void lint_pragma(Compiler *compiler, const Ast *pragma) {
     }
     if (wanted(compiler))
         compile_report(compiler, pragma->span, DIAG_WARNING, "unknown-pragma",
-                       str_format(compiler->arena, "unknown pragma '%.*s'", (int)name.len, name.bytes), hint);
+                       str_format(compiler->arena, "unknown pragma '%.*s'", STR_ARGS(name)), hint);
 }

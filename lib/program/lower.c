@@ -308,14 +308,17 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
 #define SAME(kind)
 #define PLAIN(kind) [EXPR_##kind] = {NULL, OP_##kind},
 #include "program/expr_list.h"
-        [EXPR_CONST] = {move},          [EXPR_SLOT] = {move},       [EXPR_CAPTURE] = {load},
-        [EXPR_SELF] = {load},           [EXPR_GLOBAL] = {load},     [EXPR_UNBOUND] = {load},
-        [EXPR_COMPOSE] = {compose},     [EXPR_BIND] = {binding},    [EXPR_LET] = {binding},
-        [EXPR_IMPORT] = {binding},      [EXPR_FUNC] = {closure},    [EXPR_FOR] = {lower_for},
-        [EXPR_IF] = {choice},           [EXPR_NODE] = {lower_node}, [EXPR_APPEND] = {lower_node},
-        [EXPR_DECORATE] = {lower_node}, [EXPR_CALL] = {call},       [EXPR_OR] = {short_circuit},
-        [EXPR_AND] = {short_circuit},   [EXPR_RANGE] = {range},     [EXPR_INDEX] = {subscript},
-        [EXPR_LOOKUP] = {lookup}};
+        [EXPR_CONST] = {.lower = move},        [EXPR_SLOT] = {.lower = move},
+        [EXPR_CAPTURE] = {.lower = load},      [EXPR_SELF] = {.lower = load},
+        [EXPR_GLOBAL] = {.lower = load},       [EXPR_UNBOUND] = {.lower = load},
+        [EXPR_COMPOSE] = {.lower = compose},   [EXPR_BIND] = {.lower = binding},
+        [EXPR_LET] = {.lower = binding},       [EXPR_IMPORT] = {.lower = binding},
+        [EXPR_FUNC] = {.lower = closure},      [EXPR_FOR] = {.lower = lower_for},
+        [EXPR_IF] = {.lower = choice},         [EXPR_NODE] = {.lower = lower_node},
+        [EXPR_APPEND] = {.lower = lower_node}, [EXPR_DECORATE] = {.lower = lower_node},
+        [EXPR_CALL] = {.lower = call},         [EXPR_OR] = {.lower = short_circuit},
+        [EXPR_AND] = {.lower = short_circuit}, [EXPR_RANGE] = {.lower = range},
+        [EXPR_INDEX] = {.lower = subscript},   [EXPR_LOOKUP] = {.lower = lookup}};
     int32_t mark = lowering->next_register;
     if (ways[expr->kind].lower)
         ways[expr->kind].lower(lowering, expr, d);

@@ -7,8 +7,6 @@ void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at
     lower_emit(lowering, at, (Instr){.op = OP_ADD_PART, .a = a, .loop = loop});
 }
 
-static const Node *bare_node(const Expr *expr, Arena *arena);
-
 // Has an expression one element at the most, and is it no stream? Then a composition of such parts is not too long, and
 // its parts can be added to what is around it one by one.
 static bool is_small(const Expr *expr) {

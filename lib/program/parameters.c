@@ -102,7 +102,7 @@ static void lint(Compiler *compiler, const Parameter *parameter) {
     if (compiler->options->lint && !within)
         compile_report(compiler, parameter->span, DIAG_WARNING, "outside-range",
                        str_format(compiler->arena, "the default of '%.*s' is outside the range in its comment",
-                                  (int)parameter->name->name.len, parameter->name->name.bytes),
+                                  STR_ARGS(parameter->name->name)),
                        (Str){0});
 }
 

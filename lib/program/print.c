@@ -16,14 +16,9 @@ enum { LONGEST_CONSTANT = 60 }; // characters of a constant that are shown
 static void print_constant(Text *out, const SymbolTable *symbols, Value value) {
     Text text = text_new(out->arena);
     format_value(&text, symbols, value);
-    Str shown = text_str(&text);
-    bool cut = shown.len > LONGEST_CONSTANT;
-    if (cut)
-        shown.len = LONGEST_CONSTANT;
-    while (cut && shown.len > 0 && (shown.bytes[shown.len] & 0xc0) == 0x80)
-        shown.len--; // not within a character
+    Str shown = str_cut(text_str(&text), LONGEST_CONSTANT);
     text_add(out, shown);
-    if (cut)
+    if (shown.len < text.len)
         text_add_format(out, "… (%u elements)", value.len);
 }
 
@@ -41,8 +36,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     for (uint32_t i = 0; i < instr->count; i++) {
         text_add_c(out, i ? ", " : "");
         if (instr->op == OP_NODE)
-            text_add_format(out, "%.*s=", (int)instr->as.node->names[i]->name.len,
-                            instr->as.node->names[i]->name.bytes);
+            text_add_format(out, "%.*s=", STR_ARGS(instr->as.node->names[i]->name));
         print_operand(out, symbols, code, code->operands[instr->list + i]);
     }
     text_add_char(out, ')');
@@ -70,7 +64,7 @@ static void print_extra(Text *out, const Instr *instr) {
     case OP_DECORATE:
         for (uint32_t i = 0; i < instr->count; i++) {
             Str attr = instr->as.decorate->names[i]->name;
-            text_add_format(out, "%s%.*s", i ? " " : "", (int)attr.len, attr.bytes);
+            text_add_format(out, "%s%.*s", i ? " " : "", STR_ARGS(attr));
         }
         break;
     default:
@@ -131,9 +125,8 @@ static void print_code(Text *out, const SymbolTable *symbols, const Code *code) 
         if (code->instrs[i].op != OP_CLOSURE)
             continue;
         const FunctionCode *function = code->instrs[i].as.function;
-        text_add_format(out, "\n%.*s: parameters=%u captures=%u registers=%u\n", (int)function->name.len,
-                        function->name.bytes, function->param_count, function->capture_count,
-                        function->code->register_count);
+        text_add_format(out, "\n%.*s: parameters=%u captures=%u registers=%u\n", STR_ARGS(function->name),
+                        function->param_count, function->capture_count, function->code->register_count);
         print_code(out, symbols, function->code);
     }
 }

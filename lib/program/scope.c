@@ -165,20 +165,6 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     return expr;
 }
 
-typedef struct Nearest {
-    Str wanted;
-    Str name;
-    int distance;
-} Nearest;
-
-static void consider(Nearest *nearest, Str name) {
-    int distance = str_distance(nearest->wanted, name);
-    if (distance < nearest->distance) {
-        nearest->distance = distance;
-        nearest->name = name;
-    }
-}
-
 static const struct {
     const char *names;
     Str hint;
@@ -198,20 +184,18 @@ static bool follows_slashes(const Compiler *compiler, Span span) {
 
 // "did you mean …", if some visible name is close.
 static Str nearest_name(Compiler *compiler, Str wanted) {
-    Nearest nearest = {.wanted = wanted, .distance = wanted.len < 4 ? 2 : 3};
+    StrNearest nearest = {.wanted = wanted, .limit = wanted.len < 4 ? 2 : 3};
     for (const FunctionScope *function = compiler->function; function; function = function->outer) {
         for (const Binding *binding = function->scope; binding; binding = binding->outer)
-            consider(&nearest, binding->name->name);
+            str_try_nearest(&nearest, binding->name->name);
         if (function->self)
-            consider(&nearest, function->self->name);
+            str_try_nearest(&nearest, function->self->name);
     }
     for (uint32_t i = 0; !compiler->options->module && i < ENGINE_NAME_COUNT; i++)
-        consider(&nearest, str_from(engine_names[i].name));
-    for (uint32_t i = 0; i < builtin_count; i++)
-        consider(&nearest, str_from(builtin_table[i].name));
-    if (!nearest.name.len)
-        return (Str){0};
-    return str_format(compiler->arena, "did you mean '%.*s'?", (int)nearest.name.len, nearest.name.bytes);
+        str_try_nearest(&nearest, str_from(engine_names[i].name));
+    for (uint32_t i = 0; i < builtin_table_count; i++)
+        str_try_nearest(&nearest, str_from(builtin_table[i].name));
+    return nearest.found.len ? str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found)) : (Str){0};
 }
 
 // What the author of an unbound name may have meant; empty if nothing comes to mind.
@@ -221,10 +205,10 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
         if (str_word_number(name, habits[i].names) >= 0)
             return habits[i].hint;
     if (compiler->subject == ast)
-        return str_format(compiler->arena, "a node is written !%.*s", (int)name.len, name.bytes);
+        return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)
         return str_format(compiler->arena, "$ looks a key of the state up, such as $:%.*s; a name stands without it",
-                          (int)name.len, name.bytes);
+                          STR_ARGS(name));
     Str nearest = nearest_name(compiler, name);
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
 }
@@ -239,7 +223,7 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
         return expr;
     }
     compile_report(compiler, ast->span, DIAG_WARNING, "unbound-name",
-                   str_format(compiler->arena, "unbound name '%.*s' is null", (int)name.len, name.bytes),
+                   str_format(compiler->arena, "unbound name '%.*s' is null", STR_ARGS(name)),
                    unbound_hint(compiler, ast));
     return compile_constant(compiler, ast, VALUE_NULL);
 }

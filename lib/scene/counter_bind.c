@@ -1,7 +1,7 @@
 // counter_bind.c: `!counter`: a value that grows with time, kept in the state.
 //
-// The value is a vector, element by element: it starts at clamp(initial) and each frame becomes
-// clamp(value + (time − last time)·rate). It is as long as the longest of its attributes; shorter ones repeat.
+// The value is a vector, as long as the longest of the attributes, and all is element by element (spec counters.md).
+// Value and time are each stored only if finite, so that a bad frame is a lost one and no more.
 #include "base/number.h"
 #include "scene/systems.h"
 
@@ -17,6 +17,20 @@ static uint32_t longest(const Value *values, uint32_t count) {
     return len;
 }
 
+// What the state has, as far as a counter can go on from it; else null.
+static Value usable(Value stored) {
+    bool good = value_is_numeric(stored) && numbers_finite(value_numbers(&stored), stored.len, 1);
+    return good ? stored : VALUE_NULL;
+}
+
+static void store(const Reader *reader, State *state, Value key, Value v, const char *what) {
+    if (numbers_finite(value_numbers(&v), v.len, 1))
+        state_set(state, key, v);
+    else
+        reader_report(reader, "not-finite", what,
+                      str_format(reader->arena, "the %s is not finite; the counter keeps its last one", what));
+}
+
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Reader reader = {scene->schema, frame->arena, node, KIND_COUNTER, 1};
     CounterAttrs attrs;
@@ -24,30 +38,26 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     attrs.time = value_number(frame->time);
     reader_fill(&reader, &attrs);
     Value key = attrs.state, time = attrs.time, rate = attrs.rate, initial = attrs.initial;
-    Value low = attrs.minimum, high = attrs.maximum;
+    Value low = attrs.minimum, high = attrs.maximum, reset = attrs.reset;
     if (key.len == 0 || !state_key_valid(key)) {
         reader_report(&reader, "skipped-system", "", STR("no usable state key; the counter is skipped"));
         return;
     }
     Value time_key = scene_key(frame->arena, key, VALUE_NULL, scene->key_time);
-    Value stored = state_get(frame->state, key), last = state_get(frame->state, time_key);
-    bool start = !value_is_numeric(stored) || !value_is_numeric(last) || value_true(attrs.reset);
-    Value parts[] = {initial, rate, low, high, time, start ? VALUE_NULL : stored};
+    Value old = usable(state_get(frame->state, key)), last = usable(state_get(frame->state, time_key));
+    Value parts[] = {initial, rate, low, high, time, reset, old};
     uint32_t len = longest(parts, sizeof parts / sizeof parts[0]);
     double *values = arena_alloc_array(frame->arena, len, sizeof *values);
     for (uint32_t i = 0; i < len; i++) {
-        double x =
-            start ? element(initial, i) : element(stored, i) + (element(time, i) - element(last, i)) * element(rate, i);
+        double passed = last.len ? element(time, i) - element(last, i) : 0;
+        bool start = old.len == 0 || (reset.len && element(reset, i) != 0);
+        double x = start ? element(initial, i) : passed * element(rate, i) + element(old, i);
         if (low.len && x < element(low, i))
             x = element(low, i);
         if (high.len && x > element(high, i))
             x = element(high, i);
         values[i] = x;
     }
-    if (!numbers_finite(values, len, 1)) {
-        reader_report(&reader, "not-finite", "", STR("the value is not finite; the counter keeps its last one"));
-        return;
-    }
-    state_set(frame->state, key, value_numbers_view(values, len));
-    state_set(frame->state, time_key, time);
+    store(&reader, frame->state, key, value_numbers_view(values, len), "value");
+    store(&reader, frame->state, time_key, time, "time");
 }

@@ -92,7 +92,7 @@ PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attr
 void mirror_remove_vanished(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     for (uint32_t i = 0; i < mirror->last_count; i += 2)
-        if (!physics_has_position(tree, mirror->last_slots[i])) {
+        if (physics_find_slot(tree, mirror->last_slots[i]) == PHYSICS_NO_BODY) {
             state_slot_set(tree->frame->state, mirror->last_slots[i], VALUE_NULL);
             state_slot_set(tree->frame->state, mirror->last_slots[i + 1], VALUE_NULL);
         }
@@ -211,7 +211,7 @@ static void close_last(PhysicsTree *tree, bool lent) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
     for (uint32_t i = 0; mirror->lender && i < mirror->last_count; i++)
-        if (!lent || !physics_has_slot(tree, mirror->last_slots[i]))
+        if (!lent || !physics_mark(tree, mirror->last_slots[i]))
             state_slot_own_copy(state, mirror->last_slots[i], mirror->lender);
     if (mirror->lender)
         state_take_disturbed(state, mirror->lender); // by the mirror itself

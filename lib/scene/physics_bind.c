@@ -13,9 +13,9 @@ Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
     return vector_finish(&key);
 }
 
-double scene_number(const State *state, StateSlot slot, double fallback) {
+static double scene_number(const State *state, StateSlot slot, double fallback) {
     Value v = state_slot_get(state, slot);
-    return v.kind == VALUE_NUMBERS && v.len == 1 ? v.as.number : fallback;
+    return v.kind == VALUE_NUMBERS && v.len == 1 && isfinite(v.as.number) ? v.as.number : fallback;
 }
 
 // The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.

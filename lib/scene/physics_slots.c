@@ -42,10 +42,6 @@ uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot) {
     return mark / 2 < scene->body_base ? 0 : mark;
 }
 
-bool physics_has_slot(const PhysicsTree *tree, StateSlot slot) {
-    return physics_mark(tree, slot) != 0;
-}
-
 bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
     Scene *scene = tree->scene;
     if (slot >= scene->body_capacity) {
@@ -77,10 +73,6 @@ void physics_clear_marks(const PhysicsTree *tree) {
 int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
     uint32_t mark = physics_mark(tree, slot);
     return mark && mark % 2 == 0 ? (int64_t)(mark / 2 - tree->scene->body_base) : PHYSICS_NO_BODY;
-}
-
-bool physics_has_position(const PhysicsTree *tree, StateSlot slot) {
-    return physics_find_slot(tree, slot) != PHYSICS_NO_BODY;
 }
 
 void physics_forget_slots(const PhysicsTree *tree) {

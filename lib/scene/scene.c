@@ -12,7 +12,7 @@ Scene *scene_new(Arena *arena, Schema *schema) {
     *scene = (Scene){.schema = schema};
     physics_take_defaults(scene);
     input_init(&scene->input, symbols);
-    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detect()};
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
     scene->key_clock = symbol_know(symbols, STR("clock"));
@@ -117,35 +117,19 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     }
 }
 
-static uint64_t update_kind(Scene *scene, NodeKind kind, Value tree, uint32_t from, const SceneFrame *frame) {
-    uint64_t steps = 0;
-    for (uint32_t i = from; i < tree.len; i++) {
-        const Item *item = &tree.as.items[i];
-        if (item->type != ITEM_NODE || schema_kind(scene->schema, item->as.node) != kind)
-            continue;
-        if (frame->interrupt && atomic_load_explicit(frame->interrupt, memory_order_relaxed))
-            break;
-        if (kind == KIND_PHYSICS)
-            steps += physics_update(scene, item->as.node, frame);
-        else
-            counter_update(scene, item->as.node, frame);
-    }
-    return steps;
-}
-
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
-    bool done[KIND_COUNT] = {false};
     uint64_t steps = 0;
     scene->frame_number++;
     tidy_state(scene, frame);
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
-        if (tree.as.items[i].type != ITEM_NODE)
-            continue;
-        NodeKind kind = schema_kind(scene->schema, tree.as.items[i].as.node);
-        if ((kind != KIND_PHYSICS && kind != KIND_COUNTER) || done[kind])
-            continue;
-        done[kind] = true;
-        steps += update_kind(scene, kind, tree, i, frame);
+        const Item *item = &tree.as.items[i];
+        NodeKind kind = item->type == ITEM_NODE ? schema_kind(scene->schema, item->as.node) : KIND_COUNT;
+        if (frame->interrupt && atomic_load_explicit(frame->interrupt, memory_order_relaxed))
+            break;
+        if (kind == KIND_PHYSICS)
+            steps += physics_update(scene, item->as.node, frame);
+        else if (kind == KIND_COUNTER)
+            counter_update(scene, item->as.node, frame);
     }
     input_bind(&scene->input, scene->schema, tree, frame->arena);
     return steps;

@@ -94,7 +94,6 @@ struct PhysicsTree {
 
 // prefix;id or prefix;id;symbol as a key.
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
-double scene_number(const State *state, StateSlot slot, double fallback);
 
 // physics_read.c
 void physics_take_defaults(Scene *scene);
@@ -117,9 +116,6 @@ bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id);
 // The particle of the tree with this id, or with this position slot, or PHYSICS_NO_BODY.
 int64_t physics_find_body(PhysicsTree *tree, Value id);
 int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot);
-// Is this the slot of a position, or of a position or a velocity, in the tree that was read last?
-bool physics_has_position(const PhysicsTree *tree, StateSlot slot);
-bool physics_has_slot(const PhysicsTree *tree, StateSlot slot);
 // The mark of a slot in the tree that is being read, or 0; sets one (false if memory is used up); begins a tree.
 uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot);
 bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark);

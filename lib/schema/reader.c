@@ -67,7 +67,7 @@ static void add_known_by(Text *out, const Reader *reader, AttrRow row) {
 void reader_report_at(const Reader *reader, const char *code, Origin place, Str key, Str text) {
     Schema *schema = reader->schema;
     Text out = text_new(reader->arena);
-    text_add_format(&out, "!%.*s", (int)reader->node->kind->name.len, reader->node->kind->name.bytes);
+    text_add_format(&out, "!%.*s", STR_ARGS(reader->node->kind->name));
     add_known_by(&out, reader, ROW_PARTICLE_ID);
     add_known_by(&out, reader, ROW_PHYSICS_STATE);
     schema->reports++;
@@ -87,50 +87,35 @@ void reader_report_attr(const Reader *reader, const char *code, AttrName name, S
     report_symbol(reader, code, reader->schema->slots[row - schema_rows].name, text);
 }
 
-// The candidate that is nearest to a name so far.
-typedef struct Nearest {
-    Str name;
-    int least;
-    const char *text;
-} Nearest;
-
-static Nearest nearest_to(Str name) {
-    return (Nearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, NULL}; // long names may be further off
-}
-
-static void try_name(Nearest *nearest, const char *candidate) {
-    int distance = str_distance(nearest->name, str_from(candidate));
-    if (distance < nearest->least) {
-        nearest->least = distance;
-        nearest->text = candidate;
-    }
+static StrNearest nearest_to(Str name) {
+    return (StrNearest){name, 2 + (int)(name.len < 12 ? name.len : 12) / 4, {0}}; // long names may be further off
 }
 
 static void report_unknown(const Reader *reader, const Symbol *name) {
-    Nearest nearest = nearest_to(name->name);
+    StrNearest nearest = nearest_to(name->name);
     for (int i = reader->schema->first_row[reader->kind]; i < reader->schema->first_row[reader->kind + 1]; i++)
-        try_name(&nearest, schema_names[schema_rows[i].name]);
+        str_try_nearest(&nearest, str_from(schema_names[schema_rows[i].name]));
     Text out = text_new(reader->arena);
-    text_add_format(&out, "unknown attribute '%.*s'", (int)name->name.len, name->name.bytes);
-    if (nearest.text)
-        text_add_format(&out, ", did you mean '%s'?", nearest.text);
+    text_add_format(&out, "unknown attribute '%.*s'", STR_ARGS(name->name));
+    if (nearest.found.len)
+        text_add_format(&out, ", did you mean '%.*s'?", STR_ARGS(nearest.found));
     report_symbol(reader, "unknown-attribute", name, text_str(&out));
 }
 
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
-    Nearest nearest = nearest_to(kind);
+    StrNearest nearest = nearest_to(kind);
     for (int i = 0; i < KIND_COUNT; i++)
         if (schema_may_stand((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
-            try_name(&nearest, schema_kinds[i].name);
-    if (nearest.text)
-        text_add_format(out, ", did you mean %s%s%s?", before, nearest.text, after);
+            str_try_nearest(&nearest, str_from(schema_kinds[i].name));
+    if (nearest.found.len)
+        text_add_format(out, ", did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
 }
 
 static void add_hex(Text *out, Value found) {
     Text colour = text_new(out->arena);
     if (found.len == 1 && found.kind == VALUE_MIXED && found.as.items[0].type == ITEM_STRING &&
         text_add_hex_colour(&colour, found.as.items[0].as.string->text))
-        text_add_format(out, ", did you mean %.*s?", (int)colour.len, colour.bytes);
+        text_add_format(out, ", did you mean %.*s?", STR_ARGS(colour));
 }
 
 static void add_wanted(Text *out, const Reader *reader, const TypeRow *type) {
@@ -138,7 +123,8 @@ static void add_wanted(Text *out, const Reader *reader, const TypeRow *type) {
     if (vector && reader->dimensions > 1)
         text_add_format(out, "one number or a vector of %u", reader->dimensions);
     else
-        text_add_c(out, vector || type->shape <= SHAPE_CLOCK ? "one number" : type->text);
+        text_add_c(out,
+                   vector || (type->shape <= SHAPE_CLOCK && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
 }
 
 // "attribute should be …, not …".
@@ -298,7 +284,7 @@ void reader_fill(const Reader *reader, void *record) {
     const Schema *schema = reader->schema;
     const SchemaSlot *first = schema->slots + schema->first_row[reader->kind], *guess = first;
     const SchemaSlot *end = schema->slots + schema->first_row[reader->kind + 1];
-    const Attr *attr = reader->node->attrs, *last = attr + reader->node->attr_count;
+    const Attr *attr = reader->node->attrs, *last = attr ? attr + reader->node->attr_count : attr;
     for (; attr < last; attr++) {
         const SchemaSlot *slot = slot_of(first, end, guess, attr->name);
         if (slot == end || !store_plainly(slot, reader->dimensions, &attr->value, record))

@@ -7,6 +7,7 @@
 #define PETRI_SCHEMA_READER_H
 
 #include "base/diag.h"
+#include "base/reach.h"
 #include "schema/records.h"
 #include "schema/table.h"
 #include "value/node.h"
@@ -31,8 +32,9 @@ typedef struct SchemaSlot {
 typedef struct Schema {
     SymbolTable *symbols;
     SchemaHost host;
-    uint64_t reports; // given so far
-    bool lint;        // report what is hardly meant, too
+    uint64_t reports;   // given so far
+    const Reach *reach; // of the files that nodes name; NULL: all may be used
+    bool lint;          // report what is hardly meant, too
     const Symbol *kinds[KIND_COUNT];
     SchemaSlot slots[ROW_COUNT];
     double words[WORD_COUNT];           // their values as symbols

@@ -319,14 +319,14 @@ EASE_ROW(BARRIER)
 
 NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with a speed of its own, written to the state")
 ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "the key under which the value is written")
-ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start")
-ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(1), "", "growth per unit of time")
+ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start, and while reset")
+ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(0), "", "growth per unit of time")
 ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), TOLD(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
 ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "least value")
 ALIAS(COUNTER, MIN, MINIMUM, "minimum", NUMBERS, TO_COUNTER(minimum), "")
 ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "greatest value")
 ALIAS(COUNTER, MAX, MAXIMUM, "maximum", NUMBERS, TO_COUNTER(maximum), "")
-ATTR(COUNTER, RESET, ANY, TO_COUNTER(reset), NONE, "", "while true, the value is the initial one")
+ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the value is the initial one")
 
 #define TRANSFORM_ROWS(kind) \
     ATTR(kind, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "move the origin; of the three, what is written first is applied first") \

@@ -51,6 +51,8 @@ const SchemaRow schema_rows[ROW_COUNT] = {
 const WordRow schema_words[WORD_COUNT] = {
 #define WORD(type, text, value) {TYPE_##type, value, {text, sizeof text - 1}},
 #include "schema/word_list.h"
+#define COMPOSITE(id, operator, text) {TYPE_COMPOSITE, COMPOSITE_##id, {text, sizeof text - 1}},
+#include "schema/composite_list.h"
 };
 
 const SchemaRow *schema_row(NodeKind kind, AttrName name) {

@@ -86,13 +86,13 @@ enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
 // How pictures combine, in linear light. UNKNOWN: another word was given.
 enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
 typedef enum CompositeMode {
-#define COMPOSITE(id, operator) COMPOSITE_##id,
+#define COMPOSITE(id, operator, text) COMPOSITE_##id,
 #include "schema/composite_list.h"
     COMPOSITE_COUNT
 } CompositeMode;
 
 enum {
-    WORD_COUNT = 0
+    WORD_COUNT = COMPOSITE_COUNT
 #define WORD(type, text, value) +1
 #include "schema/word_list.h"
 };

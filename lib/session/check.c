@@ -6,19 +6,11 @@
 // Any node may stand at the top, and means nothing there; one that is nearly spelled like one that does is a mistake.
 // Empty if this is none.
 static Str nearly(Str kind) {
-    Str nearest = {0};
-    int least = 3;
-    for (int i = 0; i < KIND_COUNT && least > 0; i++) {
-        if (schema_kinds[i].place != PLACE_SCENE && schema_kinds[i].place != PLACE_TOP)
-            continue;
-        Str known = str_from(schema_kinds[i].name);
-        int distance = str_distance(kind, known);
-        if (distance < least && 3 * distance <= (int)kind.len) {
-            least = distance;
-            nearest = distance > 0 ? known : (Str){0};
-        }
-    }
-    return nearest;
+    StrNearest nearest = {.wanted = kind, .limit = (int)kind.len < 6 ? (int)kind.len / 3 + 1 : 3};
+    for (int i = 0; i < KIND_COUNT && nearest.limit > 0; i++)
+        if (schema_kinds[i].place == PLACE_SCENE || schema_kinds[i].place == PLACE_TOP)
+            str_try_nearest(&nearest, str_from(schema_kinds[i].name));
+    return nearest.limit > 0 ? nearest.found : (Str){0};
 }
 
 void session_look_at_top(PetriSession *session) {
@@ -32,14 +24,14 @@ void session_look_at_top(PetriSession *session) {
         if (!nearest.len)
             continue;
         Origin place = node_place(item->as.node, NULL);
-        session_tell(session, &(Diag){.level = DIAG_WARNING,
-                                      .source = place.source,
-                                      .span = place.span,
-                                      .text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing",
-                                                         (int)kind.len, kind.bytes),
-                                      .hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?",
-                                                         (int)nearest.len, nearest.bytes),
-                                      .code = "unknown-node"});
+        session_tell(
+            session,
+            &(Diag){.level = DIAG_WARNING,
+                    .source = place.source,
+                    .span = place.span,
+                    .text = str_format(&session->frame.systems_arena, "'!%.*s' does nothing", STR_ARGS(kind)),
+                    .hint = str_format(&session->frame.systems_arena, "did you mean '!%.*s'?", STR_ARGS(nearest)),
+                    .code = "unknown-node"});
     }
 }
 
@@ -103,6 +95,8 @@ static void open_scratch(PetriSession *session, Heard *heard) {
     options.diagnostic = hear;
     options.host = heard;
     heard->scratch = petri_open(&options);
+    if (heard->scratch)
+        heard->scratch->reach = session->reach; // whose lists outlive it
     for (uint32_t i = 0; heard->scratch && i < session->config.define_count; i++)
         if (petri_define(heard->scratch, session->config.defines[i].text) == PETRI_MEMORY)
             petri_close(&heard->scratch);
@@ -134,9 +128,13 @@ static PetriStatus check(PetriSession *session, const char *file, const char *te
 }
 
 PetriStatus petri_check(PetriSession *session, const char *file) {
+    if (!session || !file)
+        return PETRI_INVALID;
     return check(session, file, NULL, 0);
 }
 
 PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    if (!session || !name || !text)
+        return PETRI_INVALID;
     return check(session, name, text, length);
 }

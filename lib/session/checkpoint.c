@@ -248,7 +248,7 @@ PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *make, void *
 }
 
 PetriSnapshot *petri_snapshot(PetriSession *session) {
-    if (session->torn && !session_heal(session))
+    if (!session || (session->torn && !session_heal(session)))
         return NULL;
     PetriSnapshot *snapshot = calloc(1, sizeof *snapshot);
     if (!snapshot)
@@ -272,10 +272,12 @@ void petri_snapshot_free(PetriSnapshot *snapshot) {
 }
 
 size_t petri_snapshot_bytes(const PetriSnapshot *snapshot) {
-    return sizeof *snapshot + snapshot->at.size;
+    return snapshot ? sizeof *snapshot + snapshot->at.size : 0;
 }
 
 PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot) {
+    if (!session || !snapshot)
+        return PETRI_INVALID;
     PetriStatus status = checkpoint_put_back(session, &snapshot->at);
     if (status != PETRI_OK)
         return PETRI_MEMORY;

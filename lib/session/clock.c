@@ -44,6 +44,8 @@ static double wall_time(const Clock *clock) {
 
 // A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
 static const double LATEST = 0.1;
+// Seconds, of more than three years: what a clock can be told.
+static const double LONGEST_PAUSE = 1e8;
 
 static double lockstep_time(const Clock *clock) {
     return clock->base.time + (double)(clock->number - clock->base.number) / clock->rates.fps;
@@ -68,6 +70,7 @@ static double wait_for_frame(Clock *clock) {
     wall->performance += spare > 0.001 ? 0.001 : -0.01;
     wall->performance = fmin(2, fmax(0.5, wall->performance));
     if (spare > 0) {
+        spare = fmin(spare, LONGEST_PAUSE);
         struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
         nanosleep(&pause, NULL);
     }

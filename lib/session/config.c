@@ -12,7 +12,7 @@ void session_change_config(PetriSession *session, bool frame_stays) {
 }
 
 uint64_t petri_config_number(const PetriSession *session) {
-    return session->config_number;
+    return session ? session->config_number : 0;
 }
 
 void session_set_prompts(PetriSession *session, PromptList *list) {
@@ -27,6 +27,8 @@ static void refer(const Config *config) {
 }
 
 PetriConfig *petri_config(PetriSession *session) {
+    if (!session)
+        return NULL;
     PetriConfig *shared = session->shared;
     if (!shared) {
         shared = session->shared = malloc(sizeof *shared);
@@ -48,9 +50,15 @@ void petri_config_free(PetriConfig *shared) {
 }
 
 void petri_config_use(PetriSession *session, PetriConfig *shared) {
-    if (shared->number == session->config_number)
+    if (!session || !shared || shared->number == session->config_number)
         return;
     session_clear_frame(session);
+    const Unit *program = shared->config.program;
+    Str folder = program ? program->folder : (Str){0};
+    if (!str_equal(session->reach.own, folder))
+        session_forget_files(session);
+    session->reach.own = folder;
+    session->reach.directory = program ? program->source->directory : (Str){0};
     refer(&shared->config);
     prompt_list_free(session->config.prompts);
     unit_free(session->config.program);

@@ -122,5 +122,7 @@ void session_tell_all(PetriSession *session, const DiagSink *sink) {
 }
 
 uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level) {
+    if (!session || (unsigned)level > PETRI_NOTE)
+        return 0;
     return session->diagnostics.counts[level];
 }

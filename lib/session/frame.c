@@ -99,19 +99,23 @@ static PetriStatus set_rates(PetriSession *session, ClockRates rates, double cha
 }
 
 PetriStatus petri_set_tempo(PetriSession *session, double tempo) {
+    if (!session)
+        return PETRI_INVALID;
     ClockRates rates = session->clock.rates;
     rates.tempo = tempo;
     return set_rates(session, rates, tempo);
 }
 
 PetriStatus petri_set_fps(PetriSession *session, double fps) {
+    if (!session)
+        return PETRI_INVALID;
     ClockRates rates = session->clock.rates;
     rates.fps = fps;
     return set_rates(session, rates, fps);
 }
 
 PetriStatus petri_set_resolution(PetriSession *session, double resolution) {
-    if (!(resolution >= 0) || !isfinite(resolution))
+    if (!session || !(resolution >= 0) || !isfinite(resolution))
         return PETRI_INVALID;
     session->config.resolution = resolution;
     session_change_config(session, true);
@@ -119,10 +123,12 @@ PetriStatus petri_set_resolution(PetriSession *session, double resolution) {
 }
 
 double petri_resolution(const PetriSession *session) {
-    return session->config.resolution;
+    return session ? session->config.resolution : 0;
 }
 
 void petri_clear(PetriSession *session) {
+    if (!session)
+        return;
     session->torn = false; // what it would go back to is gone
     state_clear(session->state);
     scene_reset(session->scene);
@@ -132,11 +138,12 @@ void petri_clear(PetriSession *session) {
 }
 
 double petri_due(const PetriSession *session) {
-    return clock_due(&session->clock);
+    return session ? clock_due(&session->clock) : 0;
 }
 
 void petri_hold(PetriSession *session) {
-    clock_hold(&session->clock);
+    if (session)
+        clock_hold(&session->clock);
 }
 
 void session_set_globals(const PetriSession *session, Vm *vm) {
@@ -233,11 +240,12 @@ static void update_systems(PetriSession *session, void *context) {
 }
 
 void petri_interrupt(PetriSession *session) {
-    atomic_store(&session->interrupt, true);
+    if (session)
+        atomic_store(&session->interrupt, true);
 }
 
 bool petri_interrupted(PetriSession *session) {
-    return atomic_exchange(&session->interrupt, false);
+    return session && atomic_exchange(&session->interrupt, false);
 }
 
 // Evaluates the next frame. What input has done to the state is taken back if the frame does not count.
@@ -280,7 +288,7 @@ static PetriStatus update_frame(PetriSession *session) {
 }
 
 PetriStatus petri_step(PetriSession *session) {
-    if (!session->config.program)
+    if (!session || !session->config.program)
         return PETRI_INVALID;
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
@@ -303,6 +311,8 @@ PetriStatus petri_step(PetriSession *session) {
 }
 
 PetriFrame petri_frame(const PetriSession *session) {
+    if (!session)
+        return (PetriFrame){.number = -1};
     const Clock *clock = &session->clock;
     const SessionFrame *frame = &session->frame;
     return (PetriFrame){.number = clock->number,

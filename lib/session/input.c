@@ -4,6 +4,8 @@
 #include <math.h>
 
 PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer) {
+    if (!session)
+        return PETRI_INVALID;
     Input *input = scene_input(session->scene);
     if (!pointer) {
         input_let_go(input);
@@ -20,6 +22,8 @@ PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer) {
 }
 
 PetriStatus petri_key(PetriSession *session, const char *name, bool pressed) {
+    if (!session || !name)
+        return PETRI_INVALID;
     int key = input_key_number(str_from(name));
     if (key == INPUT_KEY_NONE)
         return PETRI_INVALID;
@@ -28,5 +32,5 @@ PetriStatus petri_key(PetriSession *session, const char *name, bool pressed) {
 }
 
 bool petri_key_bound(PetriSession *session, const char *name) {
-    return input_key_bound(scene_input(session->scene), input_key_number(str_from(name)));
+    return session && name && input_key_bound(scene_input(session->scene), input_key_number(str_from(name)));
 }

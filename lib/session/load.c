@@ -69,7 +69,7 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
         *why = STR("this file is included already");
         return NULL;
     }
-    if (!file_read(&unit->arena, file, true, MAX_SOURCE_BYTES, &text, NULL, &problem)) {
+    if (!file_read(&unit->arena, &session->reach, file, true, MAX_SOURCE_BYTES, &text, NULL, &problem)) {
         *why = str_from(problem);
         return NULL;
     }
@@ -171,15 +171,23 @@ Unit *unit_parse(PetriSession *session, Str name, Str text) {
     return unit;
 }
 
+// From here on the script's own folder is within its reach.
+static void take_folder(PetriSession *session, Unit *unit, Str name) {
+    unit->folder = reach_folder(&unit->arena, path_directory(name));
+    session->reach.own = unit->folder;
+    session->reach.directory = str_copy(&unit->arena, path_directory(name));
+}
+
 Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version) {
     Unit *unit = session->loader.begun = unit_new(session);
+    take_folder(session, unit, name);
     unit->path = str_copy(&unit->arena, path);
     unit->version = str_copy(&unit->arena, version);
     load_text(session, unit, name, text, false);
     return unit;
 }
 
-Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
+Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {
     Unit *unit = unit_new(session);
     if (module) { // on the list at once, so that an escape while loading does not lose it
         unit->next = session->loader.modules;
@@ -187,11 +195,13 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module) {
         unit->retired = true; // until it is whole
     } else {
         session->loader.begun = unit;
+        take_folder(session, unit, str_from(file));
     }
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, file);
-    if (file_read(&unit->arena, file, module, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
+    const Reach *reach = module ? &session->reach : NULL; // the script itself is the host's choice
+    if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
         unit->why = str_copy(&unit->arena, str_from(problem));
@@ -221,18 +231,25 @@ const Program *session_module(void *host, Str path, Str *why) {
     PetriSession *session = host;
     const char *file = str_to_c(&session->frame.arena, path);
     Str version;
-    if (!file_version(&session->frame.arena, file, &version)) {
+    if (!file_version(&session->frame.arena, NULL, file, &version)) {
         *why = STR("there is no such file");
         return NULL;
     }
-    Unit *unit = cached_module(session, file_canonical(&session->frame.arena, file), version);
+    Str canonical = file_canonical(&session->frame.arena, file);
+    if (!reach_has(&session->reach, REACH_READ, canonical.bytes)) {
+        *why = str_from(reach_refusal(&session->frame.arena, &session->reach, REACH_READ, file));
+        return NULL;
+    }
+    Unit *unit = cached_module(session, canonical, version);
     if (!unit)
-        unit = session_put(session, unit_load_file(session, file, true));
+        unit = session_put(session, unit_load_file(session, file, true, true));
     *why = unit->why;
     return unit->program;
 }
 
 const char *petri_source(PetriSession *session, size_t number) {
+    if (!session)
+        return NULL;
     for (Unit *unit = session->config.program; unit;
          unit = unit == session->config.program ? session->loader.modules : unit->next) {
         if (unit->retired || !unit->version.len) // a text, or a file that could not be read
@@ -242,6 +259,12 @@ const char *petri_source(PetriSession *session, size_t number) {
         number -= unit->included_count + 1;
     }
     return NULL;
+}
+
+void session_forget_files(PetriSession *session) {
+    file_cache_clear(session->files);
+    for (Unit *unit = session->loader.modules; unit; unit = unit->next)
+        unit->retired = true;
 }
 
 void session_free_retired(PetriSession *session) {

@@ -2,7 +2,7 @@
 #include "session/session.h"
 
 bool petri_node_kind(size_t number, PetriNodeKind *out) {
-    if (number >= KIND_COUNT)
+    if (!out || number >= KIND_COUNT)
         return false;
     const KindRow *kind = &schema_kinds[number];
     *out = (PetriNodeKind){kind->name, kind->place < PLACE_TOP ? "physics" : "canvas", kind->help};
@@ -10,6 +10,8 @@ bool petri_node_kind(size_t number, PetriNodeKind *out) {
 }
 
 bool petri_node_attribute(size_t kind, size_t number, PetriNodeAttribute *out) {
+    if (!out)
+        return false;
     for (size_t i = 0; i < ROW_COUNT; i++) {
         const SchemaRow *row = &schema_rows[i];
         if (row->kind != kind || number-- > 0)

@@ -20,7 +20,7 @@ static bool has_module(const ModuleList *list, const Program *module) {
     return false;
 }
 
-// No deeper than the list is long.
+// Within a protected call; no deeper than the list is long.
 static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
     for (uint32_t i = 0; i < program->import_count; i++) {
         Str why;
@@ -30,12 +30,6 @@ static void collect_modules(PetriSession *session, const Program *program, Modul
         list->items[list->count++] = module;
         collect_modules(session, module, list);
     }
-}
-
-// Within a protected call.
-static void find_modules(PetriSession *session, const Program *program, ModuleList *list) {
-    list->count = 0;
-    collect_modules(session, program, list);
 }
 
 static const Parameter *find_in_modules(const ModuleList *list, const Symbol *name) {
@@ -110,9 +104,8 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     Str wrong = value_printed(check->session, arena, value_element(arena, v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     tell(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
-         str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", (int)wrong.len,
-                    wrong.bytes, (int)parameter->name->name.len, parameter->name->name.bytes,
-                    (int)parameter->fallback.len, parameter->fallback.bytes),
+         str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", STR_ARGS(wrong),
+                    STR_ARGS(parameter->name->name), STR_ARGS(parameter->fallback)),
          is_truth ? STR("here true is written 1 and false 0") : (Str){0});
     return false;
 }
@@ -125,8 +118,8 @@ static void check_range(const Check *check, const Parameter *parameter) {
             continue;
         Str range = range_text(arena, parameter), printed = value_printed(check->session, arena, v);
         tell(check, DIAG_WARNING, "outside-range", origin_of(parameter),
-             str_format(arena, "%.*s=%.*s is outside the range %.*s", (int)parameter->name->name.len,
-                        parameter->name->name.bytes, (int)printed.len, printed.bytes, (int)range.len, range.bytes),
+             str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
+                        STR_ARGS(printed), STR_ARGS(range)),
              (Str){0});
         return;
     }
@@ -142,8 +135,8 @@ static bool check_truth(const Check *check, const Parameter *parameter) {
     Str printed = value_printed(check->session, arena, check->define->value);
     tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
          str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
-                    (int)parameter->name->name.len, parameter->name->name.bytes, (int)printed.len, printed.bytes,
-                    (int)printed.len, printed.bytes, (int)parameter->fallback.len, parameter->fallback.bytes),
+                    STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
+                    STR_ARGS(parameter->fallback)),
          (Str){0});
     return false;
 }
@@ -158,16 +151,13 @@ static bool check_parameter(const Check *check, const Parameter *parameter) {
 
 // The parameter whose name is nearest to one that is not there, or NULL.
 static const Parameter *nearest_parameter(const Program *program, Str name) {
-    const Parameter *nearest = NULL;
-    int best = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
-    for (uint32_t i = 0; i < program->parameter_count; i++) {
-        int distance = str_distance(name, program->parameters[i].name->name);
-        if (distance < best) {
-            best = distance;
-            nearest = &program->parameters[i];
-        }
-    }
-    return nearest;
+    const Parameter *found = NULL;
+    int limit = name.len < 2 ? 1 : name.len < 4 ? 2 : 3; // names of one letter are near to all others
+    StrNearest nearest = {name, limit, {0}};
+    for (uint32_t i = 0; i < program->parameter_count; i++)
+        if (str_try_nearest(&nearest, program->parameters[i].name->name))
+            found = &program->parameters[i];
+    return found;
 }
 
 // A text followed by the names of all parameters.
@@ -189,11 +179,11 @@ static void tell_unread(const Check *check) {
     const Program *program = check->unit->program;
     Str name = check->define->name->name, script = check->unit->source->name;
     const Parameter *nearest = nearest_parameter(program, name);
-    Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", (int)name.len,
-                          name.bytes, (int)script.len, script.bytes);
+    Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", STR_ARGS(name),
+                          STR_ARGS(script));
     if (nearest)
         tell(check, DIAG_WARNING, "unknown-parameter", origin_of(nearest), text,
-             str_format(arena, "did you mean '%.*s'?", (int)nearest->name->name.len, nearest->name->name.bytes));
+             str_format(arena, "did you mean '%.*s'?", STR_ARGS(nearest->name->name)));
     else
         tell(check, DIAG_WARNING, "unread-definition", (Origin){0}, with_parameters(arena, program, text), (Str){0});
 }
@@ -201,41 +191,38 @@ static void tell_unread(const Check *check) {
 // A definition that nothing has read.
 static void check_unread(const Check *check) {
     Arena *arena = &check->unit->arena;
-    Str name = check->define->name->name;
-    ModuleList modules = {.count = 0};
+    Str name = check->define->name->name, hint = {0};
+    const char *why = NULL;
+    Origin at = {0};
     if (engine_name_exists(name)) {
-        tell(check, DIAG_WARNING, "unused-definition", (Origin){0},
-             str_format(arena, "the definition of '%.*s' has no effect: petri itself gives this name its value",
-                        (int)name.len, name.bytes),
-             (Str){0});
-        return;
+        why = "petri itself gives this name its value";
+    } else if (check->use->bound.source) {
+        why = "the script gives the name its own value here";
+        at = check->use->bound;
+        if (check->use->by_let)
+            hint = str_format(arena, "with `let %.*s=%.*s or …` it would take the definition", STR_ARGS(name),
+                              STR_ARGS(name));
+    } else {
+        ModuleList modules = {.count = 0};
+        collect_modules(check->session, check->unit->program, &modules);
+        const Parameter *parameter = find_in_modules(&modules, check->define->name);
+        if (!parameter) {
+            tell_unread(check);
+            return;
+        }
+        why = "modules see no definitions";
+        at = origin_of(parameter);
     }
-    if (check->use->bound.source) {
-        tell(check, DIAG_WARNING, "unused-definition", check->use->bound,
-             str_format(arena, "the definition of '%.*s' has no effect: the script gives the name its own value here",
-                        (int)name.len, name.bytes),
-             check->use->by_let ? str_format(arena, "with `let %.*s=%.*s or …` it would take the definition",
-                                             (int)name.len, name.bytes, (int)name.len, name.bytes)
-                                : (Str){0});
-        return;
-    }
-    find_modules(check->session, check->unit->program, &modules);
-    const Parameter *parameter = find_in_modules(&modules, check->define->name);
-    if (parameter)
-        tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
-             str_format(arena, "the definition of '%.*s' has no effect: modules see no definitions", (int)name.len,
-                        name.bytes),
-             (Str){0});
-    else
-        tell_unread(check);
+    tell(check, DIAG_WARNING, "unused-definition", at,
+         str_format(arena, "the definition of '%.*s' has no effect: %s", STR_ARGS(name), why), hint);
 }
 
-// Of several definitions of a name the last counts.
-static bool is_last(const PetriSession *session, uint32_t number) {
-    for (uint32_t i = number + 1; i < session->config.define_count; i++)
-        if (session->config.defines[i].name == session->config.defines[number].name)
-            return false;
-    return true;
+// The definition of a name that counts, the last, or NULL.
+static const Define *find_define(const PetriSession *session, const Symbol *name) {
+    for (uint32_t i = session->config.define_count; i > 0; i--)
+        if (session->config.defines[i - 1].name == name)
+            return &session->config.defines[i - 1];
+    return NULL;
 }
 
 static bool check_one(const Check *check) {
@@ -253,21 +240,13 @@ bool session_check_definitions(PetriSession *session, Unit *unit) {
     uint32_t first = session->again ? session->told_defines : 0;
     diagnostics_repeat(&session->diagnostics, outer || session->again);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
-        if (is_last(session, i))
+        if (find_define(session, session->config.defines[i].name) == &session->config.defines[i])
             good =
                 check_one(&(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) && good;
     diagnostics_repeat(&session->diagnostics, outer);
     if (good)
         session->told_defines = session->config.define_count;
     return good;
-}
-
-// The definition of a name that counts, or NULL.
-static const Define *find_define(const PetriSession *session, const Symbol *name) {
-    for (uint32_t i = session->config.define_count; i > 0; i--)
-        if (session->config.defines[i - 1].name == name)
-            return &session->config.defines[i - 1];
-    return NULL;
 }
 
 // A piece of a script as text of one line, without anything that a terminal would act on.
@@ -321,7 +300,7 @@ static void find_parameter(PetriSession *session, void *context) {
     Request *request = context;
     const Program *program = session->config.program->program;
     size_t number = request->number;
-    ModuleList modules;
+    ModuleList modules = {.count = 0};
     arena_reset(&session->text_arena);
     if (number < program->parameter_count) {
         describe(session, &program->parameters[number], true, request->out);
@@ -329,7 +308,7 @@ static void find_parameter(PetriSession *session, void *context) {
         return;
     }
     number -= program->parameter_count;
-    find_modules(session, program, &modules);
+    collect_modules(session, program, &modules);
     for (uint32_t i = 0; i < modules.count; i++) {
         const Program *module = modules.items[i];
         if (number < module->parameter_count) {
@@ -342,6 +321,8 @@ static void find_parameter(PetriSession *session, void *context) {
 }
 
 bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter) {
+    if (!session || !parameter)
+        return false;
     Request request = {number, parameter, false};
     return session->config.program && session_protect(session, NULL, find_parameter, &request) == PETRI_OK &&
            request.found;
@@ -374,6 +355,8 @@ static void redefine(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value) {
+    if (!session || !name)
+        return PETRI_INVALID;
     Setting setting = {name, value, PETRI_OK};
     const Define *defines = session->config.defines;
     uint32_t count = session->config.define_count, told = session->told_defines;

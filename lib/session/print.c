@@ -175,10 +175,14 @@ static void print_frame(Output *out, PetriSession *session, unsigned sections) {
 }
 
 PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host) {
+    if (!session || !write)
+        return PETRI_INVALID;
     return print_protected(session, (Printing){print_frame, sections, write, host, PETRI_OK});
 }
 
 PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host) {
+    if (!session || !write)
+        return PETRI_INVALID;
     return print_protected(session, (Printing){print_log, 0, write, host, PETRI_OK});
 }
 
@@ -195,7 +199,7 @@ static void print_code(Output *out, PetriSession *session, unsigned what) {
 }
 
 PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host) {
-    if (!session->config.program)
+    if (!session || !write || !session->config.program)
         return PETRI_INVALID;
     return print_protected(session, (Printing){print_code, what, write, host, PETRI_OK});
 }

@@ -50,8 +50,8 @@ static void add_row(Text *out, const Row *row, double total, double frames) {
         return;
     }
     Str text = str_trim(source_locate(row->source, row->source->line_starts[row->line - 1]).text);
-    text_add_format(out, "%12.6g  %.*s:%u: %.*s\n", row->times / frames, (int)row->source->name.len,
-                    row->source->name.bytes, row->line, (int)text.len, text.bytes);
+    text_add_format(out, "%12.6g  %.*s:%u: %.*s\n", row->times / frames, STR_ARGS(row->source->name), row->line,
+                    STR_ARGS(text));
 }
 
 typedef struct Request {
@@ -83,6 +83,8 @@ static void print(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host) {
+    if (!session || !write)
+        return PETRI_INVALID;
     Request request = {output_seconds, write, host, false};
     if (!session->vm.profile)
         return PETRI_INVALID;

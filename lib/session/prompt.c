@@ -120,6 +120,8 @@ static void probe(PetriSession *session, void *context) {
 }
 
 PetriInput petri_input(PetriSession *session, const char *text, size_t length) {
+    if (!session || !text)
+        return PETRI_INPUT_WHOLE;
     Job job = {.text = {text, length == PETRI_Z ? strlen(text) : length}};
     arena_reset(&session->prompt.arena);
     PetriStatus status = session_protect(session, NULL, probe, &job);
@@ -133,6 +135,8 @@ static void preview(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_preview(PetriSession *session) {
+    if (!session)
+        return PETRI_INVALID;
     if (session->frame.evaluated)
         return PETRI_OK;
     if (!session->config.program)
@@ -369,6 +373,8 @@ static void pick(PetriSession *session, void *context) {
 
 PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
                          PetriPrompted *done) {
+    if (!session || !text || !done)
+        return PETRI_INVALID;
     Job job = {.out = {.write = write, .host = host}};
     *done = (PetriPrompted){0};
     diagnostics_repeat(&session->diagnostics, true);
@@ -410,6 +416,8 @@ static void write_line(PetriSession *session, void *context) {
 
 PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
                            PetriWrite *write, void *host) {
+    if (!session || !text || !result)
+        return PETRI_INVALID;
     Job job = {.arena = &session->prompt.arena, .out = {.write = write, .host = host}};
     PetriStatus status = begin(session, text, length, &job);
     if (status == PETRI_OK && !is_expression(session, job.unit))
@@ -446,6 +454,8 @@ static void drop(PetriSession *session, void *context) {
 }
 
 uint32_t petri_drop(PetriSession *session, bool bindings) {
+    if (!session)
+        return 0;
     Drop dropped = {.choice = bindings ? PROMPT_NONE : PROMPT_BINDINGS};
     const PromptList *list = session->config.prompts;
     uint32_t dropped_count = 0;
@@ -464,11 +474,15 @@ uint32_t petri_drop(PetriSession *session, bool bindings) {
 }
 
 const char *petri_prompt_statement(const PetriSession *session, size_t number) {
+    if (!session)
+        return NULL;
     const PromptList *list = session->config.prompts;
     return number < list->count ? list->statements[number].text : NULL;
 }
 
 const char *petri_name(const PetriSession *session, size_t number) {
+    if (!session)
+        return NULL;
     Names names = session->config.prompts->names;
     if (number < names.count)
         return names.items[number]->name.bytes;

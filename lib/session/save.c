@@ -23,6 +23,8 @@
 #include <string.h>
 
 #define HEADER "petri-state 1\n"
+// As many can be read back, whatever is added in a lifetime.
+#define MOST_FRAMES INT64_C(100000000000000000)
 #define MAX_STATE_BYTES ((size_t)8 << 30)
 
 static void add_key(Text *out, const PetriSession *session, Value key) {
@@ -80,6 +82,8 @@ static void save(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_save(PetriSession *session, const char *file) {
+    if (!session || !file)
+        return PETRI_INVALID;
     Saving saving = {.file = file};
     ArenaMark mark = arena_mark(&session->text_arena);
     PetriStatus status = session_protect(session, NULL, save, &saving);
@@ -95,6 +99,7 @@ typedef struct Restore {
     State *state; // the new dictionary
     Incoming *incoming;
     int64_t frame;
+    uint32_t left_out; // values that are not finite, which states had before 0.2.0
 } Restore;
 
 static bool take(Restore *restore, Str prefix) {
@@ -167,19 +172,29 @@ static bool read_key(Restore *restore, StateSlot *slot) {
 static bool read_entry(Restore *restore) {
     StateSlot slot;
     Value value;
-    return read_key(restore, &slot) && take(restore, STR(" = ")) && read_value(restore, &value) &&
-           take(restore, STR("\n")) && state_slot_set(restore->state, slot, value);
+    if (!read_key(restore, &slot) || !take(restore, STR(" = ")) || !read_value(restore, &value) ||
+        !take(restore, STR("\n")))
+        return false;
+    if (value.kind == VALUE_NUMBERS && !numbers_finite(value_numbers(&value), value.len, 1)) {
+        restore->left_out++;
+        return true;
+    }
+    return state_slot_set(restore->state, slot, value);
 }
 
 static bool read_integer(Restore *restore, int64_t *x) {
+    enum { MOST_DIGITS = 18 };
+    bool negative = take(restore, STR("-"));
     size_t len = 0;
-    while (len < restore->rest.len && strchr("-0123456789", restore->rest.bytes[len]))
-        len++;
-    if (len == 0 || len > 18)
-        return false;
-    *x = (int64_t)number_parse((Str){restore->rest.bytes, len});
+    *x = 0;
+    for (; len < restore->rest.len && restore->rest.bytes[len] >= '0' && restore->rest.bytes[len] <= '9'; len++) {
+        if (len == MOST_DIGITS)
+            return false;
+        *x = *x * 10 + (restore->rest.bytes[len] - '0');
+    }
+    *x = negative ? -*x : *x;
     restore->rest = (Str){restore->rest.bytes + len, restore->rest.len - len};
-    return true;
+    return len > 0;
 }
 
 // The velocity's slot beside a position's.
@@ -196,6 +211,8 @@ static bool read_system(Restore *restore) {
     SceneSystem system = {0};
     if (!read_integer(restore, &occurrence) || !take(restore, STR(" ")) || !read_key(restore, &system.prefix) ||
         !take(restore, STR("\n")))
+        return false;
+    if (occurrence < 0 || occurrence > UINT32_MAX)
         return false;
     system.occurrence = (uint32_t)occurrence;
     StateSlot *slots = NULL;
@@ -226,7 +243,7 @@ static bool hash_matches(Str *text) {
 
 static bool read_body(Restore *restore) {
     if (!take(restore, STR(HEADER)) || !take(restore, STR("frame ")) || !read_integer(restore, &restore->frame) ||
-        !take(restore, STR("\n")))
+        restore->frame < -1 || restore->frame > MOST_FRAMES || !take(restore, STR("\n")))
         return false;
     while (str_starts_with(restore->rest, STR("$")))
         if (!read_entry(restore))
@@ -243,18 +260,23 @@ static const char *restore_text(Restore *restore) {
         return "it is no state file of petri";
     if (!str_starts_with(restore->rest, STR(HEADER)))
         return "it was written by another version of petri";
-    return hash_matches(&restore->rest) && read_body(restore) ? NULL : "it is cut short or damaged";
+    bool good = utf8_find_error(restore->rest) == restore->rest.len && hash_matches(&restore->rest);
+    return good && read_body(restore) ? NULL : "it is cut short or damaged";
 }
 
 static void take_file(PetriSession *session, Incoming *incoming, void *context) {
     const char *file = context, *why = NULL;
     Arena *arena = &incoming->arena;
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
-    if (file_read(arena, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why))
+    if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why))
         why = restore_text(&restore);
     if (state_take_exhausted(incoming->state)) // what looks like a damaged file
         arena_exhausted(arena);
     incoming->good = !why;
+    if (restore.left_out && !why)
+        session_tell_text(session, DIAG_WARNING, "state-file",
+                          str_format(&session->text_arena, "%u of the values in '%s' are not finite and are left out",
+                                     restore.left_out, file));
     if (why)
         complain(session, "cannot take the state from", file, why);
     else
@@ -262,6 +284,8 @@ static void take_file(PetriSession *session, Incoming *incoming, void *context) 
 }
 
 PetriStatus petri_restore(PetriSession *session, const char *file) {
+    if (!session || !file)
+        return PETRI_INVALID;
     if (!file_exists(file))
         return PETRI_OK;
     PetriStatus status = checkpoint_replace(session, take_file, (void *)file);

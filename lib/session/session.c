@@ -24,7 +24,7 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
                        Str text) {
     PetriSession *session = host;
     Arena *arena = &session->frame.systems_arena;
-    Str whole = str_format(arena, "%.*s: %.*s", (int)node.len, node.bytes, (int)text.len, text.bytes);
+    Str whole = str_format(arena, "%.*s: %.*s", STR_ARGS(node), STR_ARGS(text));
     Diag diag = {.level = level, .text = whole, .code = code};
     if (origin) {
         diag.source = origin->source;
@@ -32,11 +32,8 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
     }
     diag_report(&session->frame.errors, &diag);
     // A loop may make a thousand nodes at one place: that is one thing to say.
-    Str where = diag.source
-                    ? str_format(arena, "%.*s %u", (int)diag.source->path.len, diag.source->path.bytes, diag.span.start)
-                    : node;
-    session_tell_keyed(session, &diag,
-                       str_format(arena, "%s %.*s %.*s", code, (int)where.len, where.bytes, (int)key.len, key.bytes));
+    Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
+    session_tell_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }
 
 static void tell_machine(void *host, const Diag *diag) {
@@ -123,6 +120,12 @@ static void open_parts(PetriSession *session, void *context) {
     session->noise = noise_cache_new();
     session->vm.profile = options->profile ? vm_profile_new() : NULL;
     session->vm.builtins.files = session->files;
+    session->vm.builtins.reach = session->schema.reach = &session->reach;
+    session->reach.nothing = options->no_files;
+    reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
+    reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
+    reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
+    session->options.read_folders = session->options.write_folders = NULL; // they are the host's
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->config.prompts = prompt_list_new(NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
@@ -160,6 +163,8 @@ PetriSession *petri_open(const PetriOptions *options) {
 }
 
 void petri_close(PetriSession **handle) {
+    if (!handle)
+        return;
     PetriSession *session = *handle;
     *handle = NULL;
     if (!session)
@@ -240,6 +245,8 @@ static void define(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_define(PetriSession *session, const char *definition) {
+    if (!session || !definition)
+        return PETRI_INVALID;
     const char *equals = strchr(definition, '=');
     if (!equals)
         return PETRI_INVALID;
@@ -255,7 +262,7 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);
     if (count)
         memcpy(defines, session->config.defines, count * sizeof *defines);
-    Str text = str_format(&session->arena, "%.*s=%.*s", (int)name.len, name.bytes, (int)value.len, value.bytes);
+    Str text = str_format(&session->arena, "%.*s=%.*s", STR_ARGS(name), STR_ARGS(value));
     value = (Str){text.bytes + name.len + 1, value.len};
     defines[count] =
         (Define){symbol_intern(&session->symbols, name), define_value(session, value), str_to_c(&session->arena, text)};
@@ -269,6 +276,7 @@ typedef enum LoadPurpose { LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
 
 typedef struct Load {
     const char *file; // or, if NULL, a text
+    bool regular;     // the file must be no pipe: it was read before
     Str name;         // of either
     Str text;
     Str path;    // of the file that the text was read from, if it was, else the name
@@ -282,12 +290,12 @@ typedef struct Load {
 static void make_unit(PetriSession *session, void *context) {
     Load *load = context;
     session_set_globals(session, &session->static_vm);
-    Unit *unit = load->file ? unit_load_file(session, load->file, false)
+    Unit *unit = load->file ? unit_load_file(session, load->file, false, load->regular)
                             : unit_load_text(session, load->name, load->path, load->text, load->version);
     if (!unit->source)
-        session_tell_text(session, DIAG_ERROR, "cannot-read",
-                          str_format(&session->text_arena, "cannot read '%.*s': %.*s", (int)load->name.len,
-                                     load->name.bytes, (int)unit->why.len, unit->why.bytes));
+        session_tell_text(
+            session, DIAG_ERROR, "cannot-read",
+            str_format(&session->text_arena, "cannot read '%.*s': %.*s", STR_ARGS(load->name), STR_ARGS(unit->why)));
     load->unit = unit;
     if (!unit->program)
         return;
@@ -298,6 +306,8 @@ static void make_unit(PetriSession *session, void *context) {
 // Puts a unit in the place of the loaded script.
 static void adopt(PetriSession *session, const Load *load, LoadPurpose purpose) {
     session_clear_frame(session); // its tree may lie in the old unit
+    if (!session->config.program || !str_equal(session->config.program->folder, load->unit->folder))
+        session_forget_files(session);
     unit_free(session->config.program);
     session->config.program = session_put(session, load->unit);
     session_set_prompts(session, load->prompts);
@@ -312,11 +322,13 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;
+    Reach before = session->reach;
     PetriStatus status = session_protect(session, NULL, make_unit, load);
     if (status == PETRI_OK && load->unit->program) {
         adopt(session, load, session->config.program ? purpose : LOAD_AFRESH);
         return PETRI_OK;
     }
+    session->reach = before;
     prompt_list_free(load->prompts);
     unit_free(session->loader.begun);
     if (status == PETRI_OK)
@@ -328,10 +340,14 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
 }
 
 PetriStatus petri_load(PetriSession *session, const char *file) {
+    if (!session || !file)
+        return PETRI_INVALID;
     return load(session, &(Load){.file = file, .name = str_from(file)}, LOAD_AFRESH);
 }
 
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
+    if (!session || !name || !text)
+        return PETRI_INVALID;
     Str content = {text, length == PETRI_Z ? strlen(text) : length};
     return load(session, &(Load){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
 }
@@ -349,13 +365,15 @@ static PetriStatus load_again(PetriSession *session) {
 }
 
 PetriStatus petri_reload(PetriSession *session, const char *file) {
+    if (!session)
+        return PETRI_INVALID;
     if (!file)
         return load_again(session);
-    return load(session, &(Load){.file = file, .name = str_from(file)}, LOAD_TO_GO_ON);
+    return load(session, &(Load){.file = file, .regular = true, .name = str_from(file)}, LOAD_TO_GO_ON);
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {
-    if (index >= builtin_count)
+    if (!builtin || index >= builtin_table_count)
         return false;
     const Builtin *row = &builtin_table[index];
     *builtin = (PetriBuiltin){row->name, row->parameters, row->help};
@@ -363,7 +381,7 @@ bool petri_builtin(size_t index, PetriBuiltin *builtin) {
 }
 
 bool petri_read_number(const char *text, double *x) {
-    return literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x);
+    return text && x && (literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x));
 }
 
 const char *petri_version(void) {

@@ -50,6 +50,7 @@ struct PetriSession {
     State *state;
     Scene *scene;
     FileCache *files;
+    Reach reach; // of the loaded script, or the one that is being loaded
     NoiseCache *noise;
     Schema schema;
     void *drawing; // what the room that draws keeps (shown.h)

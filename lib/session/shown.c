@@ -11,6 +11,7 @@ Shown session_shown(PetriSession *session) {
                    .scene = session->scene,
                    .state = session->state,
                    .directory = program ? program->source->directory : STR(""),
+                   .reach = &session->reach,
                    .memory_bytes = session->options.memory_bytes};
 }
 
@@ -32,6 +33,8 @@ uint32_t session_numbers(PetriSession *session, const char *names[], double numb
 }
 
 bool petri_drawable(PetriSession *session) {
+    if (!session)
+        return false;
     const Node *window;
     SceneView view;
     for (uint32_t at = 0; (window = canvas_next_window(&session->schema, session->frame.tree, &at)) != NULL;)

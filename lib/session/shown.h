@@ -16,6 +16,7 @@ typedef struct Shown {
     const Scene *scene; // its systems: scene_view
     const State *state;
     Str directory;       // what relative file names start from
+    const Reach *reach;  // of its files
     size_t memory_bytes; // that a copy may have
 } Shown;
 

@@ -56,7 +56,7 @@ static void find_system(PetriSession *session, void *context) {
 }
 
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
-    return ask(session, find_system, number, 0, system);
+    return session && system && ask(session, find_system, number, 0, system);
 }
 
 static void find_particle(PetriSession *session, void *context) {
@@ -83,7 +83,7 @@ static void find_particle(PetriSession *session, void *context) {
 }
 
 bool petri_particle(PetriSession *session, size_t number, uint32_t particle, PetriParticle *out) {
-    return ask(session, find_particle, number, particle, out);
+    return session && out && ask(session, find_particle, number, particle, out);
 }
 
 static void find_force(PetriSession *session, void *context) {
@@ -113,5 +113,5 @@ static void find_force(PetriSession *session, void *context) {
 }
 
 bool petri_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
-    return ask(session, find_force, number, index, out);
+    return session && out && ask(session, find_force, number, index, out);
 }

@@ -14,6 +14,7 @@ struct Unit {
     Arena arena;   // to be used through unit_arena
     Arena scratch; // while it is compiled: syntax tree, expressions
     Str path;      // canonical; NUL-terminated
+    Str folder;    // canonical, of a script; what it may read and write lies there
     Str version;   // changes when the file does: modification time, size, inode
     const Source *source;
     const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
@@ -45,8 +46,8 @@ typedef struct Names {
 // The unit's arena, whose escape is from now on that of the protected call at work.
 Arena *unit_arena(const PetriSession *session, Unit *unit);
 // Loads a unit within a protected call: reads, parses and compiles. It is returned even if that failed (program is
-// NULL).
-Unit *unit_load_file(PetriSession *session, const char *file, bool module);
+// NULL). A file that must be `regular` is no pipe, which may keep one waiting.
+Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 // `path` and `version` are those of the file that the text was read from; the name and nothing if there is none.
 Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version);
 // A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
@@ -59,6 +60,8 @@ void unit_free(Unit *unit);
 Unit *session_put(PetriSession *session, Unit *unit);
 // For the machine: the module at a path. Within a protected call.
 const Program *session_module(void *host, Str path, Str *why);
+// Forgets what was read, for the next script may not read it.
+void session_forget_files(PetriSession *session);
 // Frees modules that were replaced.
 void session_free_retired(PetriSession *session);
 

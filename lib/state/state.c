@@ -2,6 +2,7 @@
 #include "state/state.h"
 
 #include "base/arena.h"
+#include "base/number.h"
 #include "base/table.h"
 #include "maths/random.h"
 
@@ -147,17 +148,11 @@ bool state_key_valid(Value key) {
     return true;
 }
 
-static uint64_t bits_of(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
-}
-
 static uint64_t key_hash(Value key) {
     uint64_t hash = RANDOM_HASH_START;
     for (uint32_t i = 0; i < key.len; i++) {
         Item item = value_at(&key, i);
-        uint64_t y = item.type == ITEM_NUMBER ? bits_of(item.as.number)
+        uint64_t y = item.type == ITEM_NUMBER ? number_bits(item.as.number)
                                               : hash_bytes(1, item.as.string->text.bytes, item.as.string->text.len);
         hash = random_hash_step(hash, y);
     }
@@ -172,7 +167,7 @@ static bool key_equal(Value a, Value b) {
         Item x = value_at(&a, i), y = value_at(&b, i);
         if (x.type != y.type)
             return false;
-        if (x.type == ITEM_NUMBER ? bits_of(x.as.number) != bits_of(y.as.number) : !item_equal(x, y))
+        if (x.type == ITEM_NUMBER ? number_bits(x.as.number) != number_bits(y.as.number) : !item_equal(x, y))
             return false;
     }
     return true;

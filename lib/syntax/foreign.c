@@ -76,7 +76,7 @@ void foreign_sum_up(const Source *source, DiagSink *diags) {
     if (memchr(source->text.bytes, 0, source->text.len)) {
         replace(diags, &(Diag){.level = DIAG_ERROR,
                                .text = str_format(diags->arena, "'%.*s' is a binary file, not a script",
-                                                  (int)source->name.len, source->name.bytes),
+                                                  STR_ARGS(source->name)),
                                .code = "encoding"});
         return;
     }
@@ -89,7 +89,7 @@ void foreign_sum_up(const Source *source, DiagSink *diags) {
     Str what = diag_text(&first);
     first.text = str_format(
         diags->arena, "this does not look like a Flitter script: %u of %s%u lines are wrong, the first with: %.*s",
-        tally.bad, diags->dropped ? "the first " : "", tally.lines, (int)what.len, what.bytes);
+        tally.bad, diags->dropped ? "the first " : "", tally.lines, STR_ARGS(what));
     first.hint = (Str){0};
     first.code = "not-a-script";
     replace(diags, &first);

@@ -110,7 +110,7 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
         bool described = strcmp(found, "name") == 0 || strcmp(found, "node") == 0 || strcmp(found, "symbol") == 0 ||
                          strcmp(found, "tag") == 0 || strcmp(found, "number") == 0 || strcmp(found, "string") == 0 ||
                          strcmp(found, "time code") == 0;
-        text_add_format(&text, described ? "%s %.*s" : "%s'%.*s'", described ? found : "", (int)word.len, word.bytes);
+        text_add_format(&text, described ? "%s %.*s" : "%s'%.*s'", described ? found : "", STR_ARGS(word));
     } else {
         add_token_name(&text, found);
     }
@@ -146,10 +146,9 @@ static void report_character(ParseContext *context, Span span) {
         report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
                      c == '!' ? STR("to negate write not") : (Str){0});
     else
-        report_token(
-            context, span,
-            str_format(context->arena, "no token starts with '%.*s' (U+%04X)", (int)text.len, text.bytes, (unsigned)c),
-            (Str){0});
+        report_token(context, span,
+                     str_format(context->arena, "no token starts with '%.*s' (U+%04X)", STR_ARGS(text), (unsigned)c),
+                     (Str){0});
 }
 
 // Are some lines indented with tabs and some with spaces?
@@ -307,8 +306,7 @@ static bool check_text(ParseContext *context) {
     size_t bad = utf8_find_error(source->text);
     if (encoding) {
         context->failed = true;
-        Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", (int)source->name.len,
-                              source->name.bytes, encoding);
+        Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", STR_ARGS(source->name), encoding);
         diag_report(context->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "encoding"});
     } else if (bad < source->text.len) {
         report(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
@@ -357,10 +355,6 @@ static void parse_tokens(void *context) {
             status = token.kind == NEWLINE || skip_line(layout) == NEWLINE ? YYPUSH_MORE : 1;
         }
     }
-}
-
-static void parse_text(ParseContext *context, Layout *layout) {
-    with_parser(&(Parsing){.context = context, .layout = layout}, parse_tokens);
 }
 
 // Does a statement that begins with this token like to have lines indented below it?
@@ -424,7 +418,7 @@ ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source) {
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
     if (check_text(&context))
-        parse_text(&context, arena_alloc(arena, sizeof(Layout)));
+        with_parser(&(Parsing){&context, arena_alloc(arena, sizeof(Layout)), NULL, PARSE_WHOLE}, parse_tokens);
     if (context.failed && !foreign_encoding(source))
         foreign_sum_up(source, diags);
     return context.failed ? NULL : context.program;

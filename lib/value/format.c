@@ -5,6 +5,7 @@
 #include "base/unicode.h"
 
 #include <math.h>
+#include <string.h>
 
 static void add_escape(Text *out, uint32_t c) {
     switch (c) {
@@ -22,15 +23,8 @@ static void add_escape(Text *out, uint32_t c) {
     }
 }
 
-static bool has_char(Str text, char c) {
-    for (size_t i = 0; i < text.len; i++)
-        if (text.bytes[i] == c)
-            return true;
-    return false;
-}
-
 static void format_string(Text *out, Str text) {
-    char quote = has_char(text, '\'') && !has_char(text, '"') ? '"' : '\'';
+    char quote = text.len && memchr(text.bytes, '\'', text.len) && !memchr(text.bytes, '"', text.len) ? '"' : '\'';
     text_add_char(out, quote);
     for (size_t at = 0; at < text.len;) {
         int32_t c = utf8_next(text, &at);

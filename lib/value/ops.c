@@ -63,9 +63,9 @@ static bool many_powers(const double *x, uint32_t x_len, const double *y, uint32
     if (x_len < 4 || (y_len != 1 && y_len != x_len))
         return false;
     if (y_len == 1)
-        maths_power_many(cpu_detect(), x, *y, x_len, result);
+        maths_power_many(cpu_here.level, x, *y, x_len, result);
     else
-        maths_pow_many(cpu_detect(), x, y, x_len, result);
+        maths_pow_many(cpu_here.level, x, y, x_len, result);
     return true;
 }
 

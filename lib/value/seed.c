@@ -36,13 +36,9 @@ static uint64_t hash_node(const Node *node) {
 }
 
 static uint64_t hash_item(Item item, bool floored) {
-    uint64_t bits;
     switch (item.type) {
     case ITEM_NUMBER:
-        if (floored)
-            return random_hash_number(item.as.number);
-        memcpy(&bits, &item.as.number, sizeof bits);
-        return bits;
+        return floored ? random_hash_number(item.as.number) : number_bits(item.as.number);
     case ITEM_STRING:
         return symbol_hash(item.as.string->text);
     case ITEM_NODE:

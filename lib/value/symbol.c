@@ -1,6 +1,8 @@
 // symbol.c: see symbol.h.
 #include "value/symbol.h"
 
+#include "base/number.h"
+
 #include <string.h>
 
 uint64_t symbol_hash(Str text) {
@@ -8,12 +10,6 @@ uint64_t symbol_hash(Str text) {
     for (size_t at = 0; at < text.len;)
         hash = (hash ^ (uint64_t)(uint32_t)utf8_next(text, &at)) * 0x100000001b3u;
     return hash;
-}
-
-static uint64_t bits_of(double x) {
-    uint64_t bits;
-    memcpy(&bits, &x, sizeof bits);
-    return bits;
 }
 
 double symbol_number(Str name) {
@@ -64,7 +60,7 @@ const Symbol *symbol_know(SymbolTable *table, Str name) {
     Symbol *symbol = table->items[entry];
     if (symbol->known)
         return symbol;
-    uint64_t hash = hash_mix(bits_of(symbol->number));
+    uint64_t hash = hash_mix(number_bits(symbol->number));
     if (index_find(&table->by_number, hash, has_number, table, &symbol->number) != INDEX_NONE)
         return NULL;
     if (!index_add(&table->by_number, hash, entry))
@@ -76,6 +72,6 @@ const Symbol *symbol_know(SymbolTable *table, Str name) {
 const Symbol *symbol_of_number(const SymbolTable *table, double number) {
     if (!(number < -8.9e307)) // symbols lie in (-1.8e308, -8.9e307]: nearly every number leaves here
         return NULL;
-    uint32_t entry = index_find(&table->by_number, hash_mix(bits_of(number)), has_number, table, &number);
+    uint32_t entry = index_find(&table->by_number, hash_mix(number_bits(number)), has_number, table, &number);
     return entry == INDEX_NONE ? NULL : table->items[entry];
 }

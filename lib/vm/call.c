@@ -63,7 +63,7 @@ static bool may_enter(Vm *vm, const Closure *closure, const Origin *at) {
         return false;
     if (limit)
         vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s",
-                 (int)closure->base.name.len, closure->base.name.bytes, limit);
+                 STR_ARGS(closure->base.name), limit);
     return !limit;
 }
 

@@ -111,7 +111,7 @@ NOINLINE static Value make_closure(Vm *vm, const int32_t *list, const Frame *fra
 
 NOINLINE static Value unbound(Vm *vm, const Instr *instr) {
     Str name = instr->as.name->name;
-    vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", (int)name.len, name.bytes);
+    vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", STR_ARGS(name));
     return VALUE_NULL;
 }
 

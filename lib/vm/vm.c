@@ -126,11 +126,11 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr 
         if (found)
             frame->slots[(uint32_t)instr->d + i] = inner.slots[found->slot];
         else
-            text_add_format(&missing, " '%.*s'", (int)name->name.len, name->name.bytes);
+            text_add_format(&missing, " '%.*s'", STR_ARGS(name->name));
     }
     if (missing.len)
-        vm_fault(vm, instr->at, "no-such-name", "'%.*s' does not bind%.*s", (int)module->source->name.len,
-                 module->source->name.bytes, (int)missing.len, missing.bytes);
+        vm_fault(vm, instr->at, "no-such-name", "'%.*s' does not bind%.*s", STR_ARGS(module->source->name),
+                 STR_ARGS(missing));
     arena_rewind(&vm->slots, mark);
 }
 
@@ -144,10 +144,9 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
     if (!module) {
         if (!name.len)
             why = STR("no file name");
-        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", (int)path.len, path.bytes, (int)why.len,
-                 why.bytes);
+        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(why));
     } else if (being_imported(vm, module->source)) {
-        vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", (int)path.len, path.bytes);
+        vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
     } else if (!vm_stack_left(vm)) {
         vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");
     } else {

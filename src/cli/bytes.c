@@ -133,8 +133,9 @@ void memory_drop(char **text) {
 }
 
 void texts_add(TextList *list, const char *text) {
-    list->items = memory_resized(list->items, (list->count + 1) * sizeof *list->items);
+    list->items = memory_resized(list->items, (list->count + 2) * sizeof *list->items);
     list->items[list->count++] = memory_text(text);
+    list->items[list->count] = NULL;
 }
 
 bool texts_hold(const TextList *list, const char *text) {

@@ -34,7 +34,7 @@ void memory_drop(char **text);
 
 // Texts of its own, each ended by NUL.
 typedef struct TextList {
-    char **items;
+    char **items; // NULL is behind the last, or in their place
     size_t count;
 } TextList;
 

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 
 #include "cli/args.h"
 #include "cli/bytes.h"
@@ -155,6 +156,17 @@ static bool read_definition(const Args *args, void *field) {
     return true;
 }
 
+// "all" stands for the folder that all is in.
+static bool read_folder(const Args *args, void *field) {
+    const char *folder = strcmp(args->value, "all") == 0 ? "/" : args->value;
+    struct stat info;
+    if (stat(folder, &info) != 0 || !S_ISDIR(info.st_mode)) {
+        return wrong_value(args, "a folder that is there");
+    }
+    texts_add(field, folder);
+    return true;
+}
+
 // WIDTHxHEIGHT.
 static bool read_size(const Args *args, void *field) {
     char *end = NULL;
@@ -264,6 +276,8 @@ int command_run(const Command *command, const Host *host, int argc, char **argv)
     int status = options_read(&options, command, argc, argv);
     status = status == OPTIONS_READ ? command->run(host, &options) : status;
     texts_free(&options.definitions);
+    texts_free(&options.read_folders);
+    texts_free(&options.write_folders);
     scripts_free(&options.scripts);
     return status;
 }
@@ -282,6 +296,9 @@ int options_open(const Options *options, const Host *host,
     wanted.simplify = !options->unsimplified;
     wanted.keep_forces = wanted.interruptible = options->prompt;
     wanted.profile = options->profile;
+    wanted.read_folders = (const char *const *)options->read_folders.items;
+    wanted.write_folders = (const char *const *)options->write_folders.items;
+    wanted.no_files = options->no_files;
     wanted.diagnostic = diagnostic;
     wanted.host = context;
     *session = petri_open(&wanted);

@@ -62,7 +62,7 @@ static double now(void) {
 
 static Stamp stamp_of(const char *path) {
     struct stat info;
-    if (stat(path, &info) != 0) {
+    if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) { // to read a pipe once more would wait for ever
         return (Stamp){0};
     }
     return (Stamp){true,

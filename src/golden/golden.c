@@ -8,6 +8,8 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/cli.h"
+
 static void add_option(Golden *golden, const Bytes *word) {
     size_t count = (size_t)golden->option_count++;
     golden->options = memory_resized(golden->options, (count + 1) * sizeof *golden->options);
@@ -78,6 +80,34 @@ static bool read_remark(Golden *golden, const char *line, size_t length, Bytes *
     return false;
 }
 
+// The row of an option of `petri run`; NULL: there is none, which that will say itself.
+static const OptionSpec *find_option(const char *word, size_t length) {
+    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+        bool same = word[1] == '-' ? strlen(spec->name) == length - 2 && memcmp(spec->name, word + 2, length - 2) == 0
+                                   : spec->letter == word[1];
+        if (spec->commands & FOR_RUN && same) {
+            return spec;
+        }
+    }
+    return NULL;
+}
+
+// Whoever runs the tests of others wants no files written where their goldens say.
+static bool check_options(const Golden *golden, Bytes *trouble) {
+    for (int i = 0; i < golden->option_count; i++) {
+        const char *word = golden->options[i];
+        size_t length = strcspn(word, "=");
+        const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
+        if (spec != NULL && !(spec->commands & FOR_GOLDEN)) {
+            bytes_format(trouble, "line 1: option '--%s' is not for goldens: tests write no files", spec->name);
+            return false;
+        }
+        bool alone = word[length] == '\0' && (word[0] == '-' && (word[1] == '-' || length == 2));
+        i += spec != NULL && spec->value != NULL && alone ? 1 : 0;
+    }
+    return true;
+}
+
 static bool read_head_line(Golden *golden, const char *line, size_t length, Bytes *trouble) {
     if (golden->body_line > 1) {
         return read_remark(golden, line, length, trouble);
@@ -86,7 +116,7 @@ static bool read_head_line(Golden *golden, const char *line, size_t length, Byte
         bytes_format(trouble, "line 1: expected '# run' and the options");
         return false;
     }
-    return split_options(golden, line + 5, length - 5, trouble);
+    return split_options(golden, line + 5, length - 5, trouble) && check_options(golden, trouble);
 }
 
 bool golden_read(Golden *golden, const char *path, Bytes *trouble) {

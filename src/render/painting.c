@@ -83,8 +83,7 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
     return true;
 }
 
-static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painter, const char *file) {
-    PetriStatus status = petri_picture_save(picture, painter, file);
+static bool saved(Painting *painting, PetriStatus status) {
     if (status == PETRI_MEMORY) {
         set_trouble(painting, "out of memory");
     }
@@ -94,7 +93,7 @@ static bool save(Painting *painting, PetriPicture *picture, PetriPainter *painte
 static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
     bool good = !job->for_film || add_to_film(painting, job->picture, painter);
     if (job->file != NULL) {
-        good = good && save(painting, job->picture, painter, job->file);
+        good = good && saved(painting, petri_picture_save(job->picture, painter, job->file));
     }
     if (good && job->looks_back) {
         good = recording_add(&painting->recording, job->picture, painter);

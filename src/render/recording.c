@@ -4,7 +4,6 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include "cli/bytes.h"
@@ -27,18 +26,7 @@ static RecordedFile *find_file(const Recording *recording, const char *name) {
     return file;
 }
 
-// Makes the folders that a file is to be in.
-static void make_folders(const char *name) {
-    SCOPED_TEXT path = memory_text(name);
-    for (char *slash = strchr(path + 1, '/'); slash != NULL; slash = strchr(slash + 1, '/')) {
-        *slash = '\0';
-        mkdir(path, 0777); // what goes wrong shows when the file is written
-        *slash = '/';
-    }
-}
-
 static RecordedFile *add_file(Recording *recording, const char *name) {
-    make_folders(name);
     RecordedFile *file = memory_zeroed(sizeof *file);
     *file = (RecordedFile){.next = recording->files, .video = {.frames = -1, .errors = -1, .unfinished = -1}};
     file->name = memory_text(name);
@@ -93,6 +81,9 @@ bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *pa
     PetriRecord record;
     bool good = petri_picture_make(picture, painter) == PETRI_OK;
     for (size_t i = 0; good && petri_picture_record(picture, painter, i, &record); i++) {
+        if (record.refused) {
+            return false;
+        }
         if (!video_is_name(record.file)) {
             good = save_picture(recording, picture, painter, i, record.file);
             continue;

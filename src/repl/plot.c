@@ -51,7 +51,9 @@ static Range range_of(const double *values, int64_t count) {
 }
 
 static int row_of(const Canvas *canvas, const Range *range, double value) {
-    double part = range->most > range->least ? (value - range->least) / (range->most - range->least) : 0.5;
+    // Halved, so that the distance of the largest numbers is one.
+    double part =
+        range->most > range->least ? (value / 2 - range->least / 2) / (range->most / 2 - range->least / 2) : 0.5;
     return canvas->rows - 1 - (int)(part * (canvas->rows - 1) + 0.5);
 }
 

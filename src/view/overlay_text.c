@@ -79,9 +79,9 @@ static int line_columns(const char *line) {
 }
 
 int overlay_columns(const char *text) {
-    int longest = 0;
-    for (const char *line = text; line != NULL; line = strchr(line, '\n'), line += line != NULL) {
-        int columns = line_columns(line);
+    int longest = line_columns(text);
+    while ((text = strchr(text, '\n')) != NULL) {
+        int columns = line_columns(++text);
         longest = columns > longest ? columns : longest;
     }
     return longest;

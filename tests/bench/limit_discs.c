@@ -275,7 +275,7 @@ static void box_step_lists(Box *b) {
 }
 
 double limit_discs(int side) {
-    if (cpu_detect() < CPU_AVX512)
+    if (cpu_here.level < CPU_AVX512)
         return 0;
     Box b = box(side, 0.6);
     int steps = side > 500 ? 15 : side > 200 ? 60 : 400;

@@ -119,7 +119,7 @@ static bool read_option(const char *text, Settings *settings) {
 }
 
 int main(int argc, char **argv) {
-    Settings settings = {.options.cpu = cpu_detect()};
+    Settings settings = {.options.cpu = cpu_here.level};
     for (int i = 1; i < argc; i++)
         if (!read_option(argv[i], &settings)) {
             fprintf(stderr, "bench: unknown option %s\n", argv[i]);

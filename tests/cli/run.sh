@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh: what a user sees of the `petri` command: exit codes, what goes where, bad input, the golden runner.
-# usage: tests/cli/run.sh PATH-OF-PETRI. Each check says what it shows; the last line counts them.
+# usage: tests/cli/run.sh PATH-OF-PETRI [PART...]. Each check says what it shows; the last line counts them.
 
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -27,7 +27,8 @@ out_is() { [ "$(cat out)" = "$1" ]; }
 one_error() { status_is 1 && count_is err "error: " 1 && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }
 
-for part in command suggest streams parameters check habits bad_input state record render golden new; do
+shift
+for part in ${*:-command suggest streams parameters check habits bad_input state record render golden new}; do
     # shellcheck source=/dev/null
     . "$here/$part.sh"
 done

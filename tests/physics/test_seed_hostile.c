@@ -132,6 +132,21 @@ static void test_endless_steps(void **state) {
     world_close(&world);
 }
 
+// Clocks stay finite: a step that would carry one beyond all numbers is not made.
+static void test_clock_overflow(void **state) {
+    (void)state;
+    World world;
+    world_open(&world, 1,
+               "!physics state=:s dimensions=1 time=(-1.7e308 if frame==0 else 1.7e308) resolution=1e308\n"
+               " !particle id=:a velocity=0\n");
+    world_to(&world, 3);
+    EXPECT(&world, ":s;:clock", 1e308);
+    EXPECT(&world, ":s;:last", 1.7e308);
+    EXPECT(&world, ":s;:a", 0);
+    EXPECT_TOLD(&world, "dropped-time");
+    world_close(&world);
+}
+
 // Time that jumps: as many steps as are allowed, the rest is dropped, and the next frame is an ordinary one.
 static void test_jumps(void **state) {
     (void)state;
@@ -316,10 +331,10 @@ static void test_long_keys(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_odd_numbers), cmocka_unit_test(test_dimensions),  cmocka_unit_test(test_endless_steps),
-        cmocka_unit_test(test_jumps),       cmocka_unit_test(test_many_forces), cmocka_unit_test(test_cycles),
-        cmocka_unit_test(test_same_place),  cmocka_unit_test(test_deep_groups), cmocka_unit_test(test_many_groups),
-        cmocka_unit_test(test_long_keys),
+        cmocka_unit_test(test_odd_numbers),    cmocka_unit_test(test_dimensions), cmocka_unit_test(test_endless_steps),
+        cmocka_unit_test(test_clock_overflow), cmocka_unit_test(test_jumps),      cmocka_unit_test(test_many_forces),
+        cmocka_unit_test(test_cycles),         cmocka_unit_test(test_same_place), cmocka_unit_test(test_deep_groups),
+        cmocka_unit_test(test_many_groups),    cmocka_unit_test(test_long_keys),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

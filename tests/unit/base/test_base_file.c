@@ -25,7 +25,7 @@ static int teardown(void **state) {
 static const char *content(const char *name, size_t limit) {
     Str bytes;
     const char *problem = NULL;
-    if (!file_read(&arena, folder_file(&folder, name), false, limit, &bytes, NULL, &problem)) {
+    if (!file_read(&arena, NULL, folder_file(&folder, name), false, limit, &bytes, NULL, &problem)) {
         assert_non_null(problem);
         return NULL;
     }
@@ -51,15 +51,15 @@ static void test_version(void **state) {
     const char *problem;
     folder_write(&folder, "a", "1");
     const char *path = folder_file(&folder, "a");
-    assert_true(file_version(&arena, path, &first));
-    assert_true(file_version(&arena, path, &second));
+    assert_true(file_version(&arena, NULL, path, &first));
+    assert_true(file_version(&arena, NULL, path, &second));
     assert_true(str_equal(first, second));
-    assert_true(file_read(&arena, path, false, 100, &bytes, &read_version, &problem));
+    assert_true(file_read(&arena, NULL, path, false, 100, &bytes, &read_version, &problem));
     assert_true(str_equal(first, read_version));
     folder_write(&folder, "a", "2");
-    assert_true(file_version(&arena, folder_file(&folder, "a"), &third));
+    assert_true(file_version(&arena, NULL, folder_file(&folder, "a"), &third));
     assert_false(str_equal(first, third));
-    assert_false(file_version(&arena, folder_file(&folder, "none"), &third));
+    assert_false(file_version(&arena, NULL, folder_file(&folder, "none"), &third));
 }
 
 static void test_canonical(void **state) {

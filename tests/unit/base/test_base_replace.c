@@ -30,7 +30,7 @@ static int teardown(void **state) {
 static void expect(const char *name, const char *text) {
     Str bytes;
     const char *problem;
-    assert_true(file_read(&arena, folder_file(&folder, name), true, 1000, &bytes, NULL, &problem));
+    assert_true(file_read(&arena, NULL, folder_file(&folder, name), true, 1000, &bytes, NULL, &problem));
     assert_string_equal(bytes.bytes, text);
 }
 

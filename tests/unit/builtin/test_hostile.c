@@ -76,7 +76,7 @@ static void try_call(World *world, const Builtin *builtin, const Value *args, ui
 static void test_one_kind(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
-    for (uint32_t b = 0; b < builtin_count; b++)
+    for (uint32_t b = 0; b < builtin_table_count; b++)
         for (uint32_t s = 0; s < samples.count; s++)
             for (uint32_t count = 0; count <= MOST_ARGUMENTS + 1; count++) {
                 Value args[MOST_ARGUMENTS + 1];
@@ -89,7 +89,7 @@ static void test_one_kind(void **state) {
 static void test_pairs(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
-    for (uint32_t b = 0; b < builtin_count; b++)
+    for (uint32_t b = 0; b < builtin_table_count; b++)
         for (uint32_t s = 0; s < samples.count; s++)
             for (uint32_t t = 0; t < samples.count; t++)
                 try_call(world, &builtin_table[b], (Value[]){samples.values[s], samples.values[t]}, 2);
@@ -100,7 +100,7 @@ static void test_more_arguments(void **state) {
     World *world = *state;
     Samples samples = samples_new(world);
     uint64_t random = 1;
-    for (uint32_t b = 0; b < builtin_count; b++) {
+    for (uint32_t b = 0; b < builtin_table_count; b++) {
         const Builtin *builtin = &builtin_table[b];
         for (uint32_t round = 0; (builtin->fixed >= 3 || builtin->variadic) && round < 3000; round++) {
             Value args[MOST_ARGUMENTS];
@@ -130,7 +130,7 @@ static void test_long(void **state) {
         {.len = LONG, .kind = VALUE_MIXED, .as.items = texts},
     };
     const Value plain[] = {value_number(2), value_stream(STREAM_UNIFORM, 1)};
-    for (uint32_t b = 0; b < builtin_count; b++) {
+    for (uint32_t b = 0; b < builtin_table_count; b++) {
         const Builtin *builtin = &builtin_table[b];
         uint32_t count = builtin->fixed + (builtin->variadic ? 1 : 0);
         for (uint32_t at = 0; at < count; at++)
@@ -148,7 +148,7 @@ static void test_long(void **state) {
 static void test_long_pairs(void **state) {
     World *world = *state;
     Value x = numbers(&world->session, LONG, 0, 1);
-    for (uint32_t b = 0; b < builtin_count; b++)
+    for (uint32_t b = 0; b < builtin_table_count; b++)
         if (builtin_table[b].fixed >= 2)
             try_call(world, &builtin_table[b], (Value[]){x, x}, 2);
 }
@@ -175,7 +175,7 @@ static void test_names(void **state) {
     const Symbol *names[3] = {symbol_intern(&world->symbols, STR("xs")), symbol_intern(&world->symbols, STR("value")),
                               symbol_intern(&world->symbols, STR(""))};
     const Value values[3] = {value_number(1), VALUE_NULL, value_number(2)};
-    for (uint32_t b = 0; b < builtin_count; b++)
+    for (uint32_t b = 0; b < builtin_table_count; b++)
         for (uint32_t count = 0; count < 4; count++)
             for (uint32_t first = 0; first < 3; first++)
                 for (uint32_t named = 1; named <= 3 - first; named++) {

@@ -24,7 +24,7 @@ static bool is_one_of(const char *name, const char *const *names) {
 
 static void test_names(void **state) {
     (void)state;
-    assert_int_equal(builtin_count, NAME_COUNT);
+    assert_int_equal(builtin_table_count, NAME_COUNT);
     for (uint32_t i = 0; i < NAME_COUNT; i++) {
         const Builtin *builtin = builtin_find(str_from(all_names[i]));
         assert_non_null(builtin);
@@ -40,7 +40,7 @@ static void test_names(void **state) {
 static void test_rows(void **state) {
     (void)state;
     static const char *const impure[] = {"debug", "sample", "glob", "csv", "read", "read_bytes", "srt", NULL};
-    for (uint32_t i = 0; i < builtin_count; i++) {
+    for (uint32_t i = 0; i < builtin_table_count; i++) {
         const Builtin *builtin = &builtin_table[i];
         assert_true(i == 0 || strcmp(builtin_table[i - 1].name, builtin->name) < 0);
         assert_non_null(builtin->call);
@@ -54,7 +54,7 @@ static void test_rows(void **state) {
 // The parameter texts agree with the counts, and the required ones come first.
 static void test_parameters(void **state) {
     (void)state;
-    for (uint32_t i = 0; i < builtin_count; i++) {
+    for (uint32_t i = 0; i < builtin_table_count; i++) {
         const Builtin *builtin = &builtin_table[i];
         uint32_t fixed = 0;
         bool variadic = false;
@@ -82,7 +82,7 @@ static void test_named(void **state) {
     (void)state;
     static const char *const also[] = {"debug", "glob", "read", "read_bytes", NULL};
     static const char *const never[] = {"hypot", "zip", NULL};
-    for (uint32_t i = 0; i < builtin_count; i++) {
+    for (uint32_t i = 0; i < builtin_table_count; i++) {
         const Builtin *builtin = &builtin_table[i];
         bool single = builtin->fixed == 1 && builtin->required == 1 && !builtin->variadic;
         bool named = (!single || is_one_of(builtin->name, also)) && !is_one_of(builtin->name, never);

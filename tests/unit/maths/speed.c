@@ -111,7 +111,7 @@ int main(int count, char **words) {
     for (size_t i = 0; i < COUNT_OF(rows); i++)
         if (count < 2 || !strcmp(words[1], rows[i].name))
             run_row(&rows[i]);
-    for (int level = 0; count < 2 && level <= (int)cpu_detect(); level++)
+    for (int level = 0; count < 2 && level <= (int)cpu_here.level; level++)
         run_vectors((CpuLevel)level);
     return 0;
 }

@@ -21,9 +21,9 @@ static size_t find_instances(Lanes *lanes) {
     lanes[count++] = (Lanes){"1 lane", &maths_many_plain};
     lanes[count++] = (Lanes){"2 lanes", &maths_many_pair};
 #if defined(__x86_64__)
-    if (cpu_detect() >= CPU_AVX2 && __builtin_cpu_supports("fma"))
+    if (cpu_here.fma)
         lanes[count++] = (Lanes){"4 lanes", &maths_many_avx2};
-    if (cpu_detect() >= CPU_AVX512)
+    if (cpu_here.level >= CPU_AVX512)
         lanes[count++] = (Lanes){"8 lanes", &maths_many_avx512};
 #endif
     return count;
@@ -90,7 +90,7 @@ static void test_same_as_one(void **state) {
 // The result may take the place of the arguments; short arrays are not read or written beyond their end.
 static void test_in_place(void **state) {
     (void)state;
-    for (int level = 0; level <= (int)cpu_detect(); level++)
+    for (int level = 0; level <= (int)cpu_here.level; level++)
         for (size_t n = 0; n < 20; n++) {
             double values[24], wanted[24];
             for (size_t i = 0; i < 24; i++) {
@@ -122,7 +122,7 @@ static void test_normals(void **state) {
     (void)state;
     uint64_t key = UINT64_C(0x03953eea0e693074);
     double found[700];
-    for (int level = 0; level <= (int)cpu_detect(); level++)
+    for (int level = 0; level <= (int)cpu_here.level; level++)
         for (size_t first = 0; first < 5; first++)
             for (size_t n = 0; n < 700; n = n * 2 + 1) {
                 random_normals((CpuLevel)level, key, first, n, found);

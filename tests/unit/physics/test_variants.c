@@ -12,7 +12,7 @@ static void for_each_variant(Check *check, void *context) {
         {.threads = 1, .neighbours = PHYS_NEIGHBOURS_ALWAYS}, {.threads = 8, .neighbours = PHYS_NEIGHBOURS_ALWAYS},
         {.threads = 2, .neighbours = PHYS_NEIGHBOURS_AUTO},
     };
-    for (int cpu = 0; cpu <= (int)cpu_detect(); cpu++)
+    for (int cpu = 0; cpu <= (int)cpu_here.level; cpu++)
         for (size_t i = cpu == CPU_SCALAR ? COUNT_OF(options) - 3 : 0; i < COUNT_OF(options); i++) {
             PhysOptions variant = options[i];
             variant.cpu = (CpuLevel)cpu;

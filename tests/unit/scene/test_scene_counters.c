@@ -1,4 +1,5 @@
-// test_scene_counters.c: `!counter`: value₀ = clamp(initial), then clamp(value + (time − last time)·rate).
+// test_scene_counters.c: `!counter` (spec counters.md): value₀ = clamp(initial), then clamp((time − last)·rate +
+// value).
 #include "player.h"
 
 // The state lines of `:c` after `frames` frames of ten a second, without the `:time` line.
@@ -24,18 +25,21 @@ typedef struct CounterRow {
 static void test_values(void **state) {
     static const CounterRow rows[] = {
         {"", 1, "0"},
-        {"", 2, "0.1"},
-        {"", 3, "0.2"},
+        {"", 3, "0"}, // it stands unless it is told to grow
+        {"rate=1", 1, "0"},
+        {"rate=1", 2, "0.1"},
+        {"rate=1", 3, "0.2"},
         {"initial=5", 1, "5"},
         {"initial=5 rate=-2", 3, "4.6"},
         {"rate=0", 5, "0"},
         // Element by element, the shorter repeated.
-        {"initial=1;2;3", 2, "1.1;2.1;3.1"},
+        {"rate=1 initial=1;2;3", 2, "1.1;2.1;3.1"},
         {"rate=1;10", 3, "0.2;2"},
         {"initial=0;1;2;3 rate=1;-1", 2, "0.1;0.9;2.1;2.9"},
-        // Clamps, also of the initial value.
+        // Clamps, also of the initial value; first from below, then from above.
         {"initial=5 maximum=3", 1, "3"},
         {"initial=-5 minimum=-3", 1, "-3"},
+        {"minimum=5 maximum=3", 1, "3"},
         {"rate=100 maximum=4", 3, "4"},
         {"rate=-100 minimum=-4", 3, "-4"},
         {"rate=100 max=4", 3, "4"},
@@ -45,22 +49,39 @@ static void test_values(void **state) {
         {"rate=100 max=4 maximum='x'", 3, "4"}, // malformed: the next
         {"rate=100;-100 maximum=4 minimum=-4", 3, "4;-4"},
         {"initial=0;0 rate=100 maximum=1;2", 2, "1;2"},
-        {"maximum=0", 3, "0"},
+        {"maximum=0 rate=1", 3, "0"},
         // Its own time.
-        {"time=frame*5", 3, "10"},
+        {"rate=1 time=frame*5", 3, "10"},
         {"time=frame*5 rate=2", 3, "20"},
-        {"time=10-frame", 3, "-2"},
-        {"time=frame;frame*2", 3, "2;4"},
-        // Reset: initial again, as long as it is true.
-        {"initial=7 reset=frame==2", 3, "7"},
-        {"initial=7 reset=frame==2", 4, "7.1"},
-        {"initial=7 reset=1", 4, "7"},
-        {"initial=7 reset=null", 2, "7.1"},
-        {"initial=7 reset='x'", 2, "7"},
-        {"initial=frame", 3, "0.2"}, // only the first frame's counts
-        // Attributes of the wrong shape are missing.
-        {"initial='x' rate=!a", 2, "0.1"},
-        {"time='x'", 2, "0.1"},
+        {"rate=1 time=10-frame", 3, "-2"},
+        {"rate=1 time=frame;frame*2", 3, "2;4"},
+        // Reset: initial again, as long as and where it is true.
+        {"rate=1 initial=7 reset=frame==2", 3, "7"},
+        {"rate=1 initial=7 reset=frame==2", 4, "7.1"},
+        {"rate=1 initial=7 reset=1", 4, "7"},
+        {"rate=1 initial=7 reset=null", 2, "7.1"},
+        {"rate=1 initial=7;8 reset=0;1", 2, "7.1;8"},
+        {"rate=1 initial=7 reset=0;-1;0", 2, "7.1;7;7.1"},
+        {"rate=1 initial=frame reset=frame==2", 3, "2"},
+        {"rate=1 initial=frame", 3, "0.2"}, // else only the first frame's counts
+        // Attributes that are not numeric are missing.
+        {"initial='x' rate=!a", 2, "0"},
+        {"initial='x' rate=1", 2, "0.1"},
+        {"rate=1 time='x'", 2, "0.1"},
+        {"rate=1 initial=7 reset='x'", 2, "7.1"},
+        // A bad frame is lost and no more: the last value stays, and the last time.
+        {"rate=inf", 3, "0"},
+        {"rate=nan", 3, "0"},
+        {"rate=(inf if frame==1 else 1)", 3, "0.1"},
+        {"rate=1;(nan if frame==1 else 2)", 3, "0.1;0.2"},
+        {"rate=1 time=(inf if frame==1 else frame)", 2, "0"},
+        {"rate=1 time=(inf if frame==1 else frame)", 3, "2"},
+        {"rate=1 time=(nan if frame==0 else frame)", 2, "0"},
+        {"rate=1 time=(nan if frame==0 else frame)", 3, "1"},
+        {"rate=1 time=(-1.7e308 if frame==0 else 1.7e308 if frame==1 else 1.6e308)", 3, "-9.999999999999996e+306"},
+        {"rate=1e309 maximum=4", 3, "4"}, // what is stored is finite
+        {"initial=1e308 rate=1e308 time=frame*10", 3, "1e+308"},
+        {"initial=(inf if frame==0 else 3) rate=1", 3, "3.1"},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
         char script[200];
@@ -74,17 +95,18 @@ static void test_keys(void **state) {
     PetriOptions options = player_options(player);
     options.fps = 10;
     player_reopen(player, &options);
-    player_run(player, "!counter state=:a;1 initial=3\n!counter state='s'\n!counter state=0 time=7\n", 2);
+    player_run(player,
+               "!counter state=:a;1 initial=3 rate=1\n!counter state='s' rate=1\n!counter state=0 rate=1 time=7\n", 2);
     assert_text("keys", player_state(player),
                 "$(:a;1) = 3.1\n$(:a;1;:time) = 0.1\n$0 = 0\n$(0;:time) = 7\n$'s' = 0.1\n$('s';:time) = 0.1\n");
 }
 
 static void test_read_in_the_next_frame(void **state) {
     Player *player = *state;
-    player_run(player, "%pragma fps 10\n!counter state=:c initial=1\n!a v=$:c t=$(:c;:time)\n", 1);
-    assert_text("first", player_tree(player), "!counter state=:c initial=1\n!a\n");
+    player_run(player, "%pragma fps 10\n!counter state=:c initial=1 rate=1\n!a v=$:c t=$(:c;:time)\n", 1);
+    assert_text("first", player_tree(player), "!counter state=:c initial=1 rate=1\n!a\n");
     player_step(player, 2);
-    assert_text("third", player_tree(player), "!counter state=:c initial=1\n!a v=1.1 t=0.1\n");
+    assert_text("third", player_tree(player), "!counter state=:c initial=1 rate=1\n!a v=1.1 t=0.1\n");
 }
 
 // A rate that changes counts for the time that has passed since the last frame.
@@ -94,14 +116,14 @@ static void test_rate_changes(void **state) {
 
 // A counter that is absent keeps its value; when it returns the time between counts.
 static void test_absence(void **state) {
-    static const char script[] = "if frame<2 or frame>3\n    !counter state=:c\n";
+    static const char script[] = "if frame<2 or frame>3\n    !counter state=:c rate=1\n";
     assert_text("absent", counter(*state, script, 4), "0.1");
     assert_text("back", counter(*state, script, 5), "0.4");
 }
 
 static void test_two_of_one_key(void **state) {
     // The second sees what the first has written: no time has passed for it.
-    assert_text("two", counter(*state, "!counter state=:c\n!counter state=:c rate=100\n", 3), "0.2");
+    assert_text("two", counter(*state, "!counter state=:c rate=1\n!counter state=:c rate=100\n", 3), "0.2");
 }
 
 static void test_complaints(void **state) {
@@ -116,7 +138,13 @@ static void test_complaints(void **state) {
          "warning !counter state=:c: unknown attribute 'rat', did you mean 'rate'? [unknown-attribute]\n"},
         {"!counter state=:c zzzzz=2\n", "warning !counter state=:c: unknown attribute 'zzzzz' [unknown-attribute]\n"},
         {"!counter state=:c rate='x'\n",
-         "warning !counter state=:c: rate should be one number, not 'x' [bad-attribute]\n"},
+         "warning !counter state=:c: rate should be any numbers, not 'x' [bad-attribute]\n"},
+        {"!counter state=:c reset='x'\n",
+         "warning !counter state=:c: reset should be any numbers, not 'x' [bad-attribute]\n"},
+        {"!counter state=:c initial=inf\n",
+         "warning !counter state=:c: the value is not finite; the counter keeps its last one [not-finite]\n"},
+        {"!counter state=:c time=inf\n",
+         "warning !counter state=:c: the time is not finite; the counter keeps its last one [not-finite]\n"},
         {"!a\n    !counter state=:c\n", ""}, // only top-level nodes are systems
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {

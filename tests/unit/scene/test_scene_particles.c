@@ -174,19 +174,19 @@ static void test_several_systems(void **state) {
         strstr(player_state(player), "$(:z;:iteration) = 5\n")); // updated twice a frame, one after the other
 }
 
-// Kinds in the order in which they first appear, nodes of a kind in order: a later system sees what an earlier wrote.
+// Systems and counters in document order (spec counters.md): a later one sees what an earlier wrote.
 static void test_update_order(void **state) {
     Player *player = *state;
     // The counter of :s feeds the prefix that the system reads: `$:s` not a single number becomes t.
     static const StateRow rows[] = {
         {"!counter state=:s initial=42 rate=0\n!physics state=:s dimensions=1\n", 1, "$:s = 42\n$(:s;:time) = 0\n"},
-        {"!physics state=:s dimensions=1\n!counter state=:s initial=42 rate=0\n", 1, "$:s = 42\n$(:s;:time) = 0\n"},
+        {"!physics state=:s dimensions=1\n!counter state=:s initial=42 rate=0\n", 1, "$:s = 0\n$(:s;:time) = 0\n"},
         {"!counter state=:c initial=1\n!physics state=:s dimensions=1\n!counter state=:c initial=2 reset=1\n", 1,
          "$:c = 2\n$(:c;:time) = 0\n$:s = 0\n"},
-        // Two counters of one key round a system that writes it in between: counters come first, both of them.
+        // Two counters of one key round a system that writes it in between.
         {"!counter state=:s initial=1;1\n!physics state=:s dimensions=1\n!counter state=:s initial=2;2 reset=1\n", 1,
-         "$:s = 0\n$(:s;:time) = 0\n"},
-        {"!physics state=:s dimensions=1\n!counter state=:s initial=1;1\n", 1, "$:s = 1;1\n$(:s;:time) = 0\n"},
+         "$:s = 2;2\n$(:s;:time) = 0\n"},
+        {"!physics state=:s dimensions=1\n!counter state=:s rate=1;1\n", 1, "$:s = 0;0\n$(:s;:time) = 0\n"},
     };
     check_states(player, rows, COUNT_OF(rows));
 }

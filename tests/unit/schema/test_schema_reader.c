@@ -137,7 +137,7 @@ static void test_complaints(void **state) {
     assert_null(body.numbers.velocity);
     READ(&f, KIND_COUNTER, &counter, {"qqqqqq", 1});
     assert_string_equal(f.told, "!counter unknown attribute 'qqqqqq' [unknown-attribute]\n");
-    assert_true(counter.rate.as.number == 1 && counter.minimum.len == 0 && counter.state.len == 0);
+    assert_true(counter.rate.as.number == 0 && counter.minimum.len == 0 && counter.state.len == 0);
     assert_int_equal(f.schema.reports, 2);
     end(&f);
 }

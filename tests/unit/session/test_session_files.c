@@ -57,11 +57,39 @@ static void test_import(void **state) {
     check_told(desk, "[no-such-name]");
     folder_write(&desk->folder, "n.fl", "import a from 'm.fl'\nlet z=a+1\n"); // names that it imports are its own
     check_run(desk, "import a;z from 'n.fl'\n!x v=a;z\n", "!x v=10;11\n");
-    char script[500];
-    snprintf(script, sizeof script, "import a from '%s/m.fl'\n!x v=a\n", desk->folder.path);
-    assert_int_equal(player_load(&desk->player, script), PETRI_OK); // an absolute path is used as it is
+}
+
+// A script reads below its own folder, the current one and those that are named; what a script before it has read is no
+// way round.
+static void test_reach(void **state) {
+    Desk *desk = *state;
+    char script[900];
+    folder_write(&desk->folder, "m.fl", "let a=1\n");
+    folder_write(&desk->folder, "t.txt", "text");
+    snprintf(script, sizeof script, "import a from '%s/m.fl'\n!x v=a t=read('%s/t.txt')\n", desk->folder.path,
+             desk->folder.path);
+    check_run(desk, script, "!x v=1 t='text'\n");
+    PetriConfig *before = petri_config(desk->player.session);
+    assert_int_equal(player_load(&desk->player, script), PETRI_OK);
     player_step(&desk->player, 1);
-    assert_text("absolute", player_tree(&desk->player), "!x v=10\n");
+    assert_text("outside", player_tree(&desk->player), "!x\n");
+    check_told(desk, "cannot import");
+    check_told(desk, "a script may not read there; '--allow-read ");
+    petri_config_use(desk->player.session, before);
+    player_step(&desk->player, 1);
+    assert_text("inside again", player_tree(&desk->player), "!x v=1 t='text'\n");
+    petri_config_free(before);
+
+    PetriOptions options = player_options(&desk->player);
+    options.read_folders = (const char *const[]){"/no/such/folder", desk->folder.path, NULL};
+    player_reopen(&desk->player, &options);
+    assert_int_equal(player_load(&desk->player, script), PETRI_OK);
+    player_step(&desk->player, 1);
+    assert_text("allowed", player_tree(&desk->player), "!x v=1 t='text'\n");
+    options.no_files = true;
+    player_reopen(&desk->player, &options);
+    check_run(desk, script, "!x\n");
+    check_told(desk, "scripts may use no files here (--no-files)");
 }
 
 // A module sees built-ins only; its functions see the caller's state.
@@ -196,6 +224,7 @@ static void test_check(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_import),
+        DESK_TEST(test_reach),
         DESK_TEST(test_module_names),
         DESK_TEST(test_changed_module),
         DESK_TEST(test_cycles),

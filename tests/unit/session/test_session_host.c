@@ -52,18 +52,19 @@ static void test_text_lengths(void **state) {
 
 static void test_print(void **state) {
     Player *player = *state;
-    player_run(player,
-               "%pragma fps 4\n%pragma tempo 60\n!counter state=:c;'k' initial=1;2\n!counter state='it\\'s' rate=0 "
-               "initial=:a\n"
-               "debug(frame)\ndebug('x')\ndebug('x')\n!a v='s'(1)\n'b'\n    !lost\n",
-               2);
+    player_run(
+        player,
+        "%pragma fps 4\n%pragma tempo 60\n!counter state=:c;'k' initial=1;2 rate=1\n!counter state='it\\'s' rate=0 "
+        "initial=:a\n"
+        "debug(frame)\ndebug('x')\ndebug('x')\n!a v='s'(1)\n'b'\n    !lost\n",
+        2);
     static const struct {
         unsigned sections;
         const char *wanted;
     } rows[] = {
         {0, "@1 time=0.25 beat=0.25\n"},
         {PETRI_PRINT_TREE, "@1 time=0.25 beat=0.25\n"
-                           "!counter state=:c;'k' initial=1;2\n!counter state=\"it's\" rate=0 initial=:a\n!a\n"},
+                           "!counter state=:c;'k' initial=1;2 rate=1\n!counter state=\"it's\" rate=0 initial=:a\n!a\n"},
         {PETRI_PRINT_STATE, "@1 time=0.25 beat=0.25\n" STATE},
         {PETRI_PRINT_LOG, "@1 time=0.25 beat=0.25\n> 1\n> 'x'\n"},
         {PETRI_PRINT_ERROR, "@1 time=0.25 beat=0.25\n? not callable: a string (t.fl:8)\n"},
@@ -108,7 +109,7 @@ static void test_dumps(void **state) {
     assert_non_null(strstr(player->shown.text, "frame"));
 }
 
-static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c\n";
+static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c rate=1\n";
 
 // A row for each line that was evaluated; what is evaluated when the script is loaded takes no time later.
 static void test_profile(void **state) {
@@ -130,7 +131,7 @@ static void test_profile(void **state) {
         assert_non_null(strstr(text, "physics\n"));
         assert_null(strstr(text, "t.fl:2"));
         assert_null(strstr(text, "t.fl:4"));
-        assert_text("the same frames", player_tree(player), "!b x=2\n!counter state=:c\n");
+        assert_text("the same frames", player_tree(player), "!b x=2\n!counter state=:c rate=1\n");
     }
     int calls = 0;
     assert_int_equal(petri_profile(player->session, 0, refuse, &calls), PETRI_INVALID);
@@ -138,7 +139,7 @@ static void test_profile(void **state) {
 
 static void test_failed_load_keeps_the_script(void **state) {
     Player *player = *state;
-    player_run(player, "!a v=frame\n!counter state=:c\n", 3);
+    player_run(player, "!a v=frame\n!counter state=:c rate=1\n", 3);
     static const char *const bad[] = {"!b )", "let", "\xff", "'x", "!a\n  !b\n !c\n"};
     for (size_t i = 0; i < COUNT_OF(bad); i++) {
         player_forget(player);
@@ -148,7 +149,7 @@ static void test_failed_load_keeps_the_script(void **state) {
         player_step(player, 1);
         assert_int_equal(petri_frame(player->session).number, 3 + i);
     }
-    assert_text("goes on", player_tree(player), "!a v=7\n!counter state=:c\n");
+    assert_text("goes on", player_tree(player), "!a v=7\n!counter state=:c rate=1\n");
 }
 
 // Each thing once per place and load.
@@ -220,13 +221,13 @@ static void test_two_sessions(void **state) {
     Player *first = *state, second;
     player_open(&second);
     assert_int_equal(petri_define(first->session, "d=1"), PETRI_OK);
-    player_run(first, "%pragma fps 10\n!a v=frame;fps;d\n!counter state=:c\n", 1);
+    player_run(first, "%pragma fps 10\n!a v=frame;fps;d\n!counter state=:c rate=1\n", 1);
     player_run(&second, "!b v=frame;fps;d;$:c\n", 1);
     for (int i = 0; i < 3; i++) {
         player_step(first, 2);
         player_step(&second, 1);
     }
-    assert_text("first", player_tree(first), "!a v=6;10;1\n!counter state=:c\n");
+    assert_text("first", player_tree(first), "!a v=6;10;1\n!counter state=:c rate=1\n");
     assert_text("second", player_tree(&second), "!b v=3;60\n");
     assert_text("told", player_told(first), "");
     assert_non_null(strstr(player_told(&second), "unbound name 'd'"));

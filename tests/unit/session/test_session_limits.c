@@ -4,8 +4,9 @@
 // Loops that never end in practice: the frame's work is limited.
 static void test_work(void **state) {
     Player *player = *state;
-    assert_int_equal(player_load(player, "!counter state=:c\nlet v=..20000\n!a v=(frame if 0 for y in v for x in v)\n"),
-                     PETRI_OK);
+    assert_int_equal(
+        player_load(player, "!counter state=:c rate=1\nlet v=..20000\n!a v=(frame if 0 for y in v for x in v)\n"),
+        PETRI_OK);
     assert_int_equal(petri_step(player->session), PETRI_LIMIT);
     assert_non_null(strstr(player_told(player), "more than 134217728 calls and loop rounds"));
     assert_text("state", player_state(player), "");
@@ -22,7 +23,7 @@ static void open_small(Player *player, size_t memory_bytes) {
 static void test_memory(void **state) {
     Player *player = *state;
     open_small(player, 1 << 20);
-    assert_int_equal(player_load(player, "!counter state=:c\n!a v=len(..1e6+frame) if frame==1\n"), PETRI_OK);
+    assert_int_equal(player_load(player, "!counter state=:c rate=1\n!a v=len(..1e6+frame) if frame==1\n"), PETRI_OK);
     player_step(player, 1);
     assert_text("before", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_int_equal(petri_step(player->session), PETRI_LIMIT);
@@ -38,7 +39,7 @@ static void test_memory(void **state) {
 // Wherever in a frame the memory runs out, nothing has changed: systems do not draw on the script's budget.
 static void test_memory_anywhere(void **state) {
     Player *player = *state;
-    static const char script[] = "!counter state=:c\n"
+    static const char script[] = "!counter state=:c rate=1\n"
                                  "!physics state=:p dimensions=2\n"
                                  "    !random strength=5\n"
                                  "    for i in ..40+0*frame\n" // made anew in each frame
@@ -75,7 +76,8 @@ static void test_memory_anywhere(void **state) {
 static void test_frames_do_not_add_up(void **state) {
     Player *player = *state;
     open_small(player, 64 << 10);
-    player_run(player, "!a v=debug(..100);(x*2 for x in ..100)\n!b v=nothing(..50);'s'(3)\n!counter state=:c\n", 2000);
+    player_run(player, "!a v=debug(..100);(x*2 for x in ..100)\n!b v=nothing(..50);'s'(3)\n!counter state=:c rate=1\n",
+               2000);
     assert_text("state", player_state(player), "$:c = 33.31666666666667\n$(:c;:time) = 33.31666666666667\n");
 }
 

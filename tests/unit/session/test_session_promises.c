@@ -2,7 +2,10 @@
 #include "folder.h"
 #include "player.h"
 
+#include <sys/stat.h>
+#include <sys/wait.h>
 #include <time.h>
+#include <unistd.h>
 
 static const char *const KEYS = "!physics state=:a dimensions=2 time=beat\n    !particle id=0 velocity=1;0\n"
                                 "!physics state=:b dimensions=1 time=beat\n    !particle id=1\n"
@@ -90,11 +93,158 @@ static void test_performance_rewinds(void **state) {
     petri_snapshot_free(snapshot);
 }
 
+// NULL in any place is answered.
+static void test_null(void **state) {
+    Player *player = *state;
+    PetriSession *none = NULL, *session = player->session;
+    PetriSnapshot *snapshot = petri_snapshot(session);
+    PetriPrompted done;
+    PetriResult result;
+    PetriSystem system;
+    PetriParticle particle;
+    PetriForce force;
+    PetriParameter parameter;
+    double x;
+    player_run(player, KEYS, 2);
+    const PetriStatus statuses[] = {
+        petri_define(none, "A=1"),
+        petri_define(session, NULL),
+        petri_load(none, "s.fl"),
+        petri_load(session, NULL),
+        petri_load_text(none, "s", "", 0),
+        petri_load_text(session, NULL, "", 0),
+        petri_load_text(session, "s", NULL, 0),
+        petri_reload(none, "s.fl"),
+        petri_reload(none, NULL),
+        petri_check(none, "s"),
+        petri_check(session, NULL),
+        petri_check_text(none, "s", "", 0),
+        petri_check_text(session, "s", NULL, PETRI_Z),
+        petri_step(none),
+        petri_preview(none),
+        petri_set_tempo(none, 1),
+        petri_set_fps(none, 1),
+        petri_set_resolution(none, 1),
+        petri_pointer(none, NULL),
+        petri_key(none, "a", true),
+        petri_key(session, NULL, true),
+        petri_rewind(none, snapshot),
+        petri_rewind(session, NULL),
+        petri_save(none, "s"),
+        petri_save(session, NULL),
+        petri_restore(none, "s"),
+        petri_restore(session, NULL),
+        petri_print(none, 15, note, &player->shown),
+        petri_print(session, 15, NULL, NULL),
+        petri_print_log(none, note, &player->shown),
+        petri_print_log(session, NULL, NULL),
+        petri_profile(none, 0, note, &player->shown),
+        petri_profile(session, 0, NULL, NULL),
+        petri_dump(none, PETRI_DUMP_AST, note, &player->shown),
+        petri_dump(session, PETRI_DUMP_AST, NULL, NULL),
+        petri_prompt(none, "1", 1, NULL, NULL, &done),
+        petri_prompt(session, NULL, 0, NULL, NULL, &done),
+        petri_prompt(session, "1", 1, NULL, NULL, NULL),
+        petri_evaluate(none, "1", 1, &result, NULL, NULL),
+        petri_evaluate(session, NULL, 0, &result, NULL, NULL),
+        petri_evaluate(session, "1", 1, NULL, NULL, NULL),
+        petri_set_parameter(none, "A", "1"),
+        petri_set_parameter(session, NULL, "1"),
+    };
+    for (size_t i = 0; i < COUNT_OF(statuses); i++)
+        assert_int_equal(statuses[i], PETRI_INVALID);
+    assert_null(petri_open(NULL));
+    petri_close(&none);
+    petri_close(NULL);
+    petri_clear(NULL);
+    petri_hold(NULL);
+    petri_interrupt(NULL);
+    petri_config_free(NULL);
+    petri_snapshot_free(NULL);
+    petri_config_use(NULL, NULL);
+    petri_config_use(session, NULL);
+    assert_null(petri_snapshot(NULL));
+    assert_null(petri_config(NULL));
+    assert_null(petri_source(NULL, 0));
+    assert_null(petri_name(NULL, 0));
+    assert_null(petri_prompt_statement(NULL, 0));
+    assert_false(petri_interrupted(NULL));
+    assert_false(petri_drawable(NULL));
+    assert_false(petri_key_bound(NULL, "a"));
+    assert_false(petri_key_bound(session, NULL));
+    assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
+    assert_false(petri_particle(NULL, 0, 0, &particle) || petri_particle(session, 0, 0, NULL));
+    assert_false(petri_force(NULL, 0, 0, &force) || petri_force(session, 0, 0, NULL));
+    assert_false(petri_parameter(NULL, 0, &parameter) || petri_parameter(session, 0, NULL));
+    assert_false(petri_builtin(0, NULL) || petri_node_kind(0, NULL) || petri_node_attribute(0, 0, NULL));
+    assert_false(petri_read_number(NULL, &x) || petri_read_number("1", NULL));
+    assert_true(petri_due(NULL) == 0 && petri_resolution(NULL) == 0);
+    assert_int_equal(petri_frame(NULL).number, -1);
+    assert_int_equal(petri_input(NULL, "1", 1), PETRI_INPUT_WHOLE);
+    assert_int_equal(petri_input(session, NULL, 1), PETRI_INPUT_WHOLE);
+    assert_int_equal(petri_drop(NULL, true), 0);
+    assert_int_equal(petri_config_number(NULL), 0);
+    assert_int_equal(petri_snapshot_bytes(NULL), 0);
+    assert_int_equal(petri_diagnostic_count(NULL, PETRI_ERROR), 0);
+    assert_int_equal(petri_frame(session).number, 1);
+    petri_snapshot_free(snapshot);
+}
+
+// No such level has been told of.
+static void test_levels(void **state) {
+    Player *player = *state;
+    assert_int_equal(player_load(player, "!a x=(\n"), PETRI_INVALID);
+    assert_true(petri_diagnostic_count(player->session, PETRI_ERROR) > 0);
+    assert_int_equal(petri_diagnostic_count(player->session, (PetriLevel)3), 0);
+    assert_int_equal(petri_diagnostic_count(player->session, (PetriLevel)-1), 0);
+    assert_int_equal(petri_diagnostic_count(player->session, (PetriLevel)1000000), 0);
+}
+
+// A child has none of the threads that it would have to wait for.
+static void test_close_after_fork(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.threads = 3;
+    player_reopen(player, &options);
+    player_run(player,
+               "!physics state=:s dimensions=2\n    for i in ..3000\n        !particle id=i position=i;0 radius=1\n"
+               "    !collision\n    !gravity\n",
+               3);
+    pid_t child = fork();
+    if (child == 0) {
+        alarm(20);
+        petri_close(&player->session);
+        _exit(player->session == NULL ? 0 : 1);
+    }
+    int status = -1;
+    assert_int_equal(waitpid(child, &status, 0), child);
+    assert_int_equal(status, 0);
+    player_step(player, 1); // the parent has lost nothing
+}
+
+// A script that was read from a file is not read again from a pipe, where one would wait for somebody to write.
+static void test_pipe(void **state) {
+    Player *player = *state;
+    Folder folder;
+    folder_open(&folder);
+    folder_write(&folder, "s.fl", "!a x=frame\n");
+    assert_int_equal(petri_load(player->session, folder_file(&folder, "s.fl")), PETRI_OK);
+    assert_int_equal(remove(folder_file(&folder, "s.fl")), 0);
+    assert_int_equal(mkfifo(folder_file(&folder, "s.fl"), 0600), 0);
+    alarm(60);
+    assert_int_equal(petri_reload(player->session, folder_file(&folder, "s.fl")), PETRI_INVALID);
+    alarm(0);
+    assert_non_null(strstr(player_told(player), "it is not a regular file"));
+    player_step(player, 2);
+    assert_text("the old one", player_tree(player), "!a x=1\n");
+    folder_close(&folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_lifetimes),
-        PLAYER_TEST(test_toggles_rewind),
-        PLAYER_TEST(test_performance_rewinds),
+        PLAYER_TEST(test_lifetimes), PLAYER_TEST(test_toggles_rewind), PLAYER_TEST(test_performance_rewinds),
+        PLAYER_TEST(test_null),      PLAYER_TEST(test_levels),         PLAYER_TEST(test_close_after_fork),
+        PLAYER_TEST(test_pipe),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

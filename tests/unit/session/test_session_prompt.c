@@ -6,7 +6,7 @@ static const char *const SCRIPT = "%pragma tempo 120\n"
                                   "    twice=frame*2\n"
                                   "func add(a, b=1)\n"
                                   "    a+b\n"
-                                  "!counter state=:c\n"
+                                  "!counter state=:c rate=1\n"
                                   "!shape n=COUNT\n";
 
 // What the prompt writes for a text.
@@ -63,13 +63,13 @@ static void test_kept(void **state) {
     };
     CHECK_TYPED(player, rows);
     player_step(player, 5);
-    assert_string_equal(player_tree(player), "!counter state=:c\n!shape n=3\n!extra v=7\n    !inner\n"
+    assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!shape n=3\n!extra v=7\n    !inner\n"
                                              "!loop i=0\n!loop i=1\n");
     assert_string_equal(typed(player, "k;a;b", PETRI_OK), "7;7;10\n");
     assert_string_equal(petri_prompt_statement(player->session, 0), "let k=COUNT+frame");
     assert_int_equal(petri_drop(player->session, false), 2);
     player_step(player, 1);
-    assert_string_equal(player_tree(player), "!counter state=:c\n!shape n=3\n");
+    assert_string_equal(player_tree(player), "!counter state=:c rate=1\n!shape n=3\n");
     assert_string_equal(typed(player, "k", PETRI_OK), "8\n");
     assert_int_equal(petri_drop(player->session, true), 3);
     assert_null(petri_prompt_statement(player->session, 0));

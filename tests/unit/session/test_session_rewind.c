@@ -117,7 +117,7 @@ static void test_interrupts(void **state) {
     player_reopen(player, &options);
     player_run(player,
                "func f(n)\n    if n > 0\n        f(n-1)+f(n-1)\n    else\n        1\n"
-               "!counter state=:c\n!a x=(f(26) if frame==3 else 0)",
+               "!counter state=:c rate=1\n!a x=(f(26) if frame==3 else 0)",
                3);
     check_interrupted(player);
     // The second system is interrupted when the first has been updated.

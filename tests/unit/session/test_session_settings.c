@@ -124,7 +124,7 @@ static void test_options(void **state) {
 
 static void test_load_starts_again(void **state) {
     Player *player = *state;
-    player_run(player, "%pragma fps 10\n!a v=frame;fps\n!counter state=:c\n", 5);
+    player_run(player, "%pragma fps 10\n!a v=frame;fps\n!counter state=:c rate=1\n", 5);
     assert_text("fifth", player_print(player, PETRI_PRINT_STATE), "$:c = 0.4\n$(:c;:time) = 0.4\n");
     player_run(player, "!a v=frame;fps;delta;$:c\n", 1);
     assert_text("pragmas are the script's own, the state stays", player_tree(player), "!a v=0;60;0;0.4\n");

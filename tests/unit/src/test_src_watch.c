@@ -102,6 +102,16 @@ static void test_removed_and_made_again(void **state) {
     assert_true(wait_changed(site->watch, PATIENCE_MS));
 }
 
+// What is not a file cannot be read again: to open a pipe waits for someone who writes.
+static void test_pipe_in_its_place(void **state) {
+    Site *site = *state;
+    folder_write(&site->folder, "a.fl", "1");
+    assert_true(watch_file(site->watch, folder_file(&site->folder, "a.fl")));
+    assert_int_equal(remove(folder_file(&site->folder, "a.fl")), 0);
+    assert_int_equal(mkfifo(folder_file(&site->folder, "a.fl"), 0600), 0);
+    assert_false(wait_changed(site->watch, QUIET_MS));
+}
+
 static void test_made_later(void **state) {
     Site *site = *state;
     assert_true(watch_file(site->watch, folder_file(&site->folder, "later.fl")));
@@ -181,6 +191,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_written_in_place, site_open, site_close),
         cmocka_unit_test_setup_teardown(test_replaced_by_rename, site_open, site_close),
         cmocka_unit_test_setup_teardown(test_removed_and_made_again, site_open, site_close),
+        cmocka_unit_test_setup_teardown(test_pipe_in_its_place, site_open, site_close),
         cmocka_unit_test_setup_teardown(test_made_later, site_open, site_close),
         cmocka_unit_test_setup_teardown(test_folder_made_again, site_open, site_close),
         cmocka_unit_test_setup_teardown(test_half_written, site_open, site_close),

@@ -1,0 +1,22 @@
+// fast_random.h: the raw generator of random streams in lanes.
+#ifndef PETRI_MATHS_FAST_RANDOM_H
+#define PETRI_MATHS_FAST_RANDOM_H
+
+#include "maths/lanes.h"
+
+KERNEL Bits bits_swap_halves(Bits x) {
+    return x << 32 | x >> 32;
+}
+
+// Items of five-round Squares (random.h): random_raw.
+KERNEL Bits raw_lanes(Bits key, Bits item) {
+    Bits y = item * key, z = y + key, x = y;
+    x = bits_swap_halves(x * x + y);
+    x = bits_swap_halves(x * x + z);
+    x = bits_swap_halves(x * x + y);
+    Bits t = x * x + z;
+    x = bits_swap_halves(t);
+    return t ^ ((x * x + y) >> 32);
+}
+
+#endif

@@ -1,0 +1,75 @@
+# inject.sh: each system call that has to do with a file fails in its turn. Part of ../cli/run.sh.
+#
+# strace makes the N-th call fail, for every N there is; the file must be the old or the new one, the run must say what
+# is wrong, and the next one must work. EINTR must not be noticed at all.
+
+cat >w.fl <<'END'
+!physics state=:c dimensions=2
+    for i in ..30
+        !particle id=i velocity=1;i
+END
+printf '!n a=1\n' >g.fl
+printf '# run --frames 1 --print tree\nold\n' >old.golden
+
+# sweep NAME FILE OLD GOOD COMMAND...: GOOD is a command that is true of the new file.
+sweep() {
+    what=$1 file=$2 old=$3 good=$4
+    shift 4
+    for call in openat openat2 newfstatat close read write fsync flock linkat renameat fchmod ftruncate; do
+        # Of calls that all programs make many of, those for the folder's files.
+        case $call in
+        openat | newfstatat | close) paths="-P $work/target -P $work/target/$file" ;;
+        *) paths= ;;
+        esac
+        for error in ENOSPC EIO EINTR; do
+            case $error$call in
+            EIOwrite | EIOfsync | ENOSPC* | EINTR*) ;;
+            *) continue ;;
+            esac
+            for n in 1 2 3 4 5 6 7 8 9 10; do
+                mkdir -p target
+                rm -f target/* target/.petri*
+                cp "$old" "target/$file"
+                # shellcheck disable=SC2086
+                timeout 100 strace -f -qq -o trace $paths -e trace=$call -e inject=$call:error=$error:when=$n \
+                    "$petri" "$@" >out 2>err </dev/null
+                status=$?
+                grep -q INJECTED trace || break
+                judge "$what: $call $n fails with $error"
+            done
+        done
+    done
+    rm -f target/.petri*
+    timeout 100 "$petri" "$@" >out 2>err </dev/null
+    status=$?
+    check "$what: and the next run works" eval 'status_is 0 && $good "target/$file"'
+}
+# What stands in the file after a call has failed: the old bytes, which is told, or the new ones.
+judge() {
+    now=damaged
+    ! $good "target/$file" || now=new
+    ! cmp -s "$old" "target/$file" || now=old
+    told=yes
+    ! empty err || ! empty out || grep -q 'write(2,.*INJECTED' trace || told=no
+    check "$1: $now" eval '[ $now = new ] || { [ $now = old ] && [ "$status" -ne 0 ] && [ $told = yes ]; }'
+    # The loader of programs does not try again, and nobody expects it of what only looks.
+    if [ $error = EINTR ] && [ $call != close ] && [ $call != newfstatat ] && lacks err "shared libraries"; then
+        check "$1, which does not matter" eval '[ $now = new ] && status_is 0'
+    fi
+}
+
+good_state() { tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
+good_csv() { [ "$(wc -l <"$1")" -eq 61 ]; }
+good_golden() { grep -qx '!n a=1' "$1"; }
+good_png() { tail -c 8 "$1" | grep -q IEND; }
+
+if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
+    petri run w.fl --frames 2 --state old.state
+    sweep state a.state old.state good_state run w.fl --frames 2 --threads 1 --quiet --state target/a.state
+    echo old >old.csv
+    sweep trajectory a.csv old.csv good_csv run w.fl --frames 2 --threads 1 --trajectory target/a.csv
+    petri render w.fl --frames 1 -o old.png
+    if [ "$status" -eq 0 ]; then
+        sweep picture a.png old.csv good_png render w.fl --frames 1 --threads 1 -o target/a.png
+    fi
+fi

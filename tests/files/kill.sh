@@ -1,0 +1,65 @@
+# kill.sh: kill -9 at any moment leaves the old file or the new one. Part of ../cli/run.sh.
+#
+# PETRI_KILLS processes are killed (20 if it is not set); `./dev kills` does 500.
+
+kills=${PETRI_KILLS:-20}
+cat >w.fl <<'END'
+!physics state=:c dimensions=2
+    for i in ..5000
+        !particle id=i velocity=1;i
+!window size=200
+    !canvas
+        for i in ..100
+            !ellipse point=2*i;$(:c;i)[1] radius=3 fill=true
+END
+sed 's/5000/200/' w.fl >few.fl
+echo old >old
+printf '# run --frames 40 --print state\nold\n' >old.golden
+cp few.fl g.fl
+
+good_state() { [ "$(tail -n 1 "$1" | cut -c1-4)" = "end " ] && [ "$(tail -c 1 "$1" | wc -l)" -eq 1 ]; }
+good_csv() { [ "$(wc -l <"$1")" -eq 50001 ]; }
+good_golden() { head -n 1 "$1" | grep -q '^# run' && [ "$(grep -c '^@' "$1")" -eq 40 ]; }
+good_png() { tail -c 8 "$1" | grep -q IEND; }
+good_film() { grep -q moov "$1"; }
+
+# kill_often NAME FILE OLD GOOD COMMAND...: a fifth of the kills, at moments spread over the command's time.
+kill_often() {
+    name=$1 file=$2 old=$3 good=$4
+    shift 4
+    cp "$old" "$file"
+    start=$(date +%s%N)
+    timeout 100 "$petri" "$@" >out 2>err </dev/null
+    status=$?
+    span=$((($(date +%s%N) - start) / 1000000))
+    check "$name: undisturbed" eval 'status_is 0 && $good "$file"'
+    damaged=0
+    i=0
+    while [ $i -lt $(((kills + 4) / 5)) ]; do
+        cp "$old" "$file"
+        "$petri" "$@" >out 2>err </dev/null &
+        job=$!
+        sleep "$(awk "BEGIN { print $span * ($i + 0.7) / (($kills + 4) / 5) / 1000 }")"
+        kill -9 $job 2>/dev/null
+        wait $job 2>/dev/null
+        cmp -s "$old" "$file" || $good "$file" || damaged=$((damaged + 1))
+        i=$((i + 1))
+    done
+    check "$name: killed, it is the old one or the new one" [ $damaged -eq 0 ]
+    timeout 100 "$petri" "$@" >out 2>err </dev/null
+    status=$?
+    check "$name: and the next run works" eval 'status_is 0 && $good "$file"'
+}
+
+petri run w.fl --frames 3 --state old.state
+kill_often state a.state old.state good_state run w.fl --frames 5 --state a.state
+kill_often trajectory a.csv old good_csv run w.fl --frames 10 --trajectory a.csv
+kill_often golden g.golden old.golden good_golden test --update g.fl
+petri render few.fl --frames 1 -o a.png
+if [ "$status" -eq 0 ]; then
+    kill_often picture a.png old good_png render few.fl --frames 20 -o a.png
+    if command -v ffmpeg >/dev/null; then
+        kill_often film a.mp4 old good_film render few.fl --frames 20 -o a.mp4
+    fi
+fi
+check "nothing is left" [ -z "$(find . -name '*.tmp')" ]

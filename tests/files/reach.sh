@@ -1,0 +1,147 @@
+# reach.sh: which files a script may use, and what goldens may ask for. Part of ../cli/run.sh.
+
+mkdir -p home/sub away elsewhere
+work=$(pwd -P)
+echo secret >away/secret.txt
+echo mine >home/mine.txt
+echo below >home/sub/below.txt
+echo 'let y=3' >away/module.fl
+ln -s ../away/secret.txt home/link.txt
+ln -s ../away home/folder
+ln -s sub/below.txt home/inside.txt
+ln -s "$work" away/back
+
+# reads EXPRESSION WANTED [OPTION...]: what a script in home makes of it.
+reads() {
+    printf '!n a=%s\n' "$1" >home/read.fl
+    wanted=$2
+    shift 2
+    petri run home/read.fl --frames 1 --print tree "$@"
+    [ "$(sed -n 2p out)" = "!n${wanted:+ a=$wanted}" ]
+}
+check "a script reads below its folder" reads "read('sub/below.txt')" "'below\\n'"
+check "… through a link that stays there" reads "read('inside.txt')" "'below\\n'"
+check "… by an absolute name" reads "read('$work/home/mine.txt')" "'mine\\n'"
+mkdir cwd
+echo here >cwd/here.txt
+ln -s ../home cwd/home
+cd cwd || exit 1
+for file in ../away/secret.txt link.txt folder/secret.txt /etc/passwd sub/../../away/secret.txt "$work/away/secret.txt" \
+    /proc/self/environ; do
+    printf '!n a=read("%s")\n' "$file" >home/read.fl
+    petri run home/read.fl --frames 1 --print tree
+    check "a script does not read $file" grep -qx '!n' out
+    check "… which names the place" grep -q 'read.fl:1:6: warning: .*a script may not read there' err
+    folder=$(sed -n "s/.*'--allow-read \([^']*\)' would allow it.*/\1/p" err | sed 's:/proc/.*:/proc:')
+    petri run home/read.fl --frames 1 --print tree --allow-read "$folder"
+    check "… unless it may: --allow-read $folder" grep -q '^!n a=' out
+    petri run home/read.fl --frames 1 --print tree --allow-read all
+    check "… or all may be read" grep -q '^!n a=' out
+done
+printf '!n a=read("../cwd/here.txt")\n' >home/read.fl
+petri run home/read.fl --frames 1 --print tree
+check "the current folder may be read" grep -q '^!n a=' out
+mkdir far
+cd far || exit 1
+printf '!n a=glob("../*.txt") b=glob("folder/*") c=csv("../cwd/here.txt",0)\n' >../home/glob.fl
+petri run ../home/glob.fl --frames 2 --print tree
+check "neither glob nor csv look further" grep -qx '!n' out
+check "… each told once" [ "$(grep -c 'a script may not read there' err)" -eq 3 ]
+printf 'import y from "../cwd/here.fl"\n%%include "../cwd/here.fl"\n!n a=y\n' >../home/import.fl
+echo 'let y=4' >../here.fl
+petri run ../home/import.fl --frames 1 --print tree
+check "neither import nor include" grep -qx '!n' out
+check "… told" [ "$(grep -c 'a script may not read there' err)" -eq 2 ]
+petri run ../home/import.fl --frames 1 --print tree --allow-read ..
+check "… unless they may" grep -qx '!n a=4' out
+printf '!n a=read("mine.txt") b=glob("*")\n%%include "glob.fl"\n' >../home/none.fl
+petri run ../home/none.fl --frames 1 --print tree --no-files
+check "--no-files: none at all" grep -qx '!n' out
+check "… told" [ "$(grep -c 'scripts may use no files here (--no-files)' err)" -eq 3 ]
+petri run ../home/none.fl --allow-read /no/such/folder
+check "--allow-read wants a folder" status_is 2
+petri check ../home/glob.fl
+check "petri check tells as well" [ "$(grep -c 'a script may not read there' err)" -eq 3 ]
+if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
+    # file_without_openat2 FILE: read on a system that has no such call.
+    file_without_openat2() {
+        printf '!n a=read("%s")\n' "$1" >../home/old.fl
+        strace -f -qq -o trace -e trace=openat2 -e inject=openat2:error=ENOSYS "$petri" run ../home/old.fl --frames 1 \
+            --print tree >out 2>err
+    }
+    file_without_openat2 sub/below.txt
+    check "without openat2 it is the same" eval 'grep -q "a=.below" out && has trace INJECTED'
+    file_without_openat2 ../cwd/here.txt
+    check "… and so is what is refused" grep -qx '!n' out
+fi
+cd "$work" || exit 1
+
+printf '!window size=40\n    !canvas\n        !rect size=10 fill=true color=1\n' >disc.fl
+petri render disc.fl --frames 1 -o disc.png
+if [ "$status" -eq 0 ]; then # this build has Cairo
+    # record NAME [OPTION...]: a script in home records there.
+    record() {
+        printf '!window size=40\n    !record filename="%s"\n    !canvas\n        !rect size=10\n' "$1" >home/record.fl
+        shift
+        petri render home/record.fl --frames 1 -o shown.png "$@"
+    }
+    echo keep >away/keep.png
+    ln -s ../away/keep.png home/link.png
+    ln -s ../away/new.png home/dangling.png
+    ln -s sub/there.png home/stays.png
+    mkfifo home/pipe.png
+    ls -l away >before
+    for file in ../away/keep.png ../away/new.png link.png dangling.png folder/keep.png "$work/away/new.png" ../new.png \
+        sub/../../away/new.png folder/back/new.png; do
+        record "$file"
+        check "a script does not write $file" status_is 1
+        check "… told once with its place, and what would allow it" \
+            [ "$(grep -c "record.fl:2:1[0-9]: error: !record: cannot write .*'--allow-write $work[/a-z]*' would allow it" err)" -eq 1 ]
+        ls -l away >after
+        check "… and nothing is written" eval 'cmp -s before after && [ ! -e new.png ]'
+    done
+    record pipe.png
+    check "nor a pipe" eval 'status_is 1 && [ -p home/pipe.png ]'
+    record ../away/new.png --allow-read "$work/away"
+    check "--allow-read is none to write" status_is 1
+    for file in own.png sub/own.png stays.png; do
+        record "$file"
+        check "a script writes below its folder: $file" eval 'status_is 0 && [ -s "home/$file" ]'
+    done
+    check "… where a link leads that stays there" eval '[ -L home/stays.png ] && [ -s home/sub/there.png ]'
+    record ../away/new.png --allow-write away
+    check "… and where it may: --allow-write" eval 'status_is 0 && [ -s away/new.png ]'
+    record link.png --allow-write away
+    check "… through a link, which stays" eval 'status_is 0 && [ -L home/link.png ] && grep -q PNG away/keep.png'
+    record own.png --no-files
+    check "--no-files: nothing is written" status_is 1
+    petri render home/record.fl --frames 1 -o away/named.png --no-files
+    check "… but what the command line names" status_is 1
+    petri render disc.fl --frames 1 -o away/named.png --no-files
+    check "… is written anywhere" eval 'status_is 0 && [ -s away/named.png ]'
+    printf '!window size=40\n    !canvas\n        !image filename="../disc.png"\n        !rect size=5\n' >home/image.fl
+    cd cwd || exit 1
+    petri render ../home/image.fl --frames 1 -o image.png
+    check "an image out of reach is left out" eval 'status_is 0 && grep -q "image.fl:3:16: warning: !image: cannot read" err'
+    petri render ../home/image.fl --frames 1 -o allowed.png --allow-read ..
+    check "… and drawn where it may be" eval 'status_is 0 && empty err && ! cmp -s image.png allowed.png'
+    cd "$work" || exit 1
+fi
+
+# The first line of a golden is a stranger's, too.
+mkdir -p golden
+echo '!n' >golden/t.fl
+echo keep >elsewhere/victim.csv
+for options in '--trajectory ../elsewhere/victim.csv' '--state ../elsewhere/new.state' '--state=../elsewhere/new.state' \
+    '--allow-write ..' '--every 1 --frames=1 --state x' '-D a=1 --show'; do
+    printf '# run --frames 2 %s\n' "$options" >golden/t.golden
+    petri test golden/t.fl
+    check "a golden with $options fails" status_is 1
+    check "… and says why" has out "is not for goldens: tests write no files"
+    petri test --update golden/t.fl
+    check "… is not updated either" status_is 1
+    check "… and writes nothing" eval '[ "$(cat elsewhere/*)" = keep ]'
+done
+printf '# run --frames 1 -D a=--state --allow-read .. --print tree\n@0 time=0 beat=0\n!n\n' >golden/t.golden
+petri test golden/t.fl
+check "a golden may have those that read, and values like them" status_is 0

@@ -1,0 +1,83 @@
+# replace.sh: files are replaced as a whole; what is no regular file is written to. Part of ../cli/run.sh.
+
+nothing_beside() { [ -z "$(find . -name '*.tmp')" ]; }
+mode_of() { ls -ld "$1" | cut -c1-10; }
+mkdir g
+printf '!n a=frame\n' >g/t.fl
+printf '# run --frames 1 --print tree\n@0 time=0 beat=0\n!n a=0\n' >g/t.golden
+
+for device in null full; do
+    before=$(ls -l /dev/$device)
+    petri test --junit /dev/$device g
+    check "--junit /dev/$device leaves the device" [ "$before" = "$(ls -l /dev/$device)" ]
+done
+check "… and tells that it is full" eval 'status_is 1 && has err "cannot write /dev/full: No space left on device"'
+petri test --junit /dev/stdout g
+check "--junit /dev/stdout goes to standard output" eval 'status_is 0 && has out "<testsuite" && has out "1 passed"'
+timeout 100 "$petri" test --junit /dev/stdout g 2>err </dev/null | cat >out
+check "… to a pipe as well" eval 'has out "<testsuite" && has out "1 passed"'
+mkfifo pipe
+cat pipe >got &
+petri test --junit pipe g
+wait
+check "--junit to a pipe with a name" eval '[ -p pipe ] && has got "<testsuite"'
+mkdir folder
+petri test --junit folder g
+check "--junit to a folder is an error" eval 'status_is 1 && has err "Is a directory" && [ -d folder ]'
+echo old >real
+chmod 640 real
+ln -s real link
+petri test --junit link g
+check "a symbolic link stays one" eval '[ -L link ] && has real "<testsuite"'
+check "permissions stay" [ "$(mode_of real)" = -rw-r----- ]
+ln -s nowhere dangling
+petri test --junit dangling g
+check "… one that leads nowhere as well" eval '[ -L dangling ] && has nowhere "<testsuite"'
+ln -s round round
+petri test --junit round g
+check "links in a circle are told" eval 'status_is 1 && has err "Too many levels of symbolic links"'
+(umask 077 && timeout 100 "$petri" test --junit private g >out 2>err)
+check "new files have the permissions of the umask" [ "$(mode_of private)" = -rw------- ]
+if [ "$(id -u)" -eq 0 ] && chown 12:34 real 2>/dev/null; then
+    petri test --junit real g
+    check "root keeps the owner" eval 'ls -ln real | grep -q " 12 *34 "'
+fi
+
+cp g/t.golden kept
+printf '!n a=1\n' >g/t.fl
+chmod 600 g/t.golden
+mv g/t.golden g/recorded
+ln -s recorded g/t.golden
+petri test --update g/t.fl
+check "goldens are updated through links" eval '[ -L g/t.golden ] && has g/recorded "!n a=1" && [ "$(mode_of g/recorded)" = -rw------- ]'
+printf '!n a=2\n' >g/t.fl
+(
+    ulimit -f 0
+    exec timeout 100 "$petri" test --update g/t.fl >out 2>err </dev/null
+)
+check "a golden that the disk cannot hold stays as it was" has g/recorded "!n a=1"
+
+petri run g/t.fl --frames 3 --state link.state
+ln -s s.state link2.state
+petri run g/t.fl --frames 3 --state link2.state
+check "a state is kept through a link" eval '[ -L link2.state ] && has s.state petri-state'
+chmod 600 s.state
+petri run g/t.fl --frames 3 --state link2.state
+check "… with its permissions" [ "$(mode_of s.state)" = -rw------- ]
+printf '!physics state=:c dimensions=2\n    !particle id=1 velocity=1\n' >p.fl
+mkfifo way.csv
+cat way.csv >got &
+petri run p.fl --frames 3 --trajectory way.csv
+wait
+check "a trajectory may go to a pipe" eval 'status_is 0 && [ -p way.csv ] && lines_are got 4'
+petri new g/t
+check "petri new leaves what is there" eval 'status_is 1 && has g/t.fl "!n a=2"'
+check "nothing is left" nothing_beside
+# What a run that was killed has left goes with the next file; what is not ours, or not left, stays.
+mkdir left
+: >left/.petri-0123456789abcdef.tmp
+: >left/.petri-mine.tmp
+echo old >left/results
+petri test --junit left/results g
+check "what was left behind is cleared away" eval '[ "$(ls -A left | tr "\n" " ")" = ".petri-mine.tmp results " ]'
+rm left/.petri-mine.tmp

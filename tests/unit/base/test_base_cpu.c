@@ -1,0 +1,43 @@
+// test_base_cpu.c: PETRI_CPU lowers what the processor has. Also run with PETRI_CPU=scalar and with a word that is
+// none.
+#include "check.h"
+
+#include "base/cpu.h"
+
+#include <stdlib.h>
+
+static void test_here(void **state) {
+    (void)state;
+    const char *wish = getenv("PETRI_CPU");
+    if (wish && !strcmp(wish, "scalar")) {
+        assert_int_equal(cpu_here.level, CPU_SCALAR);
+        assert_false(cpu_here.fma);
+        return;
+    }
+#if defined(__x86_64__)
+    assert_int_equal(cpu_here.level > CPU_SCALAR, __builtin_cpu_supports("avx2") != 0);
+    assert_int_equal(cpu_here.fma, cpu_here.level > CPU_SCALAR && __builtin_cpu_supports("fma"));
+#endif
+}
+
+static void test_choices(void **state) {
+    (void)state;
+    static const struct {
+        const char *wish;
+        bool known;
+        CpuLevel at_most;
+    } rows[] = {
+        {NULL, true, CPU_AVX512}, {"", true, CPU_AVX512},       {"scalar", true, CPU_SCALAR},
+        {"avx2", true, CPU_AVX2}, {"avx512", true, CPU_AVX512}, {"none", false, CPU_AVX512},
+    };
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        CpuLevel level;
+        assert_int_equal(cpu_choose(rows[i].wish, &level), rows[i].known);
+        assert_int_equal(level, cpu_here.level < rows[i].at_most ? cpu_here.level : rows[i].at_most);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_here), cmocka_unit_test(test_choices)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

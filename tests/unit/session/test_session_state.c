@@ -1,0 +1,102 @@
+// test_session_state.c: what petri_restore takes of a state file. Each has the line at its end that vouches for it, as
+// a file has that was made on purpose.
+#include "folder.h"
+#include "player.h"
+
+#include "base/table.h"
+
+#include <inttypes.h>
+
+static const char SCRIPT[] =
+    "!physics state=:s dimensions=1\n    !particle id=1 velocity=1\n!counter state=:n rate=60\n";
+
+typedef struct StateRow {
+    const char *body; // behind the first line
+    PetriStatus status;
+    const char *state; // after the next frame
+    const char *told;
+} StateRow;
+
+static PetriStatus restore(Player *player, Folder *folder, const char *body) {
+    char text[400], end[40];
+    snprintf(text, sizeof text, "petri-state 1\n%s", body);
+    snprintf(end, sizeof end, "end %016" PRIx64 "\n", hash_bytes(0, text, strlen(text)));
+    strcat(text, end);
+    folder_write(folder, "s.state", text);
+    PetriOptions options = player_options(player);
+    player_reopen(player, &options);
+    assert_int_equal(player_load(player, SCRIPT), PETRI_OK);
+    return petri_restore(player->session, folder_file(folder, "s.state"));
+}
+
+// The message without the file's folder, which is another each time.
+static const char *told(Player *player) {
+    static char text[400];
+    const char *quote = strchr(player->told.text, '\''), *slash = quote ? strrchr(quote, '/') : NULL;
+    if (slash)
+        snprintf(text, sizeof text, "%.*s%s", (int)(quote - player->told.text + 1), player->told.text, slash + 1);
+    else
+        snprintf(text, sizeof text, "%s", player->told.text);
+    return text;
+}
+
+static void test_files(void **state) {
+    static const char damaged[] =
+        "error cannot take the state from 's.state': it is cut short or damaged [state-file]\n";
+    static const StateRow rows[] = {
+        {"frame 9\n$(:n) = 7\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 17\n", ""},
+        {"frame 9\n$(:t) = 'caf\xc3\xa9'\n", PETRI_OK, "$:t = 'caf\xc3\xa9'\n", ""},
+        // Text that is no UTF-8: in a value, in a key, as a symbol.
+        {"frame 9\n$(:t) = 'caf\xe9'\n", PETRI_INVALID, "", damaged},
+        {"frame 9\n$('\xf0\x28\x8c\x28') = 1\n", PETRI_INVALID, "", damaged},
+        {"frame 9\n$(:\xa0\xa0) = 1\n", PETRI_INVALID, "", damaged},
+        // Nothing that is not finite reaches the state; what depends on it starts anew.
+        {"frame 9\n$(:n) = inf\n$(:n;:time) = 0\n", PETRI_OK, "$:n = 0\n",
+         "warning 1 of the values in 's.state' are not finite and are left out [state-file]\n"},
+        {"frame 9\n$(:n) = 1\n$(:n;:time) = nan\n$(:s;:clock) = -inf\n$(:x) = 1;nan\n", PETRI_OK, "$:n = 1\n",
+         "warning 3 of the values in 's.state' are not finite and are left out [state-file]\n"},
+        // Numbers of frames that no int and no double can count.
+        {"frame 2147483647\n", PETRI_OK, "$(:n;:time) = 35791394.13333333\n", ""},
+        {"frame 4503599627370496\n", PETRI_OK, "$(:n;:time) = 75059993789508.28\n", ""},
+        {"frame 9007199254740993\n", PETRI_OK, "$(:n;:time) = 150119987579016.56\n", ""},
+        {"frame 99999999999999999\n", PETRI_OK, "$(:n;:time) = 1666666666666666.8\n", ""},
+        {"frame 999999999999999999\n", PETRI_INVALID, "", damaged},
+        {"frame 9223372036854775807\n", PETRI_INVALID, "", damaged},
+        {"frame -7\n", PETRI_INVALID, "", damaged},
+        {"frame 1-2\n", PETRI_INVALID, "", damaged},
+        {"frame 0\n$(nan) = 1\n", PETRI_INVALID, "", damaged},
+    };
+    Player *player = *state;
+    Folder folder;
+    folder_open(&folder);
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        assert_int_equal(restore(player, &folder, rows[i].body), rows[i].status);
+        assert_text(rows[i].body, told(player), rows[i].told);
+        player_step(player, 1);
+        const char *found = player_state(player);
+        if (!strstr(found, rows[i].state))
+            assert_text(rows[i].body, found, rows[i].state);
+        assert_null(strstr(found, "inf"));
+        assert_null(strstr(found, "nan"));
+    }
+    folder_close(&folder);
+}
+
+// Frames count on where a double cannot, and are saved so.
+static void test_frame_numbers(void **state) {
+    Player *player = *state;
+    Folder folder;
+    folder_open(&folder);
+    assert_int_equal(restore(player, &folder, "frame 9007199254740993\n"), PETRI_OK);
+    player_step(player, 2);
+    assert_int_equal(petri_frame(player->session).number, INT64_C(9007199254740995));
+    assert_int_equal(petri_save(player->session, folder_file(&folder, "t.state")), PETRI_OK);
+    assert_int_equal(petri_restore(player->session, folder_file(&folder, "t.state")), PETRI_OK);
+    assert_int_equal(petri_frame(player->session).number, INT64_C(9007199254740995));
+    folder_close(&folder);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {PLAYER_TEST(test_files), PLAYER_TEST(test_frame_numbers)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
