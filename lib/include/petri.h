@@ -280,7 +280,7 @@ bool petri_drawable(PetriSession *session);
 // beyond the last. Texts live as long as the library.
 typedef struct PetriNodeKind {
     const char *name; // without the `!`
-    const char *area; // "physics" or "canvas"; `group` is a kind of both
+    const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
     const char *help;
 } PetriNodeKind;
 

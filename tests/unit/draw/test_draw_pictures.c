@@ -110,7 +110,7 @@ static void test_choice(void **state) {
     player_run(player, "!x\n", 1);
     assert_false(petri_drawable(player->session));
     take(player, options, PETRI_INVALID);
-    player_run(player, "!window size=3;3\n    !canvas3d\n!offscreen size=4;4\n    !canvas\n", 1);
+    player_run(player, "!window size=3;3\n    !video\n!offscreen size=4;4\n    !canvas\n", 1);
     assert_true(petri_drawable(player->session));
     check_size(player, options, 4, 4);
     options.window = 0;
