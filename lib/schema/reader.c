@@ -391,7 +391,7 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
     case SHAPE_LIST:
         return read_numbers(reader, v, false, attr);
     case SHAPE_SEED:
-        attr->as.numbers[0] = (double)(int64_t)value_exact_hash(v) / 281474976710656.0;
+        attr->as.numbers[0] = (double)(int64_t)value_exact_hash(reader->arena, v) / 281474976710656.0;
         return true;
     case SHAPE_FLAG:
         attr->as.flag = value_true(v);

@@ -10,6 +10,7 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/pass_on.h"
+#include "main/commands.h"
 
 #ifdef PETRI_PICTURES
 const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
@@ -40,20 +41,20 @@ static bool is_script_without_suffix(const char *word) {
 }
 
 static int unknown_command(const char *word) {
-    Nearest nearest = {.word = word};
+    StrNearest nearest = nearest_start(word);
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
         nearest_offer(&nearest, COMMANDS[i]->name);
     }
     if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
-        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.name);
+        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.found.bytes);
         return STATUS_USAGE;
     }
     if (word[0] == '\0') {
         message("the name of the script is empty");
     } else if (is_script_without_suffix(word)) {
         message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
-    } else if (nearest.name != NULL) {
-        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.name);
+    } else if (nearest.found.bytes != NULL) {
+        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.found.bytes);
     } else {
         message("there is no command and no file '%s'; 'petri help' lists the commands", word);
     }
@@ -71,7 +72,7 @@ static int dispatch(const Host *host, int argc, char **argv) {
         return pass_on(argv);
     }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
-        return help_overview();
+        return help_overview(COMMANDS);
     }
     if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0) {
         return help_version();
@@ -124,6 +125,9 @@ static bool run_on_large_stack(Job *job) {
                        pthread_create(&thread, &attributes, run_job, job) == 0;
         pthread_attr_destroy(&attributes);
         if (started) {
+            sigset_t all; // signals go to the thread that works
+            sigfillset(&all);
+            pthread_sigmask(SIG_BLOCK, &all, NULL);
             return pthread_join(thread, NULL) == 0;
         }
     }

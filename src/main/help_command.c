@@ -8,8 +8,9 @@
 #include "cli/cli.h"
 #include "cli/help.h"
 #include "cli/options.h"
-#include "cli/topics.h"
+#include "main/commands.h"
 #include "petri.h"
+#include "repl/repl.h"
 
 enum { ATTRIBUTE_COLUMN = 22, BUILTIN_COLUMN = 38 };
 
@@ -75,7 +76,7 @@ static bool tell_option(Output *output, const char *word) {
 }
 
 static int unknown_topic(const char *topic) {
-    Nearest nearest = {.word = topic};
+    StrNearest nearest = nearest_start(topic);
     for (size_t i = 0; COMMANDS[i] != NULL; i++) {
         nearest_offer(&nearest, COMMANDS[i]->name);
     }
@@ -83,12 +84,21 @@ static int unknown_topic(const char *topic) {
     nearest_offer(&nearest, "nodes");
     nearest_offer(&nearest, "version");
     topics_offer(&nearest);
-    if (nearest.name != NULL) {
-        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest.name);
+    if (nearest.found.bytes != NULL) {
+        message("there is no help on '%.60s', did you mean 'petri help %s'?", topic, nearest.found.bytes);
     } else {
         message("there is no help on '%.60s'; 'petri help' tells what there is help on", topic);
     }
     return STATUS_USAGE;
+}
+
+// Tells of a command of the prompt; false if there is none of this name.
+static bool help_prompt(Output *output, const char *name) {
+    const ReplCommand *command = repl_find_command(name, strlen(name));
+    if (command != NULL) {
+        output_format(output, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
+    }
+    return command != NULL;
 }
 
 static int help_word(const char *topic) {
@@ -128,7 +138,7 @@ static int help_run(const Host *host, Options *options) {
         message("help is given on one thing at a time; '%s' is too many", words[1]);
         return STATUS_USAGE;
     }
-    return options->argc == 0 ? help_overview() : help_topic(words[0]);
+    return options->argc == 0 ? help_overview(COMMANDS) : help_topic(words[0]);
 }
 
 const Command HELP_COMMAND = {
