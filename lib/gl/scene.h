@@ -32,6 +32,7 @@ typedef struct SceneModel {
     uint8_t remap;
     bool flat;
     bool invert;
+    const DrawNode *node; // one that has it
 } SceneModel;
 
 // Pictures over a surface, and how they are read.
@@ -99,7 +100,6 @@ typedef struct Scene {
     uint32_t camera_count;
     uint32_t camera_room;
     SceneModel *models;
-    const DrawNode **model_nodes; // one that each is made from
     uint32_t model_count;
     uint32_t model_room;
     SceneTextures *textures; // number 0 has none
@@ -119,7 +119,8 @@ Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int
 Eye scene_eye(const Scene *scene, const SceneCamera *camera);
 // The triangles of a model, in the arena; none, after a report, if they cannot be made.
 struct Mesh;
-bool scene_mesh(const Scene *scene, uint32_t model, Arena *arena, struct Mesh *mesh);
+bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
+bool scene_same_model(const SceneModel *a, const SceneModel *b);
 // The lights that shine in a group, up to `most`; how many.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most);
 

@@ -19,7 +19,6 @@ typedef struct Drawing {
     Matrix view;
     Matrix projection;
     SceneOrder order;
-    const SceneShape **shapes;
     uint32_t group; // that is set
     bool many;      // lights are in a texture
 } Drawing;
@@ -211,7 +210,9 @@ static void draw_all(Drawing *drawing) {
     int textured = -1;
     for (uint32_t i = 0; i < drawing->order.draw_count; i++) {
         const SceneDraw *draw = &drawing->order.draws[i];
-        const SceneShape *shape = drawing->shapes[draw->model];
+        SceneModel model = scene->models[draw->model];
+        model.segments = draw->segments;
+        const SceneShape *shape = gl_store_shape(drawing->store, scene, &model);
         if (draw->group != group) {
             group = draw->group;
             ArenaMark mark = arena_mark(scene->arena);
@@ -283,12 +284,9 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     drawing.view = matrix_view(&drawing.eye);
     drawing.projection = matrix_projection(&drawing.eye);
     SceneBox *boxes = arena_alloc_array(scene->arena, scene->model_count, sizeof *boxes);
-    drawing.shapes = arena_alloc_array(scene->arena, scene->model_count, sizeof *drawing.shapes);
-    for (uint32_t i = 0; i < scene->model_count; i++) {
-        drawing.shapes[i] = gl_store_shape(drawing.store, scene, i);
-        boxes[i] = drawing.shapes[i]->box;
-    }
-    drawing.order = scene_order(scene, &drawing.view, &drawing.projection, boxes);
+    for (uint32_t i = 0; i < scene->model_count; i++)
+        boxes[i] = gl_store_shape(drawing.store, scene, &scene->models[i])->box;
+    drawing.order = scene_order(scene, &drawing.view, &drawing.projection, camera->width, boxes);
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", KIND_CANVAS3D,
                      "a picture can show 50 million triangles; the others are left out");

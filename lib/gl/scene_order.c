@@ -7,6 +7,7 @@
 
 typedef struct Sorted {
     double depth;
+    uint32_t segments;
     uint32_t instance;
     uint32_t rank; // of its model and textures; UINT32_MAX: transparent, in a group that sorts
 } Sorted;
@@ -70,13 +71,15 @@ static bool is_transparent(const Scene *scene, const SceneInstance *instance) {
 }
 
 static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count) {
+    enum { MOST_SPLIT = 2000 }; // a draw takes time, too
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
         const SceneInstance *instance = &group->instances[sorted[i].instance];
         bool last = sorted[i].rank == UINT32_MAX;
         SceneDraw *draw = order->draw_count ? &order->draws[order->draw_count - 1] : NULL;
         if (!draw || draw->group != number || draw->model != instance->model ||
-            draw->textures != instance->material->textures || draw->transparent != last) {
+            draw->textures != instance->material->textures || draw->transparent != last ||
+            (draw->segments != sorted[i].segments && order->draw_count < MOST_SPLIT)) {
             order->draws = arena_room(scene->arena, order->draws, order->draw_count, &order->draw_room, sizeof *draw);
             draw = &order->draws[order->draw_count++];
             *draw = (SceneDraw){.group = number,
@@ -86,11 +89,32 @@ static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, co
                                 .first = order->count};
         }
         draw->count++;
+        draw->segments = draw->segments > sorted[i].segments ? draw->segments : sorted[i].segments;
         order->instances[order->count++] = instance;
     }
 }
 
-SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, const SceneBox *boxes) {
+// How many pixels an edge of 1 of a model has where it is nearest, `scale` being that at a distance of 1.
+static double pixels_of(const Matrix *placed, double depth, bool perspective, double scale) {
+    double most = 0;
+    for (int column = 0; column < 3; column++)
+        most = fmax(most, vector_dot(placed->m + 4 * column, placed->m + 4 * column));
+    return perspective ? scale * sqrt(most) / fmax(depth, 1e-9) : scale * sqrt(most);
+}
+
+// Segments of a sphere that is so large: as few as leave no edge off by more than a fifth of a pixel.
+static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
+    const SceneModel *model = &scene->models[instance->model];
+    const double OFF = 4.93; // of radius / segments²: the arc beyond its chord
+    bool plain = model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
+    uint32_t segments = model->segments;
+    while (plain && segments >= 32 && segments % 8 == 0 && pixels * OFF < 0.2 * (segments / 2.0) * (segments / 2.0))
+        segments /= 2;
+    return segments;
+}
+
+SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, int width,
+                       const SceneBox *boxes) {
     SceneOrder order = {.instances = arena_alloc_array(scene->arena, scene->instance_count, sizeof *order.instances)};
     Sorted *sorted = arena_alloc_array(scene->arena, scene->instance_count, sizeof *sorted);
     size_t pairs = (size_t)scene->model_count * scene->texture_count;
@@ -118,7 +142,9 @@ SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *pro
                 continue;
             }
             order.triangles += box->triangles;
+            double pixels = pixels_of(&placed, -most, projection->m[11] != 0, fabs(projection->m[0]) * width / 2);
             sorted[count++] = (Sorted){.depth = sorts ? -most : 0,
+                                       .segments = segments_of(scene, instance, pixels),
                                        .instance = i,
                                        .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
         }

@@ -21,6 +21,7 @@ typedef struct SceneDraw {
     bool transparent; // drawn last, from back to front
     uint32_t first;
     uint32_t count;
+    uint32_t segments; // of the model: fewer than it has where that looks the same
 } SceneDraw;
 
 typedef struct SceneOrder {
@@ -33,7 +34,8 @@ typedef struct SceneOrder {
     bool cut; // some are left out, since there are too many triangles
 } SceneOrder;
 
-// Of all groups; `boxes` has one for each model.
-SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, const SceneBox *boxes);
+// Of all groups in a picture of a width; `boxes` has one for each model.
+SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, int width,
+                       const SceneBox *boxes);
 
 #endif

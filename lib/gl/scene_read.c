@@ -258,7 +258,7 @@ static uint64_t source_of(const Scene *scene, const DrawNode *node) {
     return hash_bytes(seed, version.bytes, version.len) | 1;
 }
 
-static bool same_model(const SceneModel *a, const SceneModel *b) {
+bool scene_same_model(const SceneModel *a, const SceneModel *b) {
     return a->kind == b->kind && a->segments == b->segments && a->source == b->source && a->flat == b->flat &&
            a->invert == b->invert && a->remap == b->remap && a->uv_map == b->uv_map && a->snap == b->snap;
 }
@@ -267,6 +267,7 @@ static bool same_model(const SceneModel *a, const SceneModel *b) {
 static uint32_t number_model(Scene *scene, const DrawNode *node) {
     NodeKind kind = (NodeKind)node->kind;
     SceneModel model = {.kind = node->kind,
+                        .node = node,
                         .snap = clamp(draw_number(node, ATTR_SNAP_EDGES), 0, 0.5),
                         .flat = draw_flag(node, ATTR_FLAT),
                         .invert = draw_flag(node, ATTR_INVERT),
@@ -282,18 +283,14 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
         model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MOST_SEGMENTS);
     }
     for (uint32_t i = scene->model_count; i-- > 0;)
-        if (same_model(&scene->models[i], &model))
+        if (scene_same_model(&scene->models[i], &model))
             return i;
     if (scene->model_count >= SCENE_MOST_MODELS) {
         scene_report(scene, "too-many-models", kind, "a scene can have 2000 different models; the others are left out");
         return UINT32_MAX;
     }
-    uint32_t room = scene->model_room;
     scene->models = arena_room(scene->arena, scene->models, scene->model_count, &scene->model_room, sizeof model);
-    scene->model_nodes =
-        arena_room(scene->arena, scene->model_nodes, scene->model_count, &room, sizeof *scene->model_nodes);
     scene->models[scene->model_count] = model;
-    scene->model_nodes[scene->model_count] = node;
     return scene->model_count++;
 }
 
@@ -387,8 +384,7 @@ uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most
     return count;
 }
 
-static bool read_triangles(const Scene *scene, uint32_t number, Arena *arena, Mesh *mesh) {
-    const DrawNode *node = scene->model_nodes[number];
+static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME), *vertices = draw_attr(node, ATTR_VERTICES),
                     *faces = draw_attr(node, ATTR_FACES), *uv = draw_attr(node, ATTR_UV);
     const char *problem = NULL;
@@ -414,10 +410,9 @@ static bool read_triangles(const Scene *scene, uint32_t number, Arena *arena, Me
     return false;
 }
 
-bool scene_mesh(const Scene *scene, uint32_t number, Arena *arena, Mesh *mesh) {
-    const SceneModel *model = &scene->models[number];
+bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
     *mesh = (Mesh){.vertices = NULL};
-    if (model->kind == KIND_MODEL && !read_triangles(scene, number, arena, mesh))
+    if (model->kind == KIND_MODEL && !read_triangles(scene, model->node, arena, mesh))
         return false;
     if (model->kind != KIND_MODEL)
         *mesh = model->kind == KIND_BOX        ? mesh_box(arena, model->uv_map == UV_REPEAT)

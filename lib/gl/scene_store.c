@@ -99,14 +99,9 @@ static void send(SceneShape *shape, const Mesh *mesh) {
     shape->index_count = (GLsizei)mesh->index_count;
 }
 
-static bool same_model(const SceneModel *a, const SceneModel *b) {
-    return a->kind == b->kind && a->segments == b->segments && a->source == b->source && a->flat == b->flat &&
-           a->invert == b->invert && a->remap == b->remap && a->uv_map == b->uv_map && a->snap == b->snap;
-}
-
-const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, uint32_t model) {
+const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, const SceneModel *model) {
     for (SceneKept *kept = store->kept; kept; kept = kept->next)
-        if (same_model(&kept->model, &scene->models[model])) {
+        if (scene_same_model(&kept->model, model)) {
             kept->used = store->now;
             if (kept->shape.array || kept->model.kind != KIND_MODEL)
                 return &kept->shape;
@@ -117,7 +112,7 @@ const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, uint32_t mo
     SceneKept *kept = calloc(1, sizeof *kept);
     if (!kept)
         arena_exhausted(scene->arena);
-    *kept = (SceneKept){.next = store->kept, .model = scene->models[model], .used = store->now};
+    *kept = (SceneKept){.next = store->kept, .model = *model, .used = store->now};
     store->kept = kept; // from here on it is freed with the store
     forget_old(store);
     if (scene_mesh(scene, model, scene->arena, &mesh)) {

@@ -41,7 +41,7 @@ struct GlStore {
 // NULL if memory is used up.
 GlStore *gl_store(Gl *gl);
 // The triangles of a model: made when they are first needed, kept while scenes have them.
-const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, uint32_t model);
+const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, const SceneModel *model);
 // NULL if the GPU cannot do that.
 SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples, GlFormat format);
 // Sets the attributes of instances of the shape that is bound to those at a number in the buffer.
