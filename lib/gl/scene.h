@@ -10,8 +10,16 @@
 
 enum { SCENE_TEXTURES = 6, SCENE_MOST_INSTANCES = 200000, SCENE_MOST_MODELS = 2000, SCENE_MOST_LIGHTS = 4000 };
 
-// As the shader has it: four vectors.
-typedef enum LightKind { LIGHT_AMBIENT, LIGHT_DIRECTIONAL, LIGHT_SPOT, LIGHT_POINT, LIGHT_LINE } LightKind;
+// As the shader has it: four vectors. A ball is a point with a radius.
+typedef enum LightKind {
+    LIGHT_AMBIENT,
+    LIGHT_DIRECTIONAL,
+    LIGHT_SPOT,
+    LIGHT_POINT,
+    LIGHT_BALL,
+    LIGHT_LINE,
+    LIGHT_KINDS
+} LightKind;
 typedef struct SceneLight {
     float color[3];
     float kind;

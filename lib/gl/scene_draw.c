@@ -19,8 +19,9 @@ typedef struct Drawing {
     Matrix view;
     Matrix projection;
     SceneOrder order;
-    uint32_t group; // that is set
-    bool many;      // lights are in a texture
+    bool many;                   // lights of the group are in a texture
+    double ambient[3];           // of its lights
+    GLint ends[LIGHT_KINDS - 1]; // where those of other kinds end
 } Drawing;
 
 static void send_records(const Drawing *drawing) {
@@ -96,23 +97,42 @@ static void send_light_texture(const Drawing *drawing, const SceneLight *lights,
     glActiveTexture(GL_TEXTURE0);
 }
 
-static uint32_t send_lights(Drawing *drawing, const SceneGroup *group) {
+// Ambient lights are added up, the others put in the order of their kinds.
+static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t count, SceneLight *sorted) {
+    uint32_t made = 0;
+    memset(drawing->ambient, 0, sizeof drawing->ambient);
+    for (int kind = LIGHT_AMBIENT; kind < LIGHT_KINDS; kind++) {
+        for (uint32_t i = 0; i < count; i++) {
+            if (all[i].kind != (float)kind)
+                continue;
+            if (kind > LIGHT_AMBIENT)
+                sorted[made++] = all[i];
+            for (int k = 0; kind == LIGHT_AMBIENT && k < 3; k++)
+                drawing->ambient[k] += all[i].color[k];
+        }
+        if (kind > LIGHT_AMBIENT)
+            drawing->ends[kind - 1] = (GLint)made;
+    }
+    return made;
+}
+
+static void send_lights(Drawing *drawing, const SceneGroup *group) {
+    SceneLight *all = arena_alloc_array(drawing->scene->arena, SCENE_MOST_LIGHTS, sizeof *all);
     SceneLight *lights = arena_alloc_array(drawing->scene->arena, SCENE_MOST_LIGHTS, sizeof *lights);
-    uint32_t count = scene_lights(group, lights, SCENE_MOST_LIGHTS);
+    uint32_t count = sort_lights(drawing, all, scene_lights(group, all, SCENE_MOST_LIGHTS), lights);
     drawing->many = count > BLOCK_LIGHTS;
     if (drawing->many) {
         send_light_texture(drawing, lights, count);
-        return count;
+        return;
     }
     glBindBuffer(GL_UNIFORM_BUFFER, drawing->store->light_block);
     glBufferData(GL_UNIFORM_BUFFER, BLOCK_LIGHTS * sizeof *lights, NULL, GL_STREAM_DRAW);
     glBufferSubData(GL_UNIFORM_BUFFER, 0, (GLsizeiptr)(count * sizeof *lights), lights);
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, drawing->store->light_block);
-    return count;
 }
 
 // The program, set up; 0, after a report, if it does not compile.
-static GLuint use_program(const Drawing *drawing, bool textured, uint32_t light_count) {
+static GLuint use_program(const Drawing *drawing, bool textured) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
     Str problem;
@@ -132,7 +152,8 @@ static GLuint use_program(const Drawing *drawing, bool textured, uint32_t light_
     }
     glUseProgram(program);
     set_camera(drawing, program);
-    set_whole(program, "light_count", (int)light_count);
+    set_vector(program, "ambient", drawing->ambient);
+    glUniform1iv(glGetUniformLocation(program, "ends"), LIGHT_KINDS - 1, drawing->ends);
     if (drawing->many)
         set_whole(program, "lights", SCENE_TEXTURES);
     else
@@ -205,7 +226,7 @@ static void clear(const SceneCamera *camera) {
 
 static void draw_all(Drawing *drawing) {
     const Scene *scene = drawing->scene;
-    uint32_t group = UINT32_MAX, light_count = 0;
+    uint32_t group = UINT32_MAX;
     GLuint program = 0;
     int textured = -1;
     for (uint32_t i = 0; i < drawing->order.draw_count; i++) {
@@ -216,13 +237,13 @@ static void draw_all(Drawing *drawing) {
         if (draw->group != group) {
             group = draw->group;
             ArenaMark mark = arena_mark(scene->arena);
-            light_count = send_lights(drawing, scene->groups[group]);
+            send_lights(drawing, scene->groups[group]);
             arena_rewind(scene->arena, mark);
             textured = -1;
         }
         if ((draw->textures > 0) != textured) {
             textured = draw->textures > 0;
-            program = use_program(drawing, textured, light_count);
+            program = use_program(drawing, textured);
         }
         if (!program)
             return;

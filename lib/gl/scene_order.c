@@ -102,13 +102,13 @@ static double pixels_of(const Matrix *placed, double depth, bool perspective, do
     return perspective ? scale * sqrt(most) / fmax(depth, 1e-9) : scale * sqrt(most);
 }
 
-// Segments of a sphere that is so large: as few as leave no edge off by more than a fifth of a pixel.
+// Segments of a sphere that is so large: as few as leave no edge off by more than a tenth of a pixel.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
     const SceneModel *model = &scene->models[instance->model];
     const double OFF = 4.93; // of radius / segments²: the arc beyond its chord
     bool plain = model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
     uint32_t segments = model->segments;
-    while (plain && segments >= 32 && segments % 8 == 0 && pixels * OFF < 0.2 * (segments / 2.0) * (segments / 2.0))
+    while (plain && segments >= 32 && segments % 8 == 0 && pixels * OFF < 0.1 * (segments / 2.0) * (segments / 2.0))
         segments /= 2;
     return segments;
 }

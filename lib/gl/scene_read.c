@@ -169,8 +169,8 @@ static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *li
         matrix_point(matrix, position, world);
         set_floats(light->position, world, 3);
         if (!read_spot(matrix, node, towards, position, light)) {
-            light->kind = LIGHT_POINT;
             light->radius = (float)clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
+            light->kind = light->radius > 0 ? LIGHT_BALL : LIGHT_POINT;
         }
     } else if (towards) {
         light->kind = LIGHT_DIRECTIONAL;

@@ -39,24 +39,27 @@ void main() {
     float brightness = lum(emissive);
     specular = brightness <= 1.0 ? emissive
                                  : emissive / brightness + (emissive - emissive / brightness) * nv;
-    for (int i = 0; i < light_count; i++) {
-        vec4 c = LIGHT(i, 0), at = LIGHT(i, 1), towards = LIGHT(i, 2), falloff = LIGHT(i, 3);
-        if (c.a == 0.0) {
-            diffuse += diffuse_share * c.rgb * ao;
-        } else if (c.a == 1.0) {
-            shine(c.rgb, falloff, -towards.xyz, 1.0, 1.0, true, true);
-        } else if (c.a == 2.0) {
-            vec3 Q = at.xyz - world;
-            float d = length(Q);
-            float x = -dot(Q / d, towards.xyz);
-            float b = 1.0 - clamp((towards.w - x) / max(towards.w - at.w, 1e-9), 0.0, 1.0);
-            shine(c.rgb, falloff, Q / d, d, b, true, true);
-        } else if (c.a == 3.0) {
-            shine_point(c.rgb, falloff, at.xyz - world, at.w);
-        } else {
-            shine_line(c.rgb, falloff, at.xyz - world, towards.xyz, towards.w, at.w);
-        }
+    // A loop for each kind of light: each leaves out what the others need.
+    diffuse += diffuse_share * ambient * ao;
+    for (int i = 0; i < ends[0]; i++)
+        shine(LIGHT(i, 0).rgb, LIGHT(i, 3), -LIGHT(i, 2).xyz, 1.0, 1.0, true, true);
+    for (int i = ends[0]; i < ends[1]; i++) {
+        vec4 at = LIGHT(i, 1), towards = LIGHT(i, 2);
+        vec3 Q = at.xyz - world;
+        float d = length(Q), x = -dot(Q / d, towards.xyz);
+        float b = 1.0 - clamp((towards.w - x) / max(towards.w - at.w, 1e-9), 0.0, 1.0);
+        shine(LIGHT(i, 0).rgb, LIGHT(i, 3), Q / d, d, b, true, true);
     }
+    for (int i = ends[1]; i < ends[2]; i++) {
+        vec3 Q = LIGHT(i, 1).xyz - world;
+        float d = length(Q);
+        shine(LIGHT(i, 0).rgb, LIGHT(i, 3), Q / d, d, 1.0, true, true);
+    }
+    for (int i = ends[2]; i < ends[3]; i++)
+        shine_ball(LIGHT(i, 0).rgb, LIGHT(i, 3), LIGHT(i, 1).xyz - world, LIGHT(i, 1).w);
+    for (int i = ends[3]; i < ends[4]; i++)
+        shine_line(LIGHT(i, 0).rgb, LIGHT(i, 3), LIGHT(i, 1).xyz - world, LIGHT(i, 2).xyz, LIGHT(i, 2).w,
+                   LIGHT(i, 1).w);
     float fog = fog_max > fog_min && fog_curve > 0.0
                     ? pow(clamp((away - fog_min) / (fog_max - fog_min), 0.0, 1.0), 1.0 / fog_curve)
                     : 0.0;

@@ -8,7 +8,8 @@ uniform vec3 eye, ahead; // where the camera is; from what it looks at to it
 uniform bool orthographic, monochrome;
 uniform float fog_min, fog_max, fog_curve;
 uniform vec3 fog_color, tint;
-uniform int light_count;
+uniform vec3 ambient;
+uniform int ends[5]; // where the lights of each kind end: from directions, spots, points, balls, lines
 
 #ifdef MANY_LIGHTS
 uniform highp sampler2D lights;
@@ -44,12 +45,8 @@ void shine(vec3 c, vec4 falloff, vec3 L, float d, float b, bool first, bool last
     }
 }
 
-void shine_point(vec3 c, vec4 falloff, vec3 Q, float r) {
+void shine_ball(vec3 c, vec4 falloff, vec3 Q, float r) {
     float away = length(Q);
-    if (r == 0.0) {
-        shine(c, falloff, Q / away, away, 1.0, true, true);
-        return;
-    }
     float b = clamp(1.0 - r / away, 0.005, 1.0);
     shine(c, falloff, Q / away, away - min(r, 0.99 * away), b, true, false);
     vec3 R = V - 2.0 * dot(V, N) * N;
