@@ -79,18 +79,21 @@ static void forget(Frame *frame) {
     *frame = (Frame){.arena = arena};
 }
 
-void pictures_free(PetriPainter *painter) {
-    Pictures *pictures = painter->pictures;
+void pictures_forget(PetriPainter *painter) {
     const char *problem;
     bool gpu = painter->gl && gl_enter(painter->gl, &problem);
-    for (int i = 0; pictures && i < 2; i++) {
-        forget(&pictures->frames[i]);
-        arena_free(&pictures->frames[i].arena);
-    }
-    free(pictures);
-    painter->pictures = NULL;
+    for (int i = 0; painter->pictures && i < 2; i++)
+        forget(&painter->pictures->frames[i]);
     if (gpu)
         gl_leave(painter->gl);
+}
+
+void pictures_free(PetriPainter *painter) {
+    pictures_forget(painter);
+    for (int i = 0; painter->pictures && i < 2; i++)
+        arena_free(&painter->pictures->frames[i].arena);
+    free(painter->pictures);
+    painter->pictures = NULL;
 }
 
 const Recorded *pictures_records(const Pictures *pictures, uint32_t *count) {
@@ -301,8 +304,13 @@ static Texture *find_reference(Walk *walk, Str id) {
 static bool is_good_size(Walk *walk, const DrawNode *node, int width, int height) {
     if (width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS)
         return true;
-    draw_report(walk->faults, DIAG_WARNING, "bad-size", "!%s: a picture can have 1 to %d pixels in width and height",
-                schema_kinds[node->kind].name, PETRI_MOST_PIXELS);
+    Str text = str_format(walk->faults->arena, "!%s: a picture can have 1 to %d pixels in width and height",
+                          schema_kinds[node->kind].name, PETRI_MOST_PIXELS);
+    diag_report(walk->faults, &(Diag){.level = DIAG_WARNING,
+                                      .source = node->place.source,
+                                      .span = node->place.span,
+                                      .text = text,
+                                      .code = "bad-size"});
     return false;
 }
 

@@ -6,8 +6,7 @@
 #include <string.h>
 
 // Samplers are of low precision unless told otherwise, and then give halves.
-const char gl_header[] =
-    "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 // Mesa can do without any display. Else the usual one, without a surface.
 static EGLDisplay find_display(void) {

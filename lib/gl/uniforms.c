@@ -139,11 +139,9 @@ static bool find_own(const GlState *state, const char *name, Numbers *out) {
 
 static void find_numbers(const GlState *state, const char *name, Numbers *out) {
     const GlEffect *effect = state->effect;
-    if (effect->node->kind == KIND_SHADER && strcmp(name, "alpha") == 0)
-        give_one(out, 1); // its program multiplies by itself
-    else if (!find_own(state, name, out) && !find_attribute(effect->node, name, out)) {
+    if (!find_own(state, name, out) && !find_attribute(effect->node, name, out)) {
         give_one(out, 0);
-        for (uint32_t i = 0; i < effect->frame->name_count; i++)
+        for (uint32_t i = effect->frame->name_count; i-- > 0;) // of several the first counts
             if (strcmp(effect->frame->names[i], name) == 0)
                 give_one(out, effect->frame->numbers[i]);
     }

@@ -261,9 +261,9 @@ static void test_numbers(void **state) {
 
 int main(void) {
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_numbers),  cmocka_unit_test(test_combining), cmocka_unit_test(test_adjust),
-        cmocka_unit_test(test_blurs),    cmocka_unit_test(test_feedback),  cmocka_unit_test(test_places),
-        cmocka_unit_test(test_noise),    cmocka_unit_test(test_flare),
+        cmocka_unit_test(test_numbers), cmocka_unit_test(test_combining), cmocka_unit_test(test_adjust),
+        cmocka_unit_test(test_blurs),   cmocka_unit_test(test_feedback),  cmocka_unit_test(test_places),
+        cmocka_unit_test(test_noise),   cmocka_unit_test(test_flare),
     };
     enum { SKIP = 77 };
     return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : SKIP;
