@@ -60,6 +60,7 @@ void draw_take_look(Look *look, const DrawNode *node);
 // Applies translate, scale and rotate in their order. False if nothing of what follows can be seen: it is squeezed to
 // nothing, or beyond all numbers.
 bool draw_transform(cairo_t *cr, const DrawNode *node);
+bool draw_is_invertible(const cairo_matrix_t *m);
 // How many pixels a unit is, about.
 double draw_scale_of(cairo_t *cr);
 

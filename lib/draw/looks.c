@@ -20,7 +20,7 @@ void draw_take_look(Look *look, const DrawNode *node) {
             draw_take_look(look, node->children[i]);
 }
 
-static bool is_invertible(const cairo_matrix_t *m) {
+bool draw_is_invertible(const cairo_matrix_t *m) {
     double determinant = m->xx * m->yy - m->xy * m->yx;
     return isfinite(determinant) && determinant != 0 && isfinite(m->x0) && isfinite(m->y0);
 }
@@ -40,7 +40,7 @@ bool draw_transform(cairo_t *cr, const DrawNode *node) {
     cairo_get_matrix(cr, &matrix);
     for (uint32_t i = 0; i < node->attr_count; i++)
         apply(&matrix, &node->attrs[i]);
-    if (!is_invertible(&matrix)) // Cairo would fail for good
+    if (!draw_is_invertible(&matrix)) // Cairo would fail for good
         return false;
     cairo_set_matrix(cr, &matrix);
     return true;

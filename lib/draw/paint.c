@@ -166,7 +166,7 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
     return result;
 }
 
-// Over black, only alpha changes.
+// Over black, colours that are premultiplied stay; only alpha changes.
 static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) {
     for (int y = 0; y < height; y++) {
         uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);

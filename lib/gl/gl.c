@@ -84,6 +84,7 @@ void gl_close(Gl *gl) {
         if (gl_enter(gl, &problem)) {
             gl_images_close(gl);
             gl_programs_close(gl);
+            gl_store_close(gl);
             glDeleteFramebuffers(1, &gl->framebuffer);
             glDeleteVertexArrays(1, &gl->strip);
             glDeleteBuffers(1, &gl->corners);

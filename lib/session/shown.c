@@ -12,7 +12,8 @@ Shown session_shown(PetriSession *session) {
                    .state = session->state,
                    .directory = program ? program->source->directory : STR(""),
                    .reach = &session->reach,
-                   .memory_bytes = session->options.memory_bytes};
+                   .memory_bytes = session->options.memory_bytes,
+                   .meter = &session->meter};
 }
 
 uint32_t session_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[], uint32_t room) {

@@ -18,6 +18,7 @@ typedef struct Shown {
     Str directory;       // what relative file names start from
     const Reach *reach;  // of its files
     size_t memory_bytes; // that a copy may have
+    Meter *meter;        // that making it is charged to
 } Shown;
 
 Shown session_shown(PetriSession *session);
@@ -37,5 +38,8 @@ void *session_drawing(PetriSession *session, size_t size);
 // PETRI_MEMORY, or PETRI_LIMIT if only a budget was used up. What it has begun must be reachable from `context`.
 typedef void SessionCall(PetriSession *session, void *context);
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context);
+// Tells that a protected call for "the frame" or the like was given up for want of memory or work, and where; takes a
+// wish for an end as met. Returns the status.
+PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const char *what);
 
 #endif
