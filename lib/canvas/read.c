@@ -71,7 +71,8 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
         arena_charge(arena, (uint64_t)node->child_count * node->child_count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
-    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs};
+    const Symbol *program = schema->slots[ROW_SHADER_FRAGMENT].name;
+    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs, .place = node_place(node, program)};
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
         return NULL;
     if (!may_use_file(&reader, out))

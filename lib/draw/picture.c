@@ -310,6 +310,9 @@ static bool make_picture(Request *request) {
 static void make_protected(PetriSession *session, void *context) {
     Request *request = context;
     request->frames = session_drawing(session, MOST_AUTO_SYSTEMS * sizeof *request->frames);
+    CanvasPicture *picture = &request->picture->picture;
+    picture->name_count =
+        session_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);
     request->status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
 }
 
@@ -326,8 +329,6 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_OK;
     picture->picture.beat = petri_frame(session).beat;
-    picture->picture.name_count =
-        session_numbers(session, picture->picture.names, picture->picture.numbers, PICTURE_NAMES);
     if (shown.number >= 0)
         status = session_tell_end(session, session_protect(session, &picture->arena, make_protected, &request),
                                   "the picture");
@@ -381,5 +382,8 @@ bool petri_picture_looks_back(const PetriPicture *picture) {
 void petri_picture_tell(PetriSession *session, PetriPicture *picture) {
     if (!session || !picture)
         return;
+    for (uint32_t i = 0; i < picture->faults.count; i++)
+        if (!session_has(session, &picture->faults.items[i]))
+            picture->faults.items[i].source = NULL;
     session_tell_all(session, &picture->faults);
 }

@@ -80,18 +80,21 @@ static void forget(Frame *frame) {
     *frame = (Frame){.arena = arena};
 }
 
-void pictures_free(PetriPainter *painter) {
-    Pictures *pictures = painter->pictures;
+void pictures_forget(PetriPainter *painter) {
     const char *problem;
     bool gpu = painter->gl && gl_enter(painter->gl, &problem);
-    for (int i = 0; pictures && i < 2; i++) {
-        forget(&pictures->frames[i]);
-        arena_free(&pictures->frames[i].arena);
-    }
-    free(pictures);
-    painter->pictures = NULL;
+    for (int i = 0; painter->pictures && i < 2; i++)
+        forget(&painter->pictures->frames[i]);
     if (gpu)
         gl_leave(painter->gl);
+}
+
+void pictures_free(PetriPainter *painter) {
+    pictures_forget(painter);
+    for (int i = 0; painter->pictures && i < 2; i++)
+        arena_free(&painter->pictures->frames[i].arena);
+    free(painter->pictures);
+    painter->pictures = NULL;
 }
 
 const Recorded *pictures_records(const Pictures *pictures, uint32_t *count) {
@@ -246,11 +249,14 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
     return texture;
 }
 
-static bool is_good_size(Walk *walk, NodeKind kind, int width, int height) {
+static bool is_good_size(Walk *walk, NodeKind kind, Origin place, int width, int height) {
     if (width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS)
         return true;
-    draw_report(walk->faults, DIAG_WARNING, "bad-size", "!%s: a picture can have 1 to %d pixels in width and height",
-                schema_kinds[kind].name, PETRI_MOST_PIXELS);
+    Str text = str_format(walk->faults->arena, "!%s: a picture can have 1 to %d pixels in width and height",
+                          schema_kinds[kind].name, PETRI_MOST_PIXELS);
+    diag_report(
+        walk->faults,
+        &(Diag){.level = DIAG_WARNING, .source = place.source, .span = place.span, .text = text, .code = "bad-size"});
     return false;
 }
 
@@ -273,7 +279,7 @@ static void prepare(Walk *walk, Made *made, uint32_t count) {
 // What a camera of a scene sees; NULL, after a report, if that cannot be.
 static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
     Gl *gl = walk->painter->gl;
-    if (!is_good_size(walk, KIND_CAMERA, camera->width, camera->height))
+    if (!is_good_size(walk, KIND_CAMERA, (Origin){0}, camera->width, camera->height))
         return NULL;
     GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
     Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
@@ -378,7 +384,7 @@ static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Ma
         break;
     default:
         pictures_size(node, &width, &height);
-        if (!is_good_size(walk, (NodeKind)node->kind, width, height))
+        if (!is_good_size(walk, (NodeKind)node->kind, node->place, width, height))
             break;
         made->picture = node->kind == KIND_CANVAS     ? make_canvas(walk, node, width, height)
                         : node->kind == KIND_CANVAS3D ? make_scene(walk, node, made, width, height)
