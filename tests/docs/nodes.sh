@@ -58,7 +58,7 @@ read_document() { # FILES, as if they were one
             order[headings] = heading
             kinds[headings] = ""
             text = $0
-            while (match(text, /`![a-z_]+`/)) {
+            while (match(text, /`![a-z_0-9]+`/)) {
                 kinds[headings] = kinds[headings] " " substr(text, RSTART + 1, RLENGTH - 2)
                 text = substr(text, RSTART + RLENGTH)
             }
@@ -116,6 +116,7 @@ compare() { # AREA ROOT DOCUMENT [ANOTHER]
 }
 compare physics "$2" lib/physics/README.md
 compare canvas "$2" lib/canvas/README.md lib/gl/README.md
+compare canvas3d "$2" lib/gl/SCENE.md
 
 # Excerpts "```flitter NAME.png" of the scripts of pictures: their lines follow each other in tests/pictures/NAME.fl.
 awk -v work="$work" '
@@ -144,7 +145,7 @@ for excerpt in "$work"/*.excerpt; do
 done
 
 # What the references link to beside them must be there.
-for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md; do
+for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
     folder=$2/$(dirname "$document")
     for target in $(grep -o '](\([^)#]*\)' "$2/$document" | sed 's/^](//' | sort -u); do
         checked=$((checked + 1))
@@ -155,7 +156,7 @@ for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md; do
     done
 done
 # … and so must headings that they name.
-for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md; do
+for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
     awk -v document="$document" "$slug"'
         /^```/ { code = !code }
         !code && /^#+ / { sub(/^#+ /, ""); there[slug($0)] = 1 }

@@ -9,8 +9,8 @@ vec4 texel(sampler2D t, ivec2 p) {
     ivec2 s = textureSize(t, 0);
     if (bordered)
         return all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, s)) ? texelFetch(t, p, 0) : border;
-    ivec2 r = (p % s + s) % s;
-    return texelFetch(t, mix(clamp(p, ivec2(0), s - 1), r, repeated), 0);
+    ivec2 r = (p % s + s) % s, c = clamp(p, ivec2(0), s - 1);
+    return texelFetch(t, ivec2(repeated.x ? r.x : c.x, repeated.y ? r.y : c.y), 0);
 }
 vec4 take(sampler2D t) {
     if (!bordered && !any(repeated))
