@@ -35,7 +35,7 @@ static bool may_use_file(const Reader *reader, const DrawNode *node) {
     const SchemaHost *host = &reader->schema->host;
     Origin place = node_place(reader->node, reader->schema->slots[name->row].name);
     host->report(host->host, writes ? DIAG_ERROR : DIAG_WARNING, writes ? "cannot-write" : "cannot-read", &place,
-                 writes ? STR("!record") : STR("!image"), STR("filename"),
+                 str_format(reader->arena, "!%s", schema_kinds[reader->kind].name), STR("filename"),
                  str_format(reader->arena, "cannot %s '%s': %s", writes ? "write" : "read", name->as.text.bytes,
                             reach_refusal(reader->arena, reach, kind, path)));
     return writes;

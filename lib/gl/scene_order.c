@@ -139,14 +139,17 @@ SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *pro
             uint32_t rank = rank_of(&ranks, pair, number);
             if (box->triangles == 0 || !is_seen(&clip, box))
                 continue;
-            if (order.triangles + box->triangles > SCENE_MOST_TRIANGLES) {
+            double pixels = pixels_of(&placed, -most, projection->m[11] != 0, fabs(projection->m[0]) * width / 2);
+            uint32_t segments = segments_of(scene, instance, pixels);
+            double part = segments ? (double)segments / scene->models[instance->model].segments : 1;
+            uint64_t triangles = (uint64_t)(part * part * box->triangles);
+            if (order.triangles + triangles > SCENE_MOST_TRIANGLES) {
                 order.cut = true;
                 continue;
             }
-            order.triangles += box->triangles;
-            double pixels = pixels_of(&placed, -most, projection->m[11] != 0, fabs(projection->m[0]) * width / 2);
+            order.triangles += triangles;
             sorted[count++] = (Sorted){.depth = sorts ? -most : 0,
-                                       .segments = segments_of(scene, instance, pixels),
+                                       .segments = segments,
                                        .instance = i,
                                        .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
         }

@@ -237,13 +237,13 @@ static bool in_common(const char *attribute) {
 }
 
 // Each node and attribute that draws must be in some script.
-static int check_complete(const char *area) {
+static int check_complete(void) {
     // What does not draw is tested elsewhere: tests/cli (record), tests of the window (pointer, key).
     static const char *const others[] = {"record", "pointer", "key"};
     int missing = 0;
     PetriNodeKind kind;
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        bool other = strcmp(kind.area, area) != 0;
+        bool other = strcmp(kind.area, "canvas") != 0;
         for (size_t k = 0; k < sizeof others / sizeof others[0]; k++)
             other |= strcmp(kind.name, others[k]) == 0;
         PetriNodeAttribute attribute;
@@ -256,6 +256,29 @@ static int check_complete(const char *area) {
             printf("FAIL: no script has !%s\n", kind.name);
             missing++;
         }
+    }
+    return missing;
+}
+
+// Attributes of scenes are read by the same code for all their nodes: once is enough.
+static int check_scenes(void) {
+    int missing = 0;
+    PetriNodeKind kind, other;
+    PetriNodeAttribute attribute;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        if (strcmp(kind.area, "canvas3d") != 0)
+            continue;
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+            bool found = strcmp(attribute.name, "hidden") == 0; // as of any picture
+            for (size_t o = 0; !found && petri_node_kind(o, &other); o++)
+                found = strcmp(other.area, "canvas3d") == 0 && was_seen(other.name, attribute.name);
+            if (!found)
+                printf("FAIL: no scene has !%s with %s\n", kind.name, attribute.name);
+            missing += !found;
+        }
+        if (!was_seen(kind.name, ""))
+            printf("FAIL: no scene has !%s\n", kind.name);
+        missing += !was_seen(kind.name, "");
     }
     return missing;
 }
@@ -294,7 +317,9 @@ int main(int argc, char **argv) {
     char gallery[1000];
     snprintf(gallery, sizeof gallery, "%s/gallery.fl", argv[1]);
     if (access(gallery, F_OK) == 0)
-        failed += check_complete("canvas");
+        failed += check_complete();
+    else if (strstr(argv[1], "/scenes"))
+        failed += check_scenes();
     for (size_t i = 0; i < seen_count; i++)
         free(seen[i]);
     enum { SKIP = 77 };
