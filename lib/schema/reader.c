@@ -438,9 +438,6 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
                 attr->as.word = MIX_UNKNOWN;
                 ++*count;
             }
-        } else if (found->type == TYPE_COMPOSITE && attr->as.word == COMPOSITE_NONE) {
-            reader_report_attr(reader, "bad-attribute", ATTR_COMPOSITE,
-                               STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
         } else {
             ++*count;
         }
