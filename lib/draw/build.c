@@ -230,7 +230,8 @@ static void add_text(Build *build, Level *level, const DrawNode *node) {
         return;
     Look look = level->look;
     build_take(&look, node);
-    bool stroke = draw_flag(node, ATTR_STROKE), fill = draw_attr(node, ATTR_FILL) ? draw_flag(node, ATTR_FILL) : !stroke;
+    bool stroke = draw_flag(node, ATTR_STROKE),
+         fill = draw_attr(node, ATTR_FILL) ? draw_flag(node, ATTR_FILL) : !stroke;
     ListText *item = LIST_ADD(build->arena, build->list->texts, 1);
     *item = (ListText){.text = text->as.text,
                        .family = look.family,

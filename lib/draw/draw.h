@@ -30,16 +30,16 @@ typedef struct Canvas {
     const CanvasPicture *picture;
     cairo_t *cr;
     DiagSink *faults;
-    bool vector;         // the target is no array of pixels
-    uint32_t layers;     // that are open
-    double layer_pixels; // in them
-    double rows;         // of the target
-    double path_work;    // rows that the edges of the current path cross
-    double last_y;       // of its last point, on the target
-    const List *list;    // or NULL
+    bool vector;                // the target is no array of pixels
+    uint32_t layers;            // that are open
+    double layer_pixels;        // in them
+    double rows;                // of the target
+    double path_work;           // rows that the edges of the current path cross
+    double last_y;              // of its last point, on the target
+    const List *list;           // or NULL
     const ListCommand *path_of; // the command whose path is the current one; or NULL
-    cairo_matrix_t base; // of the list's units
-    bool failed;         // an error was reported
+    cairo_matrix_t base;        // of the list's units
+    bool failed;                // an error was reported
 } Canvas;
 
 // Reports what drawing has found, each text once.

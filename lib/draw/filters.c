@@ -60,7 +60,8 @@ static Sheet blur(Sheet sheet, const double sigma[2]) {
         int reach = make_weights(fmin(sigma[axis], WIDEST), weights);
         int rows = axis ? sheet.width : sheet.height;
         for (int i = 0; i < rows; i++) {
-            size_t start = (size_t)(axis ? pixel_of(&sheet, i, 0) - sheet.pixels : pixel_of(&sheet, 0, i) - sheet.pixels);
+            size_t start =
+                (size_t)(axis ? pixel_of(&sheet, i, 0) - sheet.pixels : pixel_of(&sheet, 0, i) - sheet.pixels);
             blur_row(sheet.pixels + start, out.pixels + start, axis ? sheet.height : sheet.width,
                      axis ? 4 * (size_t)sheet.width : 4, weights, reach);
         }

@@ -128,7 +128,8 @@ static void clip_to_box(Canvas *canvas, const ListCommand *command, const ListPa
     cairo_path_t *path = cairo_copy_path(cr);
     cairo_matrix_t matrix;
     cairo_get_matrix(cr, &matrix);
-    double wide = fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
+    double wide =
+        fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
     double border = command->stroke ? 2 * wide + 2 : 2; // the miter limit is 4
     cairo_identity_matrix(cr);
     cairo_path_extents(cr, &x1, &y1, &x2, &y2);
@@ -157,7 +158,8 @@ static cairo_pattern_t *make_mask(Canvas *canvas, const ListCommand *command, co
 
 // d *= s of each pixel; false if these are no pixels of the same size.
 static bool multiply_pixels(cairo_surface_t *d, cairo_surface_t *s) {
-    if (cairo_surface_get_type(d) != CAIRO_SURFACE_TYPE_IMAGE || cairo_surface_get_type(s) != CAIRO_SURFACE_TYPE_IMAGE ||
+    if (cairo_surface_get_type(d) != CAIRO_SURFACE_TYPE_IMAGE ||
+        cairo_surface_get_type(s) != CAIRO_SURFACE_TYPE_IMAGE ||
         cairo_image_surface_get_format(d) != CAIRO_FORMAT_ARGB32 ||
         cairo_image_surface_get_format(s) != CAIRO_FORMAT_ARGB32 ||
         cairo_image_surface_get_height(d) != cairo_image_surface_get_height(s) ||
@@ -236,7 +238,8 @@ void draw_figure(Canvas *canvas, const ListCommand *command, const ListPaint *pa
     cairo_t *cr = canvas->cr;
     if (!draw_is_drawable(canvas))
         return;
-    bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE, both = command->fill && command->stroke;
+    bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
+         both = command->fill && command->stroke;
     bool pieces = command->stroke && canvas->path_work > SMOOTH_WORK; // which overlap
     if (odd || command->path.fill_type > FILL_EVEN_ODD || ((both || pieces) && !is_solid(paint))) {
         draw_through_mask(canvas, command, paint);

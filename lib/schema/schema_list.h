@@ -55,7 +55,7 @@ TYPE(POINTS, POINTS, 0, 0, true, "x;y;x;y…")
 TYPE(COLOR, COLOR, -INFINITY, INFINITY, false, "grey, r;g;b or r;g;b;a, each from 0 to 1")
 TYPE(FLAG, FLAG, 0, 0, false, "true or false")
 TYPE(TEXT, TEXT, 0, 0, false, "text")
-TYPE(WEIGHT, WEIGHT, 0, 1000, false, "100 to 1000, or a word such as :bold")
+TYPE(WEIGHT, WEIGHT, 0, 1000, false, "0 to 1000, or a word such as :bold")
 TYPE(JOIN, WORD, 0, 0, false, ":miter, :round or :bevel")
 TYPE(CAP, WORD, 0, 0, false, ":butt, :round or :square")
 TYPE(FILL_TYPE, WORD, 0, 0, false, ":winding, :even_odd, :inverse_winding or :inverse_even_odd")
@@ -349,16 +349,16 @@ ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the valu
     ATTR(kind, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "enlarge") \
     ATTR(kind, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "clockwise")
 #define PAINT_ROWS(kind) \
-    ATTR(kind, COLOR, COLOR, TO_LOOK(color), INHERITED(1, "1"), "", "takes the place of a source that would be inherited") \
-    ATTR(kind, STROKE_WIDTH, WIDTH, TO_LOOK(stroke_width), INHERITED(1, "1"), "", "0 is the thinnest line that there is") \
+    ATTR(kind, COLOR, COLOR, TO_LOOK(color), INHERITED(0, "0"), "", "takes the place of a source that would be inherited") \
+    ATTR(kind, STROKE_WIDTH, WIDTH, TO_LOOK(stroke_width), INHERITED(0, "0"), "", "0 is one pixel, whatever the scale") \
     ATTR(kind, STROKE_JOIN, JOIN, TO_LOOK(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
     ATTR(kind, STROKE_CAP, CAP, TO_LOOK(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
     ATTR(kind, COMPOSITE, COMPOSITE, TO_LOOK(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there") \
     ATTR(kind, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges, but for text, which always has them") \
     ATTR(kind, DITHER, FLAG, NOWHERE, IS(false), "", "ignored")
 #define FONT_ROWS(kind) \
-    ATTR(kind, FONT_FAMILY, TEXT, TO_LOOK(family), INHERITED_TEXT("sans"), "", "one or more names, with commas; the first that there is") \
-    ATTR(kind, FONT_SIZE, WIDTH, TO_LOOK(font_size), INHERITED(14, "14"), "", "") \
+    ATTR(kind, FONT_FAMILY, TEXT, TO_LOOK(family), INHERITED_TEXT("Helvetica"), "", "one or more names, with commas; the first that there is") \
+    ATTR(kind, FONT_SIZE, WIDTH, TO_LOOK(font_size), INHERITED(20, "20"), "", "") \
     ATTR(kind, FONT_WEIGHT, WEIGHT, TO_LOOK(weight), INHERITED(400, ":normal"), "", "") \
     ATTR(kind, FONT_WIDTH, FONT_WIDTH, TO_LOOK(width), INHERITED(4, ":normal"), "", "") \
     ATTR(kind, FONT_SLANT, SLANT, TO_LOOK(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
