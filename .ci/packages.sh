@@ -40,6 +40,7 @@ pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 "
 CLANG_NEEDS='command -v clang: clang'
+COVERAGE_NEEDS='command -v llvm-cov: llvm'
 FORMAT_NEEDS='command -v clang-format: clang-format'
 TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
 CROSS_NEEDS='

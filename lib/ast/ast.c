@@ -22,6 +22,7 @@ AstList *ast_list_add_all(AstList *list, const AstList *more) {
 }
 
 Ast *ast_new(Arena *arena, AstKind kind, Span span, const Symbol *name, Ast *const *children, uint32_t count) {
+    arena_charge(arena, 1 + count / 8);
     Ast *ast = arena_alloc(arena, sizeof *ast);
     uint32_t height = 0;
     for (uint32_t i = 0; i < count; i++)

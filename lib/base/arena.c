@@ -30,10 +30,17 @@ void arena_free(Arena *arena) {
     for (ArenaBlock *block = arena->first, *next; block; block = next) {
         next = block->next;
         UNPOISON(block->bytes, block->capacity);
+        meter_give(arena->meter, sizeof *block + block->capacity);
         free(block);
     }
     arena->first = arena->current = NULL;
     arena->used = 0;
+}
+
+void arena_release(Arena *arena) {
+    for (const ArenaBlock *block = arena->first; block; block = block->next)
+        meter_give(arena->meter, sizeof *block + block->capacity);
+    arena->meter = NULL;
 }
 
 static void block_truncate(ArenaBlock *block, size_t fill) {
@@ -74,12 +81,17 @@ _Noreturn void arena_leave(const Arena *arena, ArenaEnd end) {
     abort();
 }
 
+void arena_look(Arena *arena, MeterAnswer answer) {
+    if (arena->escape)
+        arena_leave(arena, answer == METER_WORK ? ARENA_WORK : ARENA_INTERRUPTED);
+}
+
 _Noreturn void arena_exhausted(const Arena *arena) {
     arena_leave(arena, ARENA_MEMORY);
 }
 
 ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context) {
-    jmp_buf escape, *outer[ARENA_MOST_PROTECTED];
+    jmp_buf escape, *outer[ARENA_MOST_PROTECTED] = {NULL};
     assert(count <= ARENA_MOST_PROTECTED);
     for (size_t i = 0; i < count; i++)
         if (arenas[i]) {
@@ -94,8 +106,14 @@ ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *c
     case ARENA_MEMORY:
         end = ARENA_MEMORY;
         break;
-    default:
+    case ARENA_BUDGET:
         end = ARENA_BUDGET;
+        break;
+    case ARENA_WORK:
+        end = ARENA_WORK;
+        break;
+    default:
+        end = ARENA_INTERRUPTED;
     }
     for (size_t i = count; i-- > 0;) // backwards: one may be there twice
         if (arenas[i])
@@ -134,9 +152,13 @@ static void arena_next_block(Arena *arena, size_t size) {
         capacity = LARGEST_BLOCK;
     if (capacity < size)
         capacity = size;
+    if (!meter_take(arena->meter, sizeof(ArenaBlock) + capacity))
+        arena_leave(arena, ARENA_BUDGET);
     ArenaBlock *block = malloc(sizeof(ArenaBlock) + capacity);
-    if (!block)
+    if (!block) {
+        meter_give(arena->meter, sizeof(ArenaBlock) + capacity);
         arena_exhausted(arena);
+    }
     *block = (ArenaBlock){.capacity = capacity};
     POISON(block->bytes, capacity);
     if (last)
@@ -165,6 +187,7 @@ void *arena_alloc_slow(Arena *arena, size_t size) {
 void *arena_alloc_array(Arena *arena, size_t count, size_t size) {
     if (size && count > SIZE_MAX / size)
         arena_leave(arena, ARENA_BUDGET);
+    arena_charge(arena, count * size / METER_BYTES);
     return arena_alloc(arena, count * size);
 }
 

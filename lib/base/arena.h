@@ -7,6 +7,8 @@
 #ifndef PETRI_BASE_ARENA_H
 #define PETRI_BASE_ARENA_H
 
+#include "base/meter.h"
+
 #include <setjmp.h>
 #include <stdbool.h>
 #include <stddef.h>
@@ -44,6 +46,7 @@ typedef struct Arena {
     size_t high_water;   // most that `used` has ever been, up to the last rewind or reset
     size_t budget;       // bytes allowed between two resets
     jmp_buf *escape;     // where to go when memory is used up, or NULL to abort
+    Meter *meter;        // that blocks and work are charged to, or NULL
     const char *name;    // for messages
 } Arena;
 
@@ -56,8 +59,10 @@ typedef struct ArenaMark {
 // How a protected call ended.
 typedef enum ArenaEnd {
     ARENA_DONE,
-    ARENA_MEMORY, // the machine's memory is used up
-    ARENA_BUDGET, // or what the arena may hand out
+    ARENA_MEMORY,      // the machine's memory is used up
+    ARENA_BUDGET,      // or what the arena may hand out, or all that the meter allows
+    ARENA_WORK,        // work is
+    ARENA_INTERRUPTED, // the host has asked for an end
 } ArenaEnd;
 
 enum { ARENA_MOST_PROTECTED = 8 };
@@ -73,6 +78,9 @@ void arena_init(Arena *arena, const char *name, size_t budget);
 
 // Returns all blocks to the system.
 void arena_free(Arena *arena);
+
+// What the arena holds is charged to nobody from here on.
+void arena_release(Arena *arena);
 
 // Drops everything allocated since the last reset but keeps the blocks. Unoptimised and sanitizer builds poison the
 // bytes.
@@ -93,7 +101,23 @@ static inline void *arena_alloc(Arena *arena, size_t size) {
     return bytes;
 }
 
-// The same for `count` elements of `size` bytes each; an overflowing product counts as used-up memory.
+// What arena_charge does when it is time to look, or memory is.
+void arena_look(Arena *arena, MeterAnswer answer);
+// Charges work (meter.h); if that is used up, or the host has asked for an end, control leaves through the escape.
+static inline void arena_charge(Arena *arena, uint64_t units) {
+    MeterAnswer answer = meter_charge(arena->meter, units);
+    if (answer != METER_GOES_ON)
+        arena_look(arena, answer);
+}
+
+// Charges for a portion at the end of each, in a loop over many elements that is at number i.
+static inline void arena_portion(Arena *arena, size_t i, unsigned units_each) {
+    if (i % METER_PORTION == METER_PORTION - 1)
+        arena_charge(arena, (uint64_t)METER_PORTION * units_each);
+}
+
+// The same for `count` elements of `size` bytes each, with the work of filling them; an overflowing product counts as
+// used-up memory.
 void *arena_alloc_array(Arena *arena, size_t count, size_t size);
 
 // A copy of `size` bytes.

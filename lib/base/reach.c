@@ -11,11 +11,11 @@
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
-#ifdef __linux__
+#if defined __linux__ && defined __has_include
+#if __has_include(<linux/openat2.h>)
+#include <linux/openat2.h>
 #include <sys/syscall.h>
 #endif
-#ifdef SYS_openat2
-#include <linux/openat2.h>
 #endif
 #ifndef O_PATH
 #define O_PATH O_RDONLY
@@ -117,7 +117,7 @@ static int open_below(const Str *folder, char *path, int flags) {
     rest += rest[0] == '/';
     if (start < 0)
         return -1;
-#ifdef SYS_openat2
+#ifdef RESOLVE_BENEATH
     struct open_how how = {.flags = (unsigned)(flags | O_CLOEXEC | O_NOCTTY),
                            .resolve = RESOLVE_BENEATH | RESOLVE_NO_SYMLINKS | RESOLVE_NO_MAGICLINKS};
     long file;

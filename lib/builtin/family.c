@@ -30,8 +30,10 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double)) {
     if (x.len == 1)
         return value_number(f(x.as.number));
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
-    for (uint32_t i = 0; i < x.len; i++)
+    for (uint32_t i = 0; i < x.len; i++) {
         result[i] = f(x.as.numbers[i]);
+        arena_portion(arena, i, 1);
+    }
     return value_numbers_view(result, x.len);
 }
 
@@ -39,7 +41,11 @@ Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany 
     if (x.len < BUILTIN_MANY || !value_is_numeric(x))
         return builtin_each(arena, x, f);
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
-    many(cpu_here.level, x.as.numbers, x.len, result);
+    for (uint32_t at = 0; at < x.len; at += METER_PORTION) {
+        uint32_t count = x.len - at < METER_PORTION ? x.len - at : METER_PORTION;
+        arena_charge(arena, count / 2);
+        many(cpu_here.level, x.as.numbers + at, count, result + at);
+    }
     return value_numbers_view(result, x.len);
 }
 
@@ -65,6 +71,8 @@ Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f
     for (uint32_t k = 0; k < count; k++)
         at[k] = 0;
     for (uint32_t i = 0; i < len; i++) {
+        if (i % METER_PORTION == METER_PORTION - 1)
+            arena_charge(arena, (uint64_t)METER_PORTION / 4 * count);
         for (uint32_t k = 0; k < count; k++) {
             parts[k] = value_numbers(&args[k])[at[k]];
             at[k] = at[k] + 1 == args[k].len ? 0 : at[k] + 1;

@@ -74,7 +74,7 @@ static bool match_name(Str pattern, Str name) {
 
 // --- the walk
 
-enum { MOST_LISTINGS = 1 << 18, MOST_FOUND = 1 << 20 };
+enum { MOST_LISTINGS = 1 << 18, MOST_FOUND = 1 << 20, LISTING_WORK = 1000, PATH_WORK = 100 };
 
 typedef struct Glob {
     Arena *arena;
@@ -142,6 +142,7 @@ static void scan_directory(const char *path, Str *names, char *bytes, size_t *co
 }
 
 static size_t list_directory(Glob *glob, const char *path, Str **names) {
+    arena_charge(glob->arena, LISTING_WORK);
     if (glob->listings++ == MOST_LISTINGS)
         glob->too_much = true;
     if (glob->too_much)
@@ -174,6 +175,7 @@ static void walk(Glob *glob, Str path, uint32_t k);
 // A path that matches the parts up to k: a result, or a directory to go on in.
 static void reach(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
+    arena_charge(glob->arena, PATH_WORK);
     bool last = k + 1 == glob->part_count;
     if (last && !glob->only_directories ? is_there(c_path) : is_directory(c_path, true)) {
         if (last)
@@ -194,6 +196,7 @@ static void walk_deep(Glob *glob, Str path, uint32_t k) {
     size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
     for (size_t i = 0; i < count && !glob->too_much; i++) {
         Str below = path_join(glob->arena, path, names[i]);
+        arena_charge(glob->arena, PATH_WORK);
         if (is_directory(str_to_c(glob->arena, below), false))
             walk(glob, below, k);
         else if (last && !glob->only_directories)
@@ -232,6 +235,7 @@ static Value glob_value(Glob *glob) {
     uint32_t count = 0;
     char resolved[PATH_MAX];
     for (uint32_t i = 0; i < glob->found_count; i++) {
+        arena_charge(arena, PATH_WORK);
         bool again = i > 0 && str_equal(found[i], found[i - 1]);
         if (again || !realpath(str_to_c(arena, found[i]), resolved))
             continue;
@@ -251,7 +255,7 @@ static Value glob_value(Glob *glob) {
 Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Str pattern = value_text(context->arena, context->symbols, args[0]);
     if (pattern.len == 0 || pattern.bytes[0] == '/')
-        return builtin_fault(context, "glob", pattern.len ? "the pattern is absolute" : "the pattern is empty");
+        return builtin_fault(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
     if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
     Glob glob = {.arena = context->arena, .reach = context->reach};
@@ -265,6 +269,6 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
         return builtin_fault(context, "glob", "too many directories or matches");
     Value paths = glob.found_count ? glob_value(&glob) : VALUE_NULL;
     if (glob.refused)
-        builtin_fault(context, "glob", reach_refusal(context->arena, context->reach, REACH_READ, glob.refused));
+        builtin_fault(context, "glob", "%s", reach_refusal(context->arena, context->reach, REACH_READ, glob.refused));
     return paths;
 }

@@ -108,7 +108,9 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
 }
 
 // result[j] = the noise, or result[j] + noise*weight, at every combination, the last coordinate varying fastest.
-static void grid_noise(const Grid *grid, const uint8_t *permutation, double *result, bool add, double weight) {
+static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
+                       double weight) {
+    enum { BETWEEN_CHARGES = 1024, WORK = 5 }; // of a point
     double (*const noise)(const uint8_t *, const double *) = grid->dims == 2   ? noise_point_2
                                                              : grid->dims == 3 ? noise_point_3
                                                                                : noise_point_4;
@@ -117,6 +119,8 @@ static void grid_noise(const Grid *grid, const uint8_t *permutation, double *res
     for (int i = 0; i < grid->dims; i++)
         c[i] = grid->axes[i][0];
     for (uint32_t j = 0; j < grid->len; j++) {
+        if (j % BETWEEN_CHARGES == 0)
+            arena_charge(arena, (grid->len - j < BETWEEN_CHARGES ? grid->len - j : BETWEEN_CHARGES) * WORK);
         double part = noise(permutation, c);
         result[j] = add ? result[j] + part * weight : part;
         int i = grid->dims - 1;
@@ -144,15 +148,16 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
     uint8_t local[256];
     if (count == 3 && is_scalar(args[1]) && is_scalar(args[2])) { // one point, as loops ask for
         const double c[2] = {args[1].as.number, args[2].as.number};
-        return value_number(noise_point_2(permutation_get(context->noise, value_seed_hash(args[0]), local), c));
+        return value_number(
+            noise_point_2(permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local), c));
     }
     Grid grid;
     GridOutcome outcome = grid_read(&grid, args + 1, count - 1);
     if (outcome != GRID_OK)
         return outcome == GRID_TOO_LONG ? builtin_too_long(context, "noise") : VALUE_NULL;
-    const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(args[0]), local);
+    const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, args[0]), local);
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
-    grid_noise(&grid, permutation, result, false, 1);
+    grid_noise(context->arena, &grid, permutation, result, false, 1);
     return value_numbers_view(result, grid.len);
 }
 
@@ -169,7 +174,7 @@ static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint
     for (uint32_t o = 0; o < octaves && weight != 0; o++) {
         if (o > 0)
             grid_double(context->arena, grid, o > 1);
-        grid_noise(grid, permutation_get(context->noise, seed ^ o, local), result, o > 0, weight);
+        grid_noise(context->arena, grid, permutation_get(context->noise, seed ^ o, local), result, o > 0, weight);
         total = total + weight;
         weight = weight * k;
     }
@@ -191,6 +196,6 @@ Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t coun
     if (octaves > MOST_OCTAVES)
         return builtin_fault(context, "octnoise", "more than 1024 octaves");
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
-    sum_octaves(context, &grid, value_seed_hash(args[0]), (uint32_t)octaves, args[2].as.number, result);
+    sum_octaves(context, &grid, value_seed_hash(context->arena, args[0]), (uint32_t)octaves, args[2].as.number, result);
     return value_numbers_view(result, grid.len);
 }

@@ -35,10 +35,10 @@ static uint32_t extreme_item(const Item *items, uint32_t len, int sign) {
 }
 
 // The argument that is the extreme by the order of L5.5; NO_POSITION if a comparison is incomparable.
-static uint32_t extreme_argument(const Value *args, uint32_t count, int sign) {
+static uint32_t extreme_argument(Arena *arena, const Value *args, uint32_t count, int sign) {
     uint32_t best = 0;
     for (uint32_t i = 1; i < count; i++) {
-        int order = value_compare(args[i], args[best]);
+        int order = value_compare(arena, args[i], args[best]);
         if (order == VALUE_INCOMPARABLE)
             return NO_POSITION;
         if (order == sign)
@@ -51,7 +51,7 @@ static Value extreme(BuiltinContext *context, const char *name, const Value *arg
                      bool position) {
     uint32_t best;
     if (count > 1) {
-        best = extreme_argument(args, count, sign);
+        best = extreme_argument(context->arena, args, count, sign);
         if (best == NO_POSITION)
             return VALUE_NULL;
         return position ? value_number(best) : args[best];
@@ -88,29 +88,34 @@ Value builtin_maxindex(BuiltinContext *context, const Value *args, uint32_t coun
 
 // Merges the ascending runs from[low … middle-1] and from[middle … high-1] into `to`. The right one is taken only if it
 // is less, which makes the sort stable and keeps it within bounds whatever a nan answers.
-typedef void Merge(void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high);
+typedef void Merge(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high);
 
-static void merge_numbers(void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high) {
+static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high) {
     const double *x = from;
     double *y = to;
-    for (uint32_t i = low, j = middle, k = low; k < high; k++)
+    for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || !(x[j] < x[i])) ? x[i++] : x[j++];
+        arena_portion(arena, k, 0);
+    }
 }
 
-static void merge_texts(void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high) {
+static void merge_texts(Arena *arena, void *to, const void *from, uint32_t low, uint32_t middle, uint32_t high) {
     const Str *x = from;
     Str *y = to;
-    for (uint32_t i = low, j = middle, k = low; k < high; k++)
+    for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || str_compare(x[j], x[i]) >= 0) ? x[i++] : x[j++];
+        arena_portion(arena, k, 2); // texts may be long
+    }
 }
 
 // A bottom-up merge sort; the result is one of two arrays.
-static void *merge_sort(void *items, void *other, uint32_t len, Merge *merge) {
+static void *merge_sort(Arena *arena, void *items, void *other, uint32_t len, Merge *merge) {
     for (uint64_t width = 1; width < len; width *= 2) {
+        arena_charge(arena, len / 4);
         for (uint64_t low = 0; low < len; low += 2 * width) {
             uint64_t middle = low + width < len ? low + width : len;
             uint64_t high = low + 2 * width < len ? low + 2 * width : len;
-            merge(other, items, (uint32_t)low, (uint32_t)middle, (uint32_t)high);
+            merge(arena, other, items, (uint32_t)low, (uint32_t)middle, (uint32_t)high);
         }
         void *sorted = other;
         other = items;
@@ -120,11 +125,11 @@ static void *merge_sort(void *items, void *other, uint32_t len, Merge *merge) {
 }
 
 double *builtin_sort_numbers(Arena *arena, double *numbers, uint32_t len) {
-    return merge_sort(numbers, arena_alloc_array(arena, len, sizeof *numbers), len, merge_numbers);
+    return merge_sort(arena, numbers, arena_alloc_array(arena, len, sizeof *numbers), len, merge_numbers);
 }
 
 Str *builtin_sort_texts(Arena *arena, Str *texts, uint32_t len) {
-    return merge_sort(texts, arena_alloc_array(arena, len, sizeof *texts), len, merge_texts);
+    return merge_sort(arena, texts, arena_alloc_array(arena, len, sizeof *texts), len, merge_texts);
 }
 
 // Is every element of a mixed vector a string?
@@ -162,6 +167,8 @@ typedef struct Census {
     uint32_t number_count, text_count, other_count;
 } Census;
 
+enum { COUNT_WORK = 10 }; // of a search in a sorted vector
+
 static Census census_take(Arena *arena, const Value *v) {
     Census census = {.numbers = arena_alloc_array(arena, v->len, sizeof(double))};
     if (v->kind == VALUE_MIXED) {
@@ -170,6 +177,7 @@ static Census census_take(Arena *arena, const Value *v) {
     }
     for (uint32_t i = 0; i < v->len; i++) {
         Item item = value_at(v, i);
+        arena_portion(arena, i, 1);
         if (item.type == ITEM_STRING)
             census.texts[census.text_count++] = item.as.string->text;
         else if (item.type != ITEM_NUMBER)
@@ -208,7 +216,7 @@ static uint32_t texts_below(const Census *census, Str text, bool inclusive) {
     return low;
 }
 
-static uint32_t census_count(const Census *census, Item item) {
+static uint32_t census_count(Arena *arena, const Census *census, Item item) {
     if (item.type == ITEM_NUMBER) {
         if (item.as.number != item.as.number)
             return 0;
@@ -218,7 +226,7 @@ static uint32_t census_count(const Census *census, Item item) {
         return texts_below(census, item.as.string->text, true) - texts_below(census, item.as.string->text, false);
     uint32_t found = 0;
     for (uint32_t i = 0; i < census->other_count; i++)
-        found += item_equal(item, census->others[i]);
+        found += item_equal(arena, item, census->others[i]);
     return found;
 }
 
@@ -229,8 +237,10 @@ Value builtin_count(BuiltinContext *context, const Value *args, uint32_t count) 
     double *result = arena_alloc_array(arena, args[0].len, sizeof *result);
     ArenaMark scratch = arena_mark(arena);
     Census census = census_take(arena, &args[1]);
-    for (uint32_t i = 0; i < args[0].len; i++)
-        result[i] = census_count(&census, value_at(&args[0], i));
+    for (uint32_t i = 0; i < args[0].len; i++) {
+        result[i] = census_count(arena, &census, value_at(&args[0], i));
+        arena_portion(arena, i, COUNT_WORK);
+    }
     arena_rewind(arena, scratch);
     return value_numbers_view(result, args[0].len);
 }

@@ -5,7 +5,7 @@
 
 #define STREAM(name, kind)                                                                                             \
     Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        return value_stream(kind, value_seed_hash(value_or(args[0], VALUE_NULL)));                                     \
+        return value_stream(kind, value_seed_hash(context->arena, value_or(args[0], VALUE_NULL)));                     \
     }
 
 STREAM(builtin_uniform, STREAM_UNIFORM)
@@ -27,6 +27,7 @@ Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count
     if (xs.kind == VALUE_NUMBERS) {
         double *numbers = arena_copy(context->arena, xs.as.numbers, xs.len * sizeof *numbers);
         for (uint32_t i = 0; i + 1 < xs.len; i++) {
+            arena_portion(context->arena, i, 4);
             uint32_t j = shuffle_partner(source, i, xs.len);
             double moved = numbers[i];
             numbers[i] = numbers[j];
@@ -36,6 +37,7 @@ Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count
     }
     Item *items = arena_copy(context->arena, xs.as.items, xs.len * sizeof *items);
     for (uint32_t i = 0; i + 1 < xs.len; i++) {
+        arena_portion(context->arena, i, 4);
         uint32_t j = shuffle_partner(source, i, xs.len);
         Item moved = items[i];
         items[i] = items[j];

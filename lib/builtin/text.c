@@ -10,6 +10,7 @@ Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
     const double *x = value_numbers(&args[0]);
     Text text = text_new(context->arena);
     for (uint32_t i = 0; i < args[0].len; i++) {
+        arena_portion(context->arena, i, 1);
         double code_point = floor(x[i]);
         // Surrogates are not characters: UTF-8 cannot hold them (E7).
         if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff))
@@ -21,6 +22,7 @@ Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
 
 Value builtin_ord(BuiltinContext *context, const Value *args, uint32_t count) {
     Str text = value_text(context->arena, context->symbols, args[0]);
+    arena_charge(context->arena, text.len / 8);
     size_t len = utf8_length(text);
     if (len > VALUE_MAX_LEN)
         return builtin_too_long(context, "ord");
@@ -77,6 +79,7 @@ Value builtin_split(BuiltinContext *context, const Value *args, uint32_t count) 
     Str separator = is_absent(args[1]) ? STR("\n") : value_text(context->arena, context->symbols, args[1]);
     if (separator.len == 0)
         return builtin_fault(context, "split", "the separator is empty");
+    arena_charge(context->arena, text.len / 8);
     size_t pieces = count_pieces(text, separator);
     if (pieces == 0)
         return builtin_fault(context, "split", "nothing between separators");

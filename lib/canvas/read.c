@@ -60,12 +60,19 @@ static void read_children(const Reader *reader, DrawNode *out) {
     out->children = children;
 }
 
+enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
+
 // NULL if the node is left out. The depth is limited by NODE_MAX_HEIGHT.
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind) {
     Reader reader = {schema, arena, node, kind, 1};
+    schema->at = node;
+    arena_charge(arena, NODE_WORK + node->attr_count + node->child_count / 4);
+    if (kind == KIND_GRADIENT) // drawing libraries sort its stops one by one
+        arena_charge(arena, (uint64_t)node->child_count * node->child_count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
-    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs};
+    const Symbol *program = schema->slots[ROW_SHADER_FRAGMENT].name;
+    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs, .place = node_place(node, program)};
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
         return NULL;
     if (!may_use_file(&reader, out))

@@ -13,7 +13,7 @@ const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at) {
 
 // A program alone makes nothing, but these do: out of nothing, or from elsewhere.
 static bool is_source(NodeKind kind) {
-    return kind == KIND_CANVAS || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE || kind == KIND_NOISE ||
+    return kind == KIND_CANVAS || kind == KIND_CANVAS3D || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE || kind == KIND_NOISE ||
            kind == KIND_SHADER;
 }
 

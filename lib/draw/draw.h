@@ -60,6 +60,8 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
 void draw_list(Canvas *canvas, const List *list);
 // Draws without the paint's filter.
 void draw_plainly(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
+// Cairo would fail for good with another matrix.
+bool draw_is_invertible(const cairo_matrix_t *m);
 // How many pixels a unit is, about.
 double draw_scale_of(cairo_t *cr);
 

@@ -171,8 +171,7 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
     cairo_get_matrix(cr, &matrix);
     cairo_matrix_init(&placed, box->scale_x, 0, 0, box->scale_y, box->x, box->y);
     cairo_matrix_multiply(&placed, &placed, &matrix);
-    double determinant = placed.xx * placed.yy - placed.xy * placed.yx;
-    if (isfinite(determinant) && determinant != 0 && isfinite(placed.x0) && isfinite(placed.y0)) {
+    if (draw_is_invertible(&placed)) {
         cairo_set_matrix(cr, &placed);
         cairo_set_source_surface(cr, surface, 0, 0);
         cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);

@@ -59,3 +59,9 @@ PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *pictu
     *bytes = STR("");
     return missing(faults);
 }
+
+PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
+                                 uint32_t *pixels, int width, int height, size_t stride) {
+    (void)painter, (void)labels, (void)count, (void)scale, (void)pixels, (void)width, (void)height, (void)stride;
+    return PETRI_MISSING;
+}

@@ -166,7 +166,7 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
     return result;
 }
 
-// Over black, only alpha changes.
+// Over black, colours that are premultiplied stay; only alpha changes.
 static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) {
     for (int y = 0; y < height; y++) {
         uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
@@ -191,8 +191,14 @@ static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *pic
 }
 
 PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    return picture->window && (picture->looks_back || !picture->direct) ? make_pictures(painter, picture, faults)
-                                                                        : PETRI_OK;
+    if (picture->window && (picture->looks_back || !picture->direct))
+        return make_pictures(painter, picture, faults);
+    if (painter->made > 0) { // nothing of this frame can be continued in the next
+        pictures_forget(painter);
+        painter->made = 0;
+        painter->shown = NULL;
+    }
+    return PETRI_OK;
 }
 
 static void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride) {

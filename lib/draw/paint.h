@@ -13,7 +13,7 @@
 #include "draw/automatic.h"
 #include "draw/texture.h"
 
-enum { PICTURE_NAMES = 24 };
+enum { PICTURE_NAMES = 64 };
 
 // One of `window` and `automatic` is there.
 typedef struct CanvasPicture {

@@ -1,6 +1,7 @@
 // picture.c: what the last frame shows, chosen and copied so that it can be drawn later and elsewhere (painter.c).
 #include "draw/picture.h"
 
+#include "base/number.h"
 #include "draw/pictures.h"
 #include "maths/maths.h"
 #include "session/shown.h"
@@ -41,13 +42,6 @@ static const Node *find_window(const Shown *shown, int number) {
     return offscreen ? offscreen : first;
 }
 
-static bool finite_vector(const double *v, uint32_t n) {
-    for (uint32_t k = 0; k < n; k++)
-        if (!isfinite(v[k]))
-            return false;
-    return true;
-}
-
 // At most three of a vector's numbers; the missing ones are 0.
 static void take_three(double out[3], const double *v, uint32_t n) {
     for (uint32_t k = 0; k < 3; k++)
@@ -61,7 +55,7 @@ static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system,
     for (uint32_t i = 0; i < view->particle_count; i++) {
         PhysParticle particle;
         numbers[i] = UINT32_MAX;
-        if (!phys_get_particle(view->engine, i, &particle) || !finite_vector(particle.position, view->dimensions))
+        if (!phys_get_particle(view->engine, i, &particle) || !numbers_finite(particle.position, view->dimensions, 1))
             continue;
         AutoBody *body = &system->bodies[system->body_count];
         numbers[i] = system->body_count++;
@@ -99,8 +93,8 @@ static void copy_forces(Arena *arena, const SceneView *view, AutoSystem *system,
         if (force.kind == PHYS_DISTANCE && force.from < view->particle_count && force.to < view->particle_count &&
             numbers[force.from] != UINT32_MAX && numbers[force.to] != UINT32_MAX) {
             system->links[system->link_count++] = (AutoLink){numbers[force.from], numbers[force.to]};
-        } else if (force.kind == PHYS_BARRIER && (!force.vector || finite_vector(force.vector, n)) && force.vector2 &&
-                   finite_vector(force.vector2, n)) {
+        } else if (force.kind == PHYS_BARRIER && (!force.vector || numbers_finite(force.vector, n, 1)) &&
+                   force.vector2 && numbers_finite(force.vector2, n, 1)) {
             AutoBarrier *barrier = &system->barriers[system->barrier_count++];
             take_three(barrier->position, force.vector, n);
             take_three(barrier->normal, force.vector2, n);
@@ -330,6 +324,9 @@ static bool make_picture(Request *request) {
 static void make_protected(PetriSession *session, void *context) {
     Request *request = context;
     request->frames = session_drawing(session, MOST_AUTO_SYSTEMS * sizeof *request->frames);
+    CanvasPicture *picture = &request->picture->picture;
+    picture->name_count =
+        session_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);
     request->status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
 }
 
@@ -342,16 +339,18 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     if (!picture)
         return PETRI_MEMORY;
     arena_init(&picture->arena, "picture", shown.memory_bytes);
+    picture->arena.meter = shown.meter;
     Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
-    PetriStatus status = PETRI_INVALID;
+    PetriStatus status = PETRI_OK;
     picture->picture.beat = petri_frame(session).beat;
-    picture->picture.name_count =
-        session_numbers(session, picture->picture.names, picture->picture.numbers, PICTURE_NAMES);
     if (shown.number >= 0)
-        status = session_protect(session, &picture->arena, make_protected, &request) == PETRI_OK ? request.status
-                                                                                                 : PETRI_MEMORY;
+        status = session_tell_end(session, session_protect(session, &picture->arena, make_protected, &request),
+                                  "the picture");
     else
         request.problem = "there is nothing to draw: no frame has been made yet";
+    arena_release(&picture->arena); // the picture may be freed in another thread
+    if (status == PETRI_OK)
+        status = request.status;
     if (status == PETRI_OK) {
         picture->faults = diag_sink_new(&picture->arena, MOST_FAULTS);
         *out = picture;
@@ -397,5 +396,8 @@ bool petri_picture_looks_back(const PetriPicture *picture) {
 void petri_picture_tell(PetriSession *session, PetriPicture *picture) {
     if (!session || !picture)
         return;
+    for (uint32_t i = 0; i < picture->faults.count; i++)
+        if (!session_has(session, &picture->faults.items[i]))
+            picture->faults.items[i].source = NULL;
     session_tell_all(session, &picture->faults);
 }

@@ -4,6 +4,7 @@
 #include "draw/draw.h"
 #include "draw/mix.h"
 #include "gl/effect.h"
+#include "gl/scene.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -79,18 +80,21 @@ static void forget(Frame *frame) {
     *frame = (Frame){.arena = arena};
 }
 
-void pictures_free(PetriPainter *painter) {
-    Pictures *pictures = painter->pictures;
+void pictures_forget(PetriPainter *painter) {
     const char *problem;
     bool gpu = painter->gl && gl_enter(painter->gl, &problem);
-    for (int i = 0; pictures && i < 2; i++) {
-        forget(&pictures->frames[i]);
-        arena_free(&pictures->frames[i].arena);
-    }
-    free(pictures);
-    painter->pictures = NULL;
+    for (int i = 0; painter->pictures && i < 2; i++)
+        forget(&painter->pictures->frames[i]);
     if (gpu)
         gl_leave(painter->gl);
+}
+
+void pictures_free(PetriPainter *painter) {
+    pictures_forget(painter);
+    for (int i = 0; painter->pictures && i < 2; i++)
+        arena_free(&painter->pictures->frames[i].arena);
+    free(painter->pictures);
+    painter->pictures = NULL;
 }
 
 const Recorded *pictures_records(const Pictures *pictures, uint32_t *count) {
@@ -251,6 +255,68 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
     return texture;
 }
 
+static bool is_good_size(Walk *walk, NodeKind kind, Origin place, int width, int height) {
+    if (width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS)
+        return true;
+    Str text = str_format(walk->faults->arena, "!%s: a picture can have 1 to %d pixels in width and height",
+                          schema_kinds[kind].name, PETRI_MOST_PIXELS);
+    diag_report(
+        walk->faults,
+        &(Diag){.level = DIAG_WARNING, .source = place.source, .span = place.span, .text = text, .code = "bad-size"});
+    return false;
+}
+
+static GlImage find_texture(void *host, Str id) {
+    Walk *walk = host;
+    Texture *found = find_known(walk->frame, id);
+    found = found ? found : find_known(walk->before, id);
+    if (found && !texture_send(walk->painter->gl, found))
+        give_up(walk);
+    return found ? found->image : (GlImage){0};
+}
+
+// Makes room for a node's children.
+static void prepare(Walk *walk, Made *made, uint32_t count) {
+    made->children = arena_alloc_array(&walk->frame->arena, count, sizeof *made->children);
+    memset(made->children, 0, count * sizeof *made->children);
+    made->count = count;
+}
+
+// What a camera of a scene sees; NULL, after a report, if that cannot be.
+static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
+    Gl *gl = walk->painter->gl;
+    if (!is_good_size(walk, KIND_CAMERA, (Origin){0}, camera->width, camera->height))
+        return NULL;
+    GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
+    Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
+    if (image.texture && !texture)
+        give_up(walk);
+    return texture;
+}
+
+// The picture of a scene, and those of its other cameras, which are kept as if they were nodes inside it.
+static Texture *make_scene(Walk *walk, const DrawNode *node, Made *made, int width, int height) {
+    if (!need_gpu(walk))
+        return NULL;
+    const Scene *scene =
+        scene_read(&walk->frame->arena, node, width, height, walk->bits, &walk->picture->reach, walk->faults);
+    Texture *texture = make_view(walk, scene, &scene->cameras[scene->shown]);
+    if (made->id.len > 0 && texture)
+        know(walk, made->id, texture);
+    if (scene->cameras[scene->shown].id.len > 0 && texture)
+        know(walk, str_copy(&walk->frame->arena, scene->cameras[scene->shown].id), texture);
+    prepare(walk, made, scene->camera_count);
+    for (uint32_t i = 1; i < scene->camera_count; i++) {
+        const SceneCamera *camera = &scene->cameras[i];
+        if (!camera->secondary || i == scene->shown)
+            continue;
+        made->children[i].picture = make_view(walk, scene, camera);
+        if (made->children[i].picture)
+            know(walk, str_copy(&walk->frame->arena, camera->id), made->children[i].picture);
+    }
+    return texture;
+}
+
 static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
     Frame *frame = walk->frame;
     if (!texture_fetch(walk->painter->gl, texture))
@@ -259,13 +325,6 @@ static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
                                 (frame->record_count + 1) * sizeof *frame->records);
     frame->records[frame->record_count++] =
         (Recorded){node, pictures_direct(node, texture->width, texture->height), texture};
-}
-
-// Makes room for a node's children.
-static void prepare(Walk *walk, Made *made, uint32_t count) {
-    made->children = arena_alloc_array(&walk->frame->arena, count, sizeof *made->children);
-    memset(made->children, 0, count * sizeof *made->children);
-    made->count = count;
 }
 
 static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Made *past, int width, int height);
@@ -304,14 +363,6 @@ static Texture *find_reference(Walk *walk, Str id) {
     return found ? texture_keep(found) : NULL;
 }
 
-static bool is_good_size(Walk *walk, const DrawNode *node, int width, int height) {
-    if (width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS)
-        return true;
-    draw_report(walk->faults, DIAG_WARNING, "bad-size", "!%s: a picture can have 1 to %d pixels in width and height",
-                schema_kinds[node->kind].name, PETRI_MOST_PIXELS);
-    return false;
-}
-
 // Makes a node's picture in one that is width x height large; NULL if there is none. Borrowed from `made`.
 static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Made *parent, int width, int height) {
     Arena *arena = &walk->frame->arena;
@@ -339,10 +390,11 @@ static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Ma
         break;
     default:
         pictures_size(node, &width, &height);
-        if (!is_good_size(walk, node, width, height))
+        if (!is_good_size(walk, (NodeKind)node->kind, node->place, width, height))
             break;
-        made->picture = node->kind == KIND_CANVAS ? make_canvas(walk, node, width, height)
-                                                  : make_program(walk, node, made, past, width, height);
+        made->picture = node->kind == KIND_CANVAS     ? make_canvas(walk, node, width, height)
+                        : node->kind == KIND_CANVAS3D ? make_scene(walk, node, made, width, height)
+                                                      : make_program(walk, node, made, past, width, height);
     }
     walk->depth--;
     if (made->id.len > 0 && made->picture)

@@ -14,6 +14,9 @@ typedef struct Pictures Pictures; // what is kept from frame to frame
 Pictures *pictures_new(void);
 void pictures_free(PetriPainter *painter); // those of a painter
 
+// What the next frame would continue.
+void pictures_forget(PetriPainter *painter);
+
 // Makes all pictures of a frame. *shown is the one of the picture's window, or NULL if it has none; it is kept until
 // the next call, as are the records. What cannot be made is reported and left out. PETRI_OK or PETRI_MEMORY.
 PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);

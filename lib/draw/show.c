@@ -12,6 +12,10 @@ typedef struct Layers {
     uint32_t depth; // of what is open; beyond MOST_LAYERS all are drawn without
 } Layers;
 
+bool draw_is_invertible(const cairo_matrix_t *m) {
+    return list_invertible(&(ListMatrix){m->xx, m->yx, m->xy, m->yy, m->x0, m->y0});
+}
+
 double draw_scale_of(cairo_t *cr) {
     cairo_matrix_t m;
     cairo_get_matrix(cr, &m);
@@ -97,8 +101,7 @@ static void show(Canvas *canvas, const ListCommand *command) {
 static bool set_matrix(Canvas *canvas, const ListMatrix *m) {
     cairo_matrix_t matrix = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
     cairo_matrix_multiply(&matrix, &matrix, &canvas->base);
-    ListMatrix whole = {matrix.xx, matrix.yx, matrix.xy, matrix.yy, matrix.x0, matrix.y0};
-    if (!list_invertible(&whole)) // Cairo would fail for good
+    if (!draw_is_invertible(&matrix))
         return false;
     cairo_set_matrix(canvas->cr, &matrix);
     return true;

@@ -24,12 +24,6 @@ bool draw_text_open(PetriPainter *painter) {
     pango_context_set_round_glyph_positions(painter->text_context, FALSE);
     painter->layout = pango_layout_new(painter->text_context);
     pango_layout_set_single_paragraph_mode(painter->layout, TRUE);
-    // Letter after letter, of this font alone.
-    PangoAttrList *attributes = pango_attr_list_new();
-    pango_attr_list_insert(attributes, pango_attr_font_features_new("kern=0, liga=0, clig=0, calt=0"));
-    pango_attr_list_insert(attributes, pango_attr_fallback_new(FALSE));
-    pango_layout_set_attributes(painter->layout, attributes);
-    pango_attr_list_unref(attributes);
     return true;
 }
 
@@ -112,6 +106,15 @@ static bool same_font(const ListText *a, const ListText *b) {
            a->slant == b->slant;
 }
 
+// Letter after letter, of this font alone.
+static void set_plain_letters(PangoLayout *layout) {
+    PangoAttrList *attributes = pango_attr_list_new();
+    pango_attr_list_insert(attributes, pango_attr_font_features_new("kern=0, liga=0, clig=0, calt=0"));
+    pango_attr_list_insert(attributes, pango_attr_fallback_new(FALSE));
+    pango_layout_set_attributes(layout, attributes);
+    pango_attr_list_unref(attributes);
+}
+
 static void set_font(Canvas *canvas, const ListText *text) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
     PetriPainter *painter = canvas->painter;
@@ -125,6 +128,7 @@ static void set_font(Canvas *canvas, const ListText *text) {
     pango_font_description_set_style(font, styles[text->slant]);
     pango_layout_set_font_description(painter->layout, font);
     pango_font_description_free(font);
+    set_plain_letters(painter->layout);
     painter->family = text->family;
     painter->font = *text;
 }

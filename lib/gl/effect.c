@@ -67,8 +67,15 @@ static uint32_t split(const char *text, Str *common, Pass passes[MOST_PASSES]) {
 
 void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
     Text text = text_new(faults->arena);
-    text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)problem.len, problem.bytes);
-    diag_report(faults, &(Diag){.level = DIAG_WARNING, .text = text_str(&text), .code = code});
+    size_t line = 0; // compilers say much after it that follows from it
+    while (line < problem.len && problem.bytes[line] != '\n')
+        line++;
+    text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
+    diag_report(faults, &(Diag){.level = DIAG_WARNING,
+                                .source = node->place.source,
+                                .span = node->place.span,
+                                .text = text_str(&text),
+                                .code = code});
 }
 
 int gl_downsample(const DrawNode *node) {

@@ -5,7 +5,8 @@
 #include <stdlib.h>
 #include <string.h>
 
-const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\n";
+// Samplers are of low precision unless told otherwise, and then give halves.
+const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 // Mesa can do without any display. Else the usual one, without a surface.
 static EGLDisplay find_display(void) {
@@ -83,6 +84,7 @@ void gl_close(Gl *gl) {
         if (gl_enter(gl, &problem)) {
             gl_images_close(gl);
             gl_programs_close(gl);
+            gl_store_close(gl);
             glDeleteFramebuffers(1, &gl->framebuffer);
             glDeleteVertexArrays(1, &gl->strip);
             glDeleteBuffers(1, &gl->corners);

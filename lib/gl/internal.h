@@ -7,6 +7,7 @@
 #include <epoxy/gl.h>
 
 typedef struct GlProgram GlProgram;
+typedef struct GlStore GlStore; // of scenes
 
 enum { GL_SPARE_IMAGES = 32 };
 
@@ -24,9 +25,11 @@ struct Gl {
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
+    GlStore *store; // made by the first scene
 };
 
 void gl_images_close(Gl *gl);
 void gl_programs_close(Gl *gl);
+void gl_store_close(Gl *gl);
 
 #endif

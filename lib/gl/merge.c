@@ -16,11 +16,12 @@ static const char border_taking[] =
     "    ivec2 s = textureSize(t, 0);\n"
     "    return all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, s)) ? texelFetch(t, p, 0) : border;\n"
     "}\n";
-static const char repeat_taking[] = "vec4 texel(sampler2D t, ivec2 p) {\n"
-                                    "    ivec2 s = textureSize(t, 0);\n"
-                                    "    ivec2 r = (p % s + s) % s;\n"
-                                    "    return texelFetch(t, mix(clamp(p, ivec2(0), s - 1), r, repeated), 0);\n"
-                                    "}\n";
+static const char repeat_taking[] =
+    "vec4 texel(sampler2D t, ivec2 p) {\n"
+    "    ivec2 s = textureSize(t, 0), far = 1024 * s, c = clamp(p, ivec2(0), s - 1);\n"
+    "    ivec2 r = (clamp(p, -far, far) + far) % s;\n" // not of negative numbers
+    "    return texelFetch(t, ivec2(repeated.x ? r.x : c.x, repeated.y ? r.y : c.y), 0);\n"
+    "}\n";
 static const char clamped_taking[] = "vec4 texel(sampler2D t, ivec2 p) {\n"
                                      "    return texelFetch(t, clamp(p, ivec2(0), textureSize(t, 0) - 1), 0);\n"
                                      "}\n";

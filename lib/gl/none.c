@@ -1,5 +1,6 @@
 // none.c: gl.h in a build without OpenGL: nobody gets a Gl, so nothing else is called.
 #include "gl/effect.h"
+#include "gl/scene.h"
 
 Gl *gl_open(const char **problem) {
     *problem = "this build of petri has no OpenGL (Debian: libepoxy-dev libegl-dev)";
@@ -58,5 +59,10 @@ bool gl_read_linear(Gl *gl, GlImage image, float *pixels) {
 
 GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
     (void)gl, (void)arena, (void)effect, (void)faults;
+    return (GlImage){0};
+}
+
+GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures) {
+    (void)gl, (void)scene, (void)camera, (void)pictures;
     return (GlImage){0};
 }

@@ -6,18 +6,22 @@
 
 enum { MOST_PASSES = 64 };
 
-// A text with the host's lines in place of ${HEADER}. False if there are other templates.
+// A text with the host's lines in place of ${HEADER}; what the compiler says counts lines as the text does. False if
+// there are other templates.
 static bool expand(Text *out, Str text) {
     static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
-    for (size_t i = 0; i < text.len; i++) {
+    size_t line_number = 1, i = 0;
+    for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
+        line_number += text.bytes[i] == '\n'; // the version is the first line
+    for (; i < text.len; i++) {
         Str rest = {text.bytes + i, text.len - i};
         bool line = i == 0 || text.bytes[i - 1] == '\n';
-        if (str_starts_with(rest, header)) {
-            text_add_c(out, gl_header);
+        line_number += text.bytes[i] == '\n';
+        bool own = line && str_starts_with(rest, version);
+        if (own || str_starts_with(rest, header)) {
+            text_add_format(out, "%s#line %zu\n", gl_header, line_number);
             i += header.len - 1;
-        } else if (line && str_starts_with(rest, version)) {
-            text_add_c(out, gl_header);
-            while (i + 1 < text.len && text.bytes[i + 1] != '\n')
+            while (own && i + 1 < text.len && text.bytes[i + 1] != '\n')
                 i++;
         } else if (str_starts_with(rest, STR("${")) || (line && text.bytes[i] == '%')) {
             return false;
@@ -26,12 +30,6 @@ static bool expand(Text *out, Str text) {
         }
     }
     return true;
-}
-
-static Str leading_blanks_cut(Str text) {
-    while (text.len > 0 && strchr(" \t\n\r", text.bytes[0]))
-        text = (Str){text.bytes + 1, text.len - 1};
-    return text;
 }
 
 // Whether a pass is one of `downsample_passes`.
@@ -48,9 +46,9 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Text texts[2] = {text_new(arena), text_new(arena)};
     Str problem;
-    bool good = expand(&texts[0], vertex ? leading_blanks_cut(vertex->as.text) : str_from(gl_quad));
+    bool good = expand(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
     if (fragment) {
-        good = good && expand(&texts[1], leading_blanks_cut(fragment->as.text));
+        good = good && expand(&texts[1], fragment->as.text);
     } else if (!gl_add_merge(&texts[1], node, effect->count, gl_edge(node, GL_EDGE_BORDER))) {
         return (GlImage){0};
     } else {
@@ -62,7 +60,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     }
     unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &problem);
     if (!program) {
-        gl_report(faults, node, "bad-shader", str_trim(problem));
+        gl_report(faults, node, "bad-shader", problem);
         return (GlImage){0};
     }
     double wanted = draw_number(node, ATTR_PASSES);

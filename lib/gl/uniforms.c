@@ -48,17 +48,17 @@ static bool invert(double m[9]) {
     return determinant != 0 && isfinite(determinant);
 }
 
+static const double unit_matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const double TURN = 6.283185307179586;
 
 // That of `!transform` (spec pictures.md 7.7), inverse; zeros if there is none.
 static void find_matrix(const GlEffect *effect, double m[9]) {
-    static const double one[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
-    memcpy(m, one, sizeof one);
+    memcpy(m, unit_matrix, sizeof unit_matrix);
     for (uint32_t i = 0; i < effect->node->attr_count; i++) {
         const AttrValue *attr = &effect->node->attrs[i];
         const double *x = attr->as.numbers;
         double a[9];
-        memcpy(a, one, sizeof one);
+        memcpy(a, unit_matrix, sizeof unit_matrix);
         if (attr->name == ATTR_SCALE) {
             a[0] = x[0], a[4] = x[1];
         } else if (attr->name == ATTR_ROTATE) {
@@ -93,7 +93,9 @@ static bool find_attribute(const DrawNode *node, const char *name, Numbers *out)
         AttrShape shape = row ? schema_types[row->type].shape : SHAPE_OTHER;
         if (!row)
             continue;
-        if (shape == SHAPE_WORD || shape == SHAPE_FLAG)
+        if (!attr && shape == SHAPE_LIST) // color_matrix
+            give(out, unit_matrix, 9);
+        else if (shape == SHAPE_WORD || shape == SHAPE_FLAG)
             give_one(out, !attr ? row->fallback.value : shape == SHAPE_WORD ? attr->as.word : attr->as.flag);
         else if (!attr)
             give_one(out, row->fallback.value);
@@ -124,6 +126,8 @@ static bool find_own(const GlState *state, const char *name, Numbers *out) {
         give_one(out, state->downsample);
     else if (strcmp(name, "beats") == 0)
         give_one(out, effect->frame->beats);
+    else if (strcmp(name, "past") == 0)
+        give_one(out, state->last.texture != 0);
     else if (strcmp(name, "inverse_matrix") == 0)
         find_matrix(effect, out->own), give(out, out->own, 9);
     else if (strcmp(name, "repeated") == 0)
@@ -135,11 +139,9 @@ static bool find_own(const GlState *state, const char *name, Numbers *out) {
 
 static void find_numbers(const GlState *state, const char *name, Numbers *out) {
     const GlEffect *effect = state->effect;
-    if (effect->node->kind == KIND_SHADER && strcmp(name, "alpha") == 0)
-        give_one(out, 1); // its program multiplies by itself
-    else if (!find_own(state, name, out) && !find_attribute(effect->node, name, out)) {
+    if (!find_own(state, name, out) && !find_attribute(effect->node, name, out)) {
         give_one(out, 0);
-        for (uint32_t i = 0; i < effect->frame->name_count; i++)
+        for (uint32_t i = effect->frame->name_count; i-- > 0;) // of several the first counts
             if (strcmp(effect->frame->names[i], name) == 0)
                 give_one(out, effect->frame->numbers[i]);
     }
@@ -197,9 +199,6 @@ static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *num
         x[i] = (float)number;
         n[i] = fabs(number) < 1e9 ? (GLint)floor(number) : 0;
     }
-    if (numbers->count == 1 && type == GL_FLOAT_MAT3) // a number stands for a multiple of the unit matrix
-        for (uint32_t i = 0; i < all; i++)
-            x[i] = i % 9 % 4 == 0 ? (float)numbers->list[0] : 0;
     send(at, type, size, count, whole, x, n);
 }
 

@@ -13,6 +13,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default)
+#endif
 
 typedef struct PetriPicture PetriPicture;
 typedef struct PetriPainter PetriPainter;
@@ -94,6 +97,25 @@ PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size
 // PETRI_MEMORY; the pixels are then cleared.
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
                                size_t stride);
+// A panel with lines of text, for a host that has something to say over a picture. Colours are red, green, blue and
+// alpha from 0 to 1.
+typedef struct PetriLabel {
+    const char *text; // UTF-8; lines end in newlines
+    double x;         // of the panel's corner at the top left
+    double y;
+    double width;
+    double height;
+    double size; // of letters; the font is one of fixed width
+    double line_height;
+    double padding; // between the panel's edges and the text
+    double back[4];
+    double front[4]; // of the text
+    double edge[4];  // of a stripe at the left
+} PetriLabel;
+// Draws labels over opaque pixels; `scale` is the number of pixels for each of their units. PETRI_MISSING without
+// Cairo, PETRI_MEMORY.
+PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
+                                 uint32_t *pixels, int width, int height, size_t stride);
 // Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
 bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the
@@ -106,6 +128,9 @@ PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *paint
 // called by the thread that uses the session, when no other uses the picture.
 void petri_picture_tell(PetriSession *session, PetriPicture *picture);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

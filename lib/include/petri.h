@@ -22,6 +22,9 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
+#ifdef __GNUC__
+#pragma GCC visibility push(default) // all else stays within the library, also in a shared one made of it
+#endif
 
 #define PETRI_Z SIZE_MAX
 
@@ -53,7 +56,8 @@ typedef struct PetriDiagnostic {
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
 typedef struct PetriOptions {
-    double fps; // target frame rate; a script's `%pragma fps` wins. Default 60
+    size_t size; // of the struct that the host was compiled with: petri_default_options sets it
+    double fps;  // target frame rate; a script's `%pragma fps` wins. Default 60
     // Follow the wall clock: petri_step waits until the frame is due, and `time` is what has passed since frame 0.
     // Default false: lockstep, where `time` is frame/fps.
     bool realtime;
@@ -64,12 +68,17 @@ typedef struct PetriOptions {
     // The C stack that evaluation may use; deeper recursion is a diagnostic. Default 4 MiB: a thread of 8 MiB is
     // enough.
     size_t stack_bytes;
-    size_t memory_bytes;        // for the values of one frame. Default 2 GiB
+    // What a script may use; a frame, a load, a picture that needs more is given up with a diagnostic that tells what
+    // in the script asked for it. Memory is all that the session holds for the script; what is petri's own (some 64 MiB
+    // at the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by
+    // time, so that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
+    size_t memory_bytes;        // default 2 GiB
+    uint64_t work;              // of one call, such as petri_step; its systems have as much again. Default 2^27
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,
-    // by petri_interrupt or because memory is used up; a frame that is given up does not count then. Default false:
-    // only evaluation is interrupted.
+    // by petri_interrupt or because work or memory is used up, as if it had never been begun. Default false: then each
+    // system has made that frame or stays as it was, which is for hosts that end there.
     bool interruptible;
     // The files that a script may use: it reads below its own folder, the current one and `read_folders`, it writes
     // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
@@ -79,10 +88,19 @@ typedef struct PetriOptions {
     bool keep_forces; // let petri_particle tell the force on each particle
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
-    uint32_t cookie; // set by petri_default_options; catches options that were not initialised
+    // Vector instructions that physics may use: "scalar", "avx2" or "avx512", or what there is below that. NULL (the
+    // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
+    // once when the library is loaded, is the upper limit. Results never depend on it.
+    const char *cpu;
 } PetriOptions;
 
-PetriOptions petri_default_options(void);
+// Writes the defaults of the first `size` bytes of options.
+void petri_options_init(PetriOptions *options, size_t size);
+static inline PetriOptions petri_default_options(void) {
+    PetriOptions options;
+    petri_options_init(&options, sizeof options);
+    return options;
+}
 
 // A session without a script, or NULL if memory is used up or the options were not initialised or make no sense.
 PetriSession *petri_open(const PetriOptions *options);
@@ -99,9 +117,9 @@ PetriStatus petri_define(PetriSession *session, const char *definition);
 PetriStatus petri_load(PetriSession *session, const char *file);
 // The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
-// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of tempo and fps, those count anew
-// whose pragma was changed. NULL stands for the text that was loaded last, for when definitions have changed: what was
-// told of it is not told again.
+// The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of
+// tempo and fps, those count anew whose pragma was changed. NULL stands for the text that was loaded last, for when
+// definitions have changed: what was told of it is not told again.
 PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
@@ -189,8 +207,9 @@ PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
 PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
 bool petri_key_bound(PetriSession *session, const char *name);
-// Asks for an end of the petri_step, petri_prompt or petri_evaluate that is under way, or of the next one: it returns
-// PETRI_INTERRUPTED, soon. The one function that may be called from a signal handler or from another thread.
+// Asks for an end of what is under way (or of the next): a step, a load, a picture, a text that is printed or evaluated
+// returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or
+// from another thread.
 void petri_interrupt(PetriSession *session);
 // Whether such a wish has not been met yet; forgets it.
 bool petri_interrupted(PetriSession *session);
@@ -280,7 +299,7 @@ bool petri_drawable(PetriSession *session);
 // beyond the last. Texts live as long as the library.
 typedef struct PetriNodeKind {
     const char *name; // without the `!`
-    const char *area; // "physics" or "canvas"; `group` is a kind of both
+    const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
     const char *help;
 } PetriNodeKind;
 
@@ -387,6 +406,9 @@ bool petri_read_number(const char *text, double *x);
 
 const char *petri_version(void);
 
+#ifdef __GNUC__
+#pragma GCC visibility pop
+#endif
 #ifdef __cplusplus
 }
 #endif

@@ -22,6 +22,7 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
         capacity = needed;
     Buffer larger = {.capacity = capacity};
     arena_init(&larger.arena, "physics", SIZE_MAX);
+    larger.arena.meter = system->options.meter;
     larger.bytes = arena_try_alloc(&larger.arena, capacity); // its only block: without it there is nothing to free
     if (!larger.bytes) {
         system->bytes = others + buffer->capacity;

@@ -40,6 +40,7 @@ static Pass prepare_pass(const PhysSystem *system, ForceRange forces) {
         .charge = columns->charge,
         .term_count = (size_t)(forces.end - forces.begin),
         .terms = system->terms.bytes,
+        .stop = phys_stop(system),
     };
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MOST_TERMS &&
         columns->count >= MIN_FOR_LANES) {
@@ -61,7 +62,7 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
         pass->kernel->triangle(&pass->pairs, first, end);
         return;
     }
-    for (size_t i = first; i < end; i++)
+    for (size_t i = first; i < end && !phys_pass_stopped(&pass->pairs); i++)
         phys_pair_row(&pass->pairs, i, i + 1, end);
 }
 
@@ -75,7 +76,7 @@ static size_t vectors(const Pass *pass, size_t rows, size_t columns) {
 static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t other, size_t other_end) {
     size_t rows = end - first, columns = other_end - other;
     if (!pass->kernel || rows + columns <= 4) {
-        for (size_t i = first; i < end; i++)
+        for (size_t i = first; i < end && !phys_pass_stopped(&pass->pairs); i++)
             phys_pair_row(&pass->pairs, i, other, other_end);
         return;
     }
@@ -88,6 +89,13 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
         pass->kernel->tiles(&pass->pairs, wave.row, wave.row_end, wave.column, wave.column_end);
 }
 
+// Charges for all of so many pairs; false if they are not to be computed.
+static bool charge_pairs(const Pass *pass, uint64_t pairs) {
+    enum { LANES_A_UNIT = 64, ROWS_A_UNIT = 4 };
+    size_t n = pass->pairs.dimensions;
+    return phys_charge(pass->system, 1 + (pass->kernel ? pairs / LANES_A_UNIT : pairs * n / ROWS_A_UNIT));
+}
+
 // The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later
 // ones of its group, then the particles of the enclosing groups up to `level`.
 static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
@@ -97,9 +105,13 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level))
         return;
     size_t first = group->first, end = first + group->count;
+    if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))
+        return;
     pass_triangle(&pass, first, end);
     // Numbers ascend from parent to child, so on the way up those below `level` are beyond it.
     for (uint32_t g = number ? groups[group->parent].populated : NO_GROUP; g != NO_GROUP && g >= level;) {
+        if (!charge_pairs(&pass, (uint64_t)group->count * groups[g].count))
+            return;
         pass_rectangle(&pass, first, end, groups[g].first, (size_t)groups[g].first + groups[g].count);
         g = g ? groups[groups[g].parent].populated : NO_GROUP;
     }

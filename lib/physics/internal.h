@@ -144,6 +144,21 @@ static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
     return (double *)system->rows.bytes + (size_t)2 * system->dimensions * particle;
 }
 
+// Charges work to the system's meter; false if the step is to be given up, by the main thread only.
+static inline bool phys_charge(const PhysSystem *system, uint64_t units) {
+    return meter_charge(system->options.meter, units) == METER_GOES_ON;
+}
+
+// Whether all that was charged so far could be, and nobody wants an end.
+static inline bool phys_goes_on(const PhysSystem *system) {
+    return !system->options.meter || meter_look(system->options.meter) == METER_GOES_ON;
+}
+
+// What the threads look at meanwhile: the wish for an end.
+static inline const atomic_bool *phys_stop(const PhysSystem *system) {
+    return system->options.meter ? system->options.meter->interrupt : NULL;
+}
+
 // buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
 // `system->failed` set, if memory is used up.
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size);
@@ -160,8 +175,8 @@ bool phys_load(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);
 void phys_store(PhysSystem *system, bool keep_last_finite);
 
-// step.c: one step of `delta` at `clock`.
-void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
+// step.c: one step of `delta` at `clock`; false if it was given up half-way.
+bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);

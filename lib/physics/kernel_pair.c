@@ -132,7 +132,7 @@ KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t cou
 
 KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t row_end, size_t column,
                       size_t column_end, bool triangle) {
-    for (size_t i = row; i < row_end; i += LANES)
+    for (size_t i = row; i < row_end && !phys_pass_stopped(pass); i += LANES)
         tile_row(pass, shape, i, row_end - i < LANES ? row_end - i : LANES, column, column_end, triangle);
 }
 

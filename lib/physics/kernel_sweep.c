@@ -103,7 +103,7 @@ KERNEL void sweep_block(SweepPass *pass, size_t n, size_t i, size_t count) {
 }
 
 KERNEL void sweep(SweepPass *pass, size_t n, size_t first, size_t end) {
-    for (size_t i = first; i < end; i += LANES)
+    for (size_t i = first; i < end && !phys_sweep_stopped(pass); i += LANES)
         sweep_block(pass, n, i, end - i);
 }
 

@@ -43,7 +43,12 @@ typedef struct PairPass {
     const double *charge;
     size_t term_count;
     const PairTerm *terms;
+    const atomic_bool *stop; // true: rows are left out, for nobody wants the result any more; NULL: never
 } PairPass;
+
+static inline bool phys_pass_stopped(const PairPass *pass) {
+    return pass->stop && atomic_load_explicit(pass->stop, memory_order_relaxed);
+}
 
 // All pairs inside one range, or between a range of rows and one of columns that do not overlap.
 typedef void PairTriangle(const PairPass *pass, size_t first, size_t end);

@@ -8,6 +8,7 @@ enum {
     MIN_FOR_LISTS = 160, // particles of a pass
     REST_FIRST = 64,     // steps without lists after they did not pay; doubled each time
     REST_LONGEST = 1024,
+    ENTRIES_A_UNIT = 8,
     LIFE_FIRST = 8, // steps that a list is expected to serve at first
 };
 
@@ -119,7 +120,7 @@ static void large_forces(const ListPass *work) {
     const Neighbours *list = work->list;
     const PassRanges *ranges = &list->ranges;
     uint32_t end = list->view.listed, own = list->ranges.at[0].count;
-    for (uint32_t place = list->view.regular; place < end;) {
+    for (uint32_t place = list->view.regular; place < end && !phys_pass_stopped(work->pass);) {
         uint32_t targets[8] = {0}, count = 0;
         bool inner = list->key[place] < own;
         // Those of enclosing groups meet only the particles of the group itself.
@@ -235,6 +236,9 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
         refresh(system, &work);
     }
     list->age++;
+    uint64_t large = (uint64_t)(list->view.listed - list->view.regular) * list->total;
+    if (!phys_charge(system, (list->padded + large) / ENTRIES_A_UNIT + list->total))
+        return true;
     phys_parallel(system, shares_for(system, list), force_share, &work);
     large_forces(&work);
     return true;

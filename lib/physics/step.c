@@ -44,9 +44,13 @@ static void start_forces(const PhysSystem *system, double clock) {
         phys_parallel(system, phys_shares(system, system->columns.count, MIN_FOR_THREADS), start_share, &start);
 }
 
-void phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
+bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
     const Group *groups = system->groups.bytes;
     const Columns *columns = &system->columns;
+    enum { STEP_WORK = 8, NUMBERS_A_UNIT = 32 };
+    size_t numbers = columns->count * columns->dimensions + system->force_count;
+    if (!phys_charge(system, STEP_WORK + system->group_count + numbers / NUMBERS_A_UNIT))
+        return false;
     ease_strengths(system, clock);
     start_forces(system, clock);
     // 1. Forces between particles, all of them before anything moves.
@@ -55,8 +59,11 @@ void phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         if (groups[g].count)
             phys_apply_pairs(system, &groups[g]);
     }
+    if (!phys_goes_on(system))
+        return false;
     // 2. What happens to each particle alone.
     for (uint32_t g = 0; g < system->group_count; g++)
         if (groups[g].count)
             phys_sweep(system, g, delta, speed_of_light);
+    return phys_goes_on(system);
 }

@@ -76,14 +76,18 @@ static void advance_streams(const SweepPass *pass, const Group *group) {
 
 void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_of_light) {
     enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
+    enum { NUMBERS_A_UNIT = 16, DRAWN_A_UNIT = 2 };
     const Group *group = (const Group *)system->groups.bytes + number;
     const Columns *columns = &system->columns;
-    SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light};
+    SweepPass pass = {.columns = columns, .delta = delta, .speed_of_light = speed_of_light, .stop = phys_stop(system)};
     uint32_t singles = collect(system, number, STAGE_SINGLE, 0);
     pass.barrier_count = collect(system, number, STAGE_BARRIER, singles);
     pass.force_count = singles + pass.barrier_count;
     pass.forces = system->chain.bytes;
     pass.keep_force = pass.barrier_count > 0 || system->options.keep_forces;
+    uint64_t numbers = (uint64_t)group->count * columns->dimensions * (1 + pass.force_count);
+    if (!phys_charge(system, numbers / (draws(&pass) ? DRAWN_A_UNIT : NUMBERS_A_UNIT)))
+        return;
     bool wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;
     const Kernels *kernels = phys_kernels(system);
     Share share = {.kernel = sweep_all_one, .lanes = 1, .pass = &pass, .group = group, .random = draws(&pass)};

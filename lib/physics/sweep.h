@@ -11,10 +11,15 @@ typedef struct SweepPass {
     double speed_of_light;
     const Force *const *forces; // on single particles, then barriers; own ones first, then those of the parent, …
     uint32_t force_count;
-    uint32_t barrier_count; // so many of them, the last ones, are barriers
-    bool keep_force;        // store the sums: bounces move again with the same force, and somebody may want to see it
-    uint64_t taken;         // random numbers that each random force has given to particles of the group so far
+    uint32_t barrier_count;  // so many of them, the last ones, are barriers
+    bool keep_force;         // store the sums: bounces move again with the same force, and somebody may want to see it
+    const atomic_bool *stop; // true: the rest is left out, for nobody wants the result any more; NULL: never
+    uint64_t taken;          // random numbers that each random force has given to particles of the group so far
 } SweepPass;
+
+static inline bool phys_sweep_stopped(const SweepPass *pass) {
+    return pass->stop && atomic_load_explicit(pass->stop, memory_order_relaxed);
+}
 
 static inline const Force *const *phys_barriers(const SweepPass *pass) {
     return pass->forces + (pass->force_count - pass->barrier_count);

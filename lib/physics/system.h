@@ -9,9 +9,9 @@
 #define PETRI_PHYSICS_SYSTEM_H
 
 #include "base/cpu.h"
+#include "base/meter.h"
 #include "physics/force_list.h"
 
-#include <stdatomic.h>
 #include <stdbool.h>
 #include <stddef.h>
 #include <stdint.h>
@@ -83,6 +83,7 @@ typedef struct PhysOptions {
     CpuLevel cpu; // at most cpu_here.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
+    Meter *meter;      // that work and memory are charged to, which outlives the system; NULL: none
     bool keep_forces;  // for phys_force_on; costs one store per particle and step
 } PhysOptions;
 
@@ -121,14 +122,13 @@ void phys_begin_forces(PhysSystem *system);
 void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key);
 
 typedef struct PhysTime {
-    double last;                  // time up to which the state has been simulated
-    double now;                   // time of this frame; > last
-    double clock;                 // simulation clock at `last`
-    double resolution;            // longest step; > 0 and finite
-    bool lockstep;                // always catch up
-    double performance;           // engine performance, decides about the one extra step in real time
-    double speed_of_light;        // <= 0: no limit
-    const atomic_bool *interrupt; // looked at before each step: true gives the frame up; NULL: none
+    double last;           // time up to which the state has been simulated
+    double now;            // time of this frame; > last
+    double clock;          // simulation clock at `last`
+    double resolution;     // longest step; > 0 and finite
+    bool lockstep;         // always catch up
+    double performance;    // engine performance, decides about the one extra step in real time
+    double speed_of_light; // <= 0: no limit
     bool keep_last_finite; // a position or velocity that is not finite afterwards is put back to what it was before
                            // the frame, and so is one that equals it (0 does not become -0), unless that came from an
                            // attribute: then any finite result counts
@@ -137,7 +137,7 @@ typedef struct PhysTime {
 typedef enum PhysStatus {
     PHYS_OK,
     PHYS_DROPPED_TIME, // the step limit or the precision of the clock was reached; the rest of the frame was dropped
-    PHYS_INTERRUPTED,  // positions and velocities are those of some step in between
+    PHYS_STOPPED,      // the meter did not let it go on: nothing was simulated
     PHYS_NO_MEMORY,    // an allocation failed or PHYS_MAX_BYTES would be exceeded; nothing was simulated
 } PhysStatus;
 

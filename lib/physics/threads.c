@@ -4,6 +4,7 @@
 
 #include <pthread.h>
 #include <sched.h>
+#include <signal.h>
 #include <stdatomic.h>
 #include <stdlib.h>
 #include <unistd.h>
@@ -121,12 +122,16 @@ PhysThreads *phys_threads_new(int count) {
     return threads;
 }
 
-// Threads that cannot be had are done without.
+// Threads that cannot be had are done without. They take no signals: those are for the host's threads.
 static void start(PhysThreads *threads) {
+    sigset_t all, before;
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
     threads->started = true;
     while (threads->count + 1 < threads->wanted &&
            pthread_create(&threads->threads[threads->count], NULL, serve, threads) == 0)
         threads->count++;
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
 
 void phys_threads_free(PhysThreads *threads) {

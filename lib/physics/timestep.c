@@ -51,11 +51,10 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
-        if (time->interrupt && atomic_load_explicit(time->interrupt, memory_order_relaxed)) {
-            result.status = PHYS_INTERRUPTED;
-            break;
+        if (!phys_step(system, result.clock, delta, time->speed_of_light)) {
+            system->arranged = false; // rows are as they were, columns are not
+            return (PhysResult){.status = PHYS_STOPPED, .clock = time->clock};
         }
-        phys_step(system, result.clock, delta, time->speed_of_light);
         result.clock += delta;
         result.steps++;
         system->stepped = true;

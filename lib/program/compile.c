@@ -395,6 +395,7 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
 const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     uint32_t mark = compiler->function->next_slot;
     compiler->depth++;
+    arena_charge(compiler->scratch, 2);
     const Expr *expr = fold_expr(compiler, (Expr *)compile_kind(compiler, ast), mark);
     compiler->depth--;
     if (ast == compiler->fallback)

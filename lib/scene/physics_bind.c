@@ -19,9 +19,10 @@ static double scene_number(const State *state, StateSlot slot, double fallback) 
 }
 
 // The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
-static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence) {
+static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
     *occurrence = 0;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
+        arena_charge(arena, 4); // they lie anywhere in memory
         if (system->start != start)
             continue;
         if (system->seen != scene->frame_number)
@@ -32,7 +33,7 @@ static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t
 }
 
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
-    PhysicsSystem *system = calloc(1, sizeof *system);
+    PhysicsSystem *system = meter_take(scene->meter, PHYSICS_SYSTEM_BYTES) ? calloc(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
     PhysicsSystem **end = &scene->systems;
@@ -49,6 +50,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
         .clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock)),
         .last = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_last)),
         .engine = phys_new(),
+        .meter = scene->meter,
     };
     if (system->engine)
         phys_set_options(system->engine, &scene->physics);
@@ -68,7 +70,7 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     if (start == STATE_NO_SLOT)
         return NULL;
     uint32_t occurrence;
-    PhysicsSystem *system = known_system(scene, start, &occurrence);
+    PhysicsSystem *system = known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return new_system(scene, start, occurrence, frame);
     note_absence(scene, system, frame->state);
@@ -126,10 +128,11 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
 }
 
 // Number of nodes below, up to a limit: decides whether vectors of so many dimensions can be held at all.
-static uint64_t count_nodes(const Node *node) {
+static uint64_t count_nodes(Arena *arena, const Node *node) {
     uint64_t count = node->child_count;
+    arena_charge(arena, 1 + count);
     for (uint32_t i = 0; i < node->child_count; i++)
-        count += count_nodes(node->children[i]);
+        count += count_nodes(arena, node->children[i]);
     return count;
 }
 
@@ -137,7 +140,8 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
     enum { MAX_UNCOUNTED = 64, COPIES = 16 };
     if (settings->dimensions <= MAX_UNCOUNTED)
         return true;
-    double bytes = settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->node) + 1);
+    double bytes =
+        settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->arena, reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
     reader_report(reader, "skipped-system", "",
@@ -155,8 +159,7 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttr
                      .lockstep = tree->frame->lockstep,
                      .performance = tree->frame->performance,
                      .speed_of_light = settings->speed_of_light,
-                     .keep_last_finite = mirror_can_lend(tree),
-                     .interrupt = tree->frame->interrupt};
+                     .keep_last_finite = mirror_can_lend(tree)};
     PhysResult result = phys_simulate(tree->engine, &time);
     *steps = result.steps;
     if (result.status == PHYS_NO_MEMORY)
@@ -165,9 +168,11 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttr
     else if (result.status == PHYS_DROPPED_TIME)
         reader_report(reader, "dropped-time", "",
                       STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
+    else if (result.status == PHYS_STOPPED)
+        tree->scene->stopped = meter_look(tree->scene->meter);
     tree->failed |= result.status == PHYS_NO_MEMORY;
-    mirror_store(tree, result.status != PHYS_NO_MEMORY);
-    return result.status == PHYS_NO_MEMORY ? clock : result.clock;
+    mirror_store(tree, result.status == PHYS_OK || result.status == PHYS_DROPPED_TIME);
+    return result.clock;
 }
 
 // Reads a tree from scratch.
@@ -187,7 +192,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     double last = scene_number(state, system->last, settings->time);
     double iteration = floor(scene_number(state, system->iteration, -1)) + 1;
     Value stored_run = state_slot_get(state, system->run);
-    if (stored_run.len > 0 && !value_equal(stored_run, value_number(settings->run))) {
+    if (stored_run.len > 0 && !value_equal(NULL, stored_run, value_number(settings->run))) {
         mirror_remove(&system->mirror, state);
         set_number(frame, system->start, settings->time);
         clock = 0;
@@ -232,7 +237,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
 static void keep_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
-    PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence);
+    PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return;
     note_absence(scene, system, frame->state);

@@ -107,7 +107,9 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
 }
 
 static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t group) {
+    enum { NODE_WORK = 16 };
     for (uint32_t i = 0; i < parent->child_count; i++) {
+        arena_charge(tree->frame->arena, NODE_WORK);
         const Node *child = parent->children[i];
         switch (schema_kind(tree->scene->schema, child)) {
         case KIND_PARTICLE:
@@ -174,15 +176,19 @@ static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs 
 }
 
 // The seed of a !random: prefix;run;iteration and a 0 for each !random before it (spec 4.2).
-uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before) {
-    Vector seed = vector_new(tree->frame->arena);
-    vector_add(&seed, tree->prefix);
-    vector_add_number(&seed, tree->run);
-    vector_add_number(&seed, tree->iteration);
-    uint64_t key = value_seed_hash(vector_finish(&seed));
-    for (uint32_t i = 0; i < randoms_before; i++)
-        key = random_hash_step(key, random_hash_number(0));
-    return key;
+uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
+    if (!tree->random_key || randoms_before < tree->random_count) {
+        Vector seed = vector_new(tree->frame->arena);
+        vector_add(&seed, tree->prefix);
+        vector_add_number(&seed, tree->run);
+        vector_add_number(&seed, tree->iteration);
+        tree->random_key = value_seed_hash(NULL, vector_finish(&seed));
+        tree->random_count = 0;
+    }
+    arena_charge(tree->frame->arena, 1 + (randoms_before - tree->random_count) / 8);
+    for (; tree->random_count < randoms_before; tree->random_count++)
+        tree->random_key = random_hash_step(tree->random_key, random_hash_number(0));
+    return tree->random_key;
 }
 
 // Bounds: `fixed` gives both.
@@ -245,6 +251,7 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
         NodeKind kind = schema_kind(tree->scene->schema, child);
+        arena_charge(tree->frame->arena, 1);
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {

@@ -36,6 +36,7 @@ static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
         NodeKind kind = schema_kind(tree->scene->schema, child);
+        arena_charge(tree->frame->arena, 1);
         if (kind == KIND_GROUP) {
             uint32_t number = tree->next_group++;
             if (number >= phys_group_count(tree->engine) || phys_group_parent(tree->engine, number) != group ||

@@ -9,10 +9,10 @@
 Scene *scene_new(Arena *arena, Schema *schema) {
     SymbolTable *symbols = schema->symbols;
     Scene *scene = arena_alloc(arena, sizeof *scene);
-    *scene = (Scene){.schema = schema};
+    *scene = (Scene){.schema = schema, .meter = arena->meter};
     physics_take_defaults(scene);
     input_init(&scene->input, symbols);
-    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level};
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level, .meter = scene->meter};
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
     scene->key_clock = symbol_know(symbols, STR("clock"));
@@ -25,10 +25,12 @@ Scene *scene_new(Arena *arena, Schema *schema) {
 void scene_set_physics(Scene *scene, const PhysOptions *options) {
     phys_threads_free(scene->physics.pool);
     scene->physics = *options;
+    scene->physics.meter = scene->meter;
     scene->physics.pool = options->threads == 1 ? NULL : phys_threads_new(options->threads);
 }
 
 static void free_system(PhysicsSystem *system) {
+    meter_give(system->meter, PHYSICS_SYSTEM_BYTES);
     phys_free(system->engine);
     mirror_free(&system->mirror);
     free(system->nodes);
@@ -75,6 +77,13 @@ bool scene_take_exhausted(Scene *scene) {
     return was;
 }
 
+bool scene_take_stopped(Scene *scene, ArenaEnd *end) {
+    MeterAnswer how = scene->stopped;
+    scene->stopped = METER_GOES_ON;
+    *end = how == METER_WORK ? ARENA_WORK : how == METER_INTERRUPTED ? ARENA_INTERRUPTED : *end;
+    return how != METER_GOES_ON;
+}
+
 Input *scene_input(Scene *scene) {
     return &scene->input;
 }
@@ -117,19 +126,44 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     }
 }
 
+// Gives the engines of systems back that the last frames have left out: what comes again begins with what the state
+// has, which is all that there was.
+static void drop_absent(Scene *scene, const SceneFrame *frame) {
+    enum { FRAMES = 8 };
+    for (PhysicsSystem **link = &scene->systems; *link;) {
+        PhysicsSystem *system = *link;
+        if (system->seen + FRAMES >= scene->frame_number) {
+            link = &system->next;
+            continue;
+        }
+        mirror_leave(&system->mirror, frame->state);
+        *link = system->next;
+        free_system(system);
+        scene->marked = NULL;
+    }
+}
+
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     uint64_t steps = 0;
     scene->frame_number++;
+    scene->stopped = METER_GOES_ON;
+    drop_absent(scene, frame);
     tidy_state(scene, frame);
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         const Item *item = &tree.as.items[i];
         NodeKind kind = item->type == ITEM_NODE ? schema_kind(scene->schema, item->as.node) : KIND_COUNT;
-        if (frame->interrupt && atomic_load_explicit(frame->interrupt, memory_order_relaxed))
+        if (kind != KIND_PHYSICS && kind != KIND_COUNTER)
+            continue;
+        scene->stopped = meter_charge(scene->meter, 1);
+        if (scene->stopped != METER_GOES_ON)
             break;
+        scene->schema->at = item->as.node;
         if (kind == KIND_PHYSICS)
             steps += physics_update(scene, item->as.node, frame);
-        else if (kind == KIND_COUNTER)
+        else
             counter_update(scene, item->as.node, frame);
+        if (scene->exhausted || scene->stopped != METER_GOES_ON)
+            return steps; // what comes to nothing ends here
     }
     input_bind(&scene->input, scene->schema, tree, frame->arena);
     return steps;

@@ -18,12 +18,11 @@ typedef struct SceneFrame {
     double fps;
     double performance;
     bool lockstep;
-    uint64_t generation;          // another one: programs have been dropped, and nodes of their lifetime with them
-    double resolution;            // of all systems, whatever they say themselves; 0: as they say
-    const atomic_bool *interrupt; // true gives the update up, half-way; NULL: none
+    uint64_t generation; // another one: programs have been dropped, and nodes of their lifetime with them
+    double resolution;   // of all systems, whatever they say themselves; 0: as they say
 } SceneFrame;
 
-// The arena and the schema must outlive the scene.
+// The arena and the schema must outlive the scene. Systems are charged to the arena's meter, too.
 Scene *scene_new(Arena *arena, Schema *schema);
 void scene_free(Scene *scene);
 // How the physics of new systems is computed (not what: results do not depend on it).
@@ -67,5 +66,7 @@ Input *scene_input(Scene *scene);
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 // Whether a system could not be updated since this was asked last because memory was used up.
 bool scene_take_exhausted(Scene *scene);
+// Whether the arena's meter has ended the last update, half-way, and how.
+bool scene_take_stopped(Scene *scene, ArenaEnd *end);
 
 #endif

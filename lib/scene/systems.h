@@ -29,6 +29,7 @@ struct PhysicsSystem {
     StateSlot clock;
     StateSlot last;
     PhysSystem *engine;
+    Meter *meter; // that its own memory is charged to, as long as it has an engine
     Mirror mirror;
     uint64_t steps; // of the last update
     bool began;     // it had simulated before the last update, so the script could see its particles
@@ -55,6 +56,8 @@ struct Scene {
     BodyAttrs bodies_before[2]; // the defaults of a particle and of an anchor
     ForceAttrs forces_before[PHYS_FORCE_KINDS];
     bool exhausted; // see scene_take_exhausted
+    MeterAnswer stopped;
+    Meter *meter;
     Input input;
     PhysicsSystem *systems;
     uint64_t frame_number;
@@ -88,6 +91,8 @@ struct PhysicsTree {
     bool failed;         // memory was used up
     double run;
     double iteration;
+    uint32_t random_count; // the latest key of a random force: how many were before it
+    uint64_t random_key;   // 0: none yet
     uint32_t next_group;
     uint32_t next_link;
 };
@@ -103,7 +108,7 @@ void physics_read_particle(const PhysicsTree *tree, const Node *node, bool ancho
 void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
 // The key of the stream of a random force in this frame.
-uint64_t physics_random_key(const PhysicsTree *tree, uint32_t randoms_before);
+uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before);
 // Remembers the node of a particle, if that can help in the next frame.
 void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node);
 
@@ -129,6 +134,8 @@ bool physics_reuse(PhysicsTree *tree);
 // After a frame: what the next one's tree is compared with.
 void physics_remember(const PhysicsTree *tree);
 
+// What a system takes before it has any particles, about.
+enum { PHYSICS_SYSTEM_BYTES = 24 << 10 };
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame);
 void counter_update(Scene *scene, const Node *node, const SceneFrame *frame);
 

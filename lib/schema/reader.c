@@ -393,7 +393,7 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
     case SHAPE_LIST:
         return read_numbers(reader, v, false, attr);
     case SHAPE_SEED:
-        attr->as.numbers[0] = (double)(int64_t)value_exact_hash(v) / 281474976710656.0;
+        attr->as.numbers[0] = (double)(int64_t)value_exact_hash(reader->arena, v) / 281474976710656.0;
         return true;
     case SHAPE_FLAG:
         attr->as.flag = value_true(v);
@@ -460,6 +460,9 @@ void schema_store(const AttrValue *attr, void *record) {
     case SHAPE_COLOR:
         memcpy(field, attr->as.numbers, sizeof attr->as.numbers);
         break;
+    case SHAPE_TRIPLE:
+        memcpy(field, attr->as.numbers, 3 * sizeof(double));
+        break;
     case SHAPE_FLAG:
         *(bool *)field = attr->as.flag;
         break;
@@ -486,13 +489,16 @@ static void store_default(const SchemaRow *row, char *record) {
     else if (shape <= SHAPE_CLOCK)
         *(double *)field = x;
     else
-        schema_store(&(AttrValue){.row = (uint16_t)(row - schema_rows),
-                                  .as = shape == SHAPE_TEXT    ? (union AttrData){.text = str_from(fallback->string)}
-                                        : shape == SHAPE_WORD  ? (union AttrData){.word = (int)x}
-                                        : shape == SHAPE_FLAG  ? (union AttrData){.flag = x != 0}
-                                        : shape == SHAPE_COLOR ? (union AttrData){.numbers = {x, x, x, 1}}
-                                                               : (union AttrData){.numbers = {x}}},
-                     record);
+        schema_store(
+            &(AttrValue){.row = (uint16_t)(row - schema_rows),
+                         .as = shape == SHAPE_TEXT
+                                   ? (union AttrData){.text = str_from(fallback->string ? fallback->string : "")}
+                               : shape == SHAPE_WORD   ? (union AttrData){.word = (int)x}
+                               : shape == SHAPE_FLAG   ? (union AttrData){.flag = x != 0}
+                               : shape == SHAPE_COLOR  ? (union AttrData){.numbers = {x, x, x, 1}}
+                               : shape == SHAPE_TRIPLE ? (union AttrData){.numbers = {x, x, x}}
+                                                       : (union AttrData){.numbers = {x}}},
+            record);
 }
 
 void schema_defaults(NodeKind kind, void *record) {

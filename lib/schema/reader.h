@@ -33,6 +33,7 @@ typedef struct Schema {
     SymbolTable *symbols;
     SchemaHost host;
     uint64_t reports;   // given so far
+    const Node *at;     // that was begun to be read or updated last, to tell where a limit was reached; NULL: none
     const Reach *reach; // of the files that nodes name; NULL: all may be used
     bool lint;          // report what is hardly meant, too
     const Symbol *kinds[KIND_COUNT];

@@ -67,4 +67,37 @@ typedef struct Look {
     double dash_offset;
 } Look;
 
+// Of three dimensions (canvas3d_list.h): a material, a render group and a camera, whatever a node has of these.
+typedef struct Look3D {
+    double color[3];
+    double emissive[3];
+    double roughness;
+    double metal;
+    double ior;
+    double ao;
+    double transparency;
+    double translucency;
+    const char *ids[6]; // of pictures: color, metal, roughness, ao, emissive, transparency; NULL or empty: none
+    double max_lights;
+    bool depth_sort;
+    bool depth_test;
+    bool face_cull;
+    int cull_face;
+    int composite;
+    double fov;
+    int fov_ref;
+    double near;
+    double far; // nan: the width of the picture
+    bool orthographic;
+    double width; // likewise
+    double samples;
+    double colorbits;
+    double fog_min;
+    double fog_max;
+    double fog_color[3];
+    double fog_curve;
+    bool monochrome;
+    double tint[3];
+} Look3D;
+
 #endif

@@ -28,6 +28,7 @@ const TypeRow schema_types[TYPE_COUNT] = {
 #define TO_COUNTER(field) offsetof(CounterAttrs, field)
 #define TO_INPUT(field) offsetof(InputAttrs, field)
 #define TO_LOOK(field) offsetof(Look, field)
+#define TO_LOOK3D(field) offsetof(Look3D, field)
 #define NOWHERE FIELD_NOWHERE
 #define IS(x)                                                                                                          \
     { x, #x, false, NULL }
@@ -96,6 +97,6 @@ NodeKind schema_kind_of_force(PhysForceKind force) {
 }
 
 bool schema_is_undrawn(Str name) {
-    static const char undrawn[] = "canvas3d video";
+    static const char undrawn[] = "video";
     return str_word_number(name, undrawn) >= 0;
 }

@@ -49,6 +49,7 @@ typedef enum PlaceKind {
     PLACE_SOURCE,
     PLACE_FILTER, // likewise
     PLACE_STOP,
+    PLACE_SCENE3D,
 } PlaceKind;
 
 // What a value becomes.
@@ -86,6 +87,11 @@ enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
 // How pictures combine, in linear light. UNKNOWN: another word was given.
 enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
+enum { FACE_BACK, FACE_FRONT };
+enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
+enum { FOV_HORIZONTAL, FOV_VERTICAL, FOV_DIAGONAL, FOV_WIDE, FOV_NARROW };
+enum { UV_STANDARD, UV_REPEAT };
+enum { REMAP_NONE, REMAP_SPHERE, REMAP_PLANE, REMAP_BOOK };
 typedef enum CompositeMode {
 #define COMPOSITE(id, operator, text) COMPOSITE_##id,
 #include "schema/composite_list.h"

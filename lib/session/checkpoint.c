@@ -202,7 +202,7 @@ static void fill(PetriSession *session, void *context) {
     const Filling *filling = context;
     Incoming *incoming = filling->incoming;
     incoming->bindings.arena.escape = incoming->arena.escape;
-    incoming->state = state_new();
+    incoming->state = state_new(&session->meter);
     if (!incoming->state)
         arena_exhausted(&incoming->arena);
     filling->fill(session, incoming, filling->context);
@@ -230,7 +230,7 @@ PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *make, void *
     Incoming incoming = {.clock = session->clock, .good = true};
     Filling filling = {make, &incoming, context};
     PhysicsSystem *systems = scene_set_aside(session->scene);
-    arena_init(&incoming.arena, "incoming state", SIZE_MAX);
+    session_arena(session, &incoming.arena, "incoming state", SIZE_MAX);
     input_forget(&incoming.hands, &incoming.bindings);
     PetriStatus status = session_protect(session, &incoming.arena, fill, &filling);
     if (status == PETRI_OK && !incoming.good)

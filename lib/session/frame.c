@@ -46,6 +46,13 @@ void session_clear_frame(PetriSession *session) {
     session_free_retired(session);
 }
 
+// The same after a frame that needed too much: its blocks are given back, too.
+static void session_drop_frame(PetriSession *session) {
+    session_clear_frame(session);
+    arena_free(&session->frame.arena);
+    arena_free(&session->frame.systems_arena);
+}
+
 ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
     ClockRates rates = {session->options.fps, TEMPO, QUANTUM};
     for (uint32_t i = 0; i < program->pragma_count; i++) {
@@ -168,14 +175,6 @@ void session_set_globals(const PetriSession *session, Vm *vm) {
         isnan(session->options.run_time) ? VALUE_NULL : value_number(session->options.run_time);
 }
 
-static void report_memory(PetriSession *session, PetriStatus status) {
-    char text[80] = "not enough memory for the frame; it is given up";
-    if (status == PETRI_LIMIT)
-        snprintf(text, sizeof text, "the frame needs more than its %zu MiB of memory; it is given up",
-                 session->options.memory_bytes >> 20);
-    session_tell_text(session, DIAG_ERROR, "memory-limit", str_from(text));
-}
-
 // One program, with the values so far as its parameters; its own follow them.
 static Value run_program(PetriSession *session, const Program *program) {
     SessionFrame *frame = &session->frame;
@@ -184,16 +183,15 @@ static Value run_program(PetriSession *session, const Program *program) {
     return result;
 }
 
-bool session_evaluate(PetriSession *session) {
+void session_evaluate(PetriSession *session) {
     SessionFrame *frame = &session->frame;
     const PromptList *list = session->config.prompts;
     session->vm.state = session->state;
-    session->vm.interrupt = &session->interrupt;
     frame->value_count = 0;
     frame->values = arena_alloc_array(&frame->arena, list->names.count, sizeof(Value));
     frame->working = true;
     Value tree = run_program(session, session->config.program->program);
-    for (uint32_t i = 0; i < list->count && !session->vm.stopped; i++) {
+    for (uint32_t i = 0; i < list->count; i++) {
         Value more = run_program(session, list->statements[i].program);
         if (!list->statements[i].adds)
             continue;
@@ -204,8 +202,7 @@ bool session_evaluate(PetriSession *session) {
     }
     frame->working = false;
     frame->tree = tree;
-    frame->evaluated = !session->vm.stopped;
-    return frame->evaluated;
+    frame->evaluated = true;
 }
 
 static void evaluate(PetriSession *session, void *context) {
@@ -233,8 +230,7 @@ static void update_systems(PetriSession *session, void *context) {
                         .performance = session->clock.wall.performance,
                         .lockstep = !session->clock.realtime,
                         .generation = session->loader.generation,
-                        .resolution = session->config.resolution,
-                        .interrupt = session->options.interruptible ? &session->interrupt : NULL};
+                        .resolution = session->config.resolution};
     made->physics_steps = scene_update(session->scene, made->tree, &frame);
     made->physics_seconds = clock_monotonic() - start;
 }
@@ -254,18 +250,14 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     session_set_globals(session, &session->vm);
     session->frame.physics_steps = 0;
     PetriStatus status = session_protect(session, NULL, evaluate, &undo);
-    // A frame that was cut short would look to the systems as if everything had vanished.
-    if (status == PETRI_OK && session->vm.stopped)
-        status = petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
-    else if (status != PETRI_OK)
-        report_memory(session, status);
+    session_tell_end(session, status, "the frame");
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
     if (!counts)
         input_unwrite(scene_input(session->scene), session->state, &undo);
     if (status != PETRI_OK)
         state_take_exhausted(session->state); // this is told now, and must not end the next frame, too
-    if (status != PETRI_OK && (!counts || !session->vm.stopped))
-        session_clear_frame(session);
+    if (status != PETRI_OK)
+        session_drop_frame(session);
     return status;
 }
 
@@ -274,15 +266,17 @@ static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);
     bool exhausted = scene_take_exhausted(session->scene);
-    if (state_take_exhausted(session->state) || exhausted || status != PETRI_OK)
-        status = PETRI_MEMORY;
+    exhausted |= state_take_exhausted(session->state);
+    if (exhausted && status == PETRI_OK) {
+        session->end = ARENA_BUDGET;
+        status = session->meter.memory_refused ? PETRI_LIMIT : PETRI_MEMORY;
+    }
+    if (status == PETRI_OK && scene_take_stopped(session->scene, &session->end))
+        status = session->end == ARENA_WORK ? PETRI_LIMIT : PETRI_INTERRUPTED;
+    session_tell_end(session, status, "the frame");
     frame->profiled_physics += frame->physics_seconds;
     frame->profiled_frames++;
-    if (!session->options.interruptible)
-        return status;
-    if (status == PETRI_OK && petri_interrupted(session))
-        status = PETRI_INTERRUPTED;
-    if (status != PETRI_OK)
+    if (status != PETRI_OK && session->options.interruptible)
         session_heal(session);
     return status;
 }

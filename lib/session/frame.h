@@ -30,7 +30,7 @@ typedef struct SessionFrame {
 
 // Drops what was computed in the last frame: tree, log, values of names.
 void session_clear_frame(PetriSession *session);
-// Evaluates script and prompt statements; false if that was given up. Within a protected call.
-bool session_evaluate(PetriSession *session);
+// Evaluates script and prompt statements. Within a protected call.
+void session_evaluate(PetriSession *session);
 
 #endif

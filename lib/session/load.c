@@ -5,9 +5,9 @@
 #include "syntax/parse.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 #define MAX_SOURCE_BYTES ((size_t)256 << 20)
-#define UNIT_BUDGET ((size_t)4 << 30)
 enum { MOST_ERRORS = 50 };
 
 static Unit *unit_new(PetriSession *session) {
@@ -15,8 +15,8 @@ static Unit *unit_new(PetriSession *session) {
     if (!unit)
         arena_exhausted(&session->arena);
     unit->references = 1;
-    arena_init(&unit->arena, "program", UNIT_BUDGET);
-    arena_init(&unit->scratch, "compiler", UNIT_BUDGET);
+    session_arena(session, &unit->arena, "program", SIZE_MAX);
+    session_arena(session, &unit->scratch, "compiler", SIZE_MAX);
     unit_arena(session, unit);
     return unit;
 }
@@ -86,8 +86,10 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     return ast_new(&unit->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
 }
 
-// Memory that evaluating one expression ahead may take.
-#define STATIC_BUDGET ((size_t)1 << 29)
+// Memory and work that evaluating one expression ahead may take, and the work of all in a load: what is beyond is done
+// in the frames.
+#define STATIC_BUDGET ((size_t)1 << 28)
+enum { STATIC_WORK = 1 << 24, MOST_STATIC_WORK = 1 << 26 };
 
 typedef struct Ahead {
     const Code *code;
@@ -108,10 +110,16 @@ static bool host_evaluate(void *host, const Code *code, Value *value) {
     Ahead ahead = {.code = code};
     if (arena->budget - arena->used > STATIC_BUDGET)
         arena->budget = arena->used + STATIC_BUDGET;
+    Meter *meter = &session->meter, whole = *meter;
+    uint64_t left = session->loader.ahead < MOST_STATIC_WORK ? MOST_STATIC_WORK - session->loader.ahead : 0;
+    meter_begin(meter, left < STATIC_WORK ? left : STATIC_WORK, meter->interrupt);
     PetriStatus status = session_protect(session, arena, evaluate_ahead, &ahead);
     arena->budget = budget;
-    if (status == PETRI_MEMORY)
-        arena_exhausted(arena);
+    session->loader.ahead += meter->work;
+    meter_begin(meter, whole.work_limit, whole.interrupt);
+    meter->work = whole.work;
+    if (status == PETRI_MEMORY || status == PETRI_INTERRUPTED)
+        arena_leave(arena, status == PETRI_MEMORY ? ARENA_MEMORY : ARENA_INTERRUPTED);
     bool done = status == PETRI_OK && ahead.done;
     *value = done ? ahead.value : VALUE_NULL;
     return done;
@@ -209,9 +217,19 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     return unit;
 }
 
+static Unit **chain_of(PetriSession *session, Str path) {
+    return &session->loader.by_path[(hash_bytes(0, path.bytes, path.len) >> 32) % MODULE_CHAINS];
+}
+
+static void chain(PetriSession *session, Unit *unit) {
+    Unit **first = chain_of(session, unit->path);
+    unit->same_hash = *first;
+    *first = unit;
+}
+
 // The cached module at a canonical path, if its file has not changed since.
 static Unit *cached_module(PetriSession *session, Str path, Str version) {
-    for (Unit *unit = session->loader.modules; unit; unit = unit->next) {
+    for (Unit *unit = *chain_of(session, path); unit; unit = unit->same_hash) {
         if (unit->retired || !str_equal(unit->path, path))
             continue;
         if (str_equal(unit->version, version))
@@ -242,7 +260,7 @@ const Program *session_module(void *host, Str path, Str *why) {
     }
     Unit *unit = cached_module(session, canonical, version);
     if (!unit)
-        unit = session_put(session, unit_load_file(session, file, true, true));
+        chain(session, unit = session_put(session, unit_load_file(session, file, true, true)));
     *why = unit->why;
     return unit->program;
 }
@@ -268,6 +286,7 @@ void session_forget_files(PetriSession *session) {
 }
 
 void session_free_retired(PetriSession *session) {
+    bool any = false;
     for (Unit **link = &session->loader.modules; *link;) {
         Unit *unit = *link;
         if (!unit->retired) {
@@ -276,5 +295,11 @@ void session_free_retired(PetriSession *session) {
         }
         *link = unit->next;
         unit_free(unit);
+        any = true;
     }
+    if (!any)
+        return;
+    memset(session->loader.by_path, 0, sizeof session->loader.by_path);
+    for (Unit *unit = session->loader.modules; unit; unit = unit->next)
+        chain(session, unit);
 }

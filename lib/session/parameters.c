@@ -70,12 +70,6 @@ static Str range_text(Arena *arena, const Parameter *parameter) {
     return str_format(arena, "%.*s..%.*s", (int)before, least, (int)after, most);
 }
 
-static Str value_printed(PetriSession *session, Arena *arena, Value v) {
-    Text text = text_new(arena);
-    format_value(&text, &session->symbols, v);
-    return text_str(&text);
-}
-
 // One definition being looked at.
 typedef struct Check {
     PetriSession *session;
@@ -101,7 +95,7 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
     uint32_t at = 0;
     while (is_plain_number(check->session, value_at(&v, at)))
         at++;
-    Str wrong = value_printed(check->session, arena, value_element(arena, v, at));
+    Str wrong = format_text(arena, &check->session->symbols, value_element(arena, v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
     tell(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
          str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", STR_ARGS(wrong),
@@ -116,7 +110,7 @@ static void check_range(const Check *check, const Parameter *parameter) {
     for (uint32_t i = 0; all_numbers(check->session, v) && i < v.len; i++) {
         if (is_within(parameter, value_at(&v, i).as.number))
             continue;
-        Str range = range_text(arena, parameter), printed = value_printed(check->session, arena, v);
+        Str range = range_text(arena, parameter), printed = format_text(arena, &check->session->symbols, v);
         tell(check, DIAG_WARNING, "outside-range", origin_of(parameter),
              str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
                         STR_ARGS(printed), STR_ARGS(range)),
@@ -132,7 +126,7 @@ static bool check_truth(const Check *check, const Parameter *parameter) {
         return true;
     if (parameter->is_static && !value_true(parameter->value))
         return false; // nothing is lost
-    Str printed = value_printed(check->session, arena, check->define->value);
+    Str printed = format_text(arena, &check->session->symbols, check->define->value);
     tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
          str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
                     STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
@@ -274,7 +268,7 @@ static void describe(PetriSession *session, const Parameter *parameter, bool set
     *out = (PetriParameter){
         .name = str_to_c(arena, parameter->name->name),
         .fallback = one_line(arena, parameter->fallback),
-        .value = defined || parameter->is_static ? str_to_c(arena, value_printed(session, arena, value))
+        .value = defined || parameter->is_static ? format_text(arena, &session->symbols, value).bytes
                                                  : one_line(arena, parameter->fallback),
         .comment = one_line(arena, parameter->comment),
         .number = defined || parameter->is_static ? one_number(session, value) : NAN,

@@ -12,15 +12,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { MOST_LINES = 10000, PIECE = 64 << 10 };
-
-// Text on its way to the host.
-typedef struct Writing {
-    PetriWrite *write;
-    void *host;
-    Text text;
-    bool stopped;
-} Writing;
+enum { MOST_LINES = 10000 };
 
 // One statement at work. What is known after an escape is here, not in locals.
 typedef struct Job {
@@ -32,7 +24,6 @@ typedef struct Job {
     Value value;
     Value *exports;
     double seconds;
-    bool stopped;
     DiagSink log; // what debug() said
     Writing out;
     bool binds;
@@ -43,12 +34,6 @@ typedef struct Job {
     Value tree;
     const Symbol *hidden; // bound by the script as well
 } Job;
-
-static PetriStatus tell_memory(PetriSession *session, PetriStatus status) {
-    if (status != PETRI_OK)
-        session_tell_text(session, DIAG_ERROR, "memory-limit", STR("not enough memory; given up"));
-    return status;
-}
 
 // --- lists
 
@@ -130,8 +115,8 @@ PetriInput petri_input(PetriSession *session, const char *text, size_t length) {
 }
 
 static void preview(PetriSession *session, void *context) {
-    Job *job = context;
-    job->stopped = !session_evaluate(session);
+    (void)context;
+    session_evaluate(session);
 }
 
 PetriStatus petri_preview(PetriSession *session) {
@@ -141,16 +126,13 @@ PetriStatus petri_preview(PetriSession *session) {
         return PETRI_OK;
     if (!session->config.program)
         return PETRI_INVALID;
-    Job job = {.stopped = false};
     int64_t number = session->clock.number;
     if (number < 0)
         session->clock.number = 0;
     session_set_globals(session, &session->vm);
     session->clock.number = number;
-    PetriStatus status = session_protect(session, NULL, preview, &job);
-    if (status == PETRI_OK && job.stopped)
-        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
-    return tell_memory(session, status);
+    PetriStatus status = session_protect(session, NULL, preview, NULL);
+    return session_tell_end(session, status, "the text");
 }
 
 // Compiles and runs a statement in the names in sight.
@@ -160,13 +142,11 @@ static void run(PetriSession *session, void *context) {
     job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
     arena_free(&job->unit->scratch);
     session->vm.state = session->state;
-    session->vm.interrupt = &session->interrupt;
     session->vm.arena = session->vm.builtins.arena = job->arena;
     job->exports = arena_alloc_array(job->arena, job->program->export_count, sizeof *job->exports);
     double start = clock_monotonic();
     job->value = vm_run(&session->vm, job->program, session->frame.values, job->exports);
     job->seconds = clock_monotonic() - start;
-    job->stopped = session->vm.stopped;
     session->vm.arena = session->vm.builtins.arena = &session->frame.arena;
 }
 
@@ -177,9 +157,7 @@ static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t most)
     PetriStatus status = session_protect(session, NULL, run, job);
     job->log = session->frame.log;
     session->frame.log = log;
-    if (status == PETRI_OK && job->stopped)
-        return petri_interrupted(session) ? PETRI_INTERRUPTED : PETRI_LIMIT;
-    return tell_memory(session, status);
+    return session_tell_end(session, status, "the text");
 }
 
 static void parse(PetriSession *session, void *context) {
@@ -196,15 +174,9 @@ static PetriStatus begin(PetriSession *session, const char *text, size_t length,
     PetriStatus status = session_protect(session, NULL, parse, job);
     if (status != PETRI_OK) {
         unit_free(session->loader.begun);
-        return tell_memory(session, status);
+        return session_tell_end(session, status, "the text");
     }
     return job->unit->ast ? petri_preview(session) : PETRI_INVALID;
-}
-
-static void flush(Writing *out) {
-    if (out->text.len && !out->stopped && out->write)
-        out->stopped = !out->write(out->host, out->text.bytes, out->text.len);
-    out->text.len = 0;
 }
 
 static bool all_nodes(Value v) {
@@ -219,12 +191,9 @@ static void write_value(PetriSession *session, Writing *out, Value v) {
         format_value(&out->text, &session->symbols, v);
         text_add_char(&out->text, '\n');
     }
-    for (uint32_t i = 0; all_nodes(v) && i < v.len && !out->stopped; i++) {
-        format_tree(&out->text, &session->symbols, v.as.items[i].as.node, 0);
-        if (out->text.len >= PIECE)
-            flush(out);
-    }
-    flush(out);
+    for (uint32_t i = 0; all_nodes(v) && i < v.len && !out->stopped; i++)
+        writing_tree(out, &session->symbols, v.as.items[i].as.node);
+    writing_flush(out);
 }
 
 // What a statement has said.
@@ -237,7 +206,7 @@ static void write_log(PetriSession *session, void *context) {
         text_add(&out->text, job->log.items[i].text);
         text_add_char(&out->text, '\n');
     }
-    flush(out);
+    writing_flush(out);
 }
 
 static bool binds(const Ast *ast) {
@@ -334,7 +303,7 @@ static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPrompt
     job->list = NULL;
     PetriStatus status = run_statement(session, job, MOST_LINES);
     if (status == PETRI_OK)
-        status = tell_memory(session, session_protect(session, NULL, finish, job));
+        status = session_tell_end(session, session_protect(session, NULL, finish, job), "the text");
     else if (status != PETRI_MEMORY)
         session_protect(session, NULL, write_log, job);
     diag_sink_free(&job->log);
@@ -383,7 +352,7 @@ PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length,
         status = PETRI_INVALID;
     for (uint32_t i = 0; status == PETRI_OK && i < job.unit->ast->count; i++) {
         job.ast = job.unit->ast->children[i];
-        status = tell_memory(session, session_protect(session, NULL, pick, &job));
+        status = session_tell_end(session, session_protect(session, NULL, pick, &job), "the text");
         if (status == PETRI_OK)
             status = prompt_statement(session, &job, done);
     }
@@ -411,7 +380,7 @@ static void write_line(PetriSession *session, void *context) {
     Job *job = context;
     job->out.text = text_new(&session->prompt.arena);
     format_value(&job->out.text, &session->symbols, job->value);
-    flush(&job->out);
+    writing_flush(&job->out);
 }
 
 PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
@@ -435,7 +404,7 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
                                 .number = one ? job.value.as.number : NAN,
                                 .seconds = job.seconds};
         if (write)
-            status = tell_memory(session, session_protect(session, NULL, write_line, &job));
+            status = session_tell_end(session, session_protect(session, NULL, write_line, &job), "the text");
     }
     unit_free(job.unit);
     return status;
@@ -463,7 +432,7 @@ uint32_t petri_drop(PetriSession *session, bool bindings) {
         dropped_count += bindings || list->statements[i].adds;
     if (dropped_count == 0)
         return 0;
-    if (tell_memory(session, session_protect(session, NULL, drop, &dropped)) != PETRI_OK) {
+    if (session_tell_end(session, session_protect(session, NULL, drop, &dropped), "the text") != PETRI_OK) {
         prompt_list_free(dropped.list);
         return 0;
     }

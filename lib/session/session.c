@@ -4,20 +4,35 @@
 #include "ast/literal.h"
 #include "base/unicode.h"
 
+#include <inttypes.h>
 #include <math.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
-#define COOKIE UINT32_C(0x70657472)
 enum { MOST_LINES = 100000 };
+// Of memory that a session may hold besides what the host allows: its own parts, which no script can make much larger.
+#define OWN_BYTES ((size_t)64 << 20)
 
-PetriOptions petri_default_options(void) {
-    return (PetriOptions){.fps = 60,
-                          .run_time = NAN,
-                          .simplify = true,
-                          .stack_bytes = (size_t)4 << 20,
-                          .memory_bytes = (size_t)2 << 30,
-                          .cookie = COOKIE};
+void petri_options_init(PetriOptions *options, size_t size) {
+    const PetriOptions usual = {.size = size,
+                                .fps = 60,
+                                .run_time = NAN,
+                                .simplify = true,
+                                .stack_bytes = (size_t)4 << 20,
+                                .memory_bytes = (size_t)2 << 30,
+                                .work = UINT64_C(1) << 27};
+    memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
+}
+
+// The options of a host, who may have been compiled with an earlier petri.h, whose struct was shorter. False if they
+// were not initialised, if they are those of a later petri.h, or make no sense.
+static bool take_options(PetriOptions *options, const PetriOptions *given) {
+    if (!given || given->size < offsetof(PetriOptions, cpu) || given->size > sizeof *options)
+        return false;
+    petri_options_init(options, sizeof *options);
+    memcpy(options, given, given->size);
+    return options->fps > 0 && isfinite(options->fps);
 }
 
 static void tell_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
@@ -58,12 +73,11 @@ _Static_assert((int)PETRI_NEIGHBOURS_NEVER == (int)PHYS_NEIGHBOURS_NEVER &&
                    (int)PETRI_NEIGHBOURS_ALWAYS == (int)PHYS_NEIGHBOURS_ALWAYS,
                "the public choices are those of the engine");
 
-// The environment may choose the instruction set; results do not depend on it. Unknown words count as none.
 static PhysOptions physics_options(const PetriOptions *options) {
     PhysOptions physics = {.threads = options->threads,
                            .neighbours = (PhysNeighbours)options->neighbours,
                            .keep_forces = options->keep_forces};
-    cpu_choose(getenv("PETRI_CPU"), &physics.cpu);
+    cpu_choose(options->cpu, &physics.cpu);
     return physics;
 }
 
@@ -79,8 +93,11 @@ static void make_call(void *context) {
 }
 
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context) {
-    static const PetriStatus statuses[] = {
-        [ARENA_DONE] = PETRI_OK, [ARENA_MEMORY] = PETRI_MEMORY, [ARENA_BUDGET] = PETRI_LIMIT};
+    static const PetriStatus statuses[] = {[ARENA_DONE] = PETRI_OK,
+                                           [ARENA_MEMORY] = PETRI_MEMORY,
+                                           [ARENA_BUDGET] = PETRI_LIMIT,
+                                           [ARENA_WORK] = PETRI_LIMIT,
+                                           [ARENA_INTERRUPTED] = PETRI_INTERRUPTED};
     SessionFrame *frame = &session->frame;
     Arena *arenas[] = {&session->arena,
                        &session->text_arena,
@@ -94,8 +111,15 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     Call made = {session, call, context};
     if (session->torn && !session_heal(session))
         return PETRI_MEMORY;
+    if (session->calls++ == 0) {
+        meter_begin(&session->meter, session->options.work, session->steadfast ? NULL : &session->interrupt);
+        session->vm.at = NULL;
+        session->schema.at = NULL;
+    }
     ArenaEnd end = arena_protect(arenas, sizeof arenas / sizeof *arenas, make_call, &made);
+    session->calls--;
     if (end != ARENA_DONE) {
+        session->end = end;
         session->loader.compiling = compiling;
         frame->working = working;
         session->vm.arena = session->vm.builtins.arena = &frame->arena;
@@ -103,9 +127,41 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
     return statuses[end];
 }
 
+PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const char *what) {
+    if (status == PETRI_INTERRUPTED)
+        petri_interrupted(session);
+    if (status != PETRI_MEMORY && status != PETRI_LIMIT)
+        return status;
+    bool work = status == PETRI_LIMIT && session->end == ARENA_WORK;
+    char text[120];
+    if (status == PETRI_MEMORY)
+        snprintf(text, sizeof text, "not enough memory for %s; it is given up", what);
+    else if (work)
+        snprintf(text, sizeof text, "%s takes more than its %" PRIu64 " units of work; it is given up", what,
+                 session->options.work);
+    else
+        snprintf(text, sizeof text, "%s needs more than its %zu MiB of memory; it is given up", what,
+                 session->options.memory_bytes >> 20);
+    Diag diag = {.level = DIAG_ERROR, .text = str_from(text), .code = work ? "work-limit" : "memory-limit"};
+    Origin place = session->vm.at       ? *session->vm.at
+                   : session->schema.at ? node_place(session->schema.at, NULL)
+                                        : (Origin){0};
+    if (status == PETRI_LIMIT) {
+        diag.source = place.source;
+        diag.span = place.span;
+    }
+    size_t limit = session->meter.memory_limit;
+    session->meter.memory_limit = SIZE_MAX; // to tell that memory is used up takes some
+    session_tell(session, &diag);
+    session->meter.memory_limit = limit;
+    return status;
+}
+
 bool session_heal(PetriSession *session) {
     session->torn = false; // it takes protected calls
+    session->steadfast = true;
     session->torn = checkpoint_put_back(session, &session->undo) != PETRI_OK;
+    session->steadfast = false;
     return !session->torn;
 }
 
@@ -115,7 +171,7 @@ static void open_parts(PetriSession *session, void *context) {
     const PetriOptions *options = &session->options;
     schema_init(&session->schema, &session->symbols, (SchemaHost){session, tell_scene});
     session->scene = scene_new(&session->arena, &session->schema);
-    session->state = state_new();
+    session->state = state_new(&session->meter);
     session->files = file_cache_new();
     session->noise = noise_cache_new();
     session->vm.profile = options->profile ? vm_profile_new() : NULL;
@@ -132,23 +188,34 @@ static void open_parts(PetriSession *session, void *context) {
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
+    session->options.cpu = NULL; // it is the host's
     scene_set_physics(session->scene, &physics);
 }
 
+void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget) {
+    arena_init(arena, name, budget);
+    arena->meter = &session->meter;
+}
+
 PetriSession *petri_open(const PetriOptions *options) {
-    if (!options || options->cookie != COOKIE || !(options->fps > 0) || !isfinite(options->fps))
+    PetriOptions wanted;
+    if (!take_options(&wanted, options))
         return NULL;
+    options = &wanted;
     PetriSession *session = calloc(1, sizeof *session);
     if (!session)
         return NULL;
     SessionFrame *frame = &session->frame;
     session->options = *options;
-    arena_init(&session->arena, "session", SIZE_MAX);
-    arena_init(&session->text_arena, "text", SIZE_MAX);
-    arena_init(&session->view_arena, "view", SIZE_MAX);
-    arena_init(&session->prompt.arena, "expression", options->memory_bytes);
-    arena_init(&frame->arena, "frame", options->memory_bytes);
-    arena_init(&frame->systems_arena, "systems", SIZE_MAX);
+    session->meter.memory_limit =
+        options->memory_bytes < SIZE_MAX - OWN_BYTES ? options->memory_bytes + OWN_BYTES : SIZE_MAX;
+    meter_begin(&session->meter, options->work, NULL);
+    session_arena(session, &session->arena, "session", SIZE_MAX);
+    session_arena(session, &session->text_arena, "text", SIZE_MAX);
+    session_arena(session, &session->view_arena, "view", SIZE_MAX);
+    session_arena(session, &session->prompt.arena, "expression", options->memory_bytes);
+    session_arena(session, &frame->arena, "frame", options->memory_bytes);
+    session_arena(session, &frame->systems_arena, "systems", SIZE_MAX);
     frame->log = diag_sink_new(&frame->arena, MOST_LINES);
     frame->errors = diag_sink_new(&frame->arena, MOST_LINES);
     session->symbols = symbol_table_new(&session->arena);
@@ -322,6 +389,7 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;
+    session->loader.ahead = 0;
     Reach before = session->reach;
     PetriStatus status = session_protect(session, NULL, make_unit, load);
     if (status == PETRI_OK && load->unit->program) {
@@ -331,12 +399,7 @@ static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) 
     session->reach = before;
     prompt_list_free(load->prompts);
     unit_free(session->loader.begun);
-    if (status == PETRI_OK)
-        return PETRI_INVALID;
-    session_tell_text(session, DIAG_ERROR, "memory-limit",
-                      status == PETRI_LIMIT ? STR("the script is too large: the limit is 4 GiB")
-                                            : STR("not enough memory for the script"));
-    return PETRI_MEMORY;
+    return status == PETRI_OK ? PETRI_INVALID : session_tell_end(session, status, "the script");
 }
 
 PetriStatus petri_load(PetriSession *session, const char *file) {

@@ -17,6 +17,7 @@
 #include "session/prompt.h"
 #include "session/shown.h"
 #include "session/unit.h"
+#include "session/writing.h"
 #include "vm/vm.h"
 
 // The present configuration. Whoever changes it calls session_change_config.
@@ -58,6 +59,10 @@ struct PetriSession {
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
     atomic_bool interrupt;
+    Meter meter;    // of all that is done and held for the script
+    uint32_t calls; // protected ones under way, one within the other
+    bool steadfast; // what is being done must not be interrupted
+    ArenaEnd end;   // how the last one ended that was given up
 
     Config config;
     PetriConfig *shared;    // the same, once somebody has asked for it
@@ -73,6 +78,9 @@ struct PetriSession {
     Checkpoint undo; // before the frame that is being made
     bool torn;       // that frame was given up, but there was no memory yet for going back
 };
+
+// An arena that is charged to the session.
+void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget);
 
 // Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
 bool session_heal(PetriSession *session);

@@ -3,12 +3,6 @@
 
 #include "value/format.h"
 
-static const char *printed(PetriSession *session, Arena *arena, Value v) {
-    Text text = text_new(arena);
-    format_value(&text, &session->symbols, v);
-    return str_to_c(arena, text_str(&text));
-}
-
 // One of the three requests. `found` is false until everything is there.
 typedef struct Request {
     size_t system;
@@ -36,7 +30,7 @@ static const char *name_of(PetriSession *session, size_t number, Value prefix) {
         frame->system_name_count = count;
     }
     if (!frame->system_names[number])
-        frame->system_names[number] = printed(session, arena, prefix);
+        frame->system_names[number] = format_text(arena, &session->symbols, prefix).bytes;
     return frame->system_names[number];
 }
 
@@ -70,7 +64,7 @@ static void find_particle(PetriSession *session, void *context) {
     Arena *arena = &session->view_arena;
     double *force = arena_alloc_array(arena, view.dimensions, sizeof *force);
     *(PetriParticle *)request->out = (PetriParticle){
-        .id = printed(session, arena, scene_view_id(arena, session->state, &view, particle)),
+        .id = format_text(arena, &session->symbols, scene_view_id(arena, session->state, &view, particle)).bytes,
         .anchor = described.anchor,
         .radius = described.radius,
         .mass = described.mass,

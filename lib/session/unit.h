@@ -11,11 +11,12 @@
 typedef struct Unit Unit;
 struct Unit {
     Unit *next;
-    Arena arena;   // to be used through unit_arena
-    Arena scratch; // while it is compiled: syntax tree, expressions
-    Str path;      // canonical; NUL-terminated
-    Str folder;    // canonical, of a script; what it may read and write lies there
-    Str version;   // changes when the file does: modification time, size, inode
+    Unit *same_hash; // the next module of a chain
+    Arena arena;     // to be used through unit_arena
+    Arena scratch;   // while it is compiled: syntax tree, expressions
+    Str path;        // canonical; NUL-terminated
+    Str folder;      // canonical, of a script; what it may read and write lies there
+    Str version;     // changes when the file does: modification time, size, inode
     const Source *source;
     const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
     bool empty;             // there is no statement in it
@@ -29,12 +30,15 @@ struct Unit {
     bool retired;        // not finished, or replaced; freed when no frame can refer to it any more
 };
 
+enum { MODULE_CHAINS = 1024 };
 typedef struct Loader {
-    Unit *modules;       // list
-    uint64_t generation; // counts the units that frames came to depend on (session_put)
-    Unit *begun;         // the script or text being loaded, for when its memory runs out
-    Unit *compiling;     // whose compiler calls back
-    bool lint;           // petri_check is at work
+    Unit *modules;                // list
+    Unit *by_path[MODULE_CHAINS]; // the same, by hash of their paths
+    uint64_t generation;          // counts the units that frames came to depend on (session_put)
+    Unit *begun;                  // the script or text being loaded, for when its memory runs out
+    Unit *compiling;              // whose compiler calls back
+    bool lint;                    // petri_check is at work
+    uint64_t ahead;               // work of evaluating ahead in this load
 } Loader;
 
 // The names that a program is given values for.

@@ -17,6 +17,9 @@ typedef struct StateEntry {
     StateLender lender;
 } StateEntry;
 
+// What a slot takes besides its key and value: the entry and its part of the index, both with room to grow.
+#define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(IndexSlot)))
+
 struct State {
     StateEntry *entries;
     uint32_t count; // slots, empty ones included
@@ -27,17 +30,29 @@ struct State {
     bool *disturbed; // by lender
     uint32_t lender_count;
     bool exhausted; // see state_take_exhausted
+    Meter *meter;   // that memory is charged to, or NULL
 };
 
-static void start_keys(Arena *keys) {
+static void start_keys(Arena *keys, Meter *meter) {
     arena_init(keys, "state keys", SIZE_MAX);
+    keys->meter = meter;
 }
 
-State *state_new(void) {
+State *state_new(Meter *meter) {
     State *state = calloc(1, sizeof(State));
-    if (state)
-        start_keys(&state->keys);
+    if (!state)
+        return NULL;
+    state->meter = meter;
+    start_keys(&state->keys, meter);
     return state;
+}
+
+// A block for a value, within the budget.
+static void *take(State *state, size_t bytes) {
+    void *block = meter_take(state->meter, bytes) ? malloc(bytes) : NULL;
+    if (!block)
+        state->exhausted = true;
+    return block;
 }
 
 typedef struct KeyCopy {
@@ -64,18 +79,33 @@ static bool own_key(Arena *keys, Value *copy, Value key) {
 }
 
 // A mixed vector is kept as one heap block: items, then Strings, then their bytes.
-static bool own_mixed(Value *copy, Value v) {
-    size_t strings = 0, bytes = 0;
-    for (uint32_t i = 0; i < v.len; i++)
+typedef struct Parts {
+    size_t strings;
+    size_t bytes; // of their texts
+} Parts;
+
+static Parts parts_of(Value v) {
+    Parts parts = {0};
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
         if (v.as.items[i].type == ITEM_STRING) {
-            strings++;
-            bytes += v.as.items[i].as.string->text.len;
+            parts.strings++;
+            parts.bytes += v.as.items[i].as.string->text.len;
         }
-    Item *items = malloc(v.len * sizeof *items + strings * sizeof(String) + bytes);
-    if (!items)
-        return false;
+    return parts;
+}
+
+// Bytes of the block of a value; 0 if it has none.
+static size_t block_size(Value v) {
+    if (v.kind == VALUE_NUMBERS)
+        return v.len > 1 ? v.len * sizeof(double) : 0;
+    Parts parts = parts_of(v);
+    return v.len * sizeof(Item) + parts.strings * sizeof(String) + parts.bytes;
+}
+
+static Value own_mixed(void *block, Value v) {
+    Item *items = block;
     String *string = (String *)(items + v.len);
-    char *text = (char *)(string + strings);
+    char *text = (char *)(string + parts_of(v).strings);
     for (uint32_t i = 0; i < v.len; i++) {
         items[i] = v.as.items[i];
         if (items[i].type != ITEM_STRING)
@@ -87,38 +117,39 @@ static bool own_mixed(Value *copy, Value v) {
         items[i].as.string = string++;
         text += from.len;
     }
-    *copy = (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
-    return true;
+    return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
-static bool own(Value *copy, Value v) {
+static bool own(State *state, Value *copy, Value v) {
+    size_t size = block_size(v);
     *copy = v;
+    if (!size)
+        return true;
+    void *block = take(state, size);
+    if (!block)
+        return false;
     if (v.kind == VALUE_MIXED)
-        return own_mixed(copy, v);
-    if (v.len > 1) {
-        double *numbers = malloc(v.len * sizeof *numbers);
-        if (!numbers)
-            return false;
-        memcpy(numbers, v.as.numbers, v.len * sizeof *numbers);
-        copy->as.numbers = numbers;
-    }
+        *copy = own_mixed(block, v);
+    else
+        copy->as.numbers = memcpy(block, v.as.numbers, size);
     return true;
 }
 
-static void disown(StateEntry *entry) {
+static void disown(State *state, StateEntry *entry) {
     Value *v = &entry->value;
-    if (entry->lender)
-        entry->lender = 0;
-    else if (v->kind == VALUE_MIXED)
-        free((void *)v->as.items);
-    else if (v->len > 1)
+    size_t size = entry->lender ? 0 : block_size(*v);
+    if (size) {
+        meter_give(state->meter, size);
         free((void *)v->as.numbers);
+    }
+    entry->lender = 0;
     *v = VALUE_NULL;
 }
 
 void state_clear(State *state) {
     for (uint32_t i = 0; i < state->count; i++)
-        disown(&state->entries[i]);
+        disown(state, &state->entries[i]);
+    meter_give(state->meter, state->count * SLOT_BYTES);
     state->count = state->live = 0;
     index_clear(&state->index);
     arena_reset(&state->keys);
@@ -167,7 +198,7 @@ static bool key_equal(Value a, Value b) {
         Item x = value_at(&a, i), y = value_at(&b, i);
         if (x.type != y.type)
             return false;
-        if (x.type == ITEM_NUMBER ? number_bits(x.as.number) != number_bits(y.as.number) : !item_equal(x, y))
+        if (x.type == ITEM_NUMBER ? number_bits(x.as.number) != number_bits(y.as.number) : !item_equal(NULL, x, y))
             return false;
     }
     return true;
@@ -189,11 +220,16 @@ StateSlot state_slot(State *state, Value key) {
     if (found != INDEX_NONE)
         return found;
     StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
-    if (!heap_reserve((void **)&state->entries, &state->capacity, state->count, sizeof entry) ||
-        !index_add(&state->index, hash, state->count))
+    if (!meter_take(state->meter, SLOT_BYTES))
         return exhausted(state), STATE_NO_SLOT;
+    if (!heap_reserve((void **)&state->entries, &state->capacity, state->count, sizeof entry) ||
+        !index_add(&state->index, hash, state->count)) {
+        meter_give(state->meter, SLOT_BYTES);
+        return exhausted(state), STATE_NO_SLOT;
+    }
     if (!own_key(&state->keys, &entry.key, key)) {
         index_remove(&state->index, hash, state->count);
+        meter_give(state->meter, SLOT_BYTES);
         return exhausted(state), STATE_NO_SLOT;
     }
     state->entries[state->count] = entry;
@@ -219,7 +255,7 @@ static void replace(State *state, StateEntry *entry, Value owned) {
     state->live -= (entry->value.len > 0);
     if (entry->lender)
         state->disturbed[entry->lender - 1] = true;
-    disown(entry);
+    disown(state, entry);
     entry->value = owned;
 }
 
@@ -228,7 +264,7 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
         return slot != STATE_NO_SLOT;
     StateEntry *entry = &state->entries[slot];
     Value *stored = &entry->value;
-    if (value.len > 0 && value_equal(*stored, value))
+    if (value.len > 0 && value_equal(NULL, *stored, value))
         return true; // equal values leave the stored bits alone
     if (!entry->lender && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
         value.len > 0) {
@@ -239,8 +275,8 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
         return true;
     }
     Value copy;
-    if (!own(&copy, value.len ? value : VALUE_NULL))
-        return exhausted(state);
+    if (!own(state, &copy, value.len ? value : VALUE_NULL))
+        return false;
     replace(state, entry, copy);
     return true;
 }
@@ -281,9 +317,9 @@ bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
         return true;
     StateEntry *entry = &state->entries[slot];
     Value copy;
-    if (!own(&copy, entry->value)) {
+    if (!own(state, &copy, entry->value)) {
         replace(state, entry, VALUE_NULL);
-        return exhausted(state);
+        return false;
     }
     entry->value = copy;
     entry->lender = 0;
@@ -291,21 +327,14 @@ bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
 }
 
 Value state_get(const State *state, Value key) {
-    if (!state_key_valid(key))
-        return VALUE_NULL;
-    uint32_t found = find(state, key, key_hash(key));
-    return found == INDEX_NONE ? VALUE_NULL : state->entries[found].value;
+    return state_slot_get(state, state_find(state, key));
 }
 
 bool state_set(State *state, Value key, Value value) {
     if (!state_key_valid(key))
         return true;
-    if (value.len == 0) {
-        uint32_t found = find(state, key, key_hash(key));
-        return found == INDEX_NONE || state_slot_set(state, found, VALUE_NULL);
-    }
-    StateSlot slot = state_slot(state, key);
-    return slot != STATE_NO_SLOT && state_slot_set(state, slot, value);
+    StateSlot slot = value.len ? state_slot(state, key) : state_find(state, key);
+    return slot == STATE_NO_SLOT ? value.len == 0 : state_slot_set(state, slot, value);
 }
 
 uint32_t state_slot_count(const State *state) {
@@ -329,7 +358,7 @@ static bool index_kept(const State *state, const uint8_t *used, StateSlot *moved
 bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
     Index index = {0};
     Arena keys;
-    start_keys(&keys);
+    start_keys(&keys, state->meter);
     Value *copies = malloc((state->count + 1) * sizeof *copies);
     if (!copies || !index_kept(state, used, moved, &index, &keys, copies)) {
         index_free(&index);
@@ -350,6 +379,7 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
     arena_free(&state->keys);
     state->index = index;
     state->keys = keys;
+    meter_give(state->meter, (state->count - count) * SLOT_BYTES);
     state->count = count;
     return true;
 }

@@ -12,8 +12,9 @@ typedef struct State State;
 typedef uint32_t StateSlot;
 #define STATE_NO_SLOT UINT32_MAX
 
-// NULL if memory is used up.
-State *state_new(void);
+// NULL if memory is used up. What it holds is charged to the meter (or NULL), which counts as memory that is used up,
+// too, when it refuses.
+State *state_new(Meter *meter);
 void state_free(State *state);
 // Removes every entry; slots become invalid.
 void state_clear(State *state);

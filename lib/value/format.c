@@ -77,10 +77,18 @@ void format_value(Text *out, const SymbolTable *symbols, Value v) {
     if (v.len == 0)
         text_add_c(out, "null");
     for (uint32_t i = 0; i < v.len; i++) {
+        arena_charge(out->arena, VALUE_TEXT_WORK);
         if (i)
             text_add_char(out, ';');
         format_item(out, symbols, value_at(&v, i));
     }
+}
+
+Str format_text(Arena *arena, const SymbolTable *symbols, Value v) {
+    Text text = text_new(arena);
+    format_value(&text, symbols, v);
+    text_add_char(&text, 0);
+    return (Str){text.bytes, text.len - 1};
 }
 
 typedef void FormatValue(Text *out, const SymbolTable *symbols, Value v);
@@ -101,16 +109,20 @@ static void format_head(Text *out, const SymbolTable *symbols, const Node *node,
     }
 }
 
-void format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth) {
+bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *host) {
+    arena_charge(out->arena, 2 + (unsigned)depth / 8);
     for (int i = 0; i < depth; i++)
         text_add_c(out, "    ");
     format_head(out, symbols, node, format_value);
     text_add_char(out, '\n');
-    for (uint32_t i = 0; i < node->child_count; i++)
-        format_tree(out, symbols, node->children[i], depth + 1);
+    bool goes_on = !line || line(host, out);
+    for (uint32_t i = 0; goes_on && i < node->child_count; i++)
+        goes_on = format_tree(out, symbols, node->children[i], depth + 1, line, host);
+    return goes_on;
 }
 
 static void format_debug_node(Text *out, const SymbolTable *symbols, const Node *node, int depth) {
+    arena_charge(out->arena, 4 + (unsigned)depth / 4);
     for (int i = 0; i < depth; i++)
         text_add_char(out, ' ');
     format_head(out, symbols, node, format_debug);
@@ -134,6 +146,7 @@ void format_debug(Text *out, const SymbolTable *symbols, Value v) {
         text_add_c(out, "null");
     for (uint32_t i = 0; i < v.len; i++) {
         Item item = value_at(&v, i);
+        arena_charge(out->arena, VALUE_TEXT_WORK);
         if (i)
             text_add_char(out, ';');
         if (item.type == ITEM_NUMBER) {

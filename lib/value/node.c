@@ -148,26 +148,6 @@ Value node_get(const Node *node, const Symbol *name) {
     return at < node->attr_count ? node->attrs[at].value : VALUE_NULL;
 }
 
-bool node_equal(const Node *a, const Node *b) {
-    if (a == b && a->attr_count == 0 && a->child_count == 0)
-        return true;
-    if (a->kind != b->kind || a->tag_count != b->tag_count || a->attr_count != b->attr_count ||
-        a->child_count != b->child_count)
-        return false;
-    for (uint32_t i = 0; i < a->tag_count; i++)
-        if (a->tags[i] != b->tags[i])
-            return false;
-    for (uint32_t i = 0; i < a->attr_count; i++) {
-        uint32_t at = attr_find(b->attrs, b->attr_count, a->attrs[i].name);
-        if (at == b->attr_count || !value_equal(a->attrs[i].value, b->attrs[at].value))
-            return false;
-    }
-    for (uint32_t i = 0; i < a->child_count; i++)
-        if (!node_equal(a->children[i], b->children[i]))
-            return false;
-    return true;
-}
-
 const Node *node_copy(Arena *arena, const Node *node) {
     Node *copy = node_clone(arena, node);
     copy->program_lifetime_children = false;

@@ -76,8 +76,8 @@ void value_keep(Value v);
 Value node_get(const Node *node, const Symbol *name);
 // Where the attribute of this name was written, or else the node; the source is NULL if that is unknown, too.
 Origin node_place(const Node *node, const Symbol *attr);
-// Structural equality (L7.5).
-bool node_equal(const Node *a, const Node *b);
+// Structural equality (L7.5); the arena is as for value_equal.
+bool node_equal(Arena *arena, const Node *a, const Node *b);
 const Node *node_copy(Arena *arena, const Node *node);
 
 // The same over every node element of a vector, other elements untouched.

@@ -58,14 +58,30 @@ static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, c
     }
 }
 
-// x^y for vectors of some length: by one exponent, or element by element. False if the vectors have other shapes.
-static bool many_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result) {
-    if (x_len < 4 || (y_len != 1 && y_len != x_len))
+// x^y for a vector: by one exponent, or element by element. False if x is a number.
+static bool many_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result,
+                        uint32_t len) {
+    if (x_len != len)
         return false;
     if (y_len == 1)
         maths_power_many(cpu_here.level, x, *y, x_len, result);
     else
         maths_pow_many(cpu_here.level, x, y, x_len, result);
+    return true;
+}
+
+// The operations on many elements at once, a portion at a time; false if this is none.
+static bool by_portions(Arena *arena, ArithOp op, const double *x, uint32_t x_len, const double *y, uint32_t y_len,
+                        double *result, uint32_t len) {
+    for (uint32_t at = 0; at < len; at += METER_PORTION) {
+        uint32_t count = len - at < METER_PORTION ? len - at : METER_PORTION;
+        uint32_t x_count = x_len == 1 ? 1 : count, y_count = y_len == 1 ? 1 : count;
+        const double *x_at = x_len == 1 ? x : x + at, *y_at = y_len == 1 ? y : y + at;
+        arena_charge(arena, op == ARITH_POW ? count / 2 : 0);
+        if (op == ARITH_POW ? !many_powers(x_at, x_count, y_at, y_count, result + at, count)
+                            : !simple_arith(op, x_at, x_count, y_at, y_count, result + at, count))
+            return false;
+    }
     return true;
 }
 
@@ -79,11 +95,11 @@ Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
         return value_number(square ? x[0] * x[0] : op_number(op, x[0], y[0]));
     uint32_t len = a.len > b.len ? a.len : b.len;
     double *result = arena_alloc_array(arena, len, sizeof *result);
-    if ((a.len == 1 || b.len == 1 || a.len == b.len) && simple_arith(op, x, a.len, y, b.len, result, len))
-        return value_numbers_view(result, len);
-    if (op == ARITH_POW && !square && many_powers(x, a.len, y, b.len, result))
+    if ((a.len == 1 || b.len == 1 || a.len == b.len) &&
+        by_portions(arena, square ? ARITH_MUL : op, x, a.len, square ? x : y, square ? a.len : b.len, result, len))
         return value_numbers_view(result, len);
     for (uint32_t i = 0, j = 0, k = 0; i < len; i++) {
+        arena_portion(arena, i, 1);
         result[i] = square ? x[j] * x[j] : op_number(op, x[j], y[k]);
         j = j + 1 == a.len ? 0 : j + 1;
         k = k + 1 == b.len ? 0 : k + 1;

@@ -3,21 +3,31 @@
 
 #include "base/number.h"
 #include "maths/random.h"
-#include "value/node.h"
+#include "value/walk.h"
 
 #include <math.h>
 #include <string.h>
 
-static uint64_t hash_vector(Value v, bool floored);
+typedef struct Hashing {
+    Arena *arena; // NULL: free of charge
+    Walk walk;
+} Hashing;
 
-static uint64_t hash_node(const Node *node) {
-    uint64_t hash = random_hash_step(RANDOM_HASH_START, symbol_hash(node->kind->name));
+static uint64_t hash_vector(Hashing *hashing, Value v, bool floored);
+
+static uint64_t hash_node(Hashing *hashing, const Node *node) {
+    uint64_t hash;
+    if (walk_knows(&hashing->walk, hashing->arena, node, NULL, &hash))
+        return hash;
+    hash = random_hash_step(RANDOM_HASH_START, symbol_hash(node->kind->name));
     for (uint32_t i = 0; i < node->tag_count; i++)
         hash = random_hash_step(hash, symbol_hash(node->tags[i]->name));
     // Attributes count in the order of their names, whatever the order in which they were set.
     const Symbol *last = NULL;
     for (uint32_t done = 0; done < node->attr_count; done++) {
         const Attr *next = NULL;
+        if (hashing->arena)
+            arena_charge(hashing->arena, node->attr_count / 4);
         for (uint32_t i = 0; i < node->attr_count; i++) {
             const Attr *attr = &node->attrs[i];
             if ((!last || str_compare(attr->name->name, last->name) > 0) &&
@@ -27,40 +37,53 @@ static uint64_t hash_node(const Node *node) {
         if (!next)
             break;
         hash = random_hash_step(hash, symbol_hash(next->name->name));
-        hash = random_hash_step(hash, hash_vector(next->value, false));
+        hash = random_hash_step(hash, hash_vector(hashing, next->value, false));
         last = next->name;
     }
     for (uint32_t i = 0; i < node->child_count; i++)
-        hash = random_hash_step(hash, hash_node(node->children[i]));
+        hash = random_hash_step(hash, hash_node(hashing, node->children[i]));
+    walk_learn(&hashing->walk, node, NULL, hash);
     return hash;
 }
 
-static uint64_t hash_item(Item item, bool floored) {
+static uint64_t hash_item(Hashing *hashing, Item item, bool floored) {
     switch (item.type) {
     case ITEM_NUMBER:
         return floored ? random_hash_number(item.as.number) : number_bits(item.as.number);
     case ITEM_STRING:
         return symbol_hash(item.as.string->text);
     case ITEM_NODE:
-        return hash_node(item.as.node);
+        return hash_node(hashing, item.as.node);
     default:
         return symbol_hash(item.as.function->name); // unspecified; the name keeps runs reproducible
     }
 }
 
-static uint64_t hash_vector(Value v, bool floored) {
+static uint64_t hash_vector(Hashing *hashing, Value v, bool floored) {
     uint64_t hash = RANDOM_HASH_START;
-    for (uint32_t i = 0; i < v.len; i++)
-        hash = random_hash_step(hash, hash_item(value_at(&v, i), floored));
+    for (uint32_t i = 0; i < v.len; i++) {
+        if (i % METER_PORTION == METER_PORTION - 1 && hashing->arena)
+            arena_charge(hashing->arena, METER_PORTION / 4);
+        hash = random_hash_step(hash, hash_item(hashing, value_at(&v, i), floored));
+    }
     return hash;
 }
 
-uint64_t value_exact_hash(Value seed) {
-    return hash_vector(seed, false);
+static uint64_t hash_all(Arena *arena, Value seed, bool floored) {
+    Hashing hashing = {arena, {0}};
+    ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
+    uint64_t hash = hash_vector(&hashing, seed, floored);
+    if (hashing.walk.facts)
+        arena_rewind(arena, mark);
+    return hash;
 }
 
-uint64_t value_seed_hash(Value seed) {
-    return hash_vector(seed, true);
+uint64_t value_exact_hash(Arena *arena, Value seed) {
+    return hash_all(arena, seed, false);
+}
+
+uint64_t value_seed_hash(Arena *arena, Value seed) {
+    return hash_all(arena, seed, true);
 }
 
 double value_stream_item(Value stream, uint64_t i) {

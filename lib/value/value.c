@@ -1,4 +1,4 @@
-// value.c: construction, comparison and copying of vectors; see value.h.
+// value.c: construction and copying of vectors; see value.h.
 #include "value/value.h"
 
 #include "base/number.h"
@@ -44,71 +44,6 @@ bool value_true(Value v) {
     for (uint32_t i = 0; i < v.len; i++)
         if (item_true(value_at(&v, i)))
             return true;
-    return false;
-}
-
-bool item_equal(Item a, Item b) {
-    if (a.type != b.type)
-        return false;
-    switch (a.type) {
-    case ITEM_NUMBER:
-        return a.as.number == b.as.number;
-    case ITEM_STRING:
-        return str_equal(a.as.string->text, b.as.string->text);
-    case ITEM_NODE:
-        return node_equal(a.as.node, b.as.node);
-    default:
-        // A closure is itself only; a built-in is its row, whichever program names it.
-        return a.as.function == b.as.function ||
-               (a.as.function->builtin && a.as.function->builtin == b.as.function->builtin);
-    }
-}
-
-bool value_equal(Value a, Value b) {
-    if (a.kind == VALUE_STREAM || b.kind == VALUE_STREAM)
-        return a.kind == b.kind && a.stream == b.stream && a.as.key == b.as.key;
-    if (a.len != b.len)
-        return false;
-    for (uint32_t i = 0; i < a.len; i++)
-        if (!item_equal(value_at(&a, i), value_at(&b, i)))
-            return false;
-    return true;
-}
-
-// Order of two elements that are not equal.
-static int item_compare_unequal(Item a, Item b) {
-    if (a.type == ITEM_NUMBER && b.type == ITEM_NUMBER)
-        return a.as.number < b.as.number ? -1 : 1; // a nan on either side gives 1
-    if (a.type == ITEM_STRING && b.type == ITEM_STRING)
-        return str_compare(a.as.string->text, b.as.string->text);
-    return VALUE_INCOMPARABLE;
-}
-
-int value_compare(Value a, Value b) {
-    if (a.len == 0 || b.len == 0)
-        return (a.len > 0) - (b.len > 0);
-    if (a.kind != b.kind)
-        return VALUE_INCOMPARABLE;
-    if (a.len == b.len && a.len > 1 && a.as.items == b.as.items)
-        return 0; // the same object (L5.5 rule 1)
-    for (uint32_t i = 0; i < a.len && i < b.len; i++) {
-        Item x = value_at(&a, i), y = value_at(&b, i);
-        if (!item_equal(x, y))
-            return item_compare_unequal(x, y);
-    }
-    return (a.len > b.len) - (a.len < b.len);
-}
-
-bool value_contains(Value x, Value y) {
-    if (x.len == 0)
-        return true;
-    for (uint32_t start = 0; start + x.len <= y.len && y.len; start++) {
-        uint32_t i = 0;
-        while (i < x.len && item_equal(value_at(&x, i), value_at(&y, start + i)))
-            i++;
-        if (i == x.len)
-            return true;
-    }
     return false;
 }
 
@@ -181,7 +116,7 @@ Value value_copy(Arena *arena, Value v) {
     if (v.kind == VALUE_NUMBERS && v.len > 1)
         v.as.numbers = arena_copy(arena, v.as.numbers, v.len * sizeof *v.as.numbers);
     if (v.kind == VALUE_MIXED) {
-        Item *items = arena_alloc_array(arena, v.len, sizeof *items);
+        Item *items = arena_alloc(arena, v.len * sizeof *items);
         for (uint32_t i = 0; i < v.len; i++)
             items[i] = item_copy(arena, v.as.items[i]);
         v.as.items = items;
@@ -216,7 +151,9 @@ Str value_text(Arena *arena, const SymbolTable *symbols, Value v) {
     if (v.len == 1 && v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
         return v.as.items[0].as.string->text;
     Text out = text_new(arena);
-    for (uint32_t i = 0; i < v.len; i++)
+    for (uint32_t i = 0; i < v.len; i++) {
+        arena_charge(arena, VALUE_TEXT_WORK);
         add_item_text(&out, symbols, value_at(&v, i));
+    }
     return text_str(&out);
 }

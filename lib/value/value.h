@@ -98,14 +98,17 @@ static inline Item value_at(const Value *v, uint32_t i) {
 
 // Truth (L4.6).
 bool value_true(Value v);
+// Comparisons (compare.c) charge for what they look at to the arena and leave nothing in it; NULL is for values without
+// nodes that somebody else has charged for.
+//
 // Equality of whole vectors (L5.4), the operator ==.
-bool value_equal(Value a, Value b);
-bool item_equal(Item a, Item b);
+bool value_equal(Arena *arena, Value a, Value b);
+bool item_equal(Arena *arena, Item a, Item b);
 // Order of whole vectors (L5.5): -1, 0, 1, or VALUE_INCOMPARABLE.
 enum { VALUE_INCOMPARABLE = 2 };
-int value_compare(Value a, Value b);
+int value_compare(Arena *arena, Value a, Value b);
 // `x in y` (L5.6).
-bool value_contains(Value x, Value y);
+bool value_contains(Arena *arena, Value x, Value y);
 
 // v[index] (L5.7). v must not be a stream.
 Value value_index(Arena *arena, Value v, Value index);
@@ -119,6 +122,7 @@ uint32_t value_wrap_index(double x, uint32_t n);
 // A deep copy: nothing in the result points outside the arena, but for functions and symbols.
 Value value_copy(Arena *arena, Value v);
 
+enum { VALUE_TEXT_WORK = 8 }; // of an element that is written as text
 // The text of a vector: the concatenation of its elements' texts (L6).
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 

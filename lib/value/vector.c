@@ -39,6 +39,8 @@ static void append(Vector *vector, Value part) {
         vector_make_mixed(vector);
     if (part.len == 0 || !vector_reserve(vector, part.len))
         return;
+    if (part.len >= METER_NUMBERS)
+        arena_charge(vector->arena, part.len / METER_NUMBERS);
     if (!vector->mixed)
         memcpy(vector->as.numbers + vector->len, value_numbers(&part), part.len * sizeof(double));
     else if (part.kind == VALUE_MIXED)

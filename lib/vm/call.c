@@ -54,13 +54,17 @@ static Value argument(const Closure *closure, const Arguments *args, uint32_t i)
     return closure->defaults[i];
 }
 
+// What a code costs to run through once, without what its instructions charge for themselves.
+static uint64_t cost_of(const Code *code) {
+    return 1 + (code->count + code->constant_count) / VM_INSTRS_A_UNIT;
+}
+
 static bool may_enter(Vm *vm, const Closure *closure, const Origin *at) {
+    vm_work(vm, at, cost_of(closure->code->code));
     const char *limit = closure->active >= VM_CLOSURE_DEPTH ? "500 calls of one function"
                         : vm->depth >= VM_CALL_DEPTH        ? "8192 nested calls"
                         : !vm_stack_left(vm)                ? "the stack"
                                                             : NULL;
-    if (!vm_work(vm, at))
-        return false;
     if (limit)
         vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s",
                  STR_ARGS(closure->base.name), limit);
@@ -99,7 +103,7 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
-    if (!vm_may_call(vm, builtin, at))
+    if (!vm_may_call(vm, builtin, at, args->positional, args->count + args->named_count)) // the named ones follow
         return VALUE_NULL;
     return builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names, args->named,
                         args->named_count);

@@ -10,8 +10,8 @@
 
 #define NOINLINE __attribute__((noinline))
 
-// A number goes to its register in one piece, as whoever copies it will fetch it: a processor has to wait for two
-// halves.
+// One store of 16 bytes: after two of 8 bytes, a load of 16 waits until both are in the cache, as neither can be
+// forwarded.
 static inline void set_number(Value *to, double x) {
     typedef double Halves __attribute__((vector_size(16)));
     static const union {
@@ -35,12 +35,13 @@ static Value stream_as_null(Value v) {
     return v.kind == VALUE_STREAM ? VALUE_NULL : v;
 }
 
-NOINLINE static Value compare(const Instr *instr, Value a, Value b) {
+NOINLINE static Value compare(Vm *vm, const Instr *instr, Value a, Value b) {
+    vm->at = instr->at;
     if (instr->op == OP_EQ)
-        return truth(value_equal(a, b));
+        return truth(value_equal(vm->arena, a, b));
     if (instr->op == OP_NE)
-        return truth(!value_equal(stream_as_null(a), stream_as_null(b)));
-    int order = instr->c ? 0 : value_compare(a, b);
+        return truth(!value_equal(vm->arena, stream_as_null(a), stream_as_null(b)));
+    int order = instr->c ? 0 : value_compare(vm->arena, a, b);
     if (order == VALUE_INCOMPARABLE)
         return VALUE_NULL;
     switch (instr->op) {
@@ -68,14 +69,20 @@ NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint3
 }
 
 // The next round of a loop, if there is one.
-static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slots) {
-    if (loop->at >= loop->source.len || !vm_work(vm, instr->at))
+static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slots, uint64_t cost) {
+    if (loop->at >= loop->source.len)
         return false;
+    vm_work(vm, instr->at, cost);
     if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
         set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
     else
         bind_elements(vm, loop, slots + instr->d, instr->count);
     return true;
+}
+
+NOINLINE static Value arithmetic(Vm *vm, const Instr *instr, ArithOp op, Value a, Value b) {
+    vm->at = instr->at;
+    return op_arith(vm->arena, op, a, b);
 }
 
 enum { FEW_ARGUMENTS = 8 };
@@ -96,9 +103,9 @@ NOINLINE static Value call(Vm *vm, const int32_t *list, const Value *slots, cons
 
 NOINLINE static Value call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     Value few[FEW_ARGUMENTS];
-    if (!vm_may_call(vm, instr->as.builtin, instr->at))
-        return VALUE_NULL;
     const Value *values = gather(vm, list, slots, instr, few);
+    if (!vm_may_call(vm, instr->as.builtin, instr->at, values, instr->count))
+        return VALUE_NULL;
     return instr->as.builtin->call(&vm->builtins, values, instr->count);
 }
 
@@ -136,7 +143,7 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
         if (is_number(a) && is_number(b))                                                                              \
             set_number(&D, a->as.number operator b->as.number);                                                        \
         else                                                                                                           \
-            D = op_arith(vm->arena, arith, *a, *b);                                                                    \
+            D = arithmetic(vm, instr, arith, *a, *b);                                                                  \
         break;                                                                                                         \
     }
 
@@ -148,7 +155,7 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
             double x = a->as.number, y = b->as.number;                                                                 \
             D = truth(claim);                                                                                          \
         } else {                                                                                                       \
-            D = compare(instr, *a, *b);                                                                                \
+            D = compare(vm, instr, *a, *b);                                                                            \
         }                                                                                                              \
         break;                                                                                                         \
     }
@@ -196,7 +203,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
         case OP_FOR: {
             Loop *loop = &frame->loops[instr->loop];
             *loop = (Loop){.source = A, .result = vector_new(vm->arena)};
-            if (!next_round(vm, instr, loop, slots))
+            if (!next_round(vm, instr, loop, slots, 1))
                 instr = code->instrs + instr->target - 1;
             break;
         }
@@ -206,7 +213,8 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
         case OP_NEXT: {
             Loop *loop = &frame->loops[instr->loop];
             loop->at += instr->count;
-            if (!loop->result.overflow && next_round(vm, instr, loop, slots))
+            uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT; // of the body
+            if (!loop->result.overflow && next_round(vm, instr, loop, slots, cost))
                 instr = code->instrs + instr->target - 1;
             break;
         }
@@ -255,9 +263,11 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             COMPARISON(OP_LE, x <= y)
             COMPARISON(OP_GE, !(x < y))
         case OP_IN:
-            D = truth(value_contains(A, B));
+            vm->at = instr->at;
+            D = truth(value_contains(vm->arena, A, B));
             break;
         case OP_RANGE:
+            vm->at = instr->at;
             D = vm_range(vm, instr->at, A, B, C);
             break;
             ARITHMETIC(OP_ADD, ARITH_ADD, +)
@@ -265,15 +275,16 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             ARITHMETIC(OP_MUL, ARITH_MUL, *)
             ARITHMETIC(OP_DIV, ARITH_DIV, /)
         case OP_FLOORDIV:
-            D = op_arith(vm->arena, ARITH_FLOORDIV, A, B);
+            D = arithmetic(vm, instr, ARITH_FLOORDIV, A, B);
             break;
         case OP_MOD:
-            D = op_arith(vm->arena, ARITH_MOD, A, B);
+            D = arithmetic(vm, instr, ARITH_MOD, A, B);
             break;
         case OP_POW:
-            D = op_arith(vm->arena, ARITH_POW, A, B);
+            D = arithmetic(vm, instr, ARITH_POW, A, B);
             break;
         case OP_NEG:
+            vm->at = instr->at;
             D = op_negate(vm->arena, A);
             break;
         case OP_POS:
@@ -285,7 +296,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
                 index->as.number < vector->len)
                 set_number(&D, value_numbers(vector)[(uint32_t)index->as.number]);
             else
-                D = vm_index(vm, *vector, *index);
+                vm->at = instr->at, D = vm_index(vm, *vector, *index);
             break;
         }
         case OP_SLICE:

@@ -36,25 +36,6 @@ void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ..
     report(vm, at, DIAG_WARNING, code, text_str(&text));
 }
 
-bool vm_work_goes_on(Vm *vm, const Origin *at) {
-    enum { BETWEEN_LOOKS = 1024 };
-    if (vm->stopped)
-        return false;
-    vm->stopped = vm->interrupt && atomic_load_explicit(vm->interrupt, memory_order_relaxed);
-    if (!vm->stopped && vm->work <= vm->work_limit) {
-        uint64_t left = vm->work_limit - vm->work;
-        vm->work_pause = vm->work + (left < BETWEEN_LOOKS ? left : BETWEEN_LOOKS);
-        return true;
-    }
-    vm->work_pause = 0; // each further call comes here
-    if (vm->stopped)
-        return false;
-    vm->stopped = true;
-    report(vm, at, DIAG_ERROR, "work-limit",
-           STR("the frame makes more than 134217728 calls and loop rounds; it is given up"));
-    return false;
-}
-
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector) {
     if (vector->overflow)
         vm_fault(vm, at, "too-long", "vector too long: the limit is 134217728 elements");

@@ -36,6 +36,7 @@ typedef struct Frame {
 struct ImportLink {
     const ImportLink *outer;
     const Source *source;
+    uint32_t depth; // 0: the main program
 };
 
 // A frame for a code; its slots are not cleared.
@@ -76,22 +77,24 @@ Value vm_finish(Vm *vm, const Origin *at, Vector *vector);
 // Is there enough of the C stack left for one more call?
 bool vm_stack_left(const Vm *vm);
 
-// What vm_work does every now and then: looks whether the work is used up, which is reported once, or the host has
-// asked for an end.
-bool vm_work_goes_on(Vm *vm, const Origin *at);
-// Counts one call or loop round; false once the frame is to be given up.
-static inline bool vm_work(Vm *vm, const Origin *at) {
-    return ++vm->work <= vm->work_pause || vm_work_goes_on(vm, at);
+enum { VM_INSTRS_A_UNIT = 8 }; // of work
+// Charges for something that is done at a place.
+static inline void vm_work(Vm *vm, const Origin *at, uint64_t units) {
+    vm->at = at;
+    arena_charge(vm->arena, units);
 }
 
-// May a built-in be called now? Counts the call. What it complains of will belong to `at`. Ahead, no debug line is
-// written and no file is read.
-static inline bool vm_may_call(Vm *vm, const Builtin *builtin, const Origin *at) {
+// May a built-in be called now? Charges for the call and for a look at its arguments. What it complains of will belong
+// to `at`. Ahead, no debug line is written and no file is read.
+static inline bool vm_may_call(Vm *vm, const Builtin *builtin, const Origin *at, const Value *values, uint32_t count) {
     vm->met_dynamic |= !builtin->pure;
     if (vm->is_static && vm->met_dynamic)
         return false;
-    vm->calling = at;
-    return vm_work(vm, at);
+    uint64_t numbers = 0;
+    for (uint32_t i = 0; i < count; i++)
+        numbers += values[i].len;
+    vm_work(vm, at, 1 + numbers / METER_NUMBERS);
+    return true;
 }
 
 #endif

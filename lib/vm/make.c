@@ -6,7 +6,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { FEW = 8 };
+enum { MOST_ON_STACK = 8 };
 
 static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
     if (part->len == 1) {
@@ -20,6 +20,7 @@ static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
 
 // Numbers are put together in one allocation; anything else goes through a builder.
 Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at) {
+    vm->at = at;
     uint64_t len = 0;
     bool numeric = true;
     for (uint32_t i = 0; i < instr->count; i++) {
@@ -28,7 +29,7 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
         len += part->len;
     }
     if (numeric && len > 1 && len <= VALUE_MAX_LEN) {
-        double *numbers = arena_alloc(vm->arena, len * sizeof *numbers);
+        double *numbers = arena_alloc_array(vm->arena, len, sizeof *numbers);
         uint32_t filled = 0;
         for (uint32_t i = 0; i < instr->count; i++)
             filled = add_numbers(numbers, filled, &slots[list[i]]);
@@ -43,6 +44,7 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
 // --- nodes
 
 Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children) {
+    vm->at = instr->at;
     NodeList list = instr->as.kept ? *instr->as.kept : node_list(vm->arena, children);
     bool too_high = false;
     Value result = value_append(vm->arena, parent, &list, &too_high);
@@ -57,6 +59,7 @@ static void attributes_too_deep(Vm *vm, const Origin *at) {
 
 Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     const DecorateCode *decorate = instr->as.decorate;
+    vm->at = instr->at;
     Value subject = slots[instr->b];
     Attr *attrs = arena_alloc_array(vm->arena, instr->count, sizeof *attrs);
     for (uint32_t i = 0; i < instr->count; i++)
@@ -72,10 +75,10 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
 }
 
 // A node with the vector that holds it.
-typedef struct Made {
+typedef struct NodeValue {
     Node node;
     Item item;
-} Made;
+} NodeValue;
 
 // The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
@@ -117,7 +120,8 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     const NodeCode *plan = instr->as.node;
     const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
     uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
-    Made *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
+    vm_work(vm, instr->at, 1 + (instr->count + room) / 4);
+    NodeValue *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
     Attr *attrs = (Attr *)(made + 1);
     const Node **nodes = (const Node **)(attrs + instr->count);
     made->node = *plan->base;
@@ -136,6 +140,8 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
 
 // --- elements
 
+enum { STREAM_WORK = 4 }; // of one item of a stream
+
 static Value index_stream(Vm *vm, Value stream, Value index) {
     if (!value_is_numeric(index))
         return VALUE_NULL;
@@ -143,8 +149,10 @@ static Value index_stream(Vm *vm, Value stream, Value index) {
     if (index.len == 1)
         return value_number(value_stream_item(stream, value_stream_position(at[0])));
     double *items = arena_alloc_array(vm->arena, index.len, sizeof *items);
-    for (uint32_t i = 0; i < index.len; i++)
+    for (uint32_t i = 0; i < index.len; i++) {
+        arena_portion(vm->arena, i, STREAM_WORK);
         items[i] = value_stream_item(stream, value_stream_position(at[i]));
+    }
     return value_numbers_view(items, index.len);
 }
 
@@ -167,11 +175,13 @@ Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) 
         if (from >= 0 && to <= vector.len && to - from >= 2 && (double)(uint32_t)from == from &&
             (double)(uint32_t)to == to) {
             uint32_t len = (uint32_t)to - (uint32_t)from;
-            double *numbers = arena_alloc(vm->arena, len * sizeof *numbers);
+            vm->at = at;
+            double *numbers = arena_alloc_array(vm->arena, len, sizeof *numbers);
             memcpy(numbers, vector.as.numbers + (uint32_t)from, len * sizeof *numbers);
             return (Value){.len = len, .as.numbers = numbers};
         }
     }
+    vm->at = at;
     return vm_index(vm, vector, vm_range(vm, at, start, stop, VALUE_NULL));
 }
 
@@ -233,22 +243,29 @@ static Value get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
     return slot == STATE_NO_SLOT ? VALUE_NULL : state_slot_get(vm->state, slot);
 }
 
+static Value copy_of(Vm *vm, Value v) {
+    if (v.len >= METER_NUMBERS)
+        arena_charge(vm->arena, v.len / METER_NUMBERS);
+    return value_copy(vm->arena, v);
+}
+
 // Keys are a few numbers nearly always: they need not be made into a vector. The dictionary's value is copied into the
 // frame: systems may overwrite it in place after the evaluation.
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;
-    double few[FEW];
+    vm->at = instr->at;
+    double few[MOST_ON_STACK];
     uint32_t count = 0;
-    while (count < instr->count && count < FEW && is_number(&slots[list[count]])) {
+    while (count < instr->count && count < MOST_ON_STACK && is_number(&slots[list[count]])) {
         few[count] = slots[list[count]].as.number;
         count++;
     }
     if (count == instr->count && vm->state)
-        return value_copy(vm->arena, get(vm, instr->target, few, count));
+        return copy_of(vm, get(vm, instr->target, few, count));
     Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->as.inner);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)
-        return value_copy(vm->arena, get(vm, instr->target, value_numbers(&key), key.len));
-    return value_copy(vm->arena, state_get(vm->state, key));
+        return copy_of(vm, get(vm, instr->target, value_numbers(&key), key.len));
+    return copy_of(vm, state_get(vm->state, key));
 }

@@ -6,7 +6,7 @@
 // A built-in's own complaint belongs to the call that is being made.
 static void builtin_fault_here(void *host, Str text) {
     Vm *vm = host;
-    vm_fault_text(vm, vm->calling, "bad-call", text);
+    vm_fault_text(vm, vm->at, "bad-call", text);
 }
 
 static void builtin_log(void *host, Str text) {
@@ -19,10 +19,10 @@ void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t sta
                .symbols = symbols,
                .host = host,
                .stack_bytes = stack_bytes,
-               .work_limit = is_static ? VM_STATIC_WORK_LIMIT : VM_WORK_LIMIT,
                .run = is_static,
                .is_static = is_static};
     arena_init(&vm->slots, "call frames", SIZE_MAX);
+    vm->slots.meter = arena->meter;
     vm->builtins = (BuiltinContext){
         .arena = arena, .symbols = symbols, .fault = builtin_fault_here, .log = builtin_log, .host = vm};
 }
@@ -53,12 +53,10 @@ static Frame new_frame(Vm *vm, const Code *code) {
 static void begin(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
     vm->slots.escape = vm->arena->escape;
+    vm->at = NULL;
     vm->stack_base = stack_base;
     vm->run += 2;
     vm->depth = 0;
-    vm->work = 0;
-    vm->work_pause = 0;
-    vm->stopped = false;
     vm->imports = NULL;
     if (vm->reported_count > 0)
         memset(vm->reported, 0, sizeof vm->reported);
@@ -67,7 +65,7 @@ static void begin(Vm *vm, const char *stack_base) {
 
 Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports) {
     begin(vm, __builtin_frame_address(0));
-    ImportLink self = {NULL, program->source};
+    ImportLink self = {NULL, program->source, 0};
     vm->imports = &self;
     vm->builtins.directory = program->source->directory;
     vm_memo_begin(vm, program->place_count);
@@ -82,7 +80,8 @@ Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports)
     for (uint32_t i = 0; exports && i < program->export_count; i++)
         exports[i] = frame.slots[program->exports[i].slot];
     vm->imports = NULL;
-    return vm->stopped ? VALUE_NULL : result;
+    vm->at = NULL;
+    return result;
 }
 
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {
@@ -92,7 +91,7 @@ bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {
     vm->builtins.directory = code->source->directory;
     Frame frame = new_frame(vm, code);
     *value = vm_eval(vm, &frame, code);
-    if (!vm->met_dynamic && !vm->stopped && vm->reported_count == 0)
+    if (!vm->met_dynamic && vm->reported_count == 0)
         return true;
     *value = VALUE_NULL;
     return false;
@@ -105,9 +104,12 @@ static bool being_imported(const Vm *vm, const Source *source) {
     return false;
 }
 
+enum { IMPORT_WORK = 100 }; // its file is looked at
+
 // Evaluates a module in a frame of its own, with only the built-ins visible and without state (L13.2).
 static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
-    ImportLink link = {vm->imports, module->source};
+    ImportLink link = {vm->imports, module->source, vm->imports->depth + 1};
+    vm_work(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);
     const State *state = vm->state;
     Str directory = vm->builtins.directory;
     ArenaMark mark = arena_mark(&vm->slots);
@@ -147,7 +149,7 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
         vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(why));
     } else if (being_imported(vm, module->source)) {
         vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
-    } else if (!vm_stack_left(vm)) {
+    } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !vm_stack_left(vm)) {
         vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");
     } else {
         run_module(vm, frame, module, instr);

@@ -1,8 +1,8 @@
 // vm.h: the machine that evaluates a compiled program for one frame.
 //
 // Evaluation never fails: every fault has a value, nearly always null, and is reported through the host (spec
-// language.md L15). Results live in the frame's arena. Limits (call depth, work, stack) are diagnostics too; when the
-// work of a frame is used up, the frame is given up.
+// language.md L15). Results live in the frame's arena. Limits of depth are diagnostics too. Work and memory are charged
+// to that arena; when they are used up, control leaves through its escape, and `at` tells what asked for them.
 #ifndef PETRI_VM_VM_H
 #define PETRI_VM_VM_H
 
@@ -12,18 +12,12 @@
 #include "state/state.h"
 #include "vm/profile.h"
 
-#include <stdatomic.h>
-
 enum {
     VM_CLOSURE_DEPTH = 500, // active calls of one closure object (L9.4)
     VM_CALL_DEPTH = 8192,   // nested calls of user functions
+    VM_IMPORT_DEPTH = 500,  // modules that import each other in turn
     VM_REPORTED = 1024,     // distinct faults that one frame reports; a power of two
 };
-// Calls and loop rounds that one frame may make: enough to go once through the longest vector, little enough that a
-// function calling itself twice ends within seconds.
-#define VM_WORK_LIMIT (UINT64_C(1) << 27)
-// The same for one expression that is evaluated ahead.
-#define VM_STATIC_WORK_LIMIT (UINT64_C(1) << 24)
 
 typedef struct VmHost {
     void *host;
@@ -58,13 +52,8 @@ typedef struct Vm {
     Value globals[ENGINE_NAME_COUNT];
     BuiltinContext builtins; // arena, files, directory of the program being evaluated
     VmHost host;
-    const Origin *calling; // the call that a built-in's fault belongs to
+    const Origin *at; // what is at work: a built-in's fault belongs to it, and so does a limit. NULL: nothing yet
     uint32_t depth;
-    uint64_t work;
-    uint64_t work_limit;
-    uint64_t work_pause;          // when to look next whether to go on
-    bool stopped;                 // the work is used up, or the host has asked for an end
-    const atomic_bool *interrupt; // the host's wish for an end, looked at now and then; NULL: none
     uint64_t run;       // number of the evaluation, unique over a session's machines: closures may outlive a frame
     bool is_static;     // evaluating ahead: dynamic things have no value yet
     bool met_dynamic;   // … and one was met

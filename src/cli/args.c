@@ -29,7 +29,7 @@ static const char *find_elsewhere(const Args *args, const char *name) {
 }
 
 static int unknown_option(const Args *args, const char *word, const char *name) {
-    Nearest nearest = {.word = name};
+    StrNearest nearest = nearest_start(name);
     for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
         if (spec->commands & args->command->options) {
             nearest_offer(&nearest, spec->name);
@@ -37,8 +37,8 @@ static int unknown_option(const Args *args, const char *word, const char *name) 
     }
     nearest_offer(&nearest, "help");
     nearest_offer(&nearest, "version");
-    const char *meant = strcmp(name, "v") == 0 ? "version" : nearest.name;
-    const char *elsewhere = meant == NULL || nearest.distance > 1 ? find_elsewhere(args, name) : NULL;
+    const char *meant = strcmp(name, "v") == 0 ? "version" : nearest.found.bytes;
+    const char *elsewhere = meant == NULL || nearest.limit > 1 ? find_elsewhere(args, name) : NULL;
     if (elsewhere != NULL) {
         message("'petri %s' has no option '%s', but 'petri %s' has; 'petri help %s' lists the options",
                 args->command->name, word, elsewhere, args->command->name);

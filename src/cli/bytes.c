@@ -92,19 +92,19 @@ bool bytes_line(const Bytes *text, size_t *at, Str *line) {
     return true;
 }
 
-bool bytes_read(Bytes *text, int fd) {
-    for (;;) {
+bool bytes_read(Bytes *text, int fd, size_t most) {
+    ssize_t got = 1;
+    bytes_add_text(text, "");
+    while (got != 0 && text->length <= most) {
         reserve(text, READ_BLOCK);
-        ssize_t got = read(fd, text->data + text->length, READ_BLOCK);
-        if (got < 0 && errno == EINTR) {
-            continue;
+        got = read(fd, text->data + text->length, READ_BLOCK);
+        if (got < 0 && errno != EINTR) {
+            return false;
         }
         text->length += got > 0 ? (size_t)got : 0;
         text->data[text->length] = '\0';
-        if (got <= 0) {
-            return got == 0;
-        }
     }
+    return true;
 }
 
 bool bytes_read_file(Bytes *text, const char *path) {
@@ -112,15 +112,11 @@ bool bytes_read_file(Bytes *text, const char *path) {
     if (fd < 0) {
         return false;
     }
-    bool done = bytes_read(text, fd);
+    bool done = bytes_read(text, fd, SIZE_MAX);
     int error = errno;
     close(fd);
     errno = error;
     return done;
-}
-
-const char *bytes_replace_file(const Bytes *text, const char *path) {
-    return file_replace(path, (Str){text->data, text->length}, 0);
 }
 
 void bytes_free(Bytes *text) {

@@ -24,11 +24,9 @@ __attribute__((format(printf, 2, 0))) void bytes_format_list(Bytes *text, const 
 bool bytes_collect(void *bytes, const char *text, size_t length);
 // The line at *at without its end, and on to the next; false at the end of the text.
 bool bytes_line(const Bytes *text, size_t *at, Str *line);
-// Adds all that can be read from the descriptor, or from the file; false with errno set.
-bool bytes_read(Bytes *text, int fd);
+// Adds all that can be read from the descriptor, or little more than `most`; or from the file. False with errno set.
+bool bytes_read(Bytes *text, int fd, size_t most);
 bool bytes_read_file(Bytes *text, const char *path);
-// Replaces the file at once: who reads it sees the old text or the new. NULL, or what is wrong.
-const char *bytes_replace_file(const Bytes *text, const char *path);
 void bytes_free(Bytes *text);
 void memory_drop(char **text);
 

@@ -10,8 +10,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-// A file that vanishes when it is closed. Unlike a pipe it takes any amount while nobody reads.
-static int unnamed_file(void) {
+int child_unnamed_file(void) {
     const char *folder = getenv("TMPDIR");
     SCOPED_BYTES path = {0};
     bytes_format(&path, "%s/petri-XXXXXX", folder == NULL || folder[0] == '\0' ? "/tmp" : folder);
@@ -37,7 +36,7 @@ static void become_run(const Child *child, const char *program, const char *fold
 }
 
 bool child_start(Child *child, const char *program, const char *folder, char **argv) {
-    *child = (Child){.output = unnamed_file(), .errors = unnamed_file()};
+    *child = (Child){.output = child_unnamed_file(), .errors = child_unnamed_file()};
     child->pid = child->output < 0 || child->errors < 0 ? -1 : fork();
     if (child->pid == 0) {
         become_run(child, program, folder, argv);
@@ -62,7 +61,7 @@ pid_t child_wait(int *status) {
 
 static void collect(int fd, Bytes *text) {
     bytes_add(text, "", 0);
-    if (lseek(fd, 0, SEEK_SET) == 0 && !bytes_read(text, fd)) {
+    if (lseek(fd, 0, SEEK_SET) == 0 && !bytes_read(text, fd, SIZE_MAX)) {
         message("cannot read the output of a script: %s", strerror(errno));
     }
     close(fd);

@@ -15,6 +15,8 @@ typedef struct Child {
 
 enum { CHILD_SECONDS = 120 };
 
+// A file that vanishes when it is closed, or -1. Unlike a pipe it takes any amount while nobody reads.
+int child_unnamed_file(void);
 // Starts a program in a folder; the words end with NULL, the first is the program's name. False with errno set.
 bool child_start(Child *child, const char *program, const char *folder, char **argv);
 // Waits for any child to end; its process id, or -1 if there is none. `status` is that of waitpid.

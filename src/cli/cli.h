@@ -6,6 +6,8 @@
 #include <stddef.h>
 #include <stdint.h>
 
+#include "base/str.h"
+
 struct Args;
 struct Options;
 
@@ -63,28 +65,23 @@ extern const Command CHECK_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 
-// The commands in the order of help, ended by NULL.
-extern const Command *const COMMANDS[];
-// NULL if there is none of this name.
-const Command *command_find(const char *name);
 // Reads the words that follow a command's name and runs it; returns the exit status.
 int command_run(const Command *command, const Host *host, int argc, char **argv);
 
 // Prints a command's own help on standard output; returns the exit status.
 int help_for(const Command *command);
-int help_overview(void);
+// `commands` are in the order of help, ended by NULL.
+int help_overview(const Command *const *commands);
 int help_version(void);
 
+// Calls the handler for a signal, unless that is SIGHUP and nohup has it ignored.
+void signal_catch(int number, void (*handler)(int), int flags);
 // Writes `petri: text` and a newline to standard error.
 __attribute__((format(printf, 1, 2))) void message(const char *format, ...);
 
-// What a mistyped word was meant to be: the name, of those that are offered, that is nearest to it.
-typedef struct Nearest {
-    const char *word;
-    const char *name; // NULL: none is near enough to be a slip of the hand
-    size_t distance;
-} Nearest;
+// Looks for what a mistyped word was meant to be, near enough to be a slip of the hand. `found` is of C, too.
+StrNearest nearest_start(const char *word);
 // True if the name is nearer than those before it.
-bool nearest_offer(Nearest *nearest, const char *name);
+bool nearest_offer(StrNearest *nearest, const char *name);
 
 #endif

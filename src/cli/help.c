@@ -24,12 +24,12 @@ int help_end(Output *output) {
     return status;
 }
 
-int help_overview(void) {
+int help_overview(const Command *const *commands) {
     Output *output = help_begin();
     output_format(output, "petri %s: runs Flitter scripts that hold systems of particles\n\n", petri_version());
     output_format(output, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        output_format(output, "  %-8s %s\n", COMMANDS[i]->name, COMMANDS[i]->summary);
+    for (size_t i = 0; commands[i] != NULL; i++) {
+        output_format(output, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
     }
     output_format(
         output,

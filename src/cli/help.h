@@ -11,7 +11,13 @@ Output *help_begin(void);
 int help_end(Output *output);
 // An option and what it does, in a line.
 void help_option(Output *output, const OptionSpec *spec);
-// Tells of a command of the prompt; false if there is none of this name.
-bool help_prompt(Output *output, const char *name);
+
+// What there is to say of a word of the language, for `petri help` and `.help` at the prompt (topics.c).
+
+// Tells of the built-in function, the node (`!name` means no other), the word or the attribute of this name. False if
+// there is none.
+bool topics_tell(Output *output, const char *topic);
+// Offers all of these names.
+void topics_offer(StrNearest *nearest);
 
 #endif

@@ -1,4 +1,5 @@
-// message.c: messages of the command itself, and the search for what a mistyped word was meant to be.
+// message.c: messages of the command itself, signals, and the search for what a mistyped word was meant to be.
+#include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
 #include <string.h>
@@ -6,6 +7,14 @@
 
 #include "base/file.h"
 #include "cli/cli.h"
+
+void signal_catch(int number, void (*handler)(int), int flags) {
+    struct sigaction action = {.sa_handler = handler, .sa_flags = flags}, before;
+    sigemptyset(&action.sa_mask);
+    if (number != SIGHUP || (sigaction(number, NULL, &before) == 0 && before.sa_handler != SIG_IGN)) {
+        sigaction(number, &action, NULL);
+    }
+}
 
 void message(const char *format, ...) {
     // One write for the whole line, so that messages of parallel processes do not mix.
@@ -25,18 +34,18 @@ void message(const char *format, ...) {
     file_write(STDERR_FILENO, line, length);
 }
 
-bool nearest_offer(Nearest *nearest, const char *name) {
-    const char *word = nearest->word;
-    size_t length = strlen(word);
-    size_t distance = (size_t)str_distance(str_from(word), str_from(name));
+StrNearest nearest_start(const char *word) {
+    Str wanted = str_from(word);
+    return (StrNearest){.wanted = wanted, .limit = 2 + (int)wanted.len / 5};
+}
+
+bool nearest_offer(StrNearest *nearest, const char *name) {
     // A shortened word counts as near: `--def` for `--define`.
-    if (length >= 3 && strncmp(word, name, length) == 0) {
-        distance = 1;
+    bool shortened = nearest->wanted.len >= 3 && str_starts_with(str_from(name), nearest->wanted);
+    if (!shortened || nearest->limit <= 1) {
+        return !shortened && str_try_nearest(nearest, str_from(name));
     }
-    bool nearer = distance <= 1 + length / 5 && (nearest->name == NULL || distance < nearest->distance);
-    if (nearer) {
-        nearest->name = name;
-        nearest->distance = distance;
-    }
-    return nearer;
+    nearest->limit = 1;
+    nearest->found = str_from(name);
+    return true;
 }

@@ -4,15 +4,11 @@
 
 #include "base/file.h"
 #include "base/replace.h"
+#include "base/source.h"
 #include "cli/bytes.h"
-#include "cli/hints.h"
 #include "cli/new_dish.h"
 #include "cli/options.h"
-
-static bool ends_in(const char *text, const char *end) {
-    size_t length = strlen(text), count = strlen(end);
-    return length >= count && strcmp(text + length - count, end) == 0;
-}
+#include "cli/script.h"
 
 // Writes the dish to a file that must not exist yet.
 static int write_dish(const char *path) {
@@ -32,15 +28,15 @@ static int write_dish(const char *path) {
 
 // NAME is the file's name, with or without its suffix.
 static int start_script(const Host *host, const char *name) {
-    const char *last = strrchr(name, '/');
-    last = last == NULL ? name : last + 1;
+    const char *last = name + path_directory(str_from(name)).len;
     if (last[0] == '\0' || strcmp(last, ".fl") == 0 || strcmp(last, ".") == 0 || strcmp(last, "..") == 0) {
         message("'%s' is not the name of a script; try 'petri new dish'", name);
         return STATUS_USAGE;
     }
     SCOPED_BYTES path = {0};
     // A name that begins with a dash would be an option to the next command.
-    bytes_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name, ends_in(name, ".fl") ? "" : ".fl");
+    bytes_format(&path, "%s%s%s", name[0] == '-' ? "./" : "", name,
+                 str_ends_with(str_from(name), STR(".fl")) ? "" : ".fl");
     int status = write_dish(path.data);
     if (status == STATUS_DONE) {
         message("%s is a dish of drops; change it, and what you save is shown at once", path.data);

@@ -72,6 +72,21 @@ static bool read_positive(const Args *args, void *field) {
     return good || wrong_value(args, "a number above 0");
 }
 
+// A number of things, with K, M, G or T for 2^10, 2^20, 2^30 or 2^40 of them.
+static bool read_amount(const Args *args, void *field) {
+    static const char suffixes[] = "KMGT";
+    char *end = NULL;
+    double amount = strtod(args->value, &end);
+    const char *suffix = end == args->value || *end == '\0' ? NULL : strchr(suffixes, *end & ~0x20);
+    if (suffix != NULL) {
+        amount = ldexp(amount, 10 * (int)(suffix - suffixes + 1));
+        end++;
+    }
+    *(uint64_t *)field = amount >= 1 && amount <= 0x1p62 ? (uint64_t)amount : 0;
+    bool good = end != args->value && *end == '\0' && *(uint64_t *)field > 0;
+    return good || wrong_value(args, "a number from 1, such as 500M or 2G");
+}
+
 static bool read_fps(const Args *args, void *field) {
     args->options->fps_given = true;
     return read_positive(args, field);
@@ -294,8 +309,11 @@ int options_open(const Options *options, const Host *host,
     wanted.threads = (int)options->threads;
     wanted.neighbours = (PetriNeighbours)options->neighbours;
     wanted.simplify = !options->unsimplified;
-    wanted.keep_forces = wanted.interruptible = options->prompt;
+    wanted.keep_forces = options->prompt;
+    wanted.interruptible = options->prompt || options->state_file != NULL; // the state of whole frames only is kept
     wanted.profile = options->profile;
+    wanted.memory_bytes = options->memory > 0 ? options->memory : wanted.memory_bytes;
+    wanted.work = options->work > 0 ? options->work : wanted.work;
     wanted.read_folders = (const char *const *)options->read_folders.items;
     wanted.write_folders = (const char *const *)options->write_folders.items;
     wanted.no_files = options->no_files;
@@ -314,4 +332,9 @@ int options_open(const Options *options, const Host *host,
         }
     }
     return OPTIONS_READ;
+}
+
+bool options_due(const Options *options, int64_t frames, double start, double fps) {
+    double time = options->realtime ? clock_seconds() - start : (double)frames / fps;
+    return frames < options->frames && (isnan(options->run_time) || time < options->run_time);
 }

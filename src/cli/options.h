@@ -33,6 +33,9 @@ typedef struct Options {
 
 enum { OPTIONS_READ = -1 };
 
+// Whether frames are still to be made, as --frames and --runtime say: after so many since `start`.
+bool options_due(const Options *options, int64_t frames, double start, double fps);
+
 // Opens a session as the options say, with the names that they define. OPTIONS_READ, or the status to exit with after
 // a message; *session is then NULL.
 int options_open(const Options *options, const Host *host,

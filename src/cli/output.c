@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "base/file.h"
+#include "cli/bytes.h"
 #include "cli/cli.h"
 
 void output_start(Output *output, int fd) {
@@ -50,27 +51,21 @@ bool output_write(void *host, const char *text, size_t length) {
 }
 
 bool output_format(Output *output, const char *format, ...) {
-    char line[512];
-    va_list list;
+    size_t room = sizeof output->buffer - output->used;
+    va_list list, again;
     va_start(list, format);
-    int length = vsnprintf(line, sizeof line, format, list);
+    va_copy(again, list);
+    int length = vsnprintf(output->buffer + output->used, room, format, list);
+    if (length >= 0 && (size_t)length < room) {
+        output->used += (size_t)length;
+    } else {
+        SCOPED_BYTES text = {0};
+        bytes_format_list(&text, format, again);
+        output_write(output, text.data, text.length);
+    }
+    va_end(again);
     va_end(list);
-    if (length < 0) {
-        return false;
-    }
-    if ((size_t)length < sizeof line) {
-        return output_write(output, line, (size_t)length);
-    }
-    char *text = malloc((size_t)length + 1);
-    if (text == NULL) {
-        return false;
-    }
-    va_start(list, format);
-    vsnprintf(text, (size_t)length + 1, format, list);
-    va_end(list);
-    bool written = output_write(output, text, (size_t)length);
-    free(text);
-    return written;
+    return output->error == 0;
 }
 
 int output_finish(Output *output, int status) {

@@ -2,7 +2,6 @@
 #include "cli/parameters.h"
 
 #include <math.h>
-#include <stdio.h>
 #include <string.h>
 
 #include "cli/table.h"
@@ -67,36 +66,24 @@ static void add_row(Table *table, const PetriParameter *parameter) {
     }
 }
 
-// Rows from *next on that are of one file, where they cannot be set.
-static void add_rows(PetriSession *session, Table *table, size_t *next) {
-    PetriParameter parameter;
-    char file[1000];
-    bool settable = true;
-    for (size_t first = *next; petri_parameter(session, *next, &parameter); ++*next) {
-        if (*next == first) {
-            settable = parameter.settable;
-            snprintf(file, sizeof file, "%s", parameter.file);
-        }
-        if (parameter.settable != settable || (!settable && strncmp(parameter.file, file, sizeof file - 1) != 0)) {
-            return;
-        }
-        add_row(table, &parameter);
-    }
-}
-
 size_t parameters_list(PetriSession *session, Output *output) {
     PetriParameter parameter;
-    size_t next = 0, own = 0;
-    while (petri_parameter(session, next, &parameter)) {
-        if (!parameter.settable) {
+    SCOPED_TABLE table = table_new(COLUMNS);
+    SCOPED_BYTES file = {0}; // of the module whose rows these are
+    size_t own = 0;
+    for (size_t i = 0; petri_parameter(session, i, &parameter); i++) {
+        own += parameter.settable;
+        if (!parameter.settable && (file.length == 0 || strcmp(file.data, parameter.file) != 0)) {
+            table_write(&table, output);
+            table_free(&table);
+            table = table_new(COLUMNS);
             output_format(output, "%s%s, a module: it sees no definitions, so that its defaults stay\n",
-                          next == 0 ? "" : "\n", parameter.file);
+                          i == 0 ? "" : "\n", parameter.file);
+            bytes_free(&file);
+            bytes_add_text(&file, parameter.file);
         }
-        bool settable = parameter.settable;
-        SCOPED_TABLE table = table_new(COLUMNS);
-        add_rows(session, &table, &next);
-        table_write(&table, output);
-        own = settable ? next : own;
+        add_row(&table, &parameter);
     }
+    table_write(&table, output);
     return own;
 }

@@ -27,12 +27,12 @@ void progress_start(Progress *progress, bool enabled, int64_t total) {
     *progress = (Progress){.enabled = enabled && total > 0, .total = total, .start = clock_seconds()};
 }
 
-static int terminal_columns(void) {
+void terminal_extent(int fd, int *columns, int *rows) {
     struct winsize size;
-    if (ioctl(STDERR_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) {
-        return DEFAULT_COLUMNS;
+    if (ioctl(fd, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0) {
+        *columns = size.ws_col;
+        *rows = size.ws_row;
     }
-    return size.ws_col;
 }
 
 static void draw(const Progress *progress, int64_t done, double elapsed) {
@@ -46,7 +46,8 @@ static void draw(const Progress *progress, int64_t done, double elapsed) {
                            seconds / 60, seconds % 60);
     }
     char bar[BAR_WIDTH + 4] = "";
-    int columns = terminal_columns();
+    int columns = DEFAULT_COLUMNS, rows = 0;
+    terminal_extent(STDERR_FILENO, &columns, &rows);
     // A line that wraps cannot be erased: leave out what does not fit.
     if (length + BAR_WIDTH + 3 < columns) {
         int filled = (int)((double)done / (double)progress->total * BAR_WIDTH);

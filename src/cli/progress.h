@@ -15,6 +15,8 @@ typedef struct Progress {
 
 // Seconds of the monotonic clock.
 double clock_seconds(void);
+// The size of the terminal that a descriptor is; what is not known stays.
+void terminal_extent(int fd, int *columns, int *rows);
 // Whether standard error is a terminal that knows how to erase a line.
 bool progress_possible(void);
 

@@ -1,14 +1,14 @@
 // script.c: see script.h.
 #include "cli/script.h"
 
-#include <dirent.h>
 #include <errno.h>
-#include <stdint.h>
+#include <glob.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include "base/source.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 
@@ -47,22 +47,14 @@ void script_second(const char *first, const char *second) {
 }
 
 static bool read_stdin(Bytes *text) {
-    char block[1 << 16];
-    ssize_t got = 0;
     if (isatty(STDIN_FILENO)) {
         message("reading the script from the terminal; Ctrl-D ends it");
     }
-    while (text->length <= MOST_BYTES && (got = read(STDIN_FILENO, block, sizeof block)) != 0) {
-        if (got < 0 && errno != EINTR) {
-            message("cannot read standard input: %s", strerror(errno));
-            return false;
-        }
-        bytes_add(text, block, got < 0 ? 0 : (size_t)got);
+    bool read = bytes_read(text, STDIN_FILENO, MOST_BYTES);
+    if (!read || text->length > MOST_BYTES) {
+        message("cannot read standard input: %s", read ? "it is too large" : strerror(errno));
     }
-    if (text->length > MOST_BYTES) {
-        message("cannot read standard input: it is too large");
-    }
-    return text->length <= MOST_BYTES;
+    return read && text->length <= MOST_BYTES;
 }
 
 typedef PetriStatus TakeFile(PetriSession *session, const char *file);
@@ -91,60 +83,29 @@ PetriStatus script_check(PetriSession *session, const char *name) {
     return take(session, name, petri_check, petri_check_text);
 }
 
-static bool is_script_name(const char *name) {
-    size_t length = strlen(name);
-    return name[0] != '.' && length > 3 && strcmp(name + length - 3, ".fl") == 0;
-}
-
-static int by_name(const void *a, const void *b) {
-    return strcmp(*(char *const *)a, *(char *const *)b);
-}
-
-typedef struct Names {
-    char **items;
-    size_t count;
-} Names;
-
-// The scripts of a folder, sorted.
-static Names scripts_of(const char *folder) {
-    Names names = {0};
-    DIR *entries = opendir(folder);
-    for (struct dirent *entry = NULL; entries != NULL && (entry = readdir(entries)) != NULL;) {
-        if (is_script_name(entry->d_name)) {
-            names.items = memory_resized(names.items, (names.count + 1) * sizeof *names.items);
-            names.items[names.count++] = memory_text(entry->d_name);
-        }
-    }
-    if (entries != NULL) {
-        closedir(entries);
-    }
-    if (names.count > 0) {
-        qsort(names.items, names.count, sizeof *names.items, by_name);
-    }
-    return names;
-}
-
-static void free_names(Names *names) {
-    for (size_t i = 0; i < names->count; i++) {
-        free(names->items[i]);
-    }
-    free(names->items);
+// What a pattern of the shell stands for, sorted; to be freed by globfree.
+__attribute__((format(printf, 1, 2))) static glob_t find_files(const char *format, ...) {
+    SCOPED_BYTES pattern = {0};
+    glob_t found = {0};
+    va_list list;
+    va_start(list, format);
+    bytes_format_list(&pattern, format, list);
+    va_end(list);
+    glob(pattern.data, 0, NULL, &found);
+    return found;
 }
 
 static void list_scripts(const char *folder) {
     enum { MOST = 4 };
-    Names names = scripts_of(folder);
-    size_t length = strlen(folder);
+    glob_t scripts = find_files("%s%s*.fl", folder, folder[strlen(folder) - 1] == '/' ? "" : "/");
     SCOPED_BYTES list = {0};
-    bytes_add(&list, "", 0);
-    for (size_t i = 0; i < names.count && i < MOST; i++) {
-        bytes_format(&list, "%s%s%s%s", i == 0 ? "" : ", ", folder, folder[length - 1] == '/' ? "" : "/",
-                     names.items[i]);
+    for (size_t i = 0; i < scripts.gl_pathc && i < MOST; i++) {
+        bytes_format(&list, "%s%s", i == 0 ? "" : ", ", scripts.gl_pathv[i]);
     }
-    if (names.count > 0) {
-        message("name a script in it: %s%s", list.data, names.count > MOST ? " ..." : "");
+    if (scripts.gl_pathc > 0) {
+        message("name a script in it: %s%s", list.data, scripts.gl_pathc > MOST ? " ..." : "");
     }
-    free_names(&names);
+    globfree(&scripts);
 }
 
 // Whether `name` is what is left of `script` without a suffix such as `.bak`, or what it becomes with `.fl`.
@@ -154,52 +115,81 @@ static bool differs_in_suffix(const char *name, const char *script) {
            (strncmp(name, script, length) == 0 && strcmp(script + length, ".fl") == 0);
 }
 
-// The script in a folder whose name is nearest; NULL: none is near.
-static const char *nearest_of(const Names *names, const char *name) {
-    Nearest nearest = {.word = name};
-    for (size_t i = 0; i < names->count; i++) {
-        if (differs_in_suffix(name, names->items[i])) {
-            return names->items[i];
+// The script whose name in its folder is nearest; NULL: none is near.
+static const char *nearest_of(const glob_t *scripts, size_t folder, const char *name) {
+    StrNearest nearest = nearest_start(name);
+    const char *found = NULL;
+    for (size_t i = 0; i < scripts->gl_pathc; i++) {
+        const char *path = scripts->gl_pathv[i];
+        if (differs_in_suffix(name, path + folder)) {
+            return path;
         }
-        nearest_offer(&nearest, names->items[i]);
-    }
-    return nearest.name;
-}
-
-// A script of just this name in a folder below this one.
-static bool suggest_below(const char *name) {
-    DIR *entries = opendir(".");
-    bool found = false;
-    for (struct dirent *entry = NULL; entries != NULL && !found && (entry = readdir(entries)) != NULL;) {
-        struct stat about;
-        SCOPED_BYTES path = {0};
-        bytes_format(&path, "%s/%s", entry->d_name, name);
-        found = entry->d_name[0] != '.' && stat(path.data, &about) == 0 && S_ISREG(about.st_mode);
-        if (found) {
-            message("did you mean '%s'?", path.data);
-        }
-    }
-    if (entries != NULL) {
-        closedir(entries);
+        found = nearest_offer(&nearest, path + folder) ? path : found;
     }
     return found;
 }
 
+static bool is_file(const char *path) {
+    struct stat about;
+    return stat(path, &about) == 0 && S_ISREG(about.st_mode);
+}
+
 void script_suggest(const char *name) {
     struct stat about;
-    const char *slash = strrchr(name, '/'), *last = slash == NULL ? name : slash + 1;
-    if (stat(name, &about) == 0 || last[0] == '\0') {
+    size_t folder = path_directory(str_from(name)).len;
+    if (stat(name, &about) == 0 || name[folder] == '\0') {
         list_scripts(name);
         return;
     }
-    char *folder = slash == NULL ? memory_copied("./", 2) : memory_copied(name, (size_t)(last - name));
-    Names names = scripts_of(folder);
-    const char *nearest = nearest_of(&names, last);
-    if (nearest != NULL) {
-        message("did you mean '%s%s'?", slash == NULL ? "" : folder, nearest);
-    } else if (slash == NULL) {
-        suggest_below(name);
+    glob_t beside = find_files("%.*s*.fl", (int)folder, name), below = find_files("*/%s", name);
+    const char *nearest = nearest_of(&beside, folder, name + folder);
+    for (size_t i = 0; nearest == NULL && folder == 0 && i < below.gl_pathc; i++) {
+        nearest = is_file(below.gl_pathv[i]) ? below.gl_pathv[i] : NULL;
     }
-    free_names(&names);
+    if (nearest != NULL) {
+        message("did you mean '%s'?", nearest);
+    }
+    globfree(&beside);
+    globfree(&below);
+}
+
+char *script_folder(const char *name) {
+    size_t length = path_directory(str_from(name)).len;
+    return length == 0 ? memory_text(".") : memory_copied(name, length);
+}
+
+// A path as a shell takes it.
+static void add_word(Bytes *text, const char *path) {
+    static const char plain[] = "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_./+,:@%=-";
+    if (path[0] != '\0' && path[strspn(path, plain)] == '\0') {
+        bytes_add_text(text, path);
+        return;
+    }
+    bytes_format(text, "'");
+    for (const char *c = path; *c != '\0'; c++) {
+        bytes_format(text, *c == '\'' ? "'\\''" : "%c", *c);
+    }
+    bytes_format(text, "'");
+}
+
+// The program as it was called, from the current folder where it is below that.
+static void add_program(Bytes *text, const char *called) {
+    char *folder = getcwd(NULL, 0);
+    size_t length = folder == NULL ? 0 : strlen(folder);
+    if (length > 1 && strncmp(called, folder, length) == 0 && called[length] == '/') {
+        const char *below = called + length + 1;
+        bytes_add_text(text, strchr(below, '/') == NULL ? "./" : "");
+        called = below;
+    }
+    add_word(text, called);
     free(folder);
+}
+
+void hint_pictures(const Host *host, const char *script) {
+    SCOPED_BYTES program = {0};
+    SCOPED_BYTES operand = {0};
+    add_program(&program, host->called);
+    add_word(&operand, script);
+    message("to see it: %s view %s", program.data, operand.data);
+    message("to keep a picture of it: %s render %s -o OUT.png (or OUT.mp4)", program.data, operand.data);
 }

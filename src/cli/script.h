@@ -2,6 +2,7 @@
 #ifndef PETRI_SRC_SCRIPT_H
 #define PETRI_SRC_SCRIPT_H
 
+#include "cli/cli.h"
 #include "petri.h"
 
 // What messages call standard input. Files that such a script names are looked for in the current folder.
@@ -19,5 +20,10 @@ void script_second(const char *first, const char *second);
 // Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
 // holds.
 void script_suggest(const char *name);
+// The folder that it is in, "." for this one; to be freed.
+char *script_folder(const char *name);
+// Tells on standard error how to see what a script shows, and how to keep a picture of it: command lines that work from
+// the current folder.
+void hint_pictures(const Host *host, const char *script);
 
 #endif

@@ -7,6 +7,7 @@
 #include <string.h>
 #include <sys/stat.h>
 
+#include "base/source.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/script.h"
@@ -17,11 +18,6 @@ static void add(ScriptList *list, const char *path, size_t below) {
         list->items = memory_resized(list->items, list->capacity * sizeof *list->items);
     }
     list->items[list->count++] = (Script){.path = memory_text(path), .below = below};
-}
-
-static bool is_script_name(const char *name) {
-    size_t length = strlen(name);
-    return length > 3 && strcmp(name + length - 3, ".fl") == 0;
 }
 
 static bool cannot_read(const char *path) {
@@ -45,7 +41,7 @@ static bool look_at(ScriptList *list, const char *path, const char *name, size_t
         return search_folder(list, path, below);
     }
     // A pipe or device of that name would keep us waiting.
-    if (is_script_name(name) && stat(path, &about) == 0 && S_ISREG(about.st_mode)) {
+    if (str_ends_with(str_from(name), STR(".fl")) && stat(path, &about) == 0 && S_ISREG(about.st_mode)) {
         add(list, path, below);
     }
     return true;
@@ -85,8 +81,7 @@ bool scripts_find(ScriptList *list, const char *path) {
     if (S_ISDIR(about.st_mode)) {
         return search_folder(list, path, length > 0 && path[length - 1] == '/' ? length : length + 1);
     }
-    const char *slash = strrchr(path, '/');
-    add(list, path, slash == NULL ? 0 : (size_t)(slash - path) + 1);
+    add(list, path, path_directory(str_from(path)).len);
     return true;
 }
 

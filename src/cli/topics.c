@@ -1,5 +1,5 @@
-// topics.c: see topics.h.
-#include "cli/topics.h"
+// topics.c: see help.h.
+#include "cli/help.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -114,8 +114,8 @@ bool topics_tell(Output *output, const char *topic) {
     return found || (!node_only && tell_owners(output, topic));
 }
 
-void topics_offer(Nearest *nearest) {
-    const char *topic = nearest->word;
+void topics_offer(StrNearest *nearest) {
+    Str topic = nearest->wanted;
     PetriBuiltin builtin;
     PetriNodeKind kind;
     PetriNodeAttribute attribute;
@@ -123,9 +123,9 @@ void topics_offer(Nearest *nearest) {
         nearest_offer(nearest, builtin.name);
     }
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
-        nearest->word = topic + (topic[0] == '!');
+        nearest->wanted = str_starts_with(topic, STR("!")) ? (Str){topic.bytes + 1, topic.len - 1} : topic;
         nearest_offer(nearest, kind.name);
-        nearest->word = topic;
+        nearest->wanted = topic;
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
             nearest_offer(nearest, attribute.name);
         }

@@ -6,8 +6,11 @@
 #include <stdlib.h>
 #include <string.h>
 #include <sys/stat.h>
-#include <time.h>
 #include <unistd.h>
+
+#include "base/source.h"
+#include "cli/bytes.h"
+#include "cli/progress.h"
 
 #ifdef __linux__
 #include <sys/epoll.h>
@@ -24,9 +27,9 @@ static const double QUIET = 0.05, PATIENCE = 2, SELDOM = 1, OFTEN = 0.2;
 
 // What a file is, as far as stat tells.
 typedef struct Stamp {
-    bool exists;
-    uint64_t device;
-    uint64_t inode;
+    int64_t exists;
+    int64_t device;
+    int64_t inode;
     int64_t size;
     int64_t seconds; // modification time
     int64_t nanoseconds;
@@ -54,28 +57,21 @@ struct Watch {
     double looked;
 };
 
-static double now(void) {
-    struct timespec time;
-    clock_gettime(CLOCK_MONOTONIC, &time);
-    return (double)time.tv_sec + (double)time.tv_nsec * 1e-9;
-}
-
 static Stamp stamp_of(const char *path) {
     struct stat info;
     if (stat(path, &info) != 0 || !S_ISREG(info.st_mode)) { // to read a pipe once more would wait for ever
         return (Stamp){0};
     }
     return (Stamp){true,
-                   (uint64_t)info.st_dev,
-                   (uint64_t)info.st_ino,
+                   (int64_t)info.st_dev,
+                   (int64_t)info.st_ino,
                    (int64_t)info.st_size,
                    (int64_t)info.st_mtim.tv_sec,
                    (int64_t)info.st_mtim.tv_nsec};
 }
 
 static bool same(const Stamp *a, const Stamp *b) {
-    return a->exists == b->exists && a->device == b->device && a->inode == b->inode && a->size == b->size &&
-           a->seconds == b->seconds && a->nanoseconds == b->nanoseconds;
+    return memcmp(a, b, sizeof *a) == 0;
 }
 
 #if HAVE_INOTIFY
@@ -107,16 +103,13 @@ static void open_wake(Watch *watch) {
 // Events of the folder that a path is in; its number, or -1.
 static int watch_folder(const Watch *watch, const char *path) {
     const uint32_t kinds = IN_MODIFY | IN_CLOSE_WRITE | IN_ATTRIB | IN_CREATE | IN_DELETE | IN_MOVED_FROM | IN_MOVED_TO;
-    const char *slash = strrchr(path, '/');
-    char *folder = slash == NULL ? strdup(".") : strndup(path, slash == path ? 1 : (size_t)(slash - path));
-    int number = watch->events < 0 || folder == NULL ? -1 : inotify_add_watch(watch->events, folder, kinds);
-    free(folder);
-    return number;
+    size_t length = path_directory(str_from(path)).len;
+    SCOPED_TEXT folder = length == 0 ? memory_text(".") : memory_copied(path, length);
+    return watch->events < 0 ? -1 : inotify_add_watch(watch->events, folder, kinds);
 }
 
 static const char *name_in_folder(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash == NULL ? path : slash + 1;
+    return path + path_directory(str_from(path)).len;
 }
 
 // Asking anew gives the same numbers while the folders are the same; one that was removed and made again gets another.
@@ -192,12 +185,10 @@ static void set_timer(const Watch *watch, double seconds) {
 #endif
 
 Watch *watch_new(void) {
-    Watch *watch = calloc(1, sizeof *watch);
-    if (watch != NULL) {
-        watch->wake = watch->events = watch->timer = -1;
-        watch->looked = now();
-        open_wake(watch);
-    }
+    Watch *watch = memory_zeroed(sizeof *watch);
+    watch->wake = watch->events = watch->timer = -1;
+    watch->looked = clock_seconds();
+    open_wake(watch);
     return watch;
 }
 
@@ -263,31 +254,22 @@ static void wake_later(const Watch *watch, double wait) {
     }
 }
 
-bool watch_file(Watch *watch, const char *path) {
+void watch_file(Watch *watch, const char *path) {
     for (size_t i = 0; i < watch->count; i++) {
         if (strcmp(watch->files[i].path, path) == 0) {
-            return true;
+            return;
         }
     }
-    File *files = realloc(watch->files, (watch->count + 1) * sizeof *files);
-    if (files == NULL) {
-        return false;
-    }
-    watch->files = files;
-    File *file = &files[watch->count];
-    *file = (File){.path = strdup(path)};
-    if (file->path == NULL) {
-        return false;
-    }
+    watch->files = memory_resized(watch->files, (watch->count + 1) * sizeof *watch->files);
+    File *file = &watch->files[watch->count++];
+    *file = (File){.path = memory_text(path)};
     watch_folders(watch, file); // before the look, so that nothing is missed between the two
     file->told = file->found = stamp_of(path);
-    watch->count++;
     wake_later(watch, QUIET);
-    return true;
 }
 
 bool watch_changed(Watch *watch) {
-    double time = now(), wait = PATIENCE;
+    double time = clock_seconds(), wait = PATIENCE;
     bool woken = take_events(watch), late = time - watch->looked >= (watch->wake >= 0 ? SELDOM : OFTEN);
     if (!woken && !late && !any_pending(watch)) {
         return false;

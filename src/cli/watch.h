@@ -11,13 +11,13 @@
 
 typedef struct Watch Watch;
 
-// A watch over no files. NULL if memory is used up.
+// A watch over no files.
 Watch *watch_new(void);
 // NULL is fine.
 void watch_free(Watch *watch);
 // Watches a file from now on, whether it exists or not; its present content is known. A path that is watched already
-// stays as it was. False if memory is used up.
-bool watch_file(Watch *watch, const char *path);
+// stays as it was.
+void watch_file(Watch *watch, const char *path);
 // True once after some files have changed. Never waits; call it whenever the descriptor is readable, or often.
 bool watch_changed(Watch *watch);
 // For poll: becomes readable when watch_changed should be called (also when a change is to be told only after a moment

@@ -8,12 +8,12 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "base/file.h"
 #include "cli/cli.h"
 
-static void add_option(Golden *golden, const Bytes *word) {
-    size_t count = (size_t)golden->option_count++;
-    golden->options = memory_resized(golden->options, (count + 1) * sizeof *golden->options);
-    golden->options[count] = memory_copied(word->length == 0 ? "" : word->data, word->length);
+static void add_word(TextList *words, Bytes *word) {
+    bytes_add_text(word, ""); // so that there is a text
+    texts_add(words, word->data);
 }
 
 // Splits the way a shell does: blanks part words; '...' keeps everything, "..." and \ protect what follows.
@@ -31,7 +31,7 @@ static bool split_options(Golden *golden, const char *line, size_t length, Bytes
             in_word = true;
         } else if (quote == '\0' && (c == ' ' || c == '\t')) {
             if (in_word) {
-                add_option(golden, &word);
+                add_word(&golden->options, &word);
             }
             word.length = 0;
             in_word = false;
@@ -41,7 +41,7 @@ static bool split_options(Golden *golden, const char *line, size_t length, Bytes
         }
     }
     if (in_word) {
-        add_option(golden, &word);
+        add_word(&golden->options, &word);
     }
     if (quote != '\0') {
         bytes_format(trouble, "line 1: a quote is not closed");
@@ -94,8 +94,8 @@ static const OptionSpec *find_option(const char *word, size_t length) {
 
 // Whoever runs the tests of others wants no files written where their goldens say.
 static bool check_options(const Golden *golden, Bytes *trouble) {
-    for (int i = 0; i < golden->option_count; i++) {
-        const char *word = golden->options[i];
+    for (size_t i = 0; i < golden->options.count; i++) {
+        const char *word = golden->options.items[i];
         size_t length = strcspn(word, "=");
         const OptionSpec *spec = word[0] == '-' && length > 1 ? find_option(word, length) : NULL;
         if (spec != NULL && !(spec->commands & FOR_GOLDEN)) {
@@ -143,10 +143,7 @@ bool golden_read(Golden *golden, const char *path, Bytes *trouble) {
 }
 
 void golden_free(Golden *golden) {
-    for (int i = 0; i < golden->option_count; i++) {
-        free(golden->options[i]);
-    }
-    free(golden->options);
+    texts_free(&golden->options);
     bytes_free(&golden->text);
     *golden = (Golden){0};
 }
@@ -163,7 +160,7 @@ bool golden_update(const Golden *golden, const char *path, const Bytes *output, 
         bytes_add_text(&updated, "\n");
     }
     bytes_add(&updated, output->data, output->length);
-    const char *problem = bytes_replace_file(&updated, path);
+    const char *problem = file_replace(path, (Str){updated.data, updated.length}, 0);
     if (problem != NULL) {
         bytes_format(trouble, "cannot write %s: %s", path, problem);
     }

@@ -4,7 +4,6 @@
 #include <string.h>
 
 #include "golden/golden.h"
-#include "golden/golden_line.h"
 
 // How closely numbers must agree between `strict` and the horizon (conformance/physics/README.md).
 static const double LOOSE_TOLERANCE = 1e-4;
@@ -12,7 +11,7 @@ static const double LOOSE_TOLERANCE = 1e-4;
 enum { EXCERPT_LENGTH = 100, EXCERPT_BEFORE = 30 };
 
 typedef struct Line {
-    Slice slice;
+    Str text;
     uint32_t number;
     bool taken; // already matched with a line of the other side
 } Line;
@@ -23,110 +22,84 @@ typedef struct LineList {
     size_t capacity;
 } LineList;
 
-// One frame of an output. What stands before the first header (logs alone have none) counts as frame 0.
-typedef struct Frame {
-    LineList head;   // the @ line, if there is one
-    LineList body;   // tree and state, in order
-    LineList logs;   // in any order
-    LineList errors; // in any order
-    uint32_t end;    // number of the line after the last
-} Frame;
+// Head: the @ line, if there is one. Body: tree and state, in order. Logs and errors: in any order.
+typedef enum Part { HEAD, BODY, LOGS, ERRORS, PARTS } Part;
 
+// Reads an output frame by frame. What stands before the first header (logs alone have none) counts as frame 0.
 typedef struct Reader {
     const char *at;
     const char *end;
-    uint32_t number;
-    Frame frame;
+    uint32_t number;       // of the next line
+    LineList parts[PARTS]; // of the frame that was read last
 } Reader;
 
-static void add_line(LineList *list, Slice slice, uint32_t number) {
+static void add_line(LineList *list, Str text, uint32_t number) {
     if (list->count == list->capacity) {
         list->capacity = list->capacity == 0 ? 64 : 2 * list->capacity;
         list->items = memory_resized(list->items, list->capacity * sizeof *list->items);
     }
-    list->items[list->count++] = (Line){.slice = slice, .number = number};
+    list->items[list->count++] = (Line){.text = text, .number = number};
 }
 
-static Slice peek_line(const Reader *reader) {
+static Str take_line(Reader *reader) {
     size_t rest = (size_t)(reader->end - reader->at);
-    const char *end = memchr(reader->at, '\n', rest);
-    return (Slice){reader->at, end == NULL ? rest : (size_t)(end - reader->at)};
-}
-
-static Slice take_line(Reader *reader) {
-    Slice line = peek_line(reader);
-    reader->at += line.length + (reader->at + line.length < reader->end ? 1 : 0);
+    const char *start = reader->at, *end = memchr(start, '\n', rest);
+    reader->at = end == NULL ? reader->end : end + 1;
     reader->number++;
-    return line;
-}
-
-// A text of several lines goes on where lines are indented.
-static Slice take_text(Reader *reader) {
-    Slice text = take_line(reader);
-    while (reader->at < reader->end && *reader->at == ' ') {
-        Slice more = take_line(reader);
-        text.length = (size_t)(more.text + more.length - text.text);
-    }
-    return text;
+    return (Str){start, end == NULL ? rest : (size_t)(end - start)};
 }
 
 // Reads the next frame; false at the end.
 static bool read_frame(Reader *reader) {
-    Frame *frame = &reader->frame;
-    frame->head.count = frame->body.count = frame->logs.count = frame->errors.count = 0;
-    if (reader->at == reader->end) {
-        frame->end = reader->number;
-        return false;
+    const char *start = reader->at;
+    for (int i = 0; i < PARTS; i++) {
+        reader->parts[i].count = 0;
     }
-    if (*reader->at == '@') {
+    while (reader->at < reader->end && (reader->at == start || *reader->at != '@')) {
+        char first = *reader->at;
+        Part part = first == '@' ? HEAD : first == '>' ? LOGS : first == '?' ? ERRORS : BODY;
         uint32_t number = reader->number;
-        add_line(&frame->head, take_line(reader), number);
-    }
-    while (reader->at < reader->end && *reader->at != '@') {
-        uint32_t number = reader->number;
-        if (*reader->at == '>') {
-            add_line(&frame->logs, take_text(reader), number);
-        } else if (*reader->at == '?') {
-            add_line(&frame->errors, take_text(reader), number);
-        } else {
-            add_line(&frame->body, take_line(reader), number);
+        Str text = take_line(reader);
+        // A text of several lines goes on where lines are indented.
+        while (part >= LOGS && reader->at < reader->end && *reader->at == ' ') {
+            Str more = take_line(reader);
+            text.len = (size_t)(more.bytes + more.len - text.bytes);
         }
+        add_line(&reader->parts[part], text, number);
     }
-    frame->end = reader->number;
-    return true;
+    return reader->at > start;
 }
 
 static void free_reader(Reader *reader) {
-    free(reader->frame.head.items);
-    free(reader->frame.body.items);
-    free(reader->frame.logs.items);
-    free(reader->frame.errors.items);
+    for (int i = 0; i < PARTS; i++) {
+        free(reader->parts[i].items);
+    }
 }
 
-static int64_t frame_number(const Frame *frame) {
-    return frame->head.count == 0 ? 0 : strtoll(frame->head.items[0].slice.text + 1, NULL, 10);
+static int64_t frame_number(const Reader *reader) {
+    return reader->parts[HEAD].count == 0 ? 0 : strtoll(reader->parts[HEAD].items[0].text.bytes + 1, NULL, 10);
 }
 
 // The part of a line around the place that matters.
-static void add_excerpt(Bytes *trouble, Slice line, size_t at) {
-    size_t start = line.length <= EXCERPT_LENGTH || at <= EXCERPT_BEFORE ? 0 : at - EXCERPT_BEFORE;
+static void add_excerpt(Bytes *trouble, Str line, size_t at) {
+    size_t start = line.len <= EXCERPT_LENGTH || at <= EXCERPT_BEFORE ? 0 : at - EXCERPT_BEFORE;
     // Do not cut a character in two.
-    while (start > 0 && ((unsigned char)line.text[start] & 0xC0U) == 0x80U) {
+    while (start > 0 && ((unsigned char)line.bytes[start] & 0xC0U) == 0x80U) {
         start--;
     }
-    size_t end = line.length - start <= EXCERPT_LENGTH ? line.length : start + EXCERPT_LENGTH;
-    while (end < line.length && ((unsigned char)line.text[end] & 0xC0U) == 0x80U) {
+    size_t end = line.len - start <= EXCERPT_LENGTH ? line.len : start + EXCERPT_LENGTH;
+    while (end < line.len && ((unsigned char)line.bytes[end] & 0xC0U) == 0x80U) {
         end++;
     }
     bytes_add_text(trouble, start > 0 ? "..." : "");
     for (size_t i = start; i < end; i++) {
-        if (line.text[i] == '\n') {
+        if (line.bytes[i] == '\n') {
             bytes_format(trouble, "\\n");
         } else {
-            bytes_add(trouble, &line.text[i], 1);
+            bytes_add(trouble, &line.bytes[i], 1);
         }
     }
-    bytes_add_text(trouble, end < line.length ? "..." : "");
+    bytes_add_text(trouble, end < line.len ? "..." : "");
 }
 
 typedef struct Comparison {
@@ -144,13 +117,13 @@ static bool differ(const Comparison *comparison, const Line *expected, const Lin
     if (expected == NULL) {
         bytes_format(trouble, "nothing more");
     } else {
-        add_excerpt(trouble, expected->slice, where.expected_at);
+        add_excerpt(trouble, expected->text, where.expected_at);
     }
     bytes_format(trouble, " got ");
     if (got == NULL) {
         bytes_format(trouble, "nothing");
     } else {
-        add_excerpt(trouble, got->slice, where.got_at);
+        add_excerpt(trouble, got->text, where.got_at);
     }
     return false;
 }
@@ -161,7 +134,7 @@ static bool compare_in_order(const Comparison *comparison, const LineList *expec
         const Line *first = i < expected->count ? &expected->items[i] : NULL;
         const Line *second = i < got->count ? &got->items[i] : NULL;
         LineDifference where = {0};
-        if (first == NULL || second == NULL || !line_same(first->slice, second->slice, comparison->tolerance, &where)) {
+        if (first == NULL || second == NULL || !line_same(first->text, second->text, comparison->tolerance, &where)) {
             return differ(comparison, first, second, end, where);
         }
     }
@@ -174,7 +147,7 @@ static bool take_match(const Comparison *comparison, const Line *wanted, LineLis
     for (size_t i = 0; i < set->count; i++) {
         Line *line = &set->items[(*next + i) % set->count];
         LineDifference where;
-        if (!line->taken && line_same(wanted->slice, line->slice, comparison->tolerance, &where)) {
+        if (!line->taken && line_same(wanted->text, line->text, comparison->tolerance, &where)) {
             line->taken = true;
             *next = *next + i + 1;
             return true;
@@ -205,9 +178,11 @@ static bool compare_as_sets(const Comparison *comparison, const LineList *expect
     return (missing == NULL && extra == NULL) || differ(comparison, missing, extra, end, nowhere);
 }
 
-static bool compare_frames(const Golden *golden, Comparison *comparison, const Frame *expected, Frame *got) {
+static bool compare_frames(const Golden *golden, Comparison *comparison, const Reader *expected, Reader *got) {
+    const LineList *first = expected->parts;
+    LineList *second = got->parts;
     bool is_near = golden->tolerance > 0;
-    if (!compare_in_order(comparison, &expected->head, &got->head, expected->end)) {
+    if (!compare_in_order(comparison, &first[HEAD], &second[HEAD], expected->number)) {
         return false;
     }
     if (is_near && comparison->frame > golden->horizon) {
@@ -216,9 +191,9 @@ static bool compare_frames(const Golden *golden, Comparison *comparison, const F
     if (is_near && comparison->frame > golden->strict && comparison->tolerance < LOOSE_TOLERANCE) {
         comparison->tolerance = LOOSE_TOLERANCE;
     }
-    return compare_in_order(comparison, &expected->body, &got->body, expected->end) &&
-           compare_as_sets(comparison, &expected->logs, &got->logs, expected->end) &&
-           (expected->errors.count == 0 || compare_as_sets(comparison, &expected->errors, &got->errors, expected->end));
+    return compare_in_order(comparison, &first[BODY], &second[BODY], expected->number) &&
+           compare_as_sets(comparison, &first[LOGS], &second[LOGS], expected->number) &&
+           (first[ERRORS].count == 0 || compare_as_sets(comparison, &first[ERRORS], &second[ERRORS], expected->number));
 }
 
 static bool compare_readers(const Golden *golden, Reader *expected, Reader *got, Bytes *trouble) {
@@ -229,11 +204,11 @@ static bool compare_readers(const Golden *golden, Reader *expected, Reader *got,
             return true;
         }
         Comparison comparison = {
-            .frame = frame_number(more_expected ? &expected->frame : &got->frame),
+            .frame = frame_number(more_expected ? expected : got),
             .tolerance = golden->tolerance,
             .trouble = trouble,
         };
-        if (!compare_frames(golden, &comparison, &expected->frame, &got->frame)) {
+        if (!compare_frames(golden, &comparison, expected, got)) {
             return false;
         }
     }

@@ -1,5 +1,5 @@
 // rejection.c: scripts that must be rejected.
-#include "golden/rejection.h"
+#include "golden/golden.h"
 
 #include <errno.h>
 #include <stdio.h>

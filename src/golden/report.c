@@ -1,8 +1,9 @@
 // report.c: how results of tests are told.
-#include "golden/report.h"
+#include "golden/golden.h"
 
 #include <string.h>
 
+#include "base/file.h"
 #include "cli/cli.h"
 
 void report_result(Output *output, const Result *result) {
@@ -16,23 +17,12 @@ void report_result(Output *output, const Result *result) {
 
 // XML knows no control characters, escaped or not.
 static void add_escaped(Bytes *out, const char *text) {
+    static const char *const escapes[128] = {['<'] = "&lt;", ['>'] = "&gt;", ['&'] = "&amp;", ['"'] = "&quot;"};
     for (const char *c = text; *c != '\0'; c++) {
-        switch (*c) {
-        case '<':
-            bytes_format(out, "&lt;");
-            break;
-        case '>':
-            bytes_format(out, "&gt;");
-            break;
-        case '&':
-            bytes_format(out, "&amp;");
-            break;
-        case '"':
-            bytes_format(out, "&quot;");
-            break;
-        default:
-            bytes_add(out, (unsigned char)*c < ' ' ? "?" : c, 1);
-        }
+        const char *escape = (unsigned char)*c < ' '   ? "?"
+                             : (unsigned char)*c < 128 ? escapes[(unsigned char)*c]
+                                                       : NULL;
+        bytes_add(out, escape != NULL ? escape : c, escape != NULL ? strlen(escape) : 1);
     }
 }
 
@@ -64,7 +54,7 @@ bool report_junit(const char *path, Result *const *results, size_t count) {
         add_result(&out, results[i]);
     }
     bytes_format(&out, "</testsuite>\n");
-    const char *problem = bytes_replace_file(&out, path);
+    const char *problem = file_replace(path, (Str){out.data, out.length}, 0);
     if (problem != NULL) {
         message("cannot write %s: %s", path, problem);
     }

@@ -5,13 +5,13 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/source.h"
 #include "cli/child.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/progress.h"
+#include "cli/script.h"
 #include "golden/golden.h"
-#include "golden/rejection.h"
-#include "golden/report.h"
 
 enum { MOST_CPUS = 256 };
 
@@ -19,6 +19,7 @@ enum { MOST_CPUS = 256 };
 typedef struct Case {
     Result result;
     char *script;   // path
+    char *name;     // its last part
     char *recorded; // path of the golden, or of the .err
     bool is_rejection;
     Golden golden;
@@ -61,6 +62,7 @@ static void add_case(Suite *suite, const Script *script) {
     }
     suite->cases[suite->count++] = (Case){
         .script = script->path,
+        .name = script->path + path_directory(str_from(script->path)).len,
         .result.name = script->path,
         .recorded = golden == NULL ? rejection : golden,
         .is_rejection = golden == NULL,
@@ -76,11 +78,9 @@ static void add_override(char **argv, int *argc, Bytes *text, const char *name, 
 }
 
 static void start_child(Suite *suite, Case *item) {
-    const char *slash = strrchr(item->script, '/');
-    size_t length = slash == NULL ? 0 : (size_t)(slash - item->script) + 1;
-    char *folder = slash == NULL ? memory_copied(".", 1) : memory_copied(item->script, length);
+    SCOPED_TEXT folder = script_folder(item->script);
     const Golden *golden = &item->golden;
-    char **argv = memory_zeroed(((size_t)golden->option_count + 10) * sizeof *argv);
+    char **argv = memory_zeroed((golden->options.count + 10) * sizeof *argv);
     SCOPED_BYTES threads = {0};
     SCOPED_BYTES neighbours = {0};
     int argc = 0;
@@ -91,8 +91,8 @@ static void start_child(Suite *suite, Case *item) {
     if (item->is_rejection) {
         argv[argc++] = "--frames=1";
     }
-    for (int i = 0; i < golden->option_count; i++) {
-        argv[argc++] = golden->options[i];
+    for (size_t i = 0; i < golden->options.count; i++) {
+        argv[argc++] = golden->options.items[i];
     }
     add_override(argv, &argc, &threads, "threads", suite->options->as_threads);
     add_override(argv, &argc, &neighbours, "neighbours", suite->options->as_neighbours);
@@ -100,14 +100,13 @@ static void start_child(Suite *suite, Case *item) {
         argv[argc++] = "--nosimplify";
     }
     argv[argc++] = "--";
-    argv[argc++] = item->script + length;
+    argv[argc++] = item->name;
     item->result.seconds = clock_seconds();
     if (!child_start(&item->child, suite->host->program, folder, argv)) {
         bytes_format(&item->result.trouble, "cannot start a process: %s", strerror(errno));
         item->done = true;
     }
     free(argv);
-    free(folder);
 }
 
 static void start_case(Suite *suite, Case *item) {
@@ -121,10 +120,8 @@ static void start_case(Suite *suite, Case *item) {
 
 static void judge(const Suite *suite, Case *item, int status, const Bytes *output, const Bytes *errors) {
     Result *result = &item->result;
-    const char *slash = strrchr(item->script, '/');
     if (item->is_rejection) {
-        const char *name = slash == NULL ? item->script : slash + 1;
-        result->passed = rejection_check(item->recorded, name, status, errors, &result->trouble);
+        result->passed = rejection_check(item->recorded, item->name, status, errors, &result->trouble);
     } else if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
         child_describe(status, errors, &result->trouble);
     } else if (suite->options->update) {

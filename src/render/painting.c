@@ -2,10 +2,12 @@
 #include "render/painting.h"
 
 #include <pthread.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
 
+#include "base/source.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
@@ -105,8 +107,7 @@ static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
 }
 
 static const char *last_part(const char *file) {
-    const char *slash = strrchr(file, '/');
-    return slash == NULL ? file : slash + 1;
+    return file + path_directory(str_from(file)).len;
 }
 
 // Whether two jobs may write the same file. Paths may differ and lead to the same: names count.
@@ -193,10 +194,14 @@ Painting *painting_start(const char *film, double film_fps, double fps) {
     painting->fps = film_fps;
     painting->recording.fps = fps;
     painting->video = (Video){.frames = -1, .errors = -1, .unfinished = -1};
+    sigset_t all, before; // signals are for the thread that makes the frames
+    sigfillset(&all);
+    pthread_sigmask(SIG_SETMASK, &all, &before);
     while (painting->worker_count < wanted &&
            pthread_create(&painting->workers[painting->worker_count], NULL, work, painting) == 0) {
         painting->worker_count++;
     }
+    pthread_sigmask(SIG_SETMASK, &before, NULL);
     if (painting->worker_count == 0) {
         message("cannot start a thread");
         painting_free(painting);

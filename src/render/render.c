@@ -8,6 +8,7 @@
 
 #include "cli/bytes.h"
 #include "cli/piped.h"
+#include "cli/script.h"
 #include "render/painting.h"
 #include "render/video.h"
 #include "run/frames.h"
@@ -91,10 +92,8 @@ static bool read_output(Render *render) {
 
 // A folder that cannot be written to is better known before the work is done.
 static bool check_folder(const char *file) {
-    const char *slash = strrchr(file, '/');
-    SCOPED_BYTES folder = {0};
-    bytes_add(&folder, slash == NULL ? "." : file, slash == NULL ? 1 : (size_t)(slash - file) + 1);
-    bool good = access(folder.data, W_OK | X_OK) == 0;
+    SCOPED_TEXT folder = script_folder(file);
+    bool good = access(folder, W_OK | X_OK) == 0;
     if (!good) {
         message("cannot write '%s': %s", file, strerror(errno));
     }
@@ -209,7 +208,10 @@ static int render_frames(Render *render) {
     frames_begin(frames);
     bool going = true;
     while (going && !render->failed && frames_due(frames)) {
-        going = frames_step(frames);
+        going = frames_step(frames) || frames->given_up;
+        if (frames->given_up) {
+            break;
+        }
         if (going && is_early(render)) {
             frames->early++;
         } else if (going) {

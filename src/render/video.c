@@ -15,6 +15,7 @@
 
 #include "base/file.h"
 #include "cli/bytes.h"
+#include "cli/child.h"
 #include "cli/unfinished.h"
 
 extern char **environ;
@@ -106,15 +107,6 @@ static pid_t start(Video *video, int input, double fps) {
     return error == 0 ? pid : -1;
 }
 
-static int unnamed_file(void) {
-    FILE *file = tmpfile();
-    int fd = file == NULL ? -1 : fcntl(fileno(file), F_DUPFD_CLOEXEC, 0);
-    if (file != NULL) {
-        fclose(file);
-    }
-    return fd;
-}
-
 __attribute__((format(printf, 2, 3))) static void set_trouble(Video *video, const char *format, ...) {
     va_list list;
     va_start(list, format);
@@ -156,7 +148,7 @@ static void abandon_now(void *context) {
 bool video_open(Video *video, const char *file, int width, int height, double fps) {
     int ends[2] = {-1, -1};
     *video = (Video){.file = file, .open = true, .width = width, .height = height, .frames = -1};
-    video->errors = unnamed_file();
+    video->errors = child_unnamed_file();
     if (!replace_begin(&video->film, file, 0)) {
         set_trouble(video, "cannot write '%s': %s", file, strerror(errno));
         video->unfinished = -1;
@@ -193,7 +185,7 @@ static void report_failure(Video *video, int status) {
     SCOPED_BYTES text = {0};
     bytes_add(&text, "", 0);
     if (lseek(video->errors, 0, SEEK_SET) == 0) {
-        bytes_read(&text, video->errors);
+        bytes_read(&text, video->errors, SIZE_MAX);
     }
     while (text.length > 0 && (text.data[text.length - 1] == '\n' || text.data[text.length - 1] == '\r')) {
         text.data[--text.length] = '\0';

@@ -7,7 +7,6 @@
 #include "cli/help.h"
 #include "cli/progress.h"
 #include "cli/table.h"
-#include "cli/topics.h"
 #include "repl/repl.h"
 
 const ReplCommand *repl_command_at(size_t index) {
@@ -80,17 +79,17 @@ static void list_nodes(Repl *repl) {
 }
 
 static bool tell_nearest(Repl *repl, const char *topic) {
-    Nearest nearest = {.word = topic};
+    StrNearest nearest = nearest_start(topic);
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
         if (nearest_offer(&nearest, command->name + (topic[0] != '.'))) {
-            nearest.name = command->name;
+            nearest.found = str_from(command->name);
         }
     }
     topics_offer(&nearest);
-    return nearest.name == NULL
+    return nearest.found.bytes == NULL
                ? repl_fail(repl, "there is no help on '%.40s'; .help lists the commands", topic)
-               : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest.name);
+               : repl_fail(repl, "there is no help on '%.40s', did you mean '%s'?", topic, nearest.found.bytes);
 }
 
 static bool run_help(Repl *repl, const char *topic) {
@@ -110,14 +109,6 @@ static bool run_help(Repl *repl, const char *topic) {
         return found || command != NULL || tell_nearest(repl, topic);
     }
     return true;
-}
-
-bool help_prompt(Output *output, const char *name) {
-    const ReplCommand *command = repl_find_command(name, strlen(name));
-    if (command != NULL) {
-        output_format(output, "%s %s\n    at the prompt of petri repl: %s\n", name, command->operands, command->help);
-    }
-    return command != NULL;
 }
 
 static void say_seconds(Repl *repl, double seconds, const char *more) {
@@ -178,13 +169,13 @@ const ReplCommand OTHER_COMMANDS[] = {
 };
 
 static void unknown(Repl *repl, const char *name) {
-    Nearest nearest = {.word = name};
+    StrNearest nearest = nearest_start(name);
     const ReplCommand *command;
     for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
         nearest_offer(&nearest, command->name);
     }
-    if (nearest.name != NULL) {
-        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest.name);
+    if (nearest.found.bytes != NULL) {
+        repl_fail(repl, "there is no command '%.40s', did you mean '%s'?", name, nearest.found.bytes);
     } else {
         repl_fail(repl, "there is no command '%.40s'; .help lists the commands", name);
     }

@@ -18,8 +18,7 @@ typedef struct Search {
 
 static void offer(Search *search, const char *word) {
     if (strncmp(word, search->typed, search->length) == 0) {
-        bytes_add(&search->found->words, word, strlen(word) + 1);
-        search->found->count++;
+        texts_add(&search->found->words, word);
     }
 }
 
@@ -210,33 +209,22 @@ static int compare_words(const void *a, const void *b) {
 }
 
 // Sorts the words and drops what is there twice.
-static void tidy(Completion *completion) {
-    const char **words = memory_zeroed(completion->count * sizeof *words);
-    const char *word = completion->words.data;
-    for (size_t i = 0; i < completion->count; i++, word += strlen(word) + 1) {
-        words[i] = word;
-    }
-    qsort(words, completion->count, sizeof *words, compare_words);
-    Bytes sorted = {0};
-    size_t count = 0;
-    for (size_t i = 0; i < completion->count; i++) {
-        if (i == 0 || strcmp(words[i], words[i - 1]) != 0) {
-            bytes_add(&sorted, words[i], strlen(words[i]) + 1);
-            count++;
+static void tidy(TextList *words) {
+    size_t kept = 1;
+    qsort(words->items, words->count, sizeof *words->items, compare_words);
+    for (size_t i = 1; i < words->count; i++) {
+        if (strcmp(words->items[i], words->items[kept - 1]) == 0) {
+            free(words->items[i]);
+        } else {
+            words->items[kept++] = words->items[i];
         }
     }
-    free(words);
-    bytes_free(&completion->words);
-    completion->words = sorted;
-    completion->count = count;
+    words->count = kept;
 }
 
 // What the sorted words have in common: what the first and the last have.
 static void find_common(Completion *completion, size_t typed) {
-    const char *first = completion->words.data, *last = first;
-    for (size_t i = 1; i < completion->count; i++) {
-        last += strlen(last) + 1;
-    }
+    const char *first = completion->words.items[0], *last = completion->words.items[completion->words.count - 1];
     size_t length = 0;
     while (first[length] != '\0' && first[length] == last[length]) {
         length++;
@@ -260,34 +248,33 @@ void complete_line(Repl *repl, const char *line, size_t length, Completion *comp
     } else {
         search_operand(&search, text, name, length);
     }
-    if (completion->count > 0) {
-        tidy(completion);
+    if (completion->words.count > 0) {
+        tidy(&completion->words);
         find_common(completion, search.length);
     }
 }
 
 void complete_free(Completion *completion) {
-    bytes_free(&completion->words);
+    texts_free(&completion->words);
     bytes_free(&completion->common);
 }
 
 void complete_show(const Completion *completion, Output *output) {
-    const char *word = completion->words.data;
+    const TextList *words = &completion->words;
     size_t widest = 0, column = 0;
-    for (size_t i = 0; i < completion->count; i++, word += strlen(word) + 1) {
-        widest = strlen(word) > widest ? strlen(word) : widest;
+    for (size_t i = 0; i < words->count; i++) {
+        widest = strlen(words->items[i]) > widest ? strlen(words->items[i]) : widest;
     }
-    word = completion->words.data;
-    for (size_t i = 0; i < completion->count && i < MOST_SHOWN; i++, word += strlen(word) + 1) {
+    for (size_t i = 0; i < words->count && i < MOST_SHOWN; i++) {
         if (column > 0 && column + widest > LINE_WIDTH) {
             output_write(output, "\n", 1);
             column = 0;
         }
-        output_format(output, "%-*s", (int)widest + 2, word);
+        output_format(output, "%-*s", (int)widest + 2, words->items[i]);
         column += widest + 2;
     }
     output_write(output, "\n", 1);
-    if (completion->count > MOST_SHOWN) {
-        output_format(output, "... and %zu more\n", completion->count - MOST_SHOWN);
+    if (words->count > MOST_SHOWN) {
+        output_format(output, "... and %zu more\n", words->count - MOST_SHOWN);
     }
 }

@@ -9,12 +9,12 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 #include <wchar.h>
 
 #include "base/str.h"
+#include "cli/progress.h"
 
 struct Editor {
     Repl *repl;
@@ -34,13 +34,9 @@ static void on_end(int signal_number) {
 }
 
 static void catch_ends(void) {
-    static const int numbers[] = {SIGTERM, SIGHUP};
-    struct sigaction action = {.sa_handler = on_end, .sa_flags = (int)SA_RESETHAND}, before;
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0] && tcgetattr(STDIN_FILENO, &settings) == 0; i++) {
-        if (sigaction(numbers[i], NULL, &before) == 0 && before.sa_handler != SIG_IGN) { // as with nohup
-            sigaction(numbers[i], &action, NULL);
-        }
+    if (tcgetattr(STDIN_FILENO, &settings) == 0) {
+        signal_catch(SIGTERM, on_end, (int)SA_RESETHAND);
+        signal_catch(SIGHUP, on_end, (int)SA_RESETHAND);
     }
 }
 
@@ -57,8 +53,8 @@ static const char *prompt_of(EditLine *line) {
 // To below the lines that follow the cursor's, for what is written next; a line too far down where some are broken.
 static void leave_block(Editor *editor) {
     const LineInfo *info = el_line(editor->line);
-    struct winsize size = {0};
-    int width = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 ? size.ws_col : 80, column = 0;
+    int width = 80, height = 0, column = 0;
+    terminal_extent(STDOUT_FILENO, &width, &height);
     for (const char *c = info->cursor; c < info->lastchar; c++) {
         column = *c == '\n' ? 0 : column + 1;
         output_write(&editor->repl->output, "\n", *c == '\n' || column == width);
@@ -220,7 +216,7 @@ static unsigned char complete(EditLine *line, wint_t character) {
     complete_line(editor->repl, start, (size_t)(info->cursor - start), &completion);
     bool inserted = completion.common.length > 0 && el_insertstr(line, completion.common.data) == 0;
     unsigned char result = inserted ? CC_REFRESH : CC_ERROR;
-    if (!inserted && completion.count > 1) {
+    if (!inserted && completion.words.count > 1) {
         leave_block(editor);
         output_write(&editor->repl->output, "\n", 1);
         complete_show(&completion, &editor->repl->output);

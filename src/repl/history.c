@@ -240,10 +240,11 @@ PetriStatus history_remake(ReplHistory *history, PetriSession *session) {
 
 PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
     PetriConfig *config = petri_config(session);
-    PetriStatus status = config == NULL ? PETRI_MEMORY : petri_rewind(session, history->origin);
-    if (config != NULL) {
-        petri_config_use(session, config);
+    if (config == NULL) {
+        return PETRI_MEMORY;
     }
+    PetriStatus status = petri_rewind(session, history->origin);
+    petri_config_use(session, config);
     petri_config_free(config);
     return status;
 }

@@ -1,5 +1,6 @@
 // line.c: lines for the prompt, and which of them belong together.
 #include "repl/line.h"
+#include "base/file.h"
 
 #include <errno.h>
 #include <poll.h>
@@ -22,6 +23,7 @@ struct LineReader {
 LineReader *line_reader_new(Repl *repl) {
     LineReader *reader = memory_zeroed(sizeof *reader);
     reader->repl = repl;
+    bytes_add(&reader->text, "", 0); // there is always a text, of no length
     reader->editor = repl->terminal ? editor_new(repl) : NULL;
     return reader;
 }
@@ -37,10 +39,9 @@ LineWait line_wait(Repl *repl) {
         if (repl_interrupted()) {
             return WAIT_INTERRUPTED; // before this call, which would not wake
         }
-        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {-1, POLLIN, 0}};
-        files[1].fd = repl->files == NULL ? -1 : watch_descriptor(repl->files);
-        int ready = poll(files, 2, repl->files != NULL && files[1].fd < 0 ? 200 : -1);
-        if (ready < 0 && errno == EINTR) {
+        struct pollfd files[2] = {{STDIN_FILENO, POLLIN, 0}, {watch_descriptor(repl->files), POLLIN, 0}};
+        int ready = poll(files, 2, files[1].fd < 0 ? 200 : -1);
+        if ((ready < 0 && errno == EINTR) || repl_interrupted()) {
             continue;
         }
         if (files[0].revents != 0 || ready < 0) {
@@ -216,6 +217,6 @@ void saved_add(const Bytes *lines) {
         size_t start = start_of_last(&all, SAVED_MOST);
         Bytes kept = {.data = all.data + start, .length = all.length - start};
         make_folders(path.data);
-        bytes_replace_file(&kept, path.data);
+        file_replace(path.data, (Str){kept.data, kept.length}, 0);
     }
 }

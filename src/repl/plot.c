@@ -4,9 +4,9 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
 #include "petri-draw.h"
 #include "repl/repl.h"
 #include "view/terminal_picture.h"
@@ -15,23 +15,18 @@
 enum { WIDEST = 60, HEIGHT = 8, DEFAULT_FRAMES = 60, MOST_FRAMES = 1000000 };
 
 typedef struct Canvas {
-    bool braille;
+    int across; // dots of a cell
+    int down;
     int columns; // of dots
     int rows;
     unsigned char *dots;
 } Canvas;
 
-static void set_dot(Canvas *canvas, int x, int y) {
-    canvas->dots[y * canvas->columns + x] = 1;
-}
-
 // The dots of a column from one height to another, so that steep parts stay a line.
 static void draw_column(Canvas *canvas, int x, int from, int to) {
-    int step = from < to ? 1 : -1;
-    for (int y = from; y != to; y += step) {
-        set_dot(canvas, x, y);
+    for (int y = from < to ? from : to; y <= (from < to ? to : from); y++) {
+        canvas->dots[y * canvas->columns + x] = 1;
     }
-    set_dot(canvas, x, to);
 }
 
 typedef struct Range {
@@ -71,40 +66,39 @@ static void draw(Canvas *canvas, const Range *range, const double *values, int64
     }
 }
 
-static void write_braille(Output *output, const Canvas *canvas, int row, int column) {
+// The bits of a braille character, U+2800 and what follows, for the dots of a cell.
+static unsigned cell_pattern(const Canvas *canvas, int row, int column) {
     static const unsigned char bits[4][2] = {{0x01, 0x08}, {0x02, 0x10}, {0x04, 0x20}, {0x40, 0x80}};
     unsigned pattern = 0;
-    for (int y = 0; y < 4; y++) {
-        for (int x = 0; x < 2; x++) {
-            bool set = canvas->dots[(row * 4 + y) * canvas->columns + column * 2 + x];
+    for (int y = 0; y < canvas->down; y++) {
+        for (int x = 0; x < canvas->across; x++) {
+            bool set = canvas->dots[(row * canvas->down + y) * canvas->columns + column * canvas->across + x];
             pattern |= set ? bits[y][x] : 0;
         }
     }
-    // U+2800 and what follows.
-    const char utf8[3] = {(char)0xe2, (char)(0xa0 | pattern >> 6), (char)(0x80 | (pattern & 0x3f))};
-    output_write(output, utf8, sizeof utf8);
+    return pattern;
 }
 
 static void write_canvas(Output *output, const Canvas *canvas, const Range *range) {
-    int rows = canvas->braille ? canvas->rows / 4 : canvas->rows;
-    int columns = canvas->braille ? canvas->columns / 2 : canvas->columns;
+    int rows = canvas->rows / canvas->down, columns = canvas->columns / canvas->across;
+    bool braille = canvas->down > 1;
     for (int row = 0; row < rows; row++) {
-        const unsigned char *dots = canvas->dots + row * canvas->columns;
-        int last = columns; // blanks at the end say nothing
-        while (!canvas->braille && last > 0 && !dots[last - 1]) {
-            last--;
-        }
         char label[32] = "";
         if (row == 0 || row == rows - 1) {
             snprintf(label, sizeof label, "%.6g", row == 0 ? range->most : range->least);
         }
-        output_format(output, "%12s %s", label, canvas->braille ? "\u2502" : "|");
-        for (int column = 0; column < last; column++) {
-            if (canvas->braille) {
-                write_braille(output, canvas, row, column);
-            } else {
-                output_write(output, dots[column] ? "*" : " ", 1);
+        output_format(output, "%12s %s", label, braille ? "\u2502" : "|");
+        int blanks = 0; // those at the end say nothing
+        for (int column = 0; column < columns; column++) {
+            unsigned pattern = cell_pattern(canvas, row, column);
+            char character[UTF8_MAX] = "*";
+            if (!braille && pattern == 0) {
+                blanks++;
+                continue;
             }
+            size_t length = braille ? utf8_encode(0x2800 + pattern, character) : 1;
+            output_format(output, "%*s%.*s", blanks, "", (int)length, character);
+            blanks = 0;
         }
         output_write(output, "\n", 1);
     }
@@ -116,11 +110,11 @@ static void plot(Repl *repl, const double *values, int64_t first, int64_t count)
         repl_fail(repl, "there is no number to plot");
         return;
     }
-    Canvas canvas = {.braille = repl->utf8};
+    Canvas canvas = {.across = repl->utf8 ? 2 : 1, .down = repl->utf8 ? 4 : 1};
     int columns = count > WIDEST ? WIDEST : count < 20 ? 20 : (int)count;
-    canvas.columns = canvas.braille ? columns * 2 : columns;
-    canvas.rows = canvas.braille ? HEIGHT * 4 : HEIGHT;
-    canvas.dots = memory_zeroed((size_t)(canvas.columns * canvas.rows));
+    canvas.columns = columns * canvas.across;
+    canvas.rows = HEIGHT * canvas.down;
+    canvas.dots = memory_zeroed((size_t)canvas.columns * (size_t)canvas.rows);
     draw(&canvas, &range, values, count);
     write_canvas(&repl->output, &canvas, &range);
     char from[24], to[24];
@@ -179,51 +173,29 @@ static bool run_plot(Repl *repl, const char *rest) {
            plot_frames(repl, expression, count);
 }
 
-enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30 };
+enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30, BELOW = 2 };
 
-// Of the terminal, with a line left for the prompt.
-static void find_room(int *columns, int *rows) {
-    struct winsize size;
-    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 2;
-    *columns = known ? size.ws_col : DEFAULT_COLUMNS;
-    *rows = known ? size.ws_row - 2 : DEFAULT_ROWS;
-}
-
-static PetriStatus draw_picture(Repl *repl, PetriPicture *picture, uint32_t *pixels, const TerminalCells *cells) {
-    PetriPainter *painter = petri_painter_open();
-    if (painter == NULL) {
+static PetriStatus show_picture(Repl *repl, PetriPicture *picture, PetriPainter *painter, TerminalPicture *way) {
+    int columns = DEFAULT_COLUMNS, rows = DEFAULT_ROWS + BELOW, width = 0, height = 0;
+    if (painter == NULL || way == NULL) {
         return PETRI_MEMORY;
     }
-    PetriStatus status =
-        petri_picture_draw(picture, painter, pixels, cells->width, cells->height, (size_t)cells->width * 4);
-    petri_picture_tell(repl->session, picture);
-    petri_painter_close(&painter);
-    return status;
-}
-
-static PetriStatus show_picture(Repl *repl, PetriPicture *picture) {
-    int columns = 0, rows = 0, width = 0, height = 0;
-    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
-    if (way == NULL) {
-        return PETRI_MEMORY;
-    }
-    find_room(&columns, &rows);
+    terminal_extent(STDOUT_FILENO, &columns, &rows);
     petri_picture_size(picture, &width, &height);
-    TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);
+    // With room for the prompt.
+    TerminalCells cells = terminal_picture_fit(way, columns, rows > BELOW ? rows - BELOW : 1, width, height);
     uint32_t *pixels = memory_zeroed((size_t)cells.width * (size_t)cells.height * sizeof *pixels);
-    PetriStatus status = draw_picture(repl, picture, pixels, &cells);
+    PetriStatus status =
+        petri_picture_draw(picture, painter, pixels, cells.width, cells.height, (size_t)cells.width * sizeof *pixels);
+    petri_picture_tell(repl->session, picture);
     size_t length = 0;
-    char *text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
+    SCOPED_TEXT text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
+    free(pixels);
     if (text != NULL) {
         output_write(&repl->output, text, length);
         output_write(&repl->output, "\n", 1);
-    } else if (status == PETRI_OK) {
-        status = PETRI_MEMORY;
     }
-    free(text);
-    free(pixels);
-    terminal_picture_free(way);
-    return status;
+    return status == PETRI_OK && text == NULL ? PETRI_MEMORY : status;
 }
 
 static bool run_show(Repl *repl, const char *rest) {
@@ -239,9 +211,13 @@ static bool run_show(Repl *repl, const char *rest) {
     if (status == PETRI_OK) {
         status = petri_picture(repl->session, &options, &picture);
     }
+    PetriPainter *painter = petri_painter_open();
+    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
     if (status == PETRI_OK) {
-        status = show_picture(repl, picture);
+        status = show_picture(repl, picture, painter, way);
     }
+    terminal_picture_free(way);
+    petri_painter_close(&painter);
     repl_idle(repl);
     petri_picture_free(&picture);
     return repl_status(repl, status);

@@ -9,26 +9,21 @@
 #include <string.h>
 #include <unistd.h>
 
+#include "base/file.h"
+#include "cli/script.h"
 #include "repl/repl.h"
 
-// Up to and including the last slash.
-static size_t folder_length(const char *path) {
-    const char *slash = strrchr(path, '/');
-    return slash == NULL ? 0 : (size_t)(slash - path) + 1;
+// Do two paths lead to the same?
+static bool same_path(const char *a, const char *b) {
+    char resolved[2][PATH_MAX];
+    return realpath(a, resolved[0]) != NULL && realpath(b, resolved[1]) != NULL &&
+           strcmp(resolved[0], resolved[1]) == 0;
 }
 
-// Do two paths lie in one folder?
 static bool same_folder(const char *a, const char *b) {
-    char resolved[2][PATH_MAX];
-    const char *const paths[] = {a, b};
-    for (int i = 0; i < 2; i++) {
-        SCOPED_TEXT folder = memory_copied(paths[i], folder_length(paths[i]));
-        bool good = realpath(folder[0] == '\0' ? "." : folder, resolved[i]) != NULL;
-        if (!good) {
-            return false;
-        }
-    }
-    return strcmp(resolved[0], resolved[1]) == 0;
+    SCOPED_TEXT first = script_folder(a);
+    SCOPED_TEXT second = script_folder(b);
+    return same_path(first, second);
 }
 
 static bool may_record(Repl *repl, const char *script) {
@@ -64,9 +59,7 @@ static bool may_record(Repl *repl, const char *script) {
 // The script that the golden needs: the loaded one with what was typed.
 static bool write_script(Repl *repl, const char *path) {
     const char *kept = petri_prompt_statement(repl->session, 0);
-    char resolved[2][PATH_MAX];
-    if (kept == NULL && repl->loaded && realpath(repl->script, resolved[0]) != NULL &&
-        realpath(path, resolved[1]) != NULL && strcmp(resolved[0], resolved[1]) == 0) {
+    if (kept == NULL && repl->loaded && same_path(repl->script, path)) {
         return true;
     }
     if (access(path, F_OK) == 0) {
@@ -82,7 +75,7 @@ static bool write_script(Repl *repl, const char *path) {
         bytes_add_text(&text, kept);
         bytes_add_text(&text, "\n");
     }
-    const char *problem = bytes_replace_file(&text, path);
+    const char *problem = file_replace(path, (Str){text.data, text.length}, 0);
     bool done = problem == NULL || repl_fail(repl, "cannot write '%s': %s", path, problem);
     return done;
 }
@@ -133,7 +126,7 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
             good = repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "not recorded");
         }
     }
-    const char *problem = good ? bytes_replace_file(&text, golden) : NULL;
+    const char *problem = good ? file_replace(golden, (Str){text.data, text.length}, 0) : NULL;
     if (problem != NULL) {
         good = repl_fail(repl, "cannot write '%s': %s", golden, problem);
     }

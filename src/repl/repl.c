@@ -6,7 +6,6 @@
 #include <langinfo.h>
 #include <locale.h>
 #include <math.h>
-#include <pthread.h>
 #include <signal.h>
 #include <stdarg.h>
 #include <stdio.h>
@@ -22,15 +21,9 @@
 // A signal handler can reach nothing but globals.
 static volatile sig_atomic_t interrupted;
 static PetriSession *volatile working; // the session that is to be interrupted
-static pthread_t prompt_thread;
 
-// The process has other threads, and the one that waits for input must be woken. That thread alone notes the signal: noted
-// by both, it could be set again after the prompt has dealt with it, and stop the next thing.
 static void on_interrupt(int signal_number) {
-    if (!pthread_equal(pthread_self(), prompt_thread)) {
-        pthread_kill(prompt_thread, signal_number);
-        return;
-    }
+    (void)signal_number;
     interrupted = 1;
     PetriSession *session = working;
     if (session != NULL) {
@@ -232,7 +225,6 @@ static void start(Repl *repl, const char *state) {
 
 static void catch_interrupt(void) {
     struct sigaction action = {.sa_handler = on_interrupt};
-    prompt_thread = pthread_self();
     sigemptyset(&action.sa_mask);
     sigaction(SIGINT, &action, NULL);
 }

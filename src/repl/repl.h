@@ -14,7 +14,7 @@ typedef struct Repl {
     PetriSession *session;
     ReplHistory history;
     Output output;
-    Watch *files;          // NULL: changes are not noticed
+    Watch *files;          // that the script is made from
     char *script;          // NULL: none was named
     bool loaded;           // the script named is the one that is running
     Bytes script_text;     // as it was loaded
@@ -116,9 +116,8 @@ void repl_complete_frame(Repl *repl);
 
 // What a word may go on with (complete.c).
 typedef struct Completion {
-    Bytes words; // that begin with what was typed, each ended by NUL, sorted, each once
-    size_t count;
-    Bytes common; // what all of them have beyond what was typed
+    TextList words; // that begin with what was typed, sorted, each once
+    Bytes common;   // what all of them have beyond what was typed
 } Completion;
 
 // For the first `length` bytes of a line. To be freed.

@@ -140,9 +140,6 @@ static void describe_changes(const Bytes *before, const Bytes *after, Bytes *wha
 }
 
 void repl_watch_files(Repl *repl) {
-    if (repl->files == NULL) {
-        return;
-    }
     if (repl->script != NULL) {
         watch_file(repl->files, repl->script);
     }
@@ -210,7 +207,7 @@ void repl_refresh(Repl *repl) {
 }
 
 bool repl_notice(Repl *repl, bool at_prompt) {
-    if (repl->files == NULL || !watch_changed(repl->files)) {
+    if (!watch_changed(repl->files)) {
         return false;
     }
     SCOPED_BYTES now = {0}, what = {0};

@@ -4,9 +4,9 @@
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
+#include "cli/progress.h"
 #include "repl/repl.h"
 
 static const char BLANKS[] = " \t\r\n";
@@ -94,11 +94,16 @@ bool word_limit(Repl *repl, char *text, int64_t *limit) {
     return true;
 }
 
-void word_last_count(char *text, int64_t *count) {
+static char *last_word(char *text) {
     char *last = text + strlen(text);
     while (last > text && !is_blank(last[-1])) {
         last--;
     }
+    return last;
+}
+
+void word_last_count(char *text, int64_t *count) {
+    char *last = last_word(text);
     int64_t value = 0;
     if (last > text && read_count(last, &value) && value > 0) {
         *count = value;
@@ -109,20 +114,13 @@ void word_last_count(char *text, int64_t *count) {
 
 static size_t screen_lines(const Repl *repl, size_t around) {
     enum { FEWEST = 5, USUAL = 24 };
-    struct winsize size = {0};
-    if (!repl->terminal) {
-        return SIZE_MAX;
-    }
-    size_t rows = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_row > 0 ? size.ws_row : USUAL;
-    return rows > around + FEWEST ? rows - around : FEWEST;
+    int columns = 0, rows = USUAL;
+    terminal_extent(STDOUT_FILENO, &columns, &rows);
+    return !repl->terminal ? SIZE_MAX : (size_t)rows > around + FEWEST ? (size_t)rows - around : FEWEST;
 }
 
 size_t word_lines(const Repl *repl, char *text, size_t around) {
-    char *last = text + strlen(text);
-    while (last > text && !is_blank(last[-1])) {
-        last--;
-    }
-    char *before = last;
+    char *last = last_word(text), *before = last;
     while (before > text && is_blank(before[-1])) {
         before--;
     }
@@ -139,10 +137,8 @@ size_t word_lines(const Repl *repl, char *text, size_t around) {
 static const struct {
     const char *word;
     const char *command;
-    bool topic; // something may follow
 } bare_words[] = {
-    {"help", ".help", true},  {"?", ".help", true},     {"h", ".help", false},
-    {"quit", ".quit", false}, {"exit", ".quit", false}, {"q", ".quit", false},
+    {"help", ".help"}, {"?", ".help"}, {"h", ".help"}, {"quit", ".quit"}, {"exit", ".quit"}, {"q", ".quit"},
 };
 
 enum { BARE_COUNT = sizeof bare_words / sizeof bare_words[0] };
@@ -191,15 +187,10 @@ static void learn_names(Repl *repl) {
 
 // `help`, `quit` and the like.
 static bool take_alias(Repl *repl, const char *word, size_t length, const char *rest, Bytes *remark) {
-    bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0, topic = false;
-    const char *command = NULL;
-    for (size_t i = 0; i < BARE_COUNT; i++) {
-        if (is_word(bare_words[i].word, word, length)) {
-            command = bare_words[i].command;
-            topic = bare_words[i].topic;
-        }
-    }
-    if (command == NULL || !(alone || topic)) {
+    bool alone = rest[0] == '\0' || strcmp(rest, "()") == 0;
+    const char *command = bare_alias(word, length);
+    bool topic = length > 1 || word[0] == '?'; // something may follow `help` and `?`
+    if (command == NULL || !(alone || (topic && strcmp(command, ".help") == 0))) {
         return false;
     }
     if (is_bound(repl, word, length)) {

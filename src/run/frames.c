@@ -17,11 +17,12 @@ static const double SAME_SIGNAL = 0.2;
 
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
+static PetriSession *volatile working; // the session that makes a frame, which is to be given up
 
 static pthread_t main_thread;
 
 static void on_signal(int number) {
-    static const char note[] = "\r\033[Kpetri: stopping after this frame; Ctrl-C again stops at once\n";
+    static const char note[] = "\r\033[Kpetri: stopping; Ctrl-C again stops at once\n";
     static double first;
     if (!pthread_equal(pthread_self(), main_thread)) {
         pthread_kill(main_thread, number); // which then is at nothing else
@@ -37,23 +38,22 @@ static void on_signal(int number) {
     }
     first = clock_seconds();
     interrupted = number;
+    if (working != NULL) {
+        petri_interrupt(working);
+    }
     if (number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
         (void)ignored;
     }
 }
 
-// The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) ends the run after the frame at hand, with its
-// state saved and what was drawn kept; a second one ends the process, should that take too long.
+// The first Ctrl-C (SIGTERM, or SIGHUP unless nohup has it ignored) gives up the frame at hand and ends the run, with
+// the state after the frame before saved and what was drawn kept; a second one ends the process, should that take long.
 static void catch_signals(void) {
-    struct sigaction action = {.sa_handler = on_signal}, before;
     main_thread = pthread_self();
-    sigemptyset(&action.sa_mask);
-    sigaction(SIGINT, &action, NULL);
-    sigaction(SIGTERM, &action, NULL);
-    if (sigaction(SIGHUP, NULL, &before) == 0 && before.sa_handler != SIG_IGN) {
-        sigaction(SIGHUP, &action, NULL);
-    }
+    signal_catch(SIGINT, on_signal, 0);
+    signal_catch(SIGTERM, on_signal, 0);
+    signal_catch(SIGHUP, on_signal, 0);
 }
 
 static bool wants_diagnostic(Frames *frames, PetriLevel level) {
@@ -118,24 +118,26 @@ void frames_begin(Frames *frames) {
 }
 
 bool frames_due(const Frames *frames) {
-    int64_t counted = frames->done - frames->early;
-    if (interrupted || counted >= frames->options->frames) {
-        return false;
-    }
-    if (isnan(frames->options->run_time)) {
-        return true;
-    }
-    double time = frames->options->realtime ? clock_seconds() - frames->start : (double)counted / frames_fps(frames);
-    return time < frames->options->run_time;
+    return !interrupted &&
+           options_due(frames->options, frames->done - frames->early, frames->start, frames_fps(frames));
 }
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->early);
-    PetriStatus status = petri_step(frames->session);
+    working = frames->session;
+    PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
+    working = NULL;
+    petri_interrupted(frames->session); // what came too late must not stop the next thing
+    frames->given_up = status == PETRI_INTERRUPTED;
+    if (frames->given_up) {
+        return false;
+    }
     if (status != PETRI_OK) {
         progress_erase(&frames->progress);
         message("stopped in frame %" PRId64 "%s", petri_frame(frames->session).number,
-                status == PETRI_MEMORY ? ": out of memory" : "");
+                status == PETRI_MEMORY  ? ": out of memory"
+                : status == PETRI_LIMIT ? "; '--work' and '--memory' set other limits"
+                                        : "");
         return false;
     }
     frames->done++;

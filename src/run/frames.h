@@ -17,6 +17,7 @@ typedef struct Frames {
     int64_t early; // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
     double start;  // seconds of the monotonic clock
     StateFile state;
+    bool given_up;         // the frame at hand was, because of a signal
     bool shown_last;       // the last diagnostic that was no note was shown
     bool wrong_definition; // the script cannot take a value of -D
 } Frames;
@@ -29,8 +30,8 @@ bool frames_load(Frames *frames);
 void frames_begin(Frames *frames);
 // Whether another frame is to be made.
 bool frames_due(const Frames *frames);
-// Makes one frame. False, after a message, if there is no going on: a limit that one frame has reached, the next will
-// reach as well.
+// Makes one frame. False if there is no going on: after a message, for a limit that one frame has reached the next will
+// reach as well, or because a signal has made it give the frame up (given_up).
 bool frames_step(Frames *frames);
 // Takes the progress line away and, if all went well, saves the state.
 void frames_end(Frames *frames, bool going);

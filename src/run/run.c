@@ -6,19 +6,20 @@
 #include <unistd.h>
 
 #include "cli/bytes.h"
-#include "cli/hints.h"
 #include "cli/output.h"
 #include "cli/parameters.h"
+#include "cli/pass_on.h"
 #include "cli/script.h"
 #include "run/frames.h"
-#include "run/show.h"
 #include "run/stats.h"
 #include "run/trajectory.h"
 
 typedef struct Run {
     const Host *host;
     Frames frames;
-    bool to_terminal; // standard output is a terminal
+    bool to_terminal;    // standard output is a terminal
+    size_t after_signal; // bytes that were printed since
+    bool cut;            // what was printed of a frame is not all
     Stats stats;
     Trajectory trajectory;
     Output output;
@@ -35,17 +36,27 @@ static void report_frame(Run *run, const PetriFrame *frame, bool printed) {
 
 // On a terminal the bar must make way before text comes, and come back below it.
 static bool write_text(void *host, const char *text, size_t length) {
+    enum { MOST_AFTER_SIGNAL = 1 << 22 }; // bytes: a frame's text is whole, unless that takes long
     Run *run = host;
+    run->after_signal += frames_signal() != 0 ? length : 0;
+    if (run->after_signal > MOST_AFTER_SIGNAL) {
+        return false;
+    }
     if (run->to_terminal) {
         progress_erase(&run->frames.progress);
     }
     return output_write(&run->output, text, length);
 }
 
+// A text that was cut is no result.
+static void took(Run *run, PetriStatus status) {
+    run->cut = run->cut || (status != PETRI_OK && run->output.error == 0 && frames_signal() == 0);
+}
+
 // Of logs and errors only: a frame that has none is left out (spec cli.md 3.3).
 static void print_if_any(Run *run, unsigned sections) {
     SCOPED_BYTES text = {0};
-    petri_print(run->frames.session, sections, bytes_collect, &text);
+    took(run, petri_print(run->frames.session, sections, bytes_collect, &text));
     const char *end = memchr(text.data, '\n', text.length); // of the line that every frame has
     if (end + 1 < text.data + text.length) {
         write_text(run, text.data, text.length);
@@ -59,9 +70,9 @@ static void output_frame(Run *run) {
     if (sections != 0 && (sections & ~(unsigned)(PETRI_PRINT_LOG | PETRI_PRINT_ERROR)) == 0) {
         print_if_any(run, sections);
     } else if (sections != 0) {
-        petri_print(run->frames.session, sections, write_text, run);
+        took(run, petri_print(run->frames.session, sections, write_text, run));
     } else {
-        petri_print_log(run->frames.session, write_text, run);
+        took(run, petri_print_log(run->frames.session, write_text, run));
     }
     if (run->to_terminal || run->frames.options->realtime) {
         output_flush(&run->output);
@@ -83,7 +94,7 @@ static bool run_frame(Run *run) {
         output_frame(run);
     }
     report_frame(run, &frame, printed);
-    return true;
+    return !run->cut;
 }
 
 static bool write_message(void *host, const char *text, size_t length) {
@@ -124,7 +135,7 @@ static int run_frames(Run *run) {
     frames_begin(frames);
     bool going = true;
     while (going && run->output.error == 0 && !run->trajectory.failed && frames_due(frames)) {
-        going = run_frame(run);
+        going = run_frame(run) || frames->given_up;
     }
     progress_erase(&frames->progress);
     output_flush(&run->output);
@@ -171,6 +182,80 @@ static int run_session(Run *run) {
     return run_frames(run);
 }
 
+static bool is_named(const char *word, const char *name) {
+    size_t length = strlen(name);
+    return strncmp(word, "--", 2) == 0 && strncmp(word + 2, name, length) == 0 && strchr("=", word[2 + length]) != NULL;
+}
+
+// What `petri view` does not know asks for text or files.
+static bool view_knows(const char *word) {
+    for (const OptionSpec *spec = OPTIONS; spec->name != NULL; spec++) {
+        if (spec->commands & FOR_VIEW && is_named(word, spec->name)) {
+            return true;
+        }
+    }
+    return strncmp(word, "--", 2) != 0 || is_named(word, "show");
+}
+
+// Whether the picture is to be shown: --show was given, a person sits at the terminal, and the command line asks for
+// nothing that a picture does not give, such as --print.
+static bool show_wanted(const Options *options) {
+#ifdef HAVE_CHAFA
+    bool at_terminal = isatty(STDIN_FILENO) && isatty(STDOUT_FILENO) && progress_possible();
+#else
+    bool at_terminal = false;
+#endif
+    for (int i = 0; i < options->argc; i++) {
+        if (!view_knows(options->argv[i])) {
+            return false;
+        }
+    }
+    return options->show && at_terminal && !script_is_stdin(options->script) &&
+           (options->verbosity == LOG_NORMAL || options->verbosity == LOG_VERBOSE);
+}
+
+// What is wrong is told by the run, or the view, to come.
+static void ignore(void *context, const PetriDiagnostic *diagnostic) {
+    (void)context;
+    (void)diagnostic;
+}
+
+// The first frame tells.
+static bool is_drawable(const Options *options, const Host *host) {
+    PetriSession *session = NULL;
+    if (options_open(options, host, ignore, NULL, &session) != OPTIONS_READ) {
+        return false;
+    }
+    bool drawable =
+        petri_load(session, options->script) == PETRI_OK && petri_step(session) == PETRI_OK && petri_drawable(session);
+    petri_close(&session);
+    return drawable;
+}
+
+// Becomes `petri view` in the terminal, with the same options, for as many frames: whoever runs a script at a terminal
+// sees its picture there. Returns if there is nothing to see, or no way to show it.
+static void show(const Options *options, const Host *host) {
+    if (!is_drawable(options, host)) {
+        return;
+    }
+    char frames[32];
+    snprintf(frames, sizeof frames, "--frames=%" PRId64, options->frames);
+    char **words = memory_zeroed(((size_t)options->argc + 6) * sizeof *words);
+    char called[] = "view", terminal[] = "--terminal", verbose[] = "--verbose";
+    SCOPED_TEXT program = memory_text(host->called);
+    char *const first[] = {program, called, terminal, verbose, frames};
+    int count = (int)(sizeof first / sizeof first[0]);
+    memcpy(words, first, sizeof first);
+    for (int i = 0; i < options->argc; i++) {
+        if (!is_named(options->argv[i], "show")) {
+            words[count++] = options->argv[i];
+        }
+    }
+    fflush(NULL);
+    pass_on(words);
+    free(words);
+}
+
 static int run_run(const Host *host, Options *options) {
     Run run = {.host = host, .output.fd = STDOUT_FILENO, .to_terminal = isatty(STDOUT_FILENO)};
     int status = frames_open(&run.frames, host, options);
@@ -190,7 +275,7 @@ const Command RUN_COMMAND = {
     .summary = "run a script's frames and print what they hold",
     .details =
         "Runs frames without drawing them. What is asked for goes to standard output, all else to standard error.\n"
-        "Ctrl-C ends the run after the frame at hand, a second Ctrl-C at once.\n"
+        "Ctrl-C gives the frame at hand up and ends the run, a second Ctrl-C at once.\n"
         "\n"
         "A script has parameters where it says, at its top level, `let CELLS=CELLS or 200 -- 1..500 how many`:\n"
         "'petri run --parameters SCRIPT.fl' lists them, '-D CELLS=50' sets one. The range is optional; a value "

@@ -33,6 +33,10 @@ typedef struct Event {
     unsigned buttons; // PETRI_BUTTON_...
 } Event;
 
+// The name, as petri_key knows it, of the key that a character is on: a letter of either case, a digit, a space, a sign
+// of ASCII (+ is on that of =); NULL for others (terminal_keys.c).
+const char *key_of_character(char character);
+
 typedef struct DisplayKind {
     // `width` x `height` is the script's size. NULL after a message.
     Display *(*open)(const char *title, int width, int height, bool colour);
@@ -46,10 +50,11 @@ typedef struct DisplayKind {
     // False if there is no going on, after a message.
     bool (*show)(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay);
     void (*set_title)(Display *display, const char *title);
-    void (*resize)(Display *display, int width, int height); // the script's size has changed
-    void (*toggle_full_screen)(Display *display);
-    double least_seconds; // between two pictures
-    bool logs;            // standard error may be written to while it is open
+    // The script's size has changed; NULL: a display has the size that it has.
+    void (*resize)(Display *display, int width, int height);
+    void (*toggle_full_screen)(Display *display); // NULL: it cannot
+    double least_seconds;                         // between two pictures
+    bool logs;                                    // standard error may be written to while it is open
 } DisplayKind;
 
 // A window; NULL if petri was built without SDL.

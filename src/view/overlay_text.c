@@ -65,17 +65,9 @@ int overlay_lines(const char *text) {
     return lines;
 }
 
-static bool starts_character(char byte) {
-    return ((unsigned char)byte & 0xC0) != 0x80;
-}
-
 // Characters up to the end of the line.
 static int line_columns(const char *line) {
-    int columns = 0;
-    for (; *line != '\0' && *line != '\n'; line++) {
-        columns += starts_character(*line);
-    }
-    return columns;
+    return (int)utf8_length((Str){line, strcspn(line, "\n")});
 }
 
 int overlay_columns(const char *text) {
@@ -89,13 +81,12 @@ int overlay_columns(const char *text) {
 
 // So many characters on.
 static const char *skip_columns(const char *line, int columns) {
-    for (int passed = -1; *line != '\0' && *line != '\n'; line++) {
-        passed += starts_character(*line);
-        if (passed == columns) {
-            break;
-        }
+    Str rest = {line, strcspn(line, "\n")};
+    size_t at = 0;
+    while (columns-- > 0 && at < rest.len) {
+        utf8_next(rest, &at);
     }
-    return line;
+    return line + at;
 }
 
 // Where the part of a line ends that is shown in one row.

@@ -9,13 +9,13 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
-#include <sys/ioctl.h>
 #include <termios.h>
 #include <unistd.h>
 
 #include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
+#include "cli/progress.h"
 #include "view/terminal_keys.h"
 #include "view/terminal_picture.h"
 
@@ -86,25 +86,15 @@ static void on_suspend(int number) {
     terminal.suspended = 1;
 }
 
-static void on_signal(int number, void (*handler)(int)) {
-    struct sigaction action = {.sa_handler = handler};
-    sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
-static void catch_crash(int number) {
+static void catch_signals(void) {
     struct sigaction action = {.sa_sigaction = on_crash, .sa_flags = SA_SIGINFO};
     sigemptyset(&action.sa_mask);
-    sigaction(number, &action, NULL);
-}
-
-static void catch_signals(void) {
     static const int crashes[] = {SIGSEGV, SIGBUS, SIGFPE, SIGILL, SIGABRT, SIGQUIT};
     for (size_t i = 0; i < sizeof crashes / sizeof crashes[0]; i++) {
-        catch_crash(crashes[i]);
+        sigaction(crashes[i], &action, NULL);
     }
-    on_signal(SIGWINCH, on_resize);
-    on_signal(SIGTSTP, on_suspend);
+    signal_catch(SIGWINCH, on_resize, 0);
+    signal_catch(SIGTSTP, on_suspend, 0);
 }
 
 static void enter(void) {
@@ -121,10 +111,9 @@ static void enter(void) {
 }
 
 static void measure(Display *display) {
-    struct winsize size;
-    bool known = ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) == 0 && size.ws_col > 0 && size.ws_row > 0;
-    display->columns = known ? size.ws_col : DEFAULT_COLUMNS;
-    display->rows = known ? size.ws_row : DEFAULT_ROWS;
+    display->columns = DEFAULT_COLUMNS;
+    display->rows = DEFAULT_ROWS;
+    terminal_extent(STDOUT_FILENO, &display->columns, &display->rows);
 }
 
 static void terminal_set_title(Display *display, const char *title) {
@@ -301,17 +290,6 @@ static bool terminal_show(Display *display, uint32_t *pixels, int width, int hei
     return true;
 }
 
-// A terminal has the size that it has.
-static void terminal_resize(Display *display, int width, int height) {
-    (void)display;
-    (void)width;
-    (void)height;
-}
-
-static void terminal_toggle_full_screen(Display *display) {
-    (void)display;
-}
-
 static const DisplayKind TERMINAL = {
     .open = terminal_open,
     .close = terminal_close,
@@ -319,8 +297,6 @@ static const DisplayKind TERMINAL = {
     .size = terminal_size,
     .show = terminal_show,
     .set_title = terminal_set_title,
-    .resize = terminal_resize,
-    .toggle_full_screen = terminal_toggle_full_screen,
     .least_seconds = 1.0 / 30,
     .logs = false,
 };

@@ -7,8 +7,8 @@
 #include <string.h>
 #include <unistd.h>
 
-#include "cli/hints.h"
 #include "cli/progress.h"
+#include "cli/script.h"
 #include "view/view.h"
 
 // Seconds: a saved script is seen after at most that.
@@ -24,12 +24,9 @@ static void on_interrupt(int number) {
 
 // The first of these closes the view with all that belongs to it; a second one ends the process.
 static void catch_interrupts(void) {
-    static const int numbers[] = {SIGINT, SIGTERM, SIGHUP};
-    struct sigaction action = {.sa_handler = on_interrupt, .sa_flags = (int)SA_RESETHAND};
-    sigemptyset(&action.sa_mask);
-    for (size_t i = 0; i < sizeof numbers / sizeof numbers[0]; i++) {
-        sigaction(numbers[i], &action, NULL);
-    }
+    signal_catch(SIGINT, on_interrupt, (int)SA_RESETHAND);
+    signal_catch(SIGTERM, on_interrupt, (int)SA_RESETHAND);
+    signal_catch(SIGHUP, on_interrupt, (int)SA_RESETHAND);
 }
 
 // The window's size and title, of which the script may change its mind at any time.
@@ -45,7 +42,7 @@ static void follow_script(View *view) {
     view->width = width;
     view->height = height;
     bool renamed = overlay_set(view->title, sizeof view->title, title);
-    if (view->display != NULL && resized) {
+    if (view->display != NULL && resized && view->kind->resize != NULL) {
         view->kind->resize(view->display, width, height);
     }
     if (view->display != NULL && renamed) {
@@ -66,16 +63,7 @@ static void step(View *view) {
 }
 
 static bool at_end(const View *view) {
-    const Options *options = view->world.options;
-    if (view->world.frames >= options->frames) {
-        return true;
-    }
-    if (isnan(options->run_time)) {
-        return false;
-    }
-    double fps = petri_frame(view->world.session).fps;
-    double time = options->realtime ? clock_seconds() - view->start : (double)view->world.frames / fps;
-    return time >= options->run_time;
+    return !options_due(view->world.options, view->world.frames, view->start, petri_frame(view->world.session).fps);
 }
 
 static bool may_step(const View *view) {
@@ -94,21 +82,14 @@ static double idle_seconds(const View *view) {
     return fmax(0, fmin(idle, view->notice_ends - now));
 }
 
-// The pixels that the picture takes in the middle of the display's.
-static void picture_area(const View *view, double *left, double *top, double *width, double *height) {
+// The picture is in the middle of the display's pixels.
+static void report_pointer(View *view, const Event *event) {
     int across, down;
     view->kind->size(view->display, view->width, view->height, &across, &down);
     double scale = fmin((double)across / view->width, (double)down / view->height);
-    *width = view->width * scale;
-    *height = view->height * scale;
-    *left = (across - *width) / 2;
-    *top = (down - *height) / 2;
-}
-
-static void report_pointer(View *view, const Event *event) {
-    double left, top, width, height;
-    picture_area(view, &left, &top, &width, &height);
-    PetriPointer pointer = {.x = (event->x - left) / width, .y = (event->y - top) / height, .buttons = event->buttons};
+    PetriPointer pointer = {.x = (event->x - across / 2.0) / (view->width * scale) + 0.5,
+                            .y = (event->y - down / 2.0) / (view->height * scale) + 0.5,
+                            .buttons = event->buttons};
     pointer.inside = event->inside && pointer.x >= 0 && pointer.x <= 1 && pointer.y >= 0 && pointer.y <= 1;
     petri_pointer(view->world.session, &pointer);
 }
@@ -165,7 +146,9 @@ static void obey(View *view, const char *key) {
     } else if (strcmp(key, "r") == 0) {
         reset(view);
     } else if (strcmp(key, "f") == 0) {
-        view->kind->toggle_full_screen(view->display);
+        if (view->kind->toggle_full_screen != NULL) {
+            view->kind->toggle_full_screen(view->display);
+        }
         view->redraw = true;
     } else if (strcmp(key, "s") == 0) {
         take_screenshot(view);
@@ -228,21 +211,6 @@ static void take_events(View *view) {
     }
 }
 
-static bool use_pixels(View *view, size_t count) {
-    if (count > view->pixel_count) {
-        free(view->pixels);
-        view->pixels = memory_zeroed(count * sizeof *view->pixels);
-        view->pixel_count = count;
-    }
-    return view->pixels != NULL;
-}
-
-static void blacken(uint32_t *pixels, size_t count) {
-    for (size_t i = 0; i < count; i++) {
-        pixels[i] = 0xFF000000;
-    }
-}
-
 // What shines through a picture without a window is black.
 static void make_opaque(uint32_t *pixels, size_t count) {
     for (size_t i = 0; i < count; i++) {
@@ -254,21 +222,19 @@ static void draw(View *view) {
     int width, height;
     view->kind->size(view->display, view->width, view->height, &width, &height);
     size_t count = (size_t)width * (size_t)height;
-    if (count == 0 || !use_pixels(view, count)) {
+    if (count == 0) {
         return;
     }
-    PetriStatus status = PETRI_INVALID;
+    view->pixels = memory_resized(view->pixels, count * sizeof *view->pixels);
     if (view->world.picture != NULL && !view->world.unseen) {
-        status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
-                                    (size_t)width * sizeof *view->pixels);
+        petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
+                           (size_t)width * sizeof *view->pixels);
         petri_picture_tell(view->world.session, view->world.picture);
         view_update_trouble(view); // what drawing has found wrong
-    }
-    if (status == PETRI_OK) {
-        make_opaque(view->pixels, count);
     } else {
-        blacken(view->pixels, count);
+        memset(view->pixels, 0, count * sizeof *view->pixels);
     }
+    make_opaque(view->pixels, count);
     view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
     view->redraw = false;
     view->drawn = clock_seconds();

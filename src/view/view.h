@@ -20,7 +20,7 @@ typedef struct View {
     bool closing;
     bool broken; // the display, or memory for it, is gone
     double start;
-    double drawn; // when the picture was drawn last
+    double drawn;       // when the picture was drawn last
     double notice_ends; // INFINITY: it stays
     // The frame rate
     double measured;
@@ -28,7 +28,6 @@ typedef struct View {
     double rate;
     // Pixels of the display
     uint32_t *pixels;
-    size_t pixel_count;
     // The script's size and title as the display knows them
     int width;
     int height;

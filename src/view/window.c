@@ -4,9 +4,9 @@
 #include <stdlib.h>
 #include <string.h>
 
+#include "cli/bytes.h"
 #include "cli/cli.h"
 #include "petri.h"
-#include "view/keys.h"
 #include "view/overlay.h"
 #include "view/screen.h"
 #include "view/window_manager.h"
@@ -38,9 +38,9 @@ struct Display {
     SDL_Texture *texture;
     int texture_width;
     int texture_height;
-    OverlayPainter *overlay;
-    bool filled;    // the screen, by ourselves
-    SDL_Rect usual; // … where the window was before
+    PetriPainter *painter; // of the overlay
+    bool filled;           // the screen, by ourselves
+    SDL_Rect usual;        // … where the window was before
 };
 
 // As large as the script says, but shrunk to what fits on the screen.
@@ -63,7 +63,7 @@ static void window_close(Display *display) {
     if (display == NULL) {
         return;
     }
-    overlay_painter_free(display->overlay);
+    petri_painter_close(&display->painter);
     if (display->texture != NULL) {
         SDL_DestroyTexture(display->texture);
     }
@@ -109,11 +109,7 @@ static bool start_video(void) {
 
 static Display *window_open(const char *title, int width, int height, bool colour) {
     (void)colour;
-    Display *display = calloc(1, sizeof *display);
-    if (display == NULL) {
-        message("out of memory");
-        return NULL;
-    }
+    Display *display = memory_zeroed(sizeof *display);
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetMainReady();
@@ -127,8 +123,8 @@ static Display *window_open(const char *title, int width, int height, bool colou
         SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
         display->renderer = new_renderer(display->window);
     }
-    display->overlay = overlay_painter_new();
-    if (display->renderer == NULL || display->overlay == NULL) {
+    display->painter = petri_painter_open();
+    if (display->renderer == NULL || display->painter == NULL) {
         message("cannot open a window: %s", display->renderer == NULL ? SDL_GetError() : "out of memory");
         window_close(display);
         return NULL;
@@ -137,71 +133,29 @@ static Display *window_open(const char *title, int width, int height, bool colou
     return display;
 }
 
+// Keys that no character stands for; SDL numbers them as the keyboards do.
 static const char *key_name(SDL_Keycode code) {
-    static const struct {
-        SDL_Keycode code;
-        const char *name;
-    } names[] = {
-        {SDLK_RIGHT, "right"},
-        {SDLK_LEFT, "left"},
-        {SDLK_DOWN, "down"},
-        {SDLK_UP, "up"},
-        {SDLK_INSERT, "insert"},
-        {SDLK_PAGEUP, "page_up"},
-        {SDLK_PAGEDOWN, "page_down"},
-        {SDLK_HOME, "home"},
-        {SDLK_END, "end"},
-        {SDLK_DELETE, "delete"},
-        {SDLK_CAPSLOCK, "caps_lock"},
-        {SDLK_SCROLLLOCK, "scroll_lock"},
-        {SDLK_NUMLOCKCLEAR, "num_lock"},
-        {SDLK_PRINTSCREEN, "print_screen"},
-        {SDLK_PAUSE, "pause"},
-        {SDLK_F1, "f1"},
-        {SDLK_F2, "f2"},
-        {SDLK_F3, "f3"},
-        {SDLK_F4, "f4"},
-        {SDLK_F5, "f5"},
-        {SDLK_F6, "f6"},
-        {SDLK_F7, "f7"},
-        {SDLK_F8, "f8"},
-        {SDLK_F9, "f9"},
-        {SDLK_F10, "f10"},
-        {SDLK_F11, "f11"},
-        {SDLK_F12, "f12"},
-        {SDLK_KP_0, "kp_0"},
-        {SDLK_KP_1, "kp_1"},
-        {SDLK_KP_2, "kp_2"},
-        {SDLK_KP_3, "kp_3"},
-        {SDLK_KP_4, "kp_4"},
-        {SDLK_KP_5, "kp_5"},
-        {SDLK_KP_6, "kp_6"},
-        {SDLK_KP_7, "kp_7"},
-        {SDLK_KP_8, "kp_8"},
-        {SDLK_KP_9, "kp_9"},
-        {SDLK_KP_PERIOD, "kp_decimal"},
-        {SDLK_KP_DIVIDE, "kp_divide"},
-        {SDLK_KP_MULTIPLY, "kp_multiply"},
-        {SDLK_KP_MINUS, "kp_subtract"},
-        {SDLK_KP_PLUS, "kp_add"},
-        {SDLK_KP_ENTER, "kp_enter"},
-        {SDLK_KP_EQUALS, "kp_equal"},
-        {SDLK_LSHIFT, "left_shift"},
-        {SDLK_LCTRL, "left_control"},
-        {SDLK_LALT, "left_alt"},
-        {SDLK_LGUI, "left_super"},
-        {SDLK_RSHIFT, "right_shift"},
-        {SDLK_RCTRL, "right_control"},
-        {SDLK_RALT, "right_alt"},
-        {SDLK_RGUI, "right_super"},
-        {SDLK_APPLICATION, "menu"},
+    static const char *const keys[] = {
+        "caps_lock", "f1",   "f2",         "f3",        "f4",          "f5",           "f6",          "f7",
+        "f8",        "f9",   "f10",        "f11",       "f12",         "print_screen", "scroll_lock", "pause",
+        "insert",    "home", "page_up",    "delete",    "end",         "page_down",    "right",       "left",
+        "down",      "up",   "num_lock",   "kp_divide", "kp_multiply", "kp_subtract",  "kp_add",      "kp_enter",
+        "kp_1",      "kp_2", "kp_3",       "kp_4",      "kp_5",        "kp_6",         "kp_7",        "kp_8",
+        "kp_9",      "kp_0", "kp_decimal", NULL,        "menu",        NULL,           "kp_equal",
     };
-    for (size_t i = 0; i < sizeof names / sizeof names[0]; i++) {
-        if (names[i].code == code) {
-            return names[i].name;
-        }
+    static const char *const modifiers[] = {"left_control",  "left_shift",  "left_alt",  "left_super",
+                                            "right_control", "right_shift", "right_alt", "right_super"};
+    const SDL_Keycode first = SDLK_CAPSLOCK, first_modifier = SDLK_LCTRL;
+    if (code == SDLK_DELETE) {
+        return "delete";
     }
-    return code > 0 && code < 127 ? key_of_character((char)code) : code == SDLK_DELETE ? "delete" : NULL;
+    if (code >= first_modifier && code <= SDLK_RGUI) {
+        return modifiers[code - first_modifier];
+    }
+    if (code >= first && code <= SDLK_KP_EQUALS) {
+        return keys[code - first];
+    }
+    return code > 0 && code < 127 ? key_of_character((char)code) : NULL;
 }
 
 // How many pixels a unit of the window has; more than one on screens of high density.
@@ -319,7 +273,7 @@ static bool use_texture(Display *display, int width, int height) {
 static bool window_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
     double across, down;
     density(display, &across, &down);
-    overlay_draw(display->overlay, overlay, across, pixels, width, height);
+    overlay_draw(display->painter, overlay, across, pixels, width, height);
     if (!use_texture(display, width, height) || SDL_UpdateTexture(display->texture, NULL, pixels, width * 4) != 0) {
         message("cannot show the picture: %s", SDL_GetError());
         return false;

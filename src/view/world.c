@@ -11,7 +11,7 @@
 #include "cli/parameters.h"
 #include "cli/script.h"
 
-enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000 };
+enum { MOST_LOG = 1 << 16, MOST_TROUBLE = 4000, MOST_WARNINGS = 3500 };
 
 static void log_text(World *world, const char *text) {
     if (!world->mute) {
@@ -19,6 +19,18 @@ static void log_text(World *world, const char *text) {
     } else if (world->log.length < MOST_LOG) {
         bytes_add_text(&world->log, text);
     }
+}
+
+static void warnings_add(Warnings *warnings, const PetriDiagnostic *diagnostic) {
+    warnings->count += diagnostic->level == PETRI_NOTE ? 0 : 1;
+    if (warnings->text.length < MOST_WARNINGS) {
+        bytes_add_text(&warnings->text, diagnostic->rendered);
+    }
+}
+
+static void warnings_forget(Warnings *warnings) {
+    bytes_free(&warnings->text);
+    *warnings = (Warnings){0};
 }
 
 static void on_diagnostic(void *context, const PetriDiagnostic *diagnostic) {
@@ -60,13 +72,12 @@ static void head_trouble(World *world, const char *line) {
 }
 
 // The script, and what it includes and imports as far as that is known.
-static bool watch_sources(World *world) {
-    bool watched = watch_file(world->watch, world->options->script);
+static void watch_sources(World *world) {
     const char *source;
-    for (size_t i = 0; watched && (source = petri_source(world->session, i)) != NULL; i++) {
-        watched = watch_file(world->watch, source);
+    watch_file(world->watch, world->options->script);
+    for (size_t i = 0; (source = petri_source(world->session, i)) != NULL; i++) {
+        watch_file(world->watch, source);
     }
-    return watched;
 }
 
 static int load_first(World *world) {
@@ -89,7 +100,8 @@ int world_open(World *world, const Host *host, const Options *options) {
     }
     world->watch = watch_new();
     world->painter = petri_painter_open();
-    if (world->watch == NULL || world->painter == NULL || !watch_sources(world)) {
+    watch_sources(world);
+    if (world->painter == NULL) {
         message("out of memory");
         return STATUS_FAILED;
     }
@@ -260,4 +272,20 @@ void world_unmute(World *world) {
         fputs(world->log.data, stderr);
     }
     bytes_free(&world->log);
+}
+
+void warnings_mark(const Warnings *warnings, char *text, size_t size) {
+    text[0] = '\0';
+    if (warnings->count > 0) {
+        snprintf(text, size, "%d warning%s: w", warnings->count, warnings->count == 1 ? "" : "s");
+    }
+}
+
+void warnings_list(const Warnings *warnings, char *text, size_t size) {
+    if (warnings->count == 0) {
+        snprintf(text, size, "No warnings. w hides this.");
+        return;
+    }
+    snprintf(text, size, "%d warning%s. w hides this.\n%s%s", warnings->count, warnings->count == 1 ? "" : "s",
+             warnings->text.data, warnings->text.length < MOST_WARNINGS ? "" : "… more are on standard error.");
 }

@@ -11,7 +11,12 @@
 #include "cli/watch.h"
 #include "petri-draw.h"
 #include "render/recording.h"
-#include "view/warnings.h"
+
+// What was told about a script that runs all the same, for a view to list.
+typedef struct Warnings {
+    int count; // without notes
+    Bytes text;
+} Warnings;
 
 typedef struct World {
     const Options *options;
@@ -57,5 +62,10 @@ void world_save(World *world, bool at_once);
 bool world_screenshot(World *world, char *name, size_t size);
 // Writes what was kept while standard error was not ours, and writes there from now on.
 void world_unmute(World *world);
+
+// What may be in a corner all the time: how many there are, and the key that lists them; "" if there are none.
+void warnings_mark(const Warnings *warnings, char *text, size_t size);
+// The list, under a line that tells how many there are.
+void warnings_list(const Warnings *warnings, char *text, size_t size);
 
 #endif

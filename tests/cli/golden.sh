@@ -99,7 +99,7 @@ check "a hash is that of the state's text" passes
 sed -i 's/= ./= x/' g/hash.golden
 verdict hash
 check "another hash fails" fails
-printf '!counter state=:c initial=1\n' >g/hash.fl
+printf '!counter state=:c initial=1 rate=1\n' >g/hash.fl
 printf '# run --frames 2 --print hash\n' >g/hash.golden
 petri test --update g/hash.fl
 verdict hash

@@ -76,11 +76,11 @@ else
     petri render nothing.fl -o none.png --frames 1
     check "a script that draws nothing is an error" one_error
     check "… without a file" [ ! -e none.png ]
-    printf '!window size=60;40\n    !canvas3d\n        !sphere\n!physics state=:w dimensions=3\n    !particle id=1\n' >solid.fl
+    printf '!window size=60;40\n    !video\n!physics state=:w dimensions=3\n    !particle id=1\n' >solid.fl
     petri render solid.fl -o solid.png --frames 2
     check "a window that petri cannot draw shows the particles" status_is 0
     check "… in its size" sized solid.png 60x40
-    check "… and what is left out is told once" count_is err "'!canvas3d' is not drawn" 1
+    check "… and what is left out is told once" count_is err "'!video' is not drawn" 1
     printf '!physics state=:w dimensions=2\n    !particle id=1 radius=1\n' >bare.fl
     petri render bare.fl -o bare.png --frames 2
     check "physics alone has a picture too" sized bare.png 1080x1080

@@ -25,14 +25,14 @@ good_film() { grep -q moov "$1"; }
 
 # kill_often NAME FILE OLD GOOD COMMAND...: a fifth of the kills, at moments spread over the command's time.
 kill_often() {
-    name=$1 file=$2 old=$3 good=$4
+    what=$1 file=$2 old=$3 good=$4
     shift 4
     cp "$old" "$file"
     start=$(date +%s%N)
     timeout 100 "$petri" "$@" >out 2>err </dev/null
     status=$?
     span=$((($(date +%s%N) - start) / 1000000))
-    check "$name: undisturbed" eval 'status_is 0 && $good "$file"'
+    check "$what: undisturbed" eval 'status_is 0 && $good "$file"'
     damaged=0
     i=0
     while [ $i -lt $(((kills + 4) / 5)) ]; do
@@ -45,10 +45,10 @@ kill_often() {
         cmp -s "$old" "$file" || $good "$file" || damaged=$((damaged + 1))
         i=$((i + 1))
     done
-    check "$name: killed, it is the old one or the new one" [ $damaged -eq 0 ]
+    check "$what: killed, it is the old one or the new one" [ $damaged -eq 0 ]
     timeout 100 "$petri" "$@" >out 2>err </dev/null
     status=$?
-    check "$name: and the next run works" eval 'status_is 0 && $good "$file"'
+    check "$what: and the next run works" eval 'status_is 0 && $good "$file"'
 }
 
 petri run w.fl --frames 3 --state old.state

@@ -39,6 +39,18 @@ else
     echo "libpetri does not link by itself"
     faults=1
 fi
+# A shared library made of it, as of a host that is one, shows what is public and nothing else.
+# shellcheck disable=SC2086
+${CC:-cc} $options -shared -o "$scratch/all.so" -Wl,--whole-archive lib/session/libpetri.a -Wl,--no-whole-archive -lm -lpthread
+shown=$(nm -D --defined-only "$scratch/all.so" | awk '{ print $NF }' | grep -v '^__')
+for name in $(echo "$shown" | grep -v '^petri_'); do
+    echo "libpetri.so exports $name"
+    faults=1
+done
+[ "$(echo "$shown" | wc -l)" -gt 50 ] || {
+    echo "libpetri.so exports hardly anything"
+    faults=1
+}
 # Were cairo_create nowhere to be found, the above would say nothing.
 if nm lib/draw/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
     if ! needed src/petri-pictures | grep -q '^libcairo\.'; then

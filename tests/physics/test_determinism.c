@@ -132,7 +132,7 @@ static const struct {
 static const struct {
     const char *name;
     int threads;
-    const char *cpu; // PETRI_CPU, or NULL; a level that this processor lacks is the best one below it
+    const char *cpu; // NULL: the best; a level that this processor lacks is the best one below it
     PetriNeighbours neighbours;
 } ways[] = {
     {"1 thread", 1, NULL, PETRI_NEIGHBOURS_AUTO},
@@ -152,19 +152,12 @@ static const struct {
     {"AVX2, neighbour lists always", 1, "avx2", PETRI_NEIGHBOURS_ALWAYS},
 };
 
-static void set_variable(const char *name, const char *value) {
-    if (value)
-        setenv(name, value, 1);
-    else
-        unsetenv(name);
-}
-
 // A hash of the state after some frames, computed in one of the ways.
 static uint64_t run_script(const char *script, int frames, size_t way) {
     World world;
     PetriOptions options = petri_default_options();
     options.threads = ways[way].threads;
-    set_variable("PETRI_CPU", ways[way].cpu);
+    options.cpu = ways[way].cpu;
     options.neighbours = ways[way].neighbours;
     world_open_with(&world, options, script);
     world_to(&world, frames);

@@ -181,11 +181,11 @@ static Value read_range(Reader *r) {
 static Value read_comparison(Reader *r) {
     Value v = read_range(r);
     if (take(r, "=="))
-        return value_number(value_equal(v, read_range(r)));
+        return value_number(value_equal(NULL, v, read_range(r)));
     if (take(r, "<"))
-        return value_number(value_compare(v, read_range(r)) == -1);
+        return value_number(value_compare(NULL, v, read_range(r)) == -1);
     if (take(r, ">"))
-        return value_number(value_compare(v, read_range(r)) == 1);
+        return value_number(value_compare(NULL, v, read_range(r)) == 1);
     return v;
 }
 

@@ -93,7 +93,8 @@ static inline bool same_value(Value a, Value b) {
         return a.stream == b.stream && a.as.key == b.as.key;
     for (uint32_t i = 0; i < a.len; i++) {
         Item x = value_at(&a, i), y = value_at(&b, i);
-        if (x.type == ITEM_NUMBER && y.type == ITEM_NUMBER ? !same_number(x.as.number, y.as.number) : !item_equal(x, y))
+        if (x.type == ITEM_NUMBER && y.type == ITEM_NUMBER ? !same_number(x.as.number, y.as.number)
+                                                           : !item_equal(NULL, x, y))
             return false;
     }
     return true;

@@ -138,8 +138,8 @@ static void test_undrawn(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
-    assert_null(read_one(&f, "canvas3d", "size", value_number(1)));
-    assert_string_equal(f.told, "!canvas '!canvas3d' is not drawn; it is left out [undrawn-node]\n");
+    assert_null(read_one(&f, "video", "size", value_number(1)));
+    assert_string_equal(f.told, "!canvas '!video' is not drawn; it is left out [undrawn-node]\n");
     assert_null(read_one(&f, "canvaz", "size", value_number(1)));
     assert_string_equal(f.told,
                         "!canvas '!canvaz' is not drawn; it is left out, did you mean '!canvas'? [unknown-node]\n");

@@ -110,7 +110,7 @@ static void test_choice(void **state) {
     player_run(player, "!x\n", 1);
     assert_false(petri_drawable(player->session));
     take(player, options, PETRI_INVALID);
-    player_run(player, "!window size=3;3\n    !canvas3d\n!offscreen size=4;4\n    !canvas\n", 1);
+    player_run(player, "!window size=3;3\n    !video\n!offscreen size=4;4\n    !canvas\n", 1);
     assert_true(petri_drawable(player->session));
     check_size(player, options, 4, 4);
     options.window = 0;
@@ -183,10 +183,48 @@ static void test_ready(void **state) {
     assert_true(petri_picture_ready(player->session, &own));
 }
 
+// A panel with one line of text, in the middle of blue pixels: only what is in it changes, and nothing becomes clear.
+static void test_labels(void **state) {
+    enum { WIDTH = 100, HEIGHT = 60 };
+    (void)state;
+    static uint32_t pixels[HEIGHT][WIDTH];
+    const uint32_t blue = 0xff0000ff, panel = 0xff800000;
+    PetriLabel label = {.text = "HHH\n",
+                        .x = 10,
+                        .y = 10,
+                        .width = 40,
+                        .height = 20,
+                        .size = 8,
+                        .line_height = 10,
+                        .padding = 6,
+                        .back = {128 / 255.0, 0, 0, 1},
+                        .front = {1, 1, 1, 1},
+                        .edge = {0, 1, 0, 1}};
+    PetriPainter *painter = petri_painter_open();
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++)
+            pixels[y][x] = blue;
+    PetriStatus status = petri_painter_labels(painter, &label, 1, 2, pixels[0], WIDTH, HEIGHT, sizeof pixels[0]);
+    petri_painter_close(&painter);
+    if (status == PETRI_MISSING)
+        return;
+    int letter_pixels = 0;
+    for (int y = 0; y < HEIGHT; y++)
+        for (int x = 0; x < WIDTH; x++) {
+            bool inside = x >= 20 && y >= 20;
+            assert_true(inside || pixels[y][x] == blue);
+            assert_int_equal(pixels[y][x] >> 24, 255);
+            letter_pixels += (pixels[y][x] >> 16 & 255) > 192;
+        }
+    assert_int_equal(pixels[40][22], 0xff00ff00u); // the stripe
+    assert_int_equal(pixels[24][60], panel);
+    assert_true(letter_pixels > 10);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes), PLAYER_TEST(test_choice),
-        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready),
+        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready), PLAYER_TEST(test_labels),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

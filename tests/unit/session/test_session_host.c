@@ -10,6 +10,14 @@ static void test_options(void **state) {
     assert_null(petri_open(&options));
     assert_null(petri_open(NULL));
     options = petri_default_options();
+    options.size++;
+    assert_null(petri_open(&options)); // those of a later petri.h
+    options.size = offsetof(PetriOptions, cpu);
+    options.cpu = (const char *)1; // what follows the shorter struct of an earlier one
+    PetriSession *earlier = petri_open(&options);
+    assert_non_null(earlier);
+    petri_close(&earlier);
+    options = petri_default_options();
     assert_number("fps", options.fps, 60);
     assert_false(options.realtime);
     assert_true(isnan(options.run_time));
@@ -332,7 +340,7 @@ static void test_nodes(void **state) {
             rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
         }
     }
-    assert_int_equal(groups, 2); // of physics and of the canvas
+    assert_int_equal(groups, 3); // of physics, of the canvas and of three dimensions
     assert_int_equal(rects, 1);
     assert_false(petri_node_kind(kinds + 1000, &kind));
     assert_false(petri_node_attribute(kinds, 0, &attribute));

@@ -8,7 +8,8 @@ static void test_work(void **state) {
         player_load(player, "!counter state=:c rate=1\nlet v=..20000\n!a v=(frame if 0 for y in v for x in v)\n"),
         PETRI_OK);
     assert_int_equal(petri_step(player->session), PETRI_LIMIT);
-    assert_non_null(strstr(player_told(player), "more than 134217728 calls and loop rounds"));
+    assert_non_null(strstr(player_told(player),
+                           "the frame takes more than its 134217728 units of work; it is given up [work-limit]"));
     assert_text("state", player_state(player), "");
     player_run(player, "!a v=1\n", 1);
     assert_text("goes on", player_tree(player), "!a v=1\n");
@@ -28,7 +29,7 @@ static void test_memory(void **state) {
     assert_text("before", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_int_equal(petri_step(player->session), PETRI_LIMIT);
     assert_text("told", player_told(player),
-                "error the frame needs more than its 1 MiB of memory; it is given up [memory-limit]\n");
+                "error t.fl:2:10 the frame needs more than its 1 MiB of memory; it is given up [memory-limit]\n");
     assert_text("unchanged", player_state(player), "$:c = 0\n$(:c;:time) = 0\n");
     assert_text("no tree", player_tree(player), "");
     assert_int_equal(petri_frame(player->session).number, 1);

@@ -11,7 +11,7 @@
 enum { COUNT = 300 };
 
 static State *filled(void) {
-    State *state = state_new();
+    State *state = state_new(NULL);
     for (int i = 0; i < COUNT; i++) {
         const double pair[2] = {i, i + 0.5};
         assert_true(state_set(state, value_number(i), value_numbers_view(pair, 2)));

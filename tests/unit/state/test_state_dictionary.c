@@ -12,7 +12,7 @@ static int setup(void **state) {
     Fixture *fixture = calloc(1, sizeof *fixture);
     void *world;
     world_setup(&world);
-    *fixture = (Fixture){world, state_new()};
+    *fixture = (Fixture){world, state_new(NULL)};
     *state = fixture;
     return fixture->state == NULL;
 }
@@ -177,12 +177,12 @@ static void test_slots(void **state) {
         assert_int_equal(state_slot(fixture->state, k), slots[i]);
         assert_int_equal(state_find(fixture->state, k), slots[i]);
         assert_int_equal(state_slot_get(fixture->state, slots[i]).len, i % 2);
-        assert_true(value_equal(state_get(fixture->state, k), i % 2 ? value_number(i) : VALUE_NULL));
+        assert_true(value_equal(NULL, state_get(fixture->state, k), i % 2 ? value_number(i) : VALUE_NULL));
     }
     assert_true(state_slot_set(fixture->state, slots[1], VALUE_NULL));
     assert_int_equal(state_count(fixture->state), COUNT / 2 - 1);
     assert_true(state_slot_set(fixture->state, slots[1], value_number(-1))); // the slot is still good
-    assert_true(value_equal(state_slot_get(fixture->state, slots[1]), value_number(-1)));
+    assert_true(value_equal(NULL, state_slot_get(fixture->state, slots[1]), value_number(-1)));
     assert_false(state_slot_set(fixture->state, STATE_NO_SLOT, value_number(1)));
     assert_true(value_is_null(state_slot_get(fixture->state, STATE_NO_SLOT)));
 }
@@ -231,7 +231,7 @@ static void test_against_a_model(void **state) {
         assert_int_equal(state_count(fixture->state), count);
     }
     for (uint32_t k = 0; k < KEYS; k++)
-        assert_true(value_equal(state_get(fixture->state, value_number(k)),
+        assert_true(value_equal(NULL, state_get(fixture->state, value_number(k)),
                                 model[k] != 0 ? value_number(model[k]) : VALUE_NULL));
 }
 

@@ -16,7 +16,7 @@ typedef struct Fixture {
 } Fixture;
 
 static Fixture shown(void) {
-    Fixture f = {.state = state_new(), .numbers = {1, 2}};
+    Fixture f = {.state = state_new(NULL), .numbers = {1, 2}};
     f.slot = state_slot(f.state, value_number(7));
     f.lender = state_add_lender(f.state);
     return f;

@@ -55,14 +55,14 @@ static const Node *sample(World *world) {
 static void test_trees(void **state) {
     World *world = *state;
     Text text = text_new(&world->arena);
-    format_tree(&text, &world->symbols, sample(world), 0);
+    format_tree(&text, &world->symbols, sample(world), 0, NULL, NULL);
     assert_text("tree", text_c(&text),
                 "!a x=1;:k q=(!q)\n"
                 "    !b #b #z n=1e+22;0.1\n"
                 "    !a x=1;:k q=(!q)\n"
                 "        !b #b #z n=1e+22;0.1\n");
     text.len = 0;
-    format_tree(&text, &world->symbols, node_new(&world->arena, name_of(world, "c")), 2);
+    format_tree(&text, &world->symbols, node_new(&world->arena, name_of(world, "c")), 2, NULL, NULL);
     assert_text("depth", text_c(&text), "        !c\n");
 }
 

@@ -64,8 +64,8 @@ static void test_seed_hashes(void **state) {
         {"uniform:77", 0xe220a8397b1dcdaf}, // a stream counts as null
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++)
-        assert_claim(rows[i].seed, value_seed_hash(read_value(world, rows[i].seed)) == rows[i].key);
-#define SEED(text) value_seed_hash(read_value(world, text))
+        assert_claim(rows[i].seed, value_seed_hash(NULL, read_value(world, rows[i].seed)) == rows[i].key);
+#define SEED(text) value_seed_hash(NULL, read_value(world, text))
     assert_true(SEED("0") != SEED("-0"));
     assert_true(SEED("'ab'") != SEED("'a';'b'"));
     assert_true(SEED("inf") != SEED("-inf"));
@@ -92,7 +92,7 @@ static void test_node_seeds(void **state) {
         {parent, 0.2517061228601389},
     };
     for (size_t i = 0; i < COUNT_OF(rows); i++) {
-        uint64_t key = value_seed_hash(value_node(arena, rows[i].node));
+        uint64_t key = value_seed_hash(NULL, value_node(arena, rows[i].node));
         assert_number("item 0", value_stream_item(value_stream(STREAM_UNIFORM, key), 0), rows[i].item);
     }
 }

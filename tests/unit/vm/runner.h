@@ -96,7 +96,7 @@ static inline int runner_setup(void **state) {
     arena_init(&runner->program, "program", (size_t)1 << 30);
     arena_init(&runner->scratch, "compiler", (size_t)1 << 30);
     arena_init(&runner->frame, "frame", (size_t)2 << 30);
-    runner->state = state_new();
+    runner->state = state_new(NULL);
     runner->files = file_cache_new();
     runner->noise = noise_cache_new();
     vm_init(&runner->vm, &runner->frame, &world->symbols, (VmHost){runner, runner_tell, runner_log, runner_module},
@@ -158,7 +158,7 @@ static inline const char *runner_tree(Runner *runner) {
     Text text = text_new(&runner->world.arena);
     for (uint32_t i = 0; runner->result.kind == VALUE_MIXED && i < runner->result.len; i++)
         if (runner->result.as.items[i].type == ITEM_NODE)
-            format_tree(&text, &runner->world.symbols, runner->result.as.items[i].as.node, 0);
+            format_tree(&text, &runner->world.symbols, runner->result.as.items[i].as.node, 0, NULL, NULL);
     return text_c(&text);
 }
 

@@ -81,26 +81,74 @@ static void test_too_long(void **state) {
                         "1:6 range too long: the limit is 134217728 elements [too-long]\n");
 }
 
-// A frame whose work is used up is given up: it has no result, and this is told once.
+static void make_frame(void *runner) {
+    runner_frame(runner, 0);
+}
+
+// How the frame of a script ends that may take so much work.
+static ArenaEnd metered(Runner *runner, const char *script, uint64_t work, const atomic_bool *interrupt) {
+    Meter meter = {.memory_limit = SIZE_MAX};
+    Arena *frame = &runner->frame;
+    meter_begin(&meter, work, interrupt);
+    assert_true(runner_load(runner, script));
+    arena_free(frame);
+    frame->meter = &meter;
+    ArenaEnd end = arena_protect(&frame, 1, make_frame, runner);
+    arena_free(frame);
+    frame->meter = NULL;
+    return end;
+}
+
+// What takes more work than it may is left, and the machine knows where that was.
 static void test_work(void **state) {
     Runner *runner = *state;
-    runner->vm.work_limit = 1000;
-    check_tree_and_told(runner, "let n=frame\n!a v=len(i for i in ..900+n)\n", "!a v=900\n", "");
-    check_tree_and_told(
-        runner, "let n=frame\n!a v=len(i for i in ..1100+n)\n!b v=len(i for i in ..1100+n)\n", "",
-        "2:10 the frame makes more than 134217728 calls and loop rounds; it is given up [work-limit]\n");
-    check_tree_and_told(runner, "let n=frame f=func(x) x\n!a v=f(1+n)\n", "!a v=1\n", ""); // the next frame has its own
+    static const char rounds[] = "let n=frame\n!a v=len(i for i in ..900+n)\n";
+    assert_int_equal(metered(runner, rounds, 2000, NULL), ARENA_DONE);
+    assert_int_equal(metered(runner, rounds, 800, NULL), ARENA_WORK);
+    assert_int_equal(runner->vm.at->span.start, strlen("let n=frame\n!a v=len("));
+    check_tree_and_told(runner, "let n=frame f=func(x) x\n!a v=f(1+n)\n", "!a v=1\n", ""); // the next has its own
+}
+
+static const char shared[] = "func f(n, v)\n    f(n-1, (!n << (v;v))) if n>0 else v\n";
+
+// Whatever takes long is charged for: a small part of what each of these takes is not enough.
+static void test_all_is_charged(void **state) {
+    Runner *runner = *state;
+    static const char *const rows[] = {
+        "!a v=sum((..1e6)+frame)",
+        "!a v=len(sort(uniform(1+frame)[..1e5]))",
+        "!a v=len(noise(1, (..200)+frame, ..200))",
+        "!a v=count((..1e5)+frame, ..1e5)[0]",
+        "let x=0*(..4000)+frame\n!a v=((x;1) in (x;x))",
+        "!a v=len(concat((..1e4)+frame))",
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        assert_int_equal(metered(runner, rows[i], (uint64_t)1 << 24, NULL), ARENA_DONE);
+        assert_claim(rows[i], metered(runner, rows[i], 1000, NULL) == ARENA_WORK);
+    }
+}
+
+// A tree of 2^60 nodes, of which there are 61.
+static void test_shared_nodes(void **state) {
+    Runner *runner = *state;
+    Arena *arena = &runner->world.arena;
+    Str script = str_format(arena,
+                            "%slet x=f(60+frame, !x) y=f(60+frame, !x)\n"
+                            "!a v=(x==y);(uniform(x)[0]==uniform(y)[0]);((x;1)<(y;2));(x in (1;y))\n",
+                            shared);
+    assert_int_equal(metered(runner, script.bytes, 1 << 20, NULL), ARENA_DONE);
+    script = str_format(arena, "%s!a v=len(debug(f(60+frame, !x)))\n", shared);
+    assert_int_equal(metered(runner, script.bytes, 1 << 16, NULL), ARENA_WORK);
 }
 
 // Whoever waits for a frame may end it.
 static void test_interrupt(void **state) {
     Runner *runner = *state;
     atomic_bool wish = true;
-    runner->vm.interrupt = &wish;
-    check_tree_and_told(runner, "let n=frame\n!a v=len(i for i in ..2000+n)\n", "", "");
-    assert_true(runner->vm.stopped);
+    static const char rounds[] = "let n=frame\n!a v=len(i for i in ..2000+n)\n";
+    assert_int_equal(metered(runner, rounds, 1 << 20, &wish), ARENA_INTERRUPTED);
     wish = false;
-    check_tree_and_told(runner, "let n=frame\n!a v=len(i for i in ..2000+n)\n", "!a v=2000\n", "");
+    assert_int_equal(metered(runner, rounds, 1 << 20, &wish), ARENA_DONE);
 }
 
 // What cannot be evaluated ahead is left for the frames: the simplifier's machine gives up, and says nothing.
@@ -108,15 +156,13 @@ static void test_ahead(void **state) {
     Runner *runner = *state;
     check_tree_and_told(runner, "func f(n)\n    1+f(n-1) if n>0 else 0\n!a v=f(600)\n", "!a\n", NULL);
     assert_int_equal(runner->ahead.reported_count > 0, true);
-    runner->ahead.work_limit = 100;
-    check_tree_and_told(runner, "!a v=len(i for i in ..200)\n", "!a v=200\n", "");
-    assert_true(runner->ahead.stopped);
 }
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        RUNNER_TEST(test_closure_depth), RUNNER_TEST(test_stack),     RUNNER_TEST(test_too_long),
-        RUNNER_TEST(test_work),          RUNNER_TEST(test_interrupt), RUNNER_TEST(test_ahead),
+        RUNNER_TEST(test_closure_depth),  RUNNER_TEST(test_stack),        RUNNER_TEST(test_too_long),
+        RUNNER_TEST(test_work),           RUNNER_TEST(test_interrupt),    RUNNER_TEST(test_ahead),
+        RUNNER_TEST(test_all_is_charged), RUNNER_TEST(test_shared_nodes),
         RUNNER_TEST(test_deep_nodes), // it used to overflow the stack
         RUNNER_TEST(test_call_depth), // makes the stack larger for what follows
     };

@@ -1,0 +1,163 @@
+// main.c: prepares the process, finds the command and runs it on a thread with a large stack.
+#include <fcntl.h>
+#include <limits.h>
+#include <pthread.h>
+#include <signal.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/bytes.h"
+#include "cli/cli.h"
+#include "cli/pass_on.h"
+#include "main/commands.h"
+
+#ifdef PETRI_PICTURES
+const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
+                                   &CHECK_COMMAND, &NEW_COMMAND,  &HELP_COMMAND,   NULL};
+#else // those that never draw
+const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND, NULL};
+#endif
+
+const Command *command_find(const char *name) {
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        if (strcmp(COMMANDS[i]->name, name) == 0) {
+            return COMMANDS[i];
+        }
+    }
+    return NULL;
+}
+
+// A script's name has a dot or a slash in it, or is the name of something that exists.
+static bool looks_like_file(const char *word) {
+    return strpbrk(word, "./") != NULL || access(word, F_OK) == 0;
+}
+
+static bool is_script_without_suffix(const char *word) {
+    SCOPED_BYTES path = {0};
+    bytes_format(&path, "%s.fl", word);
+    bool found = access(path.data, F_OK) == 0;
+    return found;
+}
+
+static int unknown_command(const char *word) {
+    StrNearest nearest = nearest_start(word);
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        nearest_offer(&nearest, COMMANDS[i]->name);
+    }
+    if (nearest_offer(&nearest, "builtins") || nearest_offer(&nearest, "nodes")) {
+        message("there is no command and no file '%s', did you mean 'petri help %s'?", word, nearest.found.bytes);
+        return STATUS_USAGE;
+    }
+    if (word[0] == '\0') {
+        message("the name of the script is empty");
+    } else if (is_script_without_suffix(word)) {
+        message("there is no command and no file '%s', did you mean 'petri %s.fl'?", word, word);
+    } else if (nearest.found.bytes != NULL) {
+        message("there is no command and no file '%s', did you mean 'petri %s'?", word, nearest.found.bytes);
+    } else {
+        message("there is no command and no file '%s'; 'petri help' lists the commands", word);
+    }
+    return STATUS_USAGE;
+}
+
+static int dispatch(const Host *host, int argc, char **argv) {
+    if (argc < 2) {
+        message("nothing to do; 'petri new NAME' begins a script, 'petri view SCRIPT.fl' shows it, 'petri help' lists "
+                "all commands");
+        return STATUS_USAGE;
+    }
+    const char *first = argv[1];
+    if (pass_on_wanted(first)) {
+        return pass_on(argv);
+    }
+    if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
+        return help_overview(COMMANDS);
+    }
+    if (strcmp(first, "--version") == 0 || strcmp(first, "-V") == 0 || strcmp(first, "version") == 0) {
+        return help_version();
+    }
+    const Command *command = command_find(first);
+    if (command != NULL) {
+        return command_run(command, host, argc - 2, argv + 2);
+    }
+    if (first[0] == '-' || looks_like_file(first)) {
+        return command_run(&RUN_COMMAND, host, argc - 1, argv + 1);
+    }
+    return pass_on_all() ? pass_on(argv) : unknown_command(first);
+}
+
+// Were a standard descriptor closed, the next file to be opened would take its place and get our output.
+static void open_standard_descriptors(void) {
+    for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; fd++) {
+        if (fcntl(fd, F_GETFD) == -1) {
+            // Opened the wrong way round, so that using it fails as it would have when closed.
+            (void)open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+        }
+    }
+}
+
+typedef struct Job {
+    Host host;
+    int argc;
+    char **argv;
+    int status;
+} Job;
+
+static void *run_job(void *context) {
+    Job *job = context;
+    job->status = dispatch(&job->host, job->argc, job->argv);
+    return NULL;
+}
+
+// Scripts may nest thousands of calls, so evaluation gets far more stack than a program starts with. Pages that are
+// not touched cost nothing; where even the address space is scarce, less has to do.
+static bool run_on_large_stack(Job *job) {
+    const size_t mebibyte = (size_t)1 << 20;
+    for (size_t size = 512 * mebibyte; size >= 8 * mebibyte; size /= 2) {
+        pthread_attr_t attributes;
+        pthread_t thread;
+        if (pthread_attr_init(&attributes) != 0) {
+            return false;
+        }
+        job->host.stack_bytes = size - mebibyte;
+        bool started = pthread_attr_setstacksize(&attributes, size) == 0 &&
+                       pthread_create(&thread, &attributes, run_job, job) == 0;
+        pthread_attr_destroy(&attributes);
+        if (started) {
+            sigset_t all; // signals go to the thread that works
+            sigfillset(&all);
+            pthread_sigmask(SIG_BLOCK, &all, NULL);
+            return pthread_join(thread, NULL) == 0;
+        }
+    }
+    return false;
+}
+
+// The system knows best where we are; argv[0] may be a name that the shell has looked up.
+static const char *program_path(const char *name, char *resolved) {
+    static const char system_path[] = "/proc/self/exe";
+    if (access(system_path, X_OK) == 0) {
+        return system_path;
+    }
+    return name != NULL && realpath(name, resolved) != NULL ? resolved : "petri";
+}
+
+int main(int argc, char **argv) {
+    open_standard_descriptors();
+    // A closed pipe is seen as an error of write, not as the end of the process.
+    signal(SIGPIPE, SIG_IGN);
+    // So is a file that grows beyond what is allowed.
+    signal(SIGXFSZ, SIG_IGN);
+    char resolved[PATH_MAX];
+    Job job = {.host.program = program_path(argc > 0 ? argv[0] : NULL, resolved),
+               .host.called = argc > 0 ? argv[0] : "petri",
+               .argc = argc,
+               .argv = argv,
+               .status = STATUS_FAILED};
+    if (!run_on_large_stack(&job)) {
+        message("cannot start a thread");
+        return STATUS_FAILED;
+    }
+    return job.status;
+}

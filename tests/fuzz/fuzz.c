@@ -1,0 +1,213 @@
+// fuzz.c: see fuzz.h.
+#include "fuzz.h"
+
+#include <ftw.h>
+#include <inttypes.h>
+#include <signal.h>
+#include <stdarg.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/time.h>
+#include <unistd.h>
+
+#include "base/table.h"
+
+static PetriSession *volatile watched;
+static volatile sig_atomic_t alarms;
+static volatile size_t seen; // so that nothing that is read is left out
+
+void fuzz_fail(const char *format, ...) {
+    va_list list;
+    va_start(list, format);
+    vfprintf(stderr, format, list);
+    va_end(list);
+    fputc('\n', stderr);
+    abort();
+}
+
+static void on_alarm(int number) {
+    enum { MOST = 80 }; // of 50 ms each
+    (void)number;
+    if (++alarms > MOST) {
+        static const char text[] = "it does not react to petri_interrupt\n";
+        (void)!write(STDERR_FILENO, text, sizeof text - 1);
+        abort();
+    }
+    if (watched)
+        petri_interrupt(watched);
+    else
+        raise(SIGINT);
+}
+
+void fuzz_watch(PetriSession *session) {
+    static const struct itimerval wait = {{0, 50000}, {2, 0}};
+    struct sigaction action = {.sa_handler = on_alarm, .sa_flags = SA_RESTART | SA_ONSTACK};
+    sigaction(SIGVTALRM, &action, NULL);
+    alarms = 0;
+    watched = session;
+    setitimer(ITIMER_VIRTUAL, &wait, NULL);
+}
+
+bool fuzz_rest(void) {
+    static const struct itimerval never;
+    setitimer(ITIMER_VIRTUAL, &never, NULL);
+    watched = NULL;
+    return alarms > 0;
+}
+
+static void on_diagnostic(void *host, const PetriDiagnostic *told) {
+    (void)host;
+    seen += strlen(told->rendered) + strlen(told->text) + (told->code ? strlen(told->code) : 0);
+    if (told->level != PETRI_NOTE && told->file && (told->line == 0 || told->column == 0))
+        fuzz_fail("a diagnostic without a place: %s", told->rendered);
+}
+
+PetriOptions fuzz_options(void) {
+    PetriOptions options = petri_default_options();
+    options.memory_bytes = (size_t)128 << 20;
+    options.stack_bytes = (size_t)2 << 20;
+    options.threads = 1;
+    options.diagnostic = on_diagnostic;
+    options.interruptible = true;
+    options.keep_forces = true;
+    return options;
+}
+
+PetriSession *fuzz_open(const PetriOptions *options) {
+    PetriOptions usual = fuzz_options();
+    PetriSession *session = petri_open(options ? options : &usual);
+    if (!session)
+        fuzz_fail("no session");
+    fuzz_watch(session);
+    return session;
+}
+
+void fuzz_close(PetriSession **session) {
+    fuzz_rest();
+    petri_close(session);
+}
+
+void fuzz_load(PetriSession *session, const char *script) {
+    if (petri_load_text(session, fuzz_file("fuzz.fl"), script, PETRI_Z) != PETRI_OK)
+        fuzz_fail("the harness's own script is wrong");
+}
+
+void fuzz_look(PetriSession *session) {
+    enum { MOST = 50 };
+    PetriSystem system;
+    PetriParticle particle;
+    PetriForce force;
+    PetriParameter parameter;
+    for (size_t i = 0; i < 4 && petri_system(session, i, &system); i++) {
+        for (uint32_t j = 0; j < MOST && petri_particle(session, i, j, &particle); j++)
+            seen += strlen(particle.id) + (size_t)(particle.position[system.dimensions - 1] > 0);
+        for (uint32_t j = 0; j < MOST && petri_force(session, i, j, &force); j++)
+            seen += strlen(force.kind);
+    }
+    for (size_t i = 0; i < MOST && petri_parameter(session, i, &parameter); i++)
+        seen += strlen(parameter.name) + strlen(parameter.value) + strlen(parameter.comment);
+}
+
+bool fuzz_sink(void *host, const char *text, size_t length) {
+    (void)host;
+    for (size_t i = 0; i < length; i++)
+        seen += (unsigned char)text[i];
+    return true;
+}
+
+bool fuzz_keep(void *host, const char *bytes, size_t length) {
+    enum { MOST = 1 << 22 };
+    FuzzText *text = host;
+    if (text->length + length + 1 > text->capacity) {
+        text->capacity = 2 * (text->length + length) + 64;
+        text->bytes = realloc(text->bytes, text->capacity);
+    }
+    memcpy(text->bytes + text->length, bytes, length);
+    text->length += length;
+    text->bytes[text->length] = 0;
+    return text->length < MOST;
+}
+
+bool fuzz_same(const FuzzText *a, const FuzzText *b) {
+    return a->length == b->length && (a->length == 0 || memcmp(a->bytes, b->bytes, a->length) == 0);
+}
+
+static bool is_finite(const char *element, size_t length) {
+    static const char *const others[] = {"nan", "-nan", "inf", "-inf"};
+    for (size_t i = 0; i < sizeof others / sizeof others[0]; i++)
+        if (strlen(others[i]) == length && memcmp(element, others[i], length) == 0)
+            return false;
+    return true;
+}
+
+// The value in a line of the state; what has texts in it is left out.
+static bool is_good_line(const char *line, size_t length) {
+    const char *end = line + length, *value = line;
+    if (line[0] != '$' || memchr(line, '\'', length) || memchr(line, '"', length))
+        return true;
+    for (const char *at = line; at + 3 < end; at++)
+        value = memcmp(at, " = ", 3) == 0 ? at + 3 : value;
+    for (const char *at = value; at < end; at++) {
+        const char *stop = memchr(at, ';', (size_t)(end - at));
+        stop = stop ? stop : end;
+        if (!is_finite(at, (size_t)(stop - at)))
+            return false;
+        at = stop;
+    }
+    return true;
+}
+
+void fuzz_check_state(PetriSession *session) {
+    FuzzText text = {0};
+    petri_print(session, PETRI_PRINT_STATE, fuzz_keep, &text);
+    for (const char *line = text.bytes; line && *line; line += strspn(line, "\n")) {
+        size_t length = strcspn(line, "\n");
+        if (!is_good_line(line, length))
+            fuzz_fail("the state holds what is not finite: %.*s", (int)length, line);
+        line += length;
+    }
+    free(text.bytes);
+}
+
+static char folder[64];
+
+static int remove_one(const char *path, const struct stat *status, int type, struct FTW *where) {
+    (void)status, (void)type, (void)where;
+    return remove(path);
+}
+
+static void remove_folder(void) {
+    nftw(folder, remove_one, 8, FTW_DEPTH | FTW_PHYS);
+}
+
+const char *fuzz_file(const char *name) {
+    static char path[4][128];
+    static unsigned turn;
+    if (!folder[0]) {
+        const char *place = getenv("TMPDIR");
+        snprintf(folder, sizeof folder, "%s/petri-fuzz.XXXXXX", place && strlen(place) < 40 ? place : "/tmp");
+        if (!mkdtemp(folder))
+            fuzz_fail("no folder for files");
+        atexit(remove_folder);
+    }
+    char *out = path[turn++ % 4];
+    snprintf(out, sizeof path[0], "%s/%s", folder, name);
+    return out;
+}
+
+void fuzz_put(const char *name, const void *bytes, size_t length) {
+    FILE *file = fopen(fuzz_file(name), "wb");
+    if (!file || fwrite(bytes, 1, length, file) != length || fclose(file) != 0)
+        fuzz_fail("cannot write %s", fuzz_file(name));
+}
+
+void fuzz_put_state(const char *name, const void *text, size_t length) {
+    FuzzText all = {0};
+    char end[40];
+    fuzz_keep(&all, text, length);
+    int count = snprintf(end, sizeof end, "end %016" PRIx64 "\n", hash_bytes(0, all.bytes, length));
+    fuzz_keep(&all, end, (size_t)count);
+    fuzz_put(name, all.bytes, all.length);
+    free(all.bytes);
+}

@@ -1,0 +1,25 @@
+// fuzz_image.c: the input is an image file that is drawn.
+#include "fuzz.h"
+#include "petri-draw.h"
+
+enum { SIDE = 32 };
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static uint32_t pixels[SIDE * SIDE];
+    static PetriSession *session;
+    static PetriPicture *picture;
+    PetriPictureOptions options = petri_default_picture_options();
+    fuzz_put("image", data, size);
+    if (!session) {
+        session = fuzz_open(NULL);
+        fuzz_load(session, "!window size=32\n    !canvas\n        !image filename='image' size=32\n");
+        if (petri_step(session) != PETRI_OK || petri_picture(session, &options, &picture) != PETRI_OK)
+            fuzz_fail("no picture");
+    }
+    fuzz_watch(session);
+    PetriPainter *painter = petri_painter_open();
+    petri_picture_draw(picture, painter, pixels, SIDE, SIDE, SIDE * sizeof *pixels);
+    petri_painter_close(&painter);
+    fuzz_rest();
+    return 0;
+}

@@ -1,0 +1,57 @@
+// fuzz_repl.c: the input is what is typed at `petri repl`. What would write outside of the harness's folder is left
+// out.
+#include <signal.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/cli.h"
+#include "fuzz.h"
+
+const Command *const COMMANDS[] = {&REPL_COMMAND, NULL};
+
+const Command *command_find(const char *name) {
+    return strcmp(name, REPL_COMMAND.name) == 0 ? &REPL_COMMAND : NULL;
+}
+
+static const char SCRIPT[] = "let SIZE=SIZE or 2 -- 1..9 how many\n"
+                             "!physics state=:cells dimensions=2\n"
+                             "    for i in ..SIZE\n"
+                             "        !particle id=i position=i;0 velocity=1;i radius=1\n"
+                             "    !collision\n"
+                             "!counter state=:n rate=60\n"
+                             "!shape size=SIZE at=$:n\n";
+
+// A line that begins with a dot, and names another folder.
+static bool leads_away(const uint8_t *data, size_t size) {
+    bool command = false, start = true;
+    for (size_t i = 0; i < size; i++) {
+        command = start && data[i] == '.' ? true : command && data[i] != '\n';
+        start = data[i] == '\n' || (start && (data[i] == ' ' || data[i] == '\t'));
+        if (command && (data[i] == '/' || data[i] == '~'))
+            return true;
+    }
+    return false;
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    static const Host host = {.program = "petri", .called = "petri", .stack_bytes = 1 << 20};
+    static char words[][16] = {"--threads", "1", "--limit", "20", "fuzz.fl"};
+    if (leads_away(data, size))
+        return 0;
+    fuzz_put("fuzz.fl", SCRIPT, sizeof SCRIPT - 1);
+    fuzz_put("typed", data, size);
+    if (chdir(fuzz_file("")) != 0 || !freopen(fuzz_file("typed"), "rb", stdin))
+        fuzz_fail("no input");
+    setenv("EDITOR", "true", 1);
+    setenv("VISUAL", "true", 1);
+    struct sigaction before;
+    sigaction(SIGINT, NULL, &before);
+    char *arguments[] = {words[0], words[1], words[2], words[3], words[4], NULL};
+    fuzz_watch(NULL);
+    command_run(&REPL_COMMAND, &host, 5, arguments);
+    fuzz_rest();
+    sigaction(SIGINT, &before, NULL);
+    return 0;
+}

@@ -1,0 +1,19 @@
+// fuzz_script.c: the input is a script: three frames of it, all that they show, and its syntax tree and code.
+#include "fuzz.h"
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    PetriSession *session = fuzz_open(NULL);
+    petri_define(session, "COUNT=7");
+    if (petri_load_text(session, "fuzz.fl", (const char *)data, size) == PETRI_OK) {
+        for (int i = 0; i < 3 && petri_step(session) == PETRI_OK; i++) {
+            petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG, fuzz_sink, NULL);
+            fuzz_look(session);
+            fuzz_check_state(session);
+        }
+        petri_dump(session, PETRI_DUMP_AST, fuzz_sink, NULL);
+        petri_dump(session, PETRI_DUMP_CODE, fuzz_sink, NULL);
+        petri_check_text(session, "fuzz.fl", (const char *)data, size);
+    }
+    fuzz_close(&session);
+    return 0;
+}

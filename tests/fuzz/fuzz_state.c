@@ -1,0 +1,51 @@
+// fuzz_state.c: the input is a state file, to which the line that vouches for it is added unless it begins with '#'.
+// What is accepted is what is saved again, and goes on alike.
+#include <stdlib.h>
+
+#include "fuzz.h"
+
+static const char SCRIPT[] = "!physics state=:c dimensions=2 time=beat\n"
+                             "    !anchor id=:m\n"
+                             "    for i in ..4\n"
+                             "        !particle id=i position=i;0 radius=1\n"
+                             "    !collision\n"
+                             "    !random strength=1\n"
+                             "!physics state=:d;1 dimensions=3\n"
+                             "    !particle id='x'\n"
+                             "!s a=$:a b=$(:a;1) c=$'x' counter=$:n\n"
+                             "!counter state=:n rate=1\n";
+
+static void compare(PetriSession *first) {
+    FuzzText one = {0}, two = {0};
+    bool good = true;
+    PetriOptions options = fuzz_options();
+    PetriSession *second = petri_open(&options);
+    fuzz_load(second, SCRIPT);
+    if (petri_save(first, fuzz_file("saved")) != PETRI_OK || petri_restore(second, fuzz_file("saved")) != PETRI_OK)
+        fuzz_fail("what was saved cannot be restored");
+    for (int i = 0; i < 2 && good; i++) {
+        good = petri_step(first) == PETRI_OK && petri_step(second) == PETRI_OK;
+        petri_print(first, PETRI_PRINT_STATE, fuzz_keep, &one);
+        petri_print(second, PETRI_PRINT_STATE, fuzz_keep, &two);
+    }
+    fuzz_check_state(first);
+    if (good && !fuzz_rest() && !fuzz_same(&one, &two))
+        fuzz_fail("--- restored\n%.3000s\n--- saved and restored\n%.3000s", one.bytes, two.bytes);
+    free(one.bytes);
+    free(two.bytes);
+    petri_close(&second);
+}
+
+int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
+    if (size == 0)
+        return 0;
+    (data[0] == '#' ? fuzz_put : fuzz_put_state)("state", data + 1, size - 1);
+    PetriSession *session = fuzz_open(NULL);
+    fuzz_load(session, SCRIPT);
+    if (petri_restore(session, fuzz_file("state")) == PETRI_OK) {
+        fuzz_check_state(session);
+        compare(session);
+    }
+    fuzz_close(&session);
+    return 0;
+}

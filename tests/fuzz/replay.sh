@@ -1,0 +1,30 @@
+#!/bin/sh
+# replay.sh BUILD SOURCE: each harness takes its seeds and what it once found (crashes/NAME) without complaint.
+set -eu
+build=$1 source=$2
+folder=$(mktemp -d "${TMPDIR:-/tmp}/petri-fuzz-XXXXXX")
+trap 'rm -rf "$folder"' EXIT
+"$build/tests/fuzz/fuzz_seeds" "$folder/seeds"
+cp "$folder"/seeds/script/* "$folder/seeds/simplify/"
+cp "$source"/tests/pictures/images/small.jpg "$folder/seeds/image/"
+failed=0
+for seeds in "$folder"/seeds/*/; do
+    name=$(basename "$seeds")
+    set -- "$seeds"*
+    for found in "$source/tests/fuzz/crashes/$name"/*; do
+        [ ! -f "$found" ] || set -- "$@" "$found"
+    done
+    [ -f "$1" ] || {
+        echo "not ok - $name: there are no seeds"
+        failed=1
+        continue
+    }
+    if "$build/tests/fuzz/fuzz_$name" "$@" >"$folder/log" 2>&1; then
+        echo "ok - $name: $# inputs"
+    else
+        tail -n 40 "$folder/log"
+        echo "not ok - $name"
+        failed=1
+    fi
+done
+exit $failed

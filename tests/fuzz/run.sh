@@ -1,0 +1,71 @@
+#!/bin/sh
+# run.sh BUILD SOURCE SECONDS [NAME ...]: fuzzes with each harness (all of them) for so long, as many at a time as there are
+# processors. Inputs are kept in BUILD/fuzz/NAME and grow from run to run; what is found is made as small as it goes and
+# kept in tests/fuzz/crashes/NAME, where replay.sh takes it from then on. Status 1 if anything was found.
+set -eu
+build=$(cd "$1" && pwd) source=$(cd "$2" && pwd) seconds=$3
+shift 3
+work=$build/fuzz
+
+seed() {
+    "$build/tests/fuzz/fuzz_seeds" "$work"
+    find "$source/tests/golden" "$source/tests/conformance" "$source/tests/pictures" "$source/samples" \
+        -name '*.fl' -size -4k -exec cp -t "$work/script" {} +
+    cp "$work"/script/*.fl "$work/simplify/"
+    cp "$source"/tests/pictures/*.fl "$work/draw/"
+    cp "$source"/tests/pictures/images/small.jpg "$work/image/"
+    for session in "$source"/tests/repl/*.session; do
+        sed -n 's/^\(petri\|@[0-9]*\|\.\.\.\)>\{0,1\} //p' "$session" >"$work/repl/$(basename "$session")"
+    done
+}
+
+# minimise NAME FILE
+minimise() {
+    kept=$source/tests/fuzz/crashes/$1/$(sha1sum <"$2" | cut -c -12)
+    mkdir -p "${kept%/*}"
+    cp "$2" "$kept"
+    case $2 in
+    *-crash-* | *-leak-*)
+        "$build/tests/fuzz/fuzz_$1" -minimize_crash=1 -max_total_time=60 -exact_artifact_path="$work/small" "$2" \
+            >/dev/null 2>&1 || true
+        [ ! -s "$work/small" ] || mv "$work/small" "$kept"
+        ;;
+    esac
+    echo "$1: found something, kept in ${kept#"$source"/}; to see it again: build-sanitizers/tests/fuzz/fuzz_$1 ${kept#"$source"/}"
+}
+
+fuzz_one() {
+    name=$1 quiet=0 # these three write what the command writes
+    case $name in
+    arguments | golden | repl) quiet=3 ;;
+    esac
+    rm -f "$work/found-$name"-*
+    cd "$work"
+    if "$build/tests/fuzz/fuzz_$name" -dict="$work/dictionary" -max_len=4096 -timeout=60 -rss_limit_mb=3000 \
+        -max_total_time="$seconds" -close_fd_mask=$quiet -artifact_prefix="$work/found-$name-" -print_final_stats=1 \
+        "$work/$name" >"$work/$name.log" 2>&1; then
+        echo "$name: $(sed -n 's/^stat::number_of_executed_units: *//p' "$work/$name.log") inputs, nothing found"
+        return
+    fi
+    grep -m 3 -e 'runtime error' -e 'ERROR: ' -e 'does not react' -e 'not finite' "$work/$name.log" || tail -n 3 "$work/$name.log"
+    for found in "$work/found-$name"-*; do
+        [ ! -f "$found" ] || minimise "$name" "$found"
+    done
+    return 1
+}
+
+export ASAN_OPTIONS="${ASAN_OPTIONS:-detect_stack_use_after_return=0:allocator_may_return_null=1}"
+export UBSAN_OPTIONS="${UBSAN_OPTIONS:-print_stacktrace=1}"
+export LSAN_OPTIONS="${LSAN_OPTIONS:-suppressions=$source/tests/leaks.txt:print_suppressions=0}"
+if [ "${PETRI_FUZZ_ONE:-}" ]; then
+    fuzz_one "$1"
+    exit
+fi
+# libFuzzer ends without tidying up.
+TMPDIR=$(mktemp -d "$([ -w /dev/shm ] && echo /dev/shm || echo /tmp)/fuzz-XXXXXX")
+export TMPDIR
+trap 'rm -rf "$TMPDIR"' EXIT
+seed
+[ $# -gt 0 ] || set -- $(find "$source/tests/fuzz" -name 'fuzz_*.c' | sed 's|.*/fuzz_||; s|\.c$||' | sort)
+export PETRI_FUZZ_ONE=1
+printf '%s\n' "$@" | xargs -P "$(nproc)" -I NAME sh "$0" "$build" "$source" "$seconds" NAME || exit 1

@@ -1,0 +1,51 @@
+#!/bin/sh
+# interrupt.sh PETRI: Ctrl-C in the middle of what takes long is answered soon. The times are printed; what is checked
+# is generous, for the machine may have much else to do.
+set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cd "$work" || exit 1
+
+# interrupted NAME SCRIPT: a run of a script without limits, ended by Ctrl-C after two seconds.
+interrupted() {
+    printf '%b\n' "$2" >long.fl
+    "$petri" run --work 1000T --memory 3G --threads "$threads" --frames 3 --quiet long.fl >out 2>err </dev/null &
+    job=$!
+    sleep 2
+    start=$(date +%s%N)
+    kill -INT $job 2>/dev/null
+    tries=0
+    while kill -0 $job 2>/dev/null && [ $tries -lt 1000 ]; do
+        sleep 0.01
+        tries=$((tries + 1))
+    done
+    echo "$1, $threads threads: $((($(date +%s%N) - start) / 1000000)) ms"
+    kill -KILL $job 2>/dev/null
+    wait $job
+    status=$?
+    check "$1 is interrupted" status_is 130
+}
+shared='func f(n, v)\n    f(n-1, (!n << (v;v))) if n>0 else v\n'
+groups='func g(n, v)\n    g(n-1, (!group << (v;v))) if n>0 else v\n'
+for threads in 1 2; do
+    interrupted "a sort" '!a x=len(sort(uniform(i+frame)[..1e7]) for i in ..100)'
+    interrupted "noise" '!a x=len(noise(1, (..10000)+frame, ..10000))'
+    interrupted "octaves of noise" '!a x=len(octnoise(1+frame, 1024, 0.999, ..3000, ..3000))'
+    interrupted "a search" 'let a=0*(..1e6)+frame b=0*(..5e5)+frame\n!a x=((b;1) in (a;0))'
+    interrupted "debug" "$shared"'!a x=len(debug(f(60+frame, !x)))'
+    interrupted "loops" '!a x=sum(len(j for j in ..(1e6+frame)) for i in ..1e6)'
+    interrupted "a recursion" 'func h(n)\n    h(n-1)+h(n-1) if n>0 else 1\n!a x=h(60+frame)'
+    interrupted "powers" '!a x=len(((..5e6)+frame)**1.5 for i in ..100)'
+    interrupted "a stream" '!a x=len(normal(frame)[..1e7] for i in ..100)'
+    interrupted "texts" '!a x=len(concat((..1e6)+frame) for i in ..100)'
+    interrupted "a count" '!a x=sum(count((..1e6)+frame, ..1e6)[0] for i in ..100)'
+    interrupted "gravity" '!physics state=:c dimensions=2\n    for i in ..4e5\n        !particle id=i position=i;0\n    !gravity'
+    interrupted "random forces" '!physics state=:c dimensions=2\n    for i in ..1e6\n        !random\n    for i in ..1000\n        !particle id=i'
+    interrupted "a tree of groups" "$groups"'!physics state=:c dimensions=2\n    g(60, !group)'
+    interrupted "many steps" '!physics state=:c dimensions=2 resolution=1e-9\n    for i in ..10000\n        !particle id=i position=i;0 velocity=1'
+done
+finish

@@ -1,0 +1,78 @@
+#!/bin/sh
+# limits.sh PETRI: scripts that ask for more than there is, by few words: each ends, within 3 GiB, with a diagnostic that
+# tells where, and status 1; or it is found a way to do it.
+set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cp "$here"/*.fl "$work"
+cd "$work" || exit 1
+# The address sanitizer takes terabytes of addresses for itself.
+limit=3145728
+(ulimit -v $limit && "$petri" --version) >/dev/null 2>&1 || limit=unlimited
+
+# runs KIBIBYTES ARGUMENTS...: status and output are kept. The seconds are for a machine that has much else to do.
+runs() {
+    most=$1
+    shift
+    (ulimit -v "$most" && exec timeout -s KILL 100 "$petri" "$@") >out 2>err </dev/null
+    status=$?
+}
+# refused SCRIPT CODE ARGUMENTS...
+refused() {
+    script=$1
+    code=$2
+    shift 2
+    runs $limit "$@"
+    check "$script is given up" status_is 1
+    check "$script: the place is told" grep -Eq "^$script\.fl:[0-9]+:[0-9]+: error: .*\[$code\]" err
+}
+# fits KIBIBYTES SCRIPT ARGUMENTS...
+fits() {
+    most=$1
+    script=$2
+    shift 2
+    [ $limit = unlimited ] && most=unlimited
+    runs "$most" "$@"
+    check "$script is done" status_is 0
+}
+
+for script in in_quadratic group_dag steps gravity noise octnoise sorts random debug_dag collide; do
+    refused $script work-limit run --frames 2 $script.fl
+done
+for script in state_memory concat counters particles systems; do
+    refused $script memory-limit run --frames 2 $script.fl
+done
+for script in gradient canvas_dag; do
+    refused $script work-limit render --frame 0 $script.fl -o picture.png
+    check "$script writes nothing" [ ! -e picture.png ]
+done
+refused print_dag memory-limit run --frames 1 --print tree print_dag.fl
+fits $limit eq_dag run --frames 1 eq_dag.fl
+fits $limit seed_dag run --frames 1 seed_dag.fl
+fits 1000000 system_leak run --frames 20000 system_leak.fl
+
+# A chain of modules has an end, and so has what is looked up on the way.
+i=0
+while [ $i -lt 3000 ]; do
+    echo "import a from 'm$((i + 1)).fl'" >m$i.fl
+    i=$((i + 1))
+done
+fits $limit imports run --frames 2 m0.fl
+check "nested imports are told" has err "imports nested too deeply"
+
+# The limits can be set.
+echo '!a x=len(i for i in ..(1000+frame))' >loop.fl
+runs $limit run --frames 1 --work 500 loop.fl
+check "--work lowers the limit" has err "the frame takes more than its 500 units of work"
+runs $limit run --frames 1 --work 1G in_quadratic.fl
+check "--work raises it" has err "more than its 1073741824 units of work"
+echo '!a x=len((..2e7)+frame)' >power.fl
+runs $limit run --frames 1 --memory 100M power.fl
+check "--memory lowers the limit" has err "the frame needs more than its 100 MiB of memory"
+runs $limit run --frames 1 --memory none loop.fl
+check "--memory none is refused" status_is 2
+finish
