@@ -299,7 +299,7 @@ static void add_node(Walk *walk, const DrawNode *node) {
 const List *list_build(Arena *arena, const DrawNode *canvas) {
     List *list = arena_alloc(arena, sizeof *list);
     *list = (List){.linear = draw_flag(canvas, ATTR_LINEAR)};
-    Walk walk = {.build = {arena, list}};
+    Walk walk = {.build = {.arena = arena, .list = list}};
     Level *top = push(&walk, canvas);
     *top = (Level){.node = canvas,
                    .matrix_at = LIST_NONE,
