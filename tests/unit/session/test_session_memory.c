@@ -294,11 +294,14 @@ static PetriStatus act_profile(Stage *stage) {
 static PetriStatus act_records(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
-    bool ready = petri_picture_ready(stage->player.session, &options), records = petri_records(stage->player.session);
+    bool ready = petri_picture_ready(stage->player.session, &options), records = petri_looks_back(stage->player.session);
     PetriStatus status = petri_picture(stage->player.session, &options, &picture);
     if (status == PETRI_OK) {
         assert_true(ready && !records);
-        assert_null(petri_picture_record(picture, 0));
+        PetriPainter *painter = petri_painter_open();
+        PetriRecord record;
+        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // it has not been made
+        petri_painter_close(&painter);
         petri_picture_tell(stage->player.session, picture);
     }
     petri_picture_free(&picture);
