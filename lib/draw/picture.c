@@ -337,7 +337,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
     if (!picture)
-        return PETRI_MEMORY;
+        return session_tell_end(session, PETRI_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", shown.memory_bytes);
     picture->arena.meter = shown.meter;
     Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
