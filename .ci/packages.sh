@@ -38,6 +38,7 @@ command -v openbox        : openbox
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
+test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
 CLANG_NEEDS='command -v clang: clang'
 COVERAGE_NEEDS='command -v llvm-cov: llvm'

@@ -90,6 +90,23 @@ _Noreturn void arena_exhausted(const Arena *arena) {
     arena_leave(arena, ARENA_MEMORY);
 }
 
+// A function of its own, so that no variable of the caller is one that longjmp may lose.
+static ArenaEnd call_with(jmp_buf *escape, void (*call)(void *context), void *context) {
+    switch (setjmp(*escape)) {
+    case 0:
+        call(context);
+        return ARENA_DONE;
+    case ARENA_MEMORY:
+        return ARENA_MEMORY;
+    case ARENA_BUDGET:
+        return ARENA_BUDGET;
+    case ARENA_WORK:
+        return ARENA_WORK;
+    default:
+        return ARENA_INTERRUPTED;
+    }
+}
+
 ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *context), void *context) {
     jmp_buf escape, *outer[ARENA_MOST_PROTECTED] = {NULL};
     assert(count <= ARENA_MOST_PROTECTED);
@@ -98,23 +115,7 @@ ArenaEnd arena_protect(Arena *const arenas[], size_t count, void (*call)(void *c
             outer[i] = arenas[i]->escape;
             arenas[i]->escape = &escape;
         }
-    ArenaEnd end = ARENA_DONE;
-    switch (setjmp(escape)) {
-    case 0:
-        call(context);
-        break;
-    case ARENA_MEMORY:
-        end = ARENA_MEMORY;
-        break;
-    case ARENA_BUDGET:
-        end = ARENA_BUDGET;
-        break;
-    case ARENA_WORK:
-        end = ARENA_WORK;
-        break;
-    default:
-        end = ARENA_INTERRUPTED;
-    }
+    ArenaEnd end = call_with(&escape, call, context);
     for (size_t i = count; i-- > 0;) // backwards: one may be there twice
         if (arenas[i])
             arenas[i]->escape = outer[i];

@@ -1,6 +1,7 @@
 // str.c: see str.h.
 #include "base/str.h"
 
+#include <assert.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -145,6 +146,7 @@ void text_add_code_point(Text *text, uint32_t code_point) {
 }
 
 void text_add_va(Text *text, const char *format, va_list args) {
+    assert(format); // GCC's sanitizer asks, too, and would then go on with NULL, of which GCC warns
     va_list again;
     va_copy(again, args);
     int len = vsnprintf(NULL, 0, format, args);

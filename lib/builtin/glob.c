@@ -119,10 +119,12 @@ static void glob_found(Glob *glob, Str path) {
 }
 
 // Adds up the names of a directory, or copies as many as there is room for. Nothing is allocated while it is open.
-static void scan_directory(const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
+static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
     *count = *size = 0;
     DIR *directory = opendir(path);
+    if (!directory && errno == ENOMEM)
+        arena_exhausted(arena);
     if (!directory)
         return;
     for (const struct dirent *entry; (entry = readdir(directory));) {
@@ -153,10 +155,10 @@ static size_t list_directory(Glob *glob, const char *path, Str **names) {
         return 0;
     }
     size_t count = 0, size = 0;
-    scan_directory(path, NULL, NULL, &count, &size);
+    scan_directory(glob->arena, path, NULL, NULL, &count, &size);
     *names = arena_alloc_array(glob->arena, count, sizeof **names);
     char *bytes = arena_alloc(glob->arena, size);
-    scan_directory(path, *names, bytes, &count, &size);
+    scan_directory(glob->arena, path, *names, bytes, &count, &size);
     return count;
 }
 

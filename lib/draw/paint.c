@@ -96,7 +96,7 @@ static bool draw_sheet(Canvas *canvas, const Sheet *sheet, double width, double 
     if (sheet->pixels)
         draw_image_of(cr, sheet->pixels);
     else if (sheet->canvas)
-        draw_tree(canvas, sheet->canvas);
+        draw_list(canvas, list_build(&canvas->painter->arena, sheet->canvas));
     else if (sheet->picture->automatic)
         draw_automatic(canvas, sheet->picture->automatic);
     cairo_status_t status = cairo_status(cr);

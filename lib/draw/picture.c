@@ -155,6 +155,19 @@ static bool names_last(const Schema *schema, const Node *node) {
     return false;
 }
 
+// Whether something in a canvas shows the picture of another node.
+static bool shows_others(const Schema *schema, const Node *node, int depth) {
+    enum { DEEPEST = 1000 };
+    if ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&
+        (attr_value(schema, node, ROW_IMAGE_IMAGE_ID).len > 0 ||
+         attr_value(schema, node, ROW_IMAGE_TEXTURE_ID).len > 0))
+        return true;
+    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++)
+        if (shows_others(schema, node->children[i], depth + 1))
+            return true;
+    return false;
+}
+
 static bool looks_back(const Schema *schema, const Node *node, NodeKind kind, int depth) {
     enum { DEEPEST = 100 };
     if (kind == KIND_FEEDBACK || kind == KIND_REFERENCE || names_last(schema, node) ||
@@ -162,7 +175,8 @@ static bool looks_back(const Schema *schema, const Node *node, NodeKind kind, in
         return true;
     for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
         NodeKind child = schema_kind_in(schema, node->children[i], PLACE_PICTURES);
-        if (child < KIND_COUNT && child != KIND_CANVAS && looks_back(schema, node->children[i], child, depth + 1))
+        if (child == KIND_CANVAS ? shows_others(schema, node->children[i], 0)
+                                 : child < KIND_COUNT && looks_back(schema, node->children[i], child, depth + 1))
             return true;
     }
     return false;
@@ -323,7 +337,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
     if (!picture)
-        return PETRI_MEMORY;
+        return session_tell_end(session, PETRI_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", shown.memory_bytes);
     picture->arena.meter = shown.meter;
     Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};

@@ -172,7 +172,13 @@ static Texture *make_canvas(Walk *walk, const DrawNode *node, int width, int hei
         texture_free(texture);
         give_up(walk);
     }
-    return texture;
+    if (!draw_flag(node, ATTR_LINEAR))
+        return texture;
+    Texture *linear = texture_of_linear(texture);
+    texture_free(texture);
+    if (!linear)
+        give_up(walk);
+    return linear;
 }
 
 static Texture *mix_plainly(Walk *walk, const DrawNode *node, Texture *const *inputs, uint32_t count, int width,

@@ -42,5 +42,5 @@ const DrawNode *pictures_direct(const DrawNode *node, int width, int height) {
             return NULL;
         node = only;
     }
-    return node;
+    return node && draw_flag(node, ATTR_LINEAR) ? NULL : node;
 }

@@ -174,3 +174,34 @@ void texture_sample(const Texture *texture, const Sampler *sampler, double u, do
             color[k] += share * part[k];
     }
 }
+
+uint32_t texture_linear_pixel(uint32_t pixel) {
+    uint32_t alpha = pixel >> 24, out = alpha << 24;
+    for (unsigned k = 0; k < 24 && alpha > 0; k += 8) {
+        uint32_t c = ((pixel >> k & 255) * 255 + alpha / 2) / alpha;
+        out |= (uint32_t)lrintf(texture_decode(c > 255 ? 255 : c) * (float)alpha) << k;
+    }
+    return out;
+}
+
+void texture_linear_row(const Texture *texture, int y, uint32_t *row) {
+    size_t start = (size_t)y * (size_t)texture->width;
+    for (size_t x = 0; x < (size_t)texture->width; x++) {
+        const float *color = texture->linear ? texture->linear + 4 * (start + x) : NULL;
+        row[x] = 0;
+        for (unsigned k = 0; k < 4; k++) {
+            unsigned shift = k < 3 ? 16 - 8 * k : 24, byte = color ? 0 : texture->bytes[start + x] >> shift & 255;
+            float c = color ? color[k] : k < 3 ? texture_decode(byte) : (float)byte / 255;
+            row[x] |= (uint32_t)lrintf(255 * (c > 0 ? c < 1 ? c : 1 : 0)) << shift;
+        }
+    }
+}
+
+Texture *texture_of_linear(const Texture *bytes) {
+    Texture *texture = texture_new(bytes->width, bytes->height, true);
+    size_t count = texture ? (size_t)bytes->width * (size_t)bytes->height : 0;
+    for (size_t i = 0; i < count; i++)
+        for (unsigned k = 0; k < 4; k++)
+            texture->linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+    return texture;
+}

@@ -121,9 +121,6 @@ bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the
 // same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
-// The same for the file of a `!record` node, by number: only where the script may write (PetriOptions.write_folders).
-// PETRI_INVALID, too, beyond the last and for one that may not be written, of which petri_picture told.
-PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *painter, size_t index);
 // Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
 // called by the thread that uses the session, when no other uses the picture.
 void petri_picture_tell(PetriSession *session, PetriPicture *picture);

@@ -256,8 +256,9 @@ uint32_t phys_group_parent(const PhysSystem *system, uint32_t group) {
     return ((const Group *)system->groups.bytes)[group].parent;
 }
 
-void phys_rest(PhysSystem *system) {
+bool phys_rest(PhysSystem *system) {
     system->stepped = false;
+    return !system->failed;
 }
 
 uint32_t phys_particle_count(const PhysSystem *system) {

@@ -152,8 +152,8 @@ typedef struct PhysResult {
 // Simulates one frame (spec section 4). Deterministic to the last bit.
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 
-// A frame in which nothing is simulated.
-void phys_rest(PhysSystem *system);
+// A frame in which nothing is simulated. False if memory was used up since phys_begin.
+bool phys_rest(PhysSystem *system);
 
 uint32_t phys_particle_count(const PhysSystem *system);
 // The n doubles of a particle, by handle; the velocity follows the position. They stay where they are until phys_begin,

@@ -221,7 +221,7 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
     if (settings->time > last) {
         clock = simulate(&tree, reader, settings, last, clock, &steps);
     } else {
-        phys_rest(tree.engine);
+        tree.failed |= !phys_rest(tree.engine);
         mirror_store(&tree, false);
     }
     if (!faultless)

@@ -72,8 +72,9 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
     Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
     StateSlot slot = id.len ? state_slot(tree->frame->state, physics_key(tree, id, false, numbers)) : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT) {
-        reader_report(&reader, "missing-id", "",
-                      id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
+        if (!id.len || !state_key_valid(id)) // else memory is used up, which the state tells
+            reader_report(&reader, "missing-id", "",
+                          id.len ? STR("this id cannot be a state key; ignored") : STR("no id; ignored"));
         return false;
     }
     if (physics_find_slot(tree, slot) != PHYSICS_NO_BODY) {

@@ -322,7 +322,9 @@ static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue
 
 static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *attr) {
     const double *numbers = value_numbers(&v);
-    if (!value_is_numeric(v) || (even && v.len % 2))
+    if (even && v.len % 2) // without its partner a number is no point
+        v.len--;
+    if (!value_is_numeric(v))
         return false;
     for (uint32_t i = 0; i < v.len; i++)
         if (!is_measure(numbers[i]))
@@ -438,9 +440,6 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
                 attr->as.word = MIX_UNKNOWN;
                 ++*count;
             }
-        } else if (found->type == TYPE_COMPOSITE && attr->as.word == COMPOSITE_NONE) {
-            reader_report_attr(reader, "bad-attribute", ATTR_COMPOSITE,
-                               STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
         } else {
             ++*count;
         }

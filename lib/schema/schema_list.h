@@ -55,11 +55,12 @@ TYPE(POINTS, POINTS, 0, 0, true, "x;y;x;y…")
 TYPE(COLOR, COLOR, -INFINITY, INFINITY, false, "grey, r;g;b or r;g;b;a, each from 0 to 1")
 TYPE(FLAG, FLAG, 0, 0, false, "true or false")
 TYPE(TEXT, TEXT, 0, 0, false, "text")
-TYPE(WEIGHT, WEIGHT, 1, 1000, false, "100 to 1000, or a word such as :bold")
+TYPE(WEIGHT, WEIGHT, 0, 1000, false, "0 to 1000, or a word such as :bold")
 TYPE(JOIN, WORD, 0, 0, false, ":miter, :round or :bevel")
 TYPE(CAP, WORD, 0, 0, false, ":butt, :round or :square")
-TYPE(FILL_TYPE, WORD, 0, 0, false, ":winding or :even_odd")
+TYPE(FILL_TYPE, WORD, 0, 0, false, ":winding, :even_odd, :inverse_winding or :inverse_even_odd")
 TYPE(SLANT, WORD, 0, 0, false, ":upright, :oblique or :italic")
+TYPE(FONT_WIDTH, WORD, 0, 0, false, "a word such as :condensed")
 TYPE(COMPOSITE, WORD, 0, 0, false, "a word such as :over, :add, :multiply or :dst_out")
 // Of pictures.
 TYPE(AMOUNT, MEASURE, -INFINITY, INFINITY, false, "number")
@@ -271,6 +272,18 @@ NAME(UV_MAP, "uv_map")
 NAME(VERTICES, "vertices")
 NAME(FACES, "faces")
 NAME(UV, "uv")
+NAME(FONT_FAMILY, "font_family")
+NAME(FONT_SIZE, "font_size")
+NAME(FONT_WEIGHT, "font_weight")
+NAME(FONT_WIDTH, "font_width")
+NAME(FONT_SLANT, "font_slant")
+NAME(DITHER, "dither")
+NAME(MOVE_TO, "move_to")
+NAME(IMAGE_ID, "image_id")
+NAME(INTERVALS, "intervals")
+NAME(SHADOW_ONLY, "shadow_only")
+NAME(RATIO, "ratio")
+NAME(MODE, "mode")
 
 #define STRENGTH_ROW(kind) \
     ATTR(kind, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "factor of the force")
@@ -398,12 +411,19 @@ ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the valu
     ATTR(kind, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "enlarge") \
     ATTR(kind, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "clockwise")
 #define PAINT_ROWS(kind) \
-    ATTR(kind, COLOR, COLOR, TO_LOOK(color), INHERITED(1, "1"), "", "takes the place of a gradient that would be inherited") \
-    ATTR(kind, STROKE_WIDTH, WIDTH, TO_LOOK(stroke_width), INHERITED(1, "1"), "", "0 is the thinnest line that there is") \
+    ATTR(kind, COLOR, COLOR, TO_LOOK(color), INHERITED(0, "0"), "", "takes the place of a source that would be inherited") \
+    ATTR(kind, STROKE_WIDTH, WIDTH, TO_LOOK(stroke_width), INHERITED(0, "0"), "", "0 is one pixel, whatever the scale") \
     ATTR(kind, STROKE_JOIN, JOIN, TO_LOOK(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
     ATTR(kind, STROKE_CAP, CAP, TO_LOOK(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
     ATTR(kind, COMPOSITE, COMPOSITE, TO_LOOK(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there") \
-    ATTR(kind, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges")
+    ATTR(kind, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges, but for text, which always has them") \
+    ATTR(kind, DITHER, FLAG, NOWHERE, IS(false), "", "ignored")
+#define FONT_ROWS(kind) \
+    ATTR(kind, FONT_FAMILY, TEXT, TO_LOOK(family), INHERITED_TEXT("Helvetica"), "", "one or more names, with commas; the first that there is") \
+    ATTR(kind, FONT_SIZE, WIDTH, TO_LOOK(font_size), INHERITED(20, "20"), "", "") \
+    ATTR(kind, FONT_WEIGHT, WEIGHT, TO_LOOK(weight), INHERITED(400, ":normal"), "", "") \
+    ATTR(kind, FONT_WIDTH, FONT_WIDTH, TO_LOOK(width), INHERITED(4, ":normal"), "", "") \
+    ATTR(kind, FONT_SLANT, SLANT, TO_LOOK(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
 #define SHAPE_ROWS(kind) \
     ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape by itself; the current path is left alone") \
     ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline by itself; the current path is left alone")
@@ -412,12 +432,17 @@ ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the valu
 
 NODE(CANVAS, "canvas", PICTURE, DRAWING, "a sheet to draw on: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)
+ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear light, and combine as such")
+ATTR(CANVAS, COLORBITS, INTEGER, NOWHERE, IS(8), "", "of a linear one; always drawn with 8")
 TRANSFORM_ROWS(CANVAS)
 PAINT_ROWS(CANVAS)
+FONT_ROWS(CANVAS)
 
 NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "what is set here, or clipped inside, holds for what is inside")
+ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, TOLD(FILL_WINDING, ":winding"), "", "of the path that begins here")
 TRANSFORM_ROWS(CANVAS_GROUP)
 PAINT_ROWS(CANVAS_GROUP)
+FONT_ROWS(CANVAS_GROUP)
 
 NODE(TRANSFORM, "transform", DRAWING, DRAWING, "move, enlarge and turn what is inside")
 TRANSFORM_ROWS(TRANSFORM)
@@ -426,99 +451,133 @@ NODE(PAINT, "paint", DRAWING, DRAWING, "colour and manner of drawing for what is
 PAINT_ROWS(PAINT)
 
 NODE(FONT, "font", DRAWING, DRAWING, "font for what is inside")
-ATTR(FONT, FAMILY, TEXT, TO_LOOK(family), INHERITED_TEXT("sans"), "", "one or more names, with commas; the first that there is")
-ATTR(FONT, SIZE, WIDTH, TO_LOOK(font_size), INHERITED(14, "14"), "", "")
-ATTR(FONT, WEIGHT, WEIGHT, TO_LOOK(weight), INHERITED(400, ":normal"), "", "")
-ATTR(FONT, SLANT, SLANT, TO_LOOK(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
+FONT_ROWS(FONT)
+ALIAS(FONT, FAMILY, FONT_FAMILY, "font_family", TEXT, TO_LOOK(family), "")
+ALIAS(FONT, SIZE, FONT_SIZE, "font_size", WIDTH, TO_LOOK(font_size), "")
+ALIAS(FONT, WEIGHT, FONT_WEIGHT, "font_weight", WEIGHT, TO_LOOK(weight), "")
+ALIAS(FONT, SLANT, FONT_SLANT, "font_slant", SLANT, TO_LOOK(slant), "")
 
 NODE(LAYER, "layer", DRAWING, DRAWING, "draw what is inside by itself, then all of it at once")
-ATTR(LAYER, SIZE, SIZE, NOWHERE, TOLD(0, "no limit"), "", "what lies outside of it is cut off")
-ATTR(LAYER, ORIGIN, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner of the size")
+ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "what lies outside of it is cut off, to the end of the group around it; without it nothing is drawn")
+ATTR(LAYER, ORIGIN, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner of the size, before the layer's own transform")
 ATTR(LAYER, ALPHA, MEASURE, NOWHERE, IS(1), "", "0 is invisible")
 TRANSFORM_ROWS(LAYER)
 PAINT_ROWS(LAYER)
+FONT_ROWS(LAYER)
 
 NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; what is inside adds to it, then fills or strokes it")
-ATTR(PATH, FILL_TYPE, FILL_TYPE, TO_LOOK(fill_type), TOLD(FILL_WINDING, ":winding"), "", "what is inside where the path crosses itself")
-PAINT_ROWS(PATH)
+ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, TOLD(FILL_WINDING, ":winding"), "", "what is inside where the path crosses itself; an inverse one is all outside")
 
 NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another piece of the path")
 ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
 
-NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from where the path ends")
+NODE(LINE_TO, "line_to", DRAWING, NOTHING, "a straight line from where the path ends, at first from 0;0")
 ATTR(LINE_TO, POINT, POINT, NOWHERE, NONE, "", "")
 
-NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from where the path ends")
+NODE(CURVE_TO, "curve_to", DRAWING, NOTHING, "a Bézier curve from where the path ends, at first from 0;0")
 ATTR(CURVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
-ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "the control point; with c2, that of the beginning; without both, a straight line")
+ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "the control point; with c2, that of the beginning; without it nothing is added")
 ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "control point of the end")
 
 NODE(ARC, "arc", DRAWING, NOTHING, "part of an ellipse, joined to the path by a line")
 ATTR(ARC, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre")
 ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
 ATTR(ARC, START, MEASURE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
-ATTR(ARC, END, MEASURE, NOWHERE, TOLD(NAN, "start + sweep"), "turns", "")
-ATTR(ARC, SWEEP, MEASURE, NOWHERE, IS(1), "turns", "end goes before it")
+ATTR(ARC, SWEEP, MEASURE, NOWHERE, TOLD(NAN, "end - start"), "turns", "whole turns do not count; this or end is needed")
+ATTR(ARC, END, MEASURE, NOWHERE, NONE, "turns", "sweep goes before it")
+ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another piece of the path in place of the line")
 
-NODE(RECT, "rect", DRAWING, SOURCE, "a rectangle")
-ATTR(RECT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner")
-ATTR(RECT, SIZE, SIZE, NOWHERE, NONE, "", "")
+NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
+ATTR(RECT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "a corner, top left unless the size is negative")
+ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "")
 ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "of its corners, shrunk to what fits")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
 
-NODE(ELLIPSE, "ellipse", DRAWING, SOURCE, "an ellipse or a circle")
+NODE(ELLIPSE, "ellipse", DRAWING, NOTHING, "an ellipse or a circle")
 ATTR(ELLIPSE, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre")
 ATTR(ELLIPSE, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
 SHAPE_ROWS(ELLIPSE)
 PAINT_ROWS(ELLIPSE)
 
-NODE(LINE, "line", DRAWING, SOURCE, "a line through points")
+NODE(LINE, "line", DRAWING, NOTHING, "a line through points")
 ATTR(LINE, POINTS, POINTS, NOWHERE, NONE, "", "")
-ATTR(LINE, CURVE, MEASURE, NOWHERE, IS(0), "", "how round its corners are: 0 not at all, 1 as far as the middles of its pieces")
+ATTR(LINE, CURVE, MEASURE, NOWHERE, IS(0), "turns", "corners that turn by no more than this are curves; 0: none, 0.25 and more: all")
 ATTR(LINE, CLOSE, FLAG, NOWHERE, IS(false), "", "join the last point to the first")
 SHAPE_ROWS(LINE)
 PAINT_ROWS(LINE)
 
 NODE(CLOSE, "close", DRAWING, NOTHING, "a straight line to where this piece of the path began")
 
-NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path, until the group, transform, paint, font or layer ends")
-ATTR(CLIP, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges")
+NODE(CLIP, "clip", DRAWING, NOTHING, "draw only inside the path, until the group, transform or layer ends")
 
-NODE(FILL, "fill", DRAWING, SOURCE, "fill the path")
+NODE(MASK, "mask", DRAWING, NOTHING, "draw only outside of the path, until the group, transform or layer ends")
+
+NODE(FILL, "fill", DRAWING, NOTHING, "fill the path")
 PAINT_ROWS(FILL)
 
-NODE(STROKE, "stroke", DRAWING, SOURCE, "draw along the path")
+NODE(STROKE, "stroke", DRAWING, NOTHING, "draw along the path")
 PAINT_ROWS(STROKE)
 
-NODE(TEXT, "text", DRAWING, SOURCE, "one line of text")
+NODE(TEXT, "text", DRAWING, NOTHING, "one line of text")
 ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
 ATTR(TEXT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "its middle; with center=false where its base line begins")
 ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
-ATTR(TEXT, FILL, FLAG, NOWHERE, IS(true), "", "draw the letters")
-ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw their outlines; if both are false, they are added to the path")
+ATTR(TEXT, FILL, FLAG, NOWHERE, TOLD(true, "true unless stroke"), "", "draw the letters")
+ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw their outlines")
 PAINT_ROWS(TEXT)
+FONT_ROWS(TEXT)
 
-NODE(IMAGE, "image", DRAWING, NOTHING, "a picture from a PNG or JPEG file")
+NODE(IMAGE, "image", DRAWING, NOTHING, "a picture from a PNG or JPEG file, or of another node")
 ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
+ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "the id of a node whose picture it is")
+ALIAS(IMAGE, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
 ATTR(IMAGE, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner")
-ATTR(IMAGE, SIZE, SIZE, NOWHERE, TOLD(0, "that of the file"), "", "of a box that it is stretched to")
+ATTR(IMAGE, SIZE, SCALE, NOWHERE, TOLD(0, "that of the picture"), "", "of a box that it is stretched to")
 ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "of a box that it is put into, as large as it goes")
 ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "of a box that it fills; what does not fit is cut off")
-ATTR(IMAGE, COMPOSITE, COMPOSITE, TO_LOOK(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there")
 
-NODE(GRADIENT, "gradient", SOURCE, STOP, "colours that flow into each other, for the node that it stands in and what is inside")
-ATTR(GRADIENT, START, POINT, NOWHERE, TOLD(0, "0;0"), "", "of a linear one")
+NODE(GRADIENT, "gradient", SOURCE, STOP, "colours that flow into each other, for what is drawn after it")
+ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "of a linear one")
 ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "of a linear one")
-ATTR(GRADIENT, RADIUS, MEASURE, NOWHERE, NONE, "", "of a radial one")
+ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "of a radial one: one, or that along x and that along y")
 ATTR(GRADIENT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre of a radial one")
+ATTR(GRADIENT, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "of a radial one")
 
 NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
 ATTR(STOP, OFFSET, MEASURE, NOWHERE, TOLD(NAN, "evenly spread"), "", "from 0 to 1")
-ATTR(STOP, COLOR, COLOR, NOWHERE, IS(1), "", "")
+ATTR(STOP, COLOR, COLOR, NOWHERE, TOLD(0, "that in force"), "", "")
 
-NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for the node that it stands in and what is inside")
-ATTR(COLOR, COLOR, COLOR, TO_LOOK(color), IS(1), "", "")
+NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for what is drawn after it")
+ATTR(COLOR, COLOR, COLOR, NOWHERE, TOLD(0, "that in force"), "", "")
+
+NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for what is drawn after it")
+ATTR(PATTERN, FILENAME, TEXT, NOWHERE, NONE, "", "")
+ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "the id of a node whose picture it is")
+ALIAS(PATTERN, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
+ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "of the three, what is written first is applied first")
+ATTR(PATTERN, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "")
+ATTR(PATTERN, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "clockwise")
+
+NODE(BLEND, "blend", SOURCE, SOURCE, "the two sources inside, combined, for what is drawn after it")
+ATTR(BLEND, RATIO, MEASURE, NOWHERE, NONE, "", "part of the second one")
+ATTR(BLEND, MODE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second one combines with the first")
+
+NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur what is drawn after it")
+ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
+
+NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind what is drawn after it")
+ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
+ATTR(SHADOW, OFFSET, POINT, NOWHERE, TOLD(0, "0;0"), "", "where it is from what casts it")
+ATTR(SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
+ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "do not draw what casts it")
+
+NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move what is drawn after it")
+ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "how far")
+
+NODE(DASH, "dash", DRAWING, NOTHING, "interrupt lines that are drawn after it")
+ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "on;off;on;off…, an even number")
+ATTR(DASH, OFFSET, MEASURE, NOWHERE, IS(0), "", "where in the intervals each line begins")
 #include "schema/canvas3d_list.h"
 // clang-format on
 
@@ -536,6 +595,7 @@ ATTR(COLOR, COLOR, COLOR, TO_LOOK(color), IS(1), "", "")
 #undef TRANSFORM_ROWS
 #undef PAINT_ROWS
 #undef SHAPE_ROWS
+#undef FONT_ROWS
 #undef SOURCE_ROWS
 #undef PROGRAM_ROWS
 #undef BLUR_ROWS

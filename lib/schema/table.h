@@ -47,6 +47,7 @@ typedef enum PlaceKind {
     PLACE_HAND,    // pointer and keys
     PLACE_DRAWING, // sources, too, may stand where one draws
     PLACE_SOURCE,
+    PLACE_FILTER, // likewise
     PLACE_STOP,
     PLACE_SCENE3D,
 } PlaceKind;
@@ -78,7 +79,7 @@ typedef enum AttrShape {
 // The meanings of words.
 enum { JOIN_MITER, JOIN_ROUND, JOIN_BEVEL };
 enum { CAP_BUTT, CAP_ROUND, CAP_SQUARE };
-enum { FILL_WINDING, FILL_EVEN_ODD };
+enum { FILL_WINDING, FILL_EVEN_ODD, FILL_INVERSE_WINDING, FILL_INVERSE_EVEN_ODD };
 enum { SLANT_UPRIGHT, SLANT_OBLIQUE, SLANT_ITALIC };
 enum { TONEMAP_NONE, TONEMAP_REINHARD, TONEMAP_ACES, TONEMAP_AGX, TONEMAP_AGX_PUNCHY };
 enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };

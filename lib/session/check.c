@@ -49,25 +49,39 @@ typedef struct Heard {
     Arena arena;
     PetriDiagnostic *items;
     size_t count;
+    bool lost; // something, for want of memory
 } Heard;
 
 static const char *keep(Heard *heard, const char *text) {
     return text ? str_to_c(&heard->arena, str_from(text)) : NULL;
 }
 
+typedef struct Hearing {
+    Heard *heard;
+    const PetriDiagnostic *diagnostic;
+} Hearing;
+
+static void add_heard(void *context) {
+    const Hearing *hearing = context;
+    Heard *heard = hearing->heard;
+    size_t size = heard->count * sizeof *heard->items;
+    heard->items = arena_grow(&heard->arena, heard->items, size, size + sizeof *heard->items);
+    PetriDiagnostic *item = &heard->items[heard->count];
+    *item = *hearing->diagnostic;
+    item->file = keep(heard, item->file);
+    item->text = keep(heard, item->text);
+    item->code = keep(heard, item->code);
+    item->rendered = keep(heard, item->rendered);
+    heard->count++;
+}
+
 static void hear(void *host, const PetriDiagnostic *diagnostic) {
     Heard *heard = host;
+    Arena *arena = &heard->arena;
     if (diagnostic->code && strcmp(diagnostic->code, "undrawn-node") == 0)
         return; // the script is right, petri shows less of it
-    size_t size = heard->count * sizeof *heard->items;
-    heard->arena.escape = heard->scratch->arena.escape; // within the call that tells it
-    heard->items = arena_grow(&heard->arena, heard->items, size, size + sizeof *heard->items);
-    PetriDiagnostic *item = &heard->items[heard->count++];
-    *item = *diagnostic;
-    item->file = keep(heard, diagnostic->file);
-    item->text = keep(heard, diagnostic->text);
-    item->code = keep(heard, diagnostic->code);
-    item->rendered = keep(heard, diagnostic->rendered);
+    Hearing hearing = {heard, diagnostic};
+    heard->lost |= arena_protect(&arena, 1, add_heard, &hearing) != ARENA_DONE;
 }
 
 static bool comes_before(const PetriDiagnostic *a, const PetriDiagnostic *b) {
@@ -109,7 +123,7 @@ static PetriStatus look_over(PetriSession *scratch, const char *file, const char
     if (status == PETRI_OK)
         status = petri_step(scratch);
     if (status == PETRI_OK)
-        status = session_protect(scratch, NULL, look_at_windows, NULL);
+        status = session_tell_end(scratch, session_protect(scratch, NULL, look_at_windows, NULL), "the check");
     return status;
 }
 
@@ -119,12 +133,13 @@ static PetriStatus check(PetriSession *session, const char *file, const char *te
     PetriStatus status = PETRI_MEMORY;
     arena_init(&heard.arena, "check", SIZE_MAX);
     open_scratch(session, &heard);
-    if (heard.scratch)
+    bool told = heard.scratch != NULL;
+    if (told)
         status = look_over(heard.scratch, file, text, length);
     petri_close(&heard.scratch);
     tell_in_order(session, &heard);
     arena_free(&heard.arena);
-    return status;
+    return heard.lost || !told ? session_tell_end(session, PETRI_MEMORY, "the check") : status;
 }
 
 PetriStatus petri_check(PetriSession *session, const char *file) {

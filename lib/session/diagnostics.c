@@ -94,13 +94,23 @@ static void tell(PetriSession *session, void *context) {
     arena_rewind(&session->text_arena, mark);
 }
 
-// Within a protected call, one that cannot be made takes that call with it; else it is lost.
+// Takes no memory, so that a host hears that there is none.
+static void tell_plainly(PetriSession *session, const Diag *diag) {
+    static const char *const levels[] = {"error", "warning", "note"};
+    char text[200], rendered[240];
+    snprintf(text, sizeof text, "%.*s", STR_ARGS(str_cut(diag->text, sizeof text - 1)));
+    snprintf(rendered, sizeof rendered, "%s: %s\n", levels[diag->level], text);
+    PetriDiagnostic plain = {.level = (PetriLevel)diag->level, .text = text, .code = diag->code, .rendered = rendered};
+    diagnostics_pass_on(session, &plain);
+}
+
+// Within a protected call, one that cannot be made takes that call with it.
 void session_tell_keyed(PetriSession *session, const Diag *diag, Str key) {
     Telling telling = {diag, key};
     if (session->text_arena.escape)
         tell(session, &telling);
-    else
-        session_protect(session, NULL, tell, &telling);
+    else if (session_protect(session, NULL, tell, &telling) == PETRI_MEMORY)
+        tell_plainly(session, diag);
 }
 
 void session_tell(PetriSession *session, const Diag *diag) {

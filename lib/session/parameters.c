@@ -318,8 +318,10 @@ bool petri_parameter(PetriSession *session, size_t number, PetriParameter *param
     if (!session || !parameter)
         return false;
     Request request = {number, parameter, false};
-    return session->config.program && session_protect(session, NULL, find_parameter, &request) == PETRI_OK &&
-           request.found;
+    if (!session->config.program)
+        return false;
+    PetriStatus status = session_protect(session, NULL, find_parameter, &request);
+    return session_tell_end(session, status, "the answer") == PETRI_OK && request.found;
 }
 
 typedef struct Setting {

@@ -14,7 +14,8 @@ typedef struct Request {
 static bool ask(PetriSession *session, SessionCall *call, size_t system, uint32_t number, void *out) {
     Request request = {system, number, out, false};
     arena_reset(&session->view_arena);
-    return session_protect(session, NULL, call, &request) == PETRI_OK && request.found;
+    PetriStatus status = session_protect(session, NULL, call, &request);
+    return session_tell_end(session, status, "the answer") == PETRI_OK && request.found;
 }
 
 // The printed prefix, made once a frame.

@@ -10,10 +10,12 @@ enum { SECONDS_BETWEEN = 5 };
 
 bool state_file_restore(StateFile *file, PetriSession *session, const char *name) {
     file->name = name;
-    file->unread = name != NULL && petri_restore(session, name) != PETRI_OK;
+    PetriStatus status = name == NULL ? PETRI_OK : petri_restore(session, name);
+    file->unread = status != PETRI_OK;
     file->saved = clock_seconds();
     if (file->unread) {
-        message("it starts afresh; '%s' is left alone and nothing is saved", name);
+        message("%sit starts afresh; '%s' is left alone and nothing is saved",
+                status == PETRI_MEMORY ? "out of memory: " : "", name);
     }
     return !file->unread;
 }

@@ -155,7 +155,11 @@ static bool plot_frames(Repl *repl, const char *expression, int64_t count) {
         plot(repl, values, first, now - first + 1);
     } else {
         history_goto(&repl->history, repl->session, now, &why);
-        repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "there is nothing to plot");
+        repl_fail(repl, "%s",
+                  stopped                  ? "interrupted"
+                  : why.length > 0         ? why.data
+                  : status == PETRI_MEMORY ? "out of memory"
+                                           : "there is nothing to plot");
     }
     free(values);
     return status == PETRI_OK && !repl->failed;

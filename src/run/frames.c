@@ -79,11 +79,7 @@ int frames_open(Frames *frames, const Host *host, Options *options) {
 }
 
 bool frames_load(Frames *frames) {
-    PetriStatus status = script_load(frames->session, frames->options->script);
-    if (status == PETRI_MEMORY) {
-        message("out of memory");
-    }
-    return status == PETRI_OK;
+    return script_load(frames->session, frames->options->script) == PETRI_OK;
 }
 
 double frames_fps(const Frames *frames) {
@@ -124,6 +120,7 @@ bool frames_due(const Frames *frames) {
 
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->early);
+    int64_t number = petri_frame(frames->session).number + 1; // of the frame, even if it is given up
     working = frames->session;
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
     working = NULL;
@@ -134,7 +131,7 @@ bool frames_step(Frames *frames) {
     }
     if (status != PETRI_OK) {
         progress_erase(&frames->progress);
-        message("stopped in frame %" PRId64 "%s", petri_frame(frames->session).number,
+        message("stopped in frame %" PRId64 "%s", number,
                 status == PETRI_MEMORY  ? ": out of memory"
                 : status == PETRI_LIMIT ? "; '--work' and '--memory' set other limits"
                                         : "");

@@ -140,7 +140,7 @@ static int run_frames(Run *run) {
     progress_erase(&frames->progress);
     output_flush(&run->output);
     frames_end(frames, going);
-    bool recorded = trajectory_close(&run->trajectory);
+    bool recorded = trajectory_close(&run->trajectory, going);
     report_profile(run);
     report_summary(run);
     if (frames->options->stats) {
@@ -157,11 +157,13 @@ static int run_frames(Run *run) {
 }
 
 static int list_parameters(Run *run) {
+    uint64_t errors = petri_diagnostic_count(run->frames.session, PETRI_ERROR);
     if (parameters_list(run->frames.session, &run->output) == 0 && run->frames.options->verbosity > LOG_QUIET) {
         message("%s has no parameters; a line such as `let SIZE=SIZE or 20 -- 1..100 how large` makes one",
                 script_shown(run->frames.options->script));
     }
-    return STATUS_DONE;
+    // A list that memory has cut is no result.
+    return petri_diagnostic_count(run->frames.session, PETRI_ERROR) == errors ? STATUS_DONE : STATUS_FAILED;
 }
 
 static int run_session(Run *run) {

@@ -157,10 +157,14 @@ static void add_csv(Trajectory *trajectory, PetriSession *session) {
 }
 
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
+    uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
     if (!trajectory->csv) {
         add_xyz(&trajectory->output, session);
     } else {
         add_csv(trajectory, session);
+    }
+    if (petri_diagnostic_count(session, PETRI_ERROR) != errors) { // a particle is missing for want of memory
+        trajectory->output.error = ENOMEM;
     }
     atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment
     trajectory->whole = trajectory->output.written + trajectory->output.used;
@@ -169,13 +173,13 @@ void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     }
 }
 
-bool trajectory_close(Trajectory *trajectory) {
+bool trajectory_close(Trajectory *trajectory, bool good) {
     if (!trajectory->open) {
         return true;
     }
     bool done = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
     unfinished_end(trajectory->unfinished);
-    if (!done) {
+    if (!done || (!good && trajectory->whole == 0)) {
         replace_abandon(&trajectory->file);
     } else if (!replace_commit(&trajectory->file)) {
         done = complain(trajectory, errno);

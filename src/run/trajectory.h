@@ -26,7 +26,8 @@ bool trajectory_open(Trajectory *trajectory, const char *path);
 // Adds the last frame of a session. If it cannot be written there is a message, and `failed` is set.
 void trajectory_add(Trajectory *trajectory, PetriSession *session);
 // Puts the file in its place, as does a signal that ends the process at once, with the frames that are whole. False
-// after a message if that or an earlier writing failed; the old file is then untouched.
-bool trajectory_close(Trajectory *trajectory);
+// after a message if that or an earlier writing failed; the old file is then untouched, and if no frame is whole in a
+// run that was not good.
+bool trajectory_close(Trajectory *trajectory, bool good);
 
 #endif

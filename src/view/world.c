@@ -83,9 +83,6 @@ static void watch_sources(World *world) {
 static int load_first(World *world) {
     PetriStatus status = script_load(world->session, world->options->script);
     if (status != PETRI_OK) {
-        if (status == PETRI_MEMORY) {
-            message("out of memory");
-        }
         return world->wrong_definition ? STATUS_USAGE : STATUS_FAILED;
     }
     state_file_restore(&world->state, world->session, world->options->state_file);
@@ -142,7 +139,9 @@ static void take_picture(World *world) {
     }
     world->unseen = world->early;
     petri_picture_free(&world->picture);
-    if (petri_picture(world->session, &options, &world->picture) == PETRI_OK && !world->early) {
+    PetriStatus status = petri_picture(world->session, &options, &world->picture);
+    world->failed = world->failed || status == PETRI_MEMORY;
+    if (status == PETRI_OK && !world->early) {
         world->recording.fps = petri_frame(world->session).fps;
         record(world);
         petri_picture_tell(world->session, world->picture);

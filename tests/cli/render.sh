@@ -172,7 +172,7 @@ let nan=0/0
             !rect size=40 fill=true
         !font size=nan
         !text text="x" point=nan
-        !paint color=1;2 stroke_width=-1 stroke_join=:rond composite=:modulate colour=3
+        !paint color=1;2 stroke_width=-1 stroke_join=:rond composite=:modulat colour=3
         !elipse radius=5
         !stop color=1
         !image filename="absent.png"
@@ -185,7 +185,7 @@ END
     for text in "!group: translate should be x;y, not nan;0" "!ellipse: point should be x;y, not inf;0" \
         "!ellipse: radius should be" "!line: points should be" "!rect: size should be" "!font: size should be" \
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
-        "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "composite=:modulate cannot be drawn" \
+        "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
         "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
         "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': it is neither PNG nor JPEG" \
         "there is no font 'No Such Font'"; do
@@ -233,7 +233,7 @@ END
     petri render nest.fl -o nest.png --frames 1
     check "10,000 clips in each other are drawn" status_is 0
     check "… as if they were not there" cmp -s nest.png blue.png
-    sed 's/!group/!layer/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
+    sed 's/!group/!layer size=1000/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
     petri render layers.fl -o layers.png --frames 1
     check "of 10,000 layers the innermost are drawn without" count_is err "layers are too many" 1
     check "… and nothing is lost" cmp -s layers.png blue.png

@@ -8,13 +8,13 @@ enum { WIDTH = 30, HEIGHT = 20 };
 // The inputs are programs of their own; in C and in GLSL the same formulas. The third has another size.
 static const int sizes[MOST_INPUTS][2] = {{WIDTH, HEIGHT}, {WIDTH, HEIGHT}, {11, 7}};
 static const char *const formulas[MOST_INPUTS] = {
-    "    float a = p.x < 0.5 ? 1.0 : 1.0 - 0.6 * p.y;\n"
-    "    bool bright = p.x > 0.31 && p.x < 0.62 && p.y > 0.22 && p.y < 0.53;\n"
-    "    vec3 c = vec3(1.3 * p.x, 0.5 * p.y, 0.4 + 0.3 * sin(7.0 * p.x + 5.0 * p.y + 40.0 * beat));\n"
-    "    color = vec4(bright ? vec3(4.0, 3.0, 1.0) : c, 1.0) * a;\n",
-    "    float a = fract(3.1 * p.x);\n"
-    "    color = vec4(0.9 * p.y, 0.7 - 0.7 * p.x, p.x * p.y, 1.0) * a;\n",
-    "    color = p.x < 1.1 * p.y ? vec4(0.1, 0.8 * p.x, 0.2, 0.9) : vec4(0.5 * p.y, 0.0, 0.0, 0.5);\n",
+    ("    float a = p.x < 0.5 ? 1.0 : 1.0 - 0.6 * p.y;\n"
+     "    bool bright = p.x > 0.31 && p.x < 0.62 && p.y > 0.22 && p.y < 0.53;\n"
+     "    vec3 c = vec3(1.3 * p.x, 0.5 * p.y, 0.4 + 0.3 * sin(7.0 * p.x + 5.0 * p.y + 40.0 * beat));\n"
+     "    color = vec4(bright ? vec3(4.0, 3.0, 1.0) : c, 1.0) * a;\n"),
+    ("    float a = fract(3.1 * p.x);\n"
+     "    color = vec4(0.9 * p.y, 0.7 - 0.7 * p.x, p.x * p.y, 1.0) * a;\n"),
+    ("    color = p.x < 1.1 * p.y ? vec4(0.1, 0.8 * p.x, 0.2, 0.9) : vec4(0.5 * p.y, 0.0, 0.0, 0.5);\n"),
 };
 
 static Px input_at(int input, double x, double y, double beat) {

@@ -62,6 +62,7 @@ static void open_stage(Stage *stage, bool interruptible) {
     options.interruptible = interruptible;
     options.diagnostic = ignore;
     options.threads = 1;
+    options.profile = true;
     player_open_with(&stage->player, &options);
     PetriSession *session = stage->player.session;
     assert_int_equal(petri_load(session, folder_file(&stage->folder, "s.fl")), PETRI_OK);
@@ -274,6 +275,60 @@ static PetriStatus act_simple(Stage *stage) {
     return petri_key(stage->player.session, "a", true);
 }
 
+static PetriStatus act_check_text(Stage *stage) {
+    return petri_check_text(stage->player.session, "t.fl", "let A=3\n!counter state=:other rate=A*2\n", PETRI_Z);
+}
+
+static PetriStatus act_print_log(Stage *stage) {
+    return petri_print_log(stage->player.session, take_text, &stage->written);
+}
+
+// Seconds are written that differ each time.
+static PetriStatus act_profile(Stage *stage) {
+    Notebook seconds = {0};
+    PetriStatus status = petri_profile(stage->player.session, 0, take_text, &seconds);
+    free(seconds.text);
+    return status;
+}
+
+static PetriStatus act_records(Stage *stage) {
+    PetriPicture *picture;
+    PetriPictureOptions options = petri_default_picture_options();
+    bool ready = petri_picture_ready(stage->player.session, &options), records = petri_looks_back(stage->player.session);
+    PetriStatus status = petri_picture(stage->player.session, &options, &picture);
+    if (status == PETRI_OK) {
+        assert_true(ready && !records);
+        PetriPainter *painter = petri_painter_open();
+        PetriRecord record;
+        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // it has not been made
+        petri_painter_close(&painter);
+        petri_picture_tell(stage->player.session, picture);
+    }
+    petri_picture_free(&picture);
+    return status;
+}
+
+// Cairo and what it takes allocate by themselves; only petri's own calls fail.
+static PetriStatus act_paint(Stage *stage) {
+    static uint32_t pixels[100 * 100];
+    PetriPicture *picture;
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriStatus status = petri_picture(stage->player.session, &options, &picture);
+    PetriPainter *painter = status == PETRI_OK ? petri_painter_open() : NULL;
+    if (status == PETRI_OK)
+        status = of_pointer(painter);
+    if (status == PETRI_OK)
+        status = petri_picture_draw(picture, painter, pixels, 100, 100, 400);
+    const PetriLabel label = {.text = "label", .width = 50, .height = 20, .size = 10, .line_height = 12};
+    if (status == PETRI_OK)
+        status = petri_painter_labels(painter, &label, 1, 1, pixels, 100, 100, 400);
+    if (status == PETRI_OK)
+        status = petri_picture_save(picture, painter, folder_file(&stage->folder, "a.png"));
+    petri_painter_close(&painter);
+    petri_picture_free(&picture);
+    return status == PETRI_MISSING ? PETRI_OK : status;
+}
+
 typedef struct Row {
     const char *name;
     Act *act;
@@ -311,6 +366,11 @@ static const Row rows[] = {
     {"parameters", act_parameters, false},
     {"texts", act_texts, false},
     {"simple", act_simple, false},
+    {"check text", act_check_text, false},
+    {"print log", act_print_log, false},
+    {"profile", act_profile, false},
+    {"records", act_records, false},
+    {"paint", act_paint, false},
 };
 
 // What the act has written, the session after it, and the two frames that follow.

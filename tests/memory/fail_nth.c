@@ -1,0 +1,132 @@
+// fail_nth.c: to be preloaded: of the allocations that the program's own code asks for, the N-th fails (FAIL_AT=N), or
+// all from the N-th on (FAIL_FROM=N). Their number goes into the file COUNT_FILE at exit; with FAIL_TELL set, where the
+// one that fails is called from goes to standard error, for addr2line.
+//
+// What libraries ask for is left alone: some of them end the process (GLib below Pango does), and petri cannot help
+// that. Which calls are the program's own is seen from the address to which they return.
+#define _GNU_SOURCE
+#include <dirent.h>
+#include <dlfcn.h>
+#include <errno.h>
+#include <link.h>
+#include <stdatomic.h>
+#include <stdint.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The C library's own allocator, under the names that it has when somebody else takes the usual ones.
+void *__libc_malloc(size_t size);
+void *__libc_calloc(size_t count, size_t size);
+void *__libc_realloc(void *bytes, size_t size);
+void *__libc_memalign(size_t alignment, size_t size);
+
+static uintptr_t first, last; // of the program's code; nothing is counted before they are known
+static long fail_at, fail_from;
+static atomic_long count;
+
+static int find_program(struct dl_phdr_info *program, size_t size, void *context) {
+    (void)size;
+    (void)context;
+    for (int i = 0; i < program->dlpi_phnum; i++)
+        if (program->dlpi_phdr[i].p_type == PT_LOAD && program->dlpi_phdr[i].p_flags & PF_X) {
+            first = program->dlpi_addr + program->dlpi_phdr[i].p_vaddr;
+            last = first + program->dlpi_phdr[i].p_memsz;
+        }
+    return 1; // the program itself comes first
+}
+
+static long number_of(const char *name) {
+    const char *text = getenv(name);
+    return text ? strtol(text, NULL, 10) : 0;
+}
+
+__attribute__((constructor)) static void begin(void) {
+    fail_at = number_of("FAIL_AT");
+    fail_from = number_of("FAIL_FROM");
+    unsetenv("LD_PRELOAD"); // programs that this one starts are not meant
+    dl_iterate_phdr(find_program, NULL);
+}
+
+__attribute__((destructor)) static void end(void) {
+    const char *name = getenv("COUNT_FILE");
+    last = 0;
+    FILE *file = name ? fopen(name, "w") : NULL;
+    if (file) {
+        fprintf(file, "%ld\n", (long)count);
+        fclose(file);
+    }
+}
+
+static int fails(const void *caller) {
+    uintptr_t from = (uintptr_t)caller;
+    if (from < first || from >= last)
+        return 0;
+    long number = atomic_fetch_add(&count, 1) + 1;
+    if (number != fail_at && (fail_from == 0 || number < fail_from))
+        return 0;
+    if (getenv("FAIL_TELL"))
+        fprintf(stderr, "allocation %ld: called from %#lx\n", number, (unsigned long)(from - first));
+    errno = ENOMEM;
+    return 1;
+}
+
+#define FAILS fails(__builtin_return_address(0))
+
+void *malloc(size_t size) {
+    return FAILS ? NULL : __libc_malloc(size);
+}
+
+void *calloc(size_t elements, size_t size) {
+    return FAILS ? NULL : __libc_calloc(elements, size);
+}
+
+void *realloc(void *bytes, size_t size) {
+    return FAILS ? NULL : __libc_realloc(bytes, size);
+}
+
+void *aligned_alloc(size_t alignment, size_t size) {
+    return FAILS ? NULL : __libc_memalign(alignment, size);
+}
+
+// What allocates inside the C library.
+
+char *strdup(const char *text) {
+    size_t size = strlen(text) + 1;
+    char *copy = FAILS ? NULL : __libc_malloc(size);
+    return copy ? memcpy(copy, text, size) : NULL;
+}
+
+char *strndup(const char *text, size_t most) {
+    size_t length = strnlen(text, most);
+    char *copy = FAILS ? NULL : __libc_malloc(length + 1);
+    if (!copy)
+        return NULL;
+    copy[length] = 0;
+    return memcpy(copy, text, length);
+}
+
+// The same function, as the C library has it.
+#define REAL(function, real)                                                                                           \
+    __typeof__(function) *real;                                                                                        \
+    *(void **)&real = dlsym(RTLD_NEXT, #function)
+
+DIR *opendir(const char *name) {
+    REAL(opendir, real);
+    return FAILS ? NULL : real(name);
+}
+
+DIR *fdopendir(int descriptor) {
+    REAL(fdopendir, real);
+    return FAILS ? NULL : real(descriptor);
+}
+
+char *realpath(const char *name, char *resolved) {
+    REAL(realpath, real);
+    return !resolved && FAILS ? NULL : real(name, resolved);
+}
+
+char *getcwd(char *buffer, size_t size) {
+    REAL(getcwd, real);
+    return !buffer && FAILS ? NULL : real(buffer, size);
+}

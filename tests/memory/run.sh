@@ -1,0 +1,183 @@
+#!/bin/sh
+# run.sh: a failed allocation is a value: each allocation that a command makes fails in turn, alone and with all that come
+# after it. The command then does all that it was asked for, or it says that memory is used up and ends with status 1;
+# files that it writes are the old ones or the new ones.
+# usage: tests/memory/run.sh PATH-OF-PETRI PATH-OF-PETRI-PICTURES FAIL_NTH.SO [ACT...]. So many allocations of each act
+# are tried in each of the two ways (TRIES, 12); all of them with TRIES=all.
+
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+plain=$(program "$1") || exit 2
+pictures=$(program "$2") || exit 2
+library=$(cd "$(dirname "$3")" && pwd)/$(basename "$3")
+shift 3
+wanted=$*
+tries=${TRIES:-12}
+[ "$tries" != all ] || tries=1000000
+
+work=$(mktemp -d) || exit 1
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+cd "$work" || exit 1
+unset NO_COLOR
+TMPDIR=$work
+TERM=xterm
+SHELL=/bin/sh
+export TMPDIR TERM SHELL
+
+printf 'let STEP=STEP or 2\nfunc twice(x)\n    x*STEP\n' >module.fl
+printf 'a,b\n1,2\n' >table.csv
+cat >s.fl <<'END'
+%pragma tempo 60
+import twice from 'module.fl'
+let N=N or 5 -- 1..9 how many
+    x=uniform(:x)[..5]
+func area(x)
+    twice(x)*x
+func deep(n)
+    deep(n-1);n if n>0 else 's'
+!physics state=:cells dimensions=2 time=beat
+    for i in ..N
+        !particle id=i position=10*x[i];i radius=2 charge=1
+    !anchor id=:hub position=0;0
+    !distance from=0 to=:hub fixed=2 strength=9
+    !group
+        !particle id=:z radius=1
+        !collision
+    !electrostatic
+    !random strength=10
+!counter state=:count rate=2;3 maximum=1;9
+!shown value=area(3) deep=deep(5) text=read('module.fl') csv=csv('table.csv',1) glob=glob('*.fl') x=debug(frame)
+!window size=60;40 title='t'
+    !key name=:space state=:space
+    !pointer state=:mouse
+    !canvas
+        !fill color=0;1;0
+            !rect size=50;50
+        !text text='hi' point=20;20
+        !path
+            !move_to point=0;0
+            !line_to point=9;9
+            !stroke stroke_width=2
+        !image filename='i.png' point=0;0
+        !fill
+            !gradient start=0;0 end=9;9
+                !stop offset=0 color=1
+                !stop offset=1 color=0
+END
+printf '# run --frames 2 --print tree,state\n' >golden.head
+mkdir g
+cp s.fl module.fl table.csv g
+
+# run N WAY PROGRAM...: the command with the N-th allocation failing, WAY being FAIL_AT or FAIL_FROM.
+run() {
+    n=$1 way=$2
+    shift 2
+    rm -rf new
+    mkdir new
+    cp -r old/. new
+    # shellcheck disable=SC2086 # a program, or nothing
+    timeout 60 $terminal env LD_PRELOAD="$library" "$way=$n" COUNT_FILE=count "$@" >out 2>err <"$input"
+    status=$?
+}
+
+# Whether it told of it: status 1, and in words.
+told() { status_is 1 && grep -qi 'memory' out err; }
+# Whether it did what it does otherwise, in the same words.
+same() { [ "$status" -eq "$good" ] && { [ "$terminal" ] || cmp -s out good.out; } && same_files; }
+same_files() {
+    for file in good.new/*; do
+        [ ! -e "$file" ] || cmp -s "$file" "new/$(basename "$file")" || return 1
+    done
+}
+# Whether each file is the old one or a whole one, perhaps of fewer frames, and no other is left.
+whole() {
+    for file in new/* new/.[!.]*; do
+        [ -e "$file" ] || continue
+        base=$(basename "$file")
+        cmp -s "$file" "good.new/$base" || cmp -s "$file" "old/$base" ||
+            case $base in
+            *.state) head -n 1 "$file" | grep -qx 'petri-state 1' && tail -n 1 "$file" | grep -q '^end [0-9a-f]*$' ;;
+            *.csv) awk -F, 'NR == 1 { n = NF } NF != n { bad = 1 } END { exit bad || NR % 7 != 1 }' "$file" ;;
+            *) false ;;
+            esac || return 1
+    done
+}
+judged() { same || { told && whole; }; }
+
+tell_more() { tail -n 3 out err | sed 's/^/  /'; }
+
+# fail NAME COMMAND...: for each allocation; `input` is its standard input.
+fail() {
+    act=$1
+    shift
+    [ -z "$wanted" ] || case " $wanted " in *" $act "*) ;; *) return ;; esac
+    run 0 FAIL_AT "$@"
+    check "$act: $(cat count) allocations" status_is "$good"
+    total=$(cat count)
+    rm -rf good.new
+    mv new good.new
+    mv out good.out
+    stride=$((1 + total / tries))
+    at=1
+    while [ "$at" -le "$total" ]; do
+        run $at FAIL_AT "$@"
+        check "$act: allocation $at fails" judged
+        run $at FAIL_FROM "$@"
+        check "$act: allocation $at and later ones fail" judged
+        at=$((at + stride))
+    done
+}
+
+mkdir old
+good=0
+terminal=
+input=/dev/null
+fail run "$plain" run s.fl --frames 3 --print tree,state,log --threads 2
+fail parameters "$plain" run s.fl --parameters
+fail check "$plain" check s.fl g
+"$plain" run s.fl --frames 2 --quiet --state old/a.state >out 2>&1
+echo old >old/a.csv
+fail state "$plain" run s.fl --frames 3 --quiet --state new/a.state --trajectory new/a.csv
+rm old/*
+echo old >old/a.png
+fail render "$pictures" render s.fl --frames 2 --threads 1 -o new/a.png
+rm old/*
+fail render_svg "$pictures" render s.fl --frames 1 --threads 1 -o new/a.svg
+cp golden.head g/s.golden
+"$plain" test --update g >out 2>&1
+fail test "$plain" test g
+cat >commands <<'END'
+1+2
+let q=5
+q;x
+.step 2
+!physics state=:d dimensions=2
+    !particle id=1
+
+.step 2
+.back 2
+.goto 4
+.set N=7
+.particles cells
+.energy
+.plot q
+.drop
+.save new/saved.state
+.restore new/saved.state
+.load s.fl
+.reset
+.step
+.help
+END
+input=commands
+fail repl "$pictures" repl s.fl
+# What a terminal sees tells times, too.
+input=/dev/null
+if command -v script >/dev/null; then
+    terminal=./in_terminal
+    printf '#!/bin/sh\nexec script -qec "$*" /dev/null\n' >in_terminal
+    chmod +x in_terminal
+    fail view "$pictures" view --terminal --frames 3 s.fl
+fi
+finish
