@@ -20,7 +20,7 @@ test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 # For windows, films, effects and three dimensions:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
-test -n "\$(ls /usr/lib/*/dri/swrast_dri.so 2>/dev/null)" : libgl1-mesa-dri libegl1 libgles2
+ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 "
