@@ -48,9 +48,24 @@ ELEMENT_WISE(builtin_log2, maths_log2)
 ELEMENT_WISE(builtin_log10, maths_log10)
 ELEMENT_WISE_MANY(builtin_sin, turns_sin, maths_turns_sin_many)
 ELEMENT_WISE_MANY(builtin_cos, turns_cos, turns_cos_many)
-ELEMENT_WISE(builtin_tan, turns_tan)
 ELEMENT_WISE(builtin_asin, turns_asin)
 ELEMENT_WISE(builtin_acos, turns_acos)
+
+// Close to a multiple of a quarter turn the tangent is found by long arithmetic.
+static bool is_steep(double turns) {
+    double quarters = turns * 4;
+    return fabs(quarters - floor(quarters + 0.5)) < 0x1p-24;
+}
+
+Value builtin_tan(BuiltinContext *context, const Value *args, uint32_t count) {
+    enum { STEEP_WORK = 300 };
+    uint64_t steep = 0;
+    for (uint32_t i = 0; value_is_numeric(args[0]) && i < args[0].len; i++)
+        steep += is_steep(value_numbers(&args[0])[i]);
+    arena_charge(context->arena, steep * STEEP_WORK);
+    return builtin_each(context->arena, args[0], turns_tan);
+    (void)count;
+}
 
 // B1.4: roundhalfaway(x * s) / s with s = 10^d, which is 0 for d < 0.
 Value builtin_round(BuiltinContext *context, const Value *args, uint32_t count) {

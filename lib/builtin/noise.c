@@ -110,7 +110,8 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
 // result[j] = the noise, or result[j] + noise*weight, at every combination, the last coordinate varying fastest.
 static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
-    enum { BETWEEN_CHARGES = 1024, WORK = 5 }; // of a point
+    enum { BETWEEN_CHARGES = 1024 };
+    const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // of a point
     double (*const noise)(const uint8_t *, const double *) = grid->dims == 2   ? noise_point_2
                                                              : grid->dims == 3 ? noise_point_3
                                                                                : noise_point_4;
@@ -120,7 +121,7 @@ static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutatio
         c[i] = grid->axes[i][0];
     for (uint32_t j = 0; j < grid->len; j++) {
         if (j % BETWEEN_CHARGES == 0)
-            arena_charge(arena, (grid->len - j < BETWEEN_CHARGES ? grid->len - j : BETWEEN_CHARGES) * WORK);
+            arena_charge(arena, (grid->len - j < BETWEEN_CHARGES ? grid->len - j : BETWEEN_CHARGES) * (uint64_t)work);
         double part = noise(permutation, c);
         result[j] = add ? result[j] + part * weight : part;
         int i = grid->dims - 1;

@@ -95,7 +95,7 @@ static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low
     double *y = to;
     for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || !(x[j] < x[i])) ? x[i++] : x[j++];
-        arena_portion(arena, k, 0);
+        arena_portion(arena, k, 0); // is charged by merge_sort
     }
 }
 
@@ -111,7 +111,7 @@ static void merge_texts(Arena *arena, void *to, const void *from, uint32_t low, 
 // A bottom-up merge sort; the result is one of two arrays.
 static void *merge_sort(Arena *arena, void *items, void *other, uint32_t len, Merge *merge) {
     for (uint64_t width = 1; width < len; width *= 2) {
-        arena_charge(arena, len / 4);
+        arena_charge(arena, 1 + len / 2);
         for (uint64_t low = 0; low < len; low += 2 * width) {
             uint64_t middle = low + width < len ? low + width : len;
             uint64_t high = low + 2 * width < len ? low + 2 * width : len;

@@ -73,7 +73,7 @@ typedef struct PetriOptions {
     // at the most) comes on top. Work is counted in units of some ten nanoseconds, by what is to be done and not by
     // time, so that the same frame is given up everywhere: a round of a loop, a call, a node, sixteen numbers added.
     size_t memory_bytes;        // default 2 GiB
-    uint64_t work;              // of one call, such as petri_step; its systems have as much again. Default 2^27
+    uint64_t work;              // of one call, such as petri_step. Default 2^30, some ten seconds
     int threads;                // worker threads, 0: as many as processors. Results never depend on it
     PetriNeighbours neighbours; // default: where they pay
     // Keep a copy of the state while a frame is made, so that a frame whose systems are being updated can be given up,

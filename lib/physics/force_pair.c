@@ -89,11 +89,15 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
         pass->kernel->tiles(&pass->pairs, wave.row, wave.row_end, wave.column, wave.column_end);
 }
 
-// Charges for all of so many pairs; false if they are not to be computed.
+// Charges for all of so many pairs; false if they are not to be computed. A single force has a kernel of its own, which
+// takes half a nanosecond for a pair.
 static bool charge_pairs(const Pass *pass, uint64_t pairs) {
-    enum { LANES_A_UNIT = 64, ROWS_A_UNIT = 4 };
-    size_t n = pass->pairs.dimensions;
-    return phys_charge(pass->system, 1 + (pass->kernel ? pairs / LANES_A_UNIT : pairs * n / ROWS_A_UNIT));
+    enum { GROUP_WORK = 3, SINGLE_A_UNIT = 20, TERMS_A_UNIT = 8, ROWS_A_UNIT = 4 };
+    size_t n = pass->pairs.dimensions, terms = pass->pairs.term_count;
+    uint64_t units = !pass->kernel ? pairs * n * terms / ROWS_A_UNIT
+                     : terms > 1   ? pairs * terms / TERMS_A_UNIT
+                                   : pairs / SINGLE_A_UNIT;
+    return phys_charge(pass->system, GROUP_WORK + units);
 }
 
 // The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later

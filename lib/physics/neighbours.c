@@ -8,7 +8,7 @@ enum {
     MIN_FOR_LISTS = 160, // particles of a pass
     REST_FIRST = 64,     // steps without lists after they did not pay; doubled each time
     REST_LONGEST = 1024,
-    ENTRIES_A_UNIT = 8,
+    ENTRIES_A_UNIT = 4,
     LIFE_FIRST = 8, // steps that a list is expected to serve at first
 };
 
@@ -237,7 +237,7 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
     }
     list->age++;
     uint64_t large = (uint64_t)(list->view.listed - list->view.regular) * list->total;
-    if (!phys_charge(system, (list->padded + large) / ENTRIES_A_UNIT + list->total))
+    if (!phys_charge(system, (list->padded + large) * pass->term_count / ENTRIES_A_UNIT + list->total))
         return true;
     phys_parallel(system, shares_for(system, list), force_share, &work);
     large_forces(&work);

@@ -47,9 +47,10 @@ static void start_forces(const PhysSystem *system, double clock) {
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
     const Group *groups = system->groups.bytes;
     const Columns *columns = &system->columns;
-    enum { STEP_WORK = 8, NUMBERS_A_UNIT = 32 };
-    size_t numbers = columns->count * columns->dimensions + system->force_count;
-    if (!phys_charge(system, STEP_WORK + system->group_count + numbers / NUMBERS_A_UNIT))
+    enum { STEP_WORK = 8, GROUP_WORK = 2, NUMBERS_A_UNIT = 32 };
+    uint64_t work = STEP_WORK + (uint64_t)GROUP_WORK * system->group_count;
+    work += columns->count * columns->dimensions / NUMBERS_A_UNIT + system->force_count;
+    if (!phys_charge(system, work))
         return false;
     ease_strengths(system, clock);
     start_forces(system, clock);

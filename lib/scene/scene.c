@@ -144,6 +144,7 @@ static void drop_absent(Scene *scene, const SceneFrame *frame) {
 }
 
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
+    enum { NODE_WORK = 50 }; // a look-up and some entries of the state
     uint64_t steps = 0;
     scene->frame_number++;
     scene->stopped = METER_GOES_ON;
@@ -154,7 +155,7 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
         NodeKind kind = item->type == ITEM_NODE ? schema_kind(scene->schema, item->as.node) : KIND_COUNT;
         if (kind != KIND_PHYSICS && kind != KIND_COUNTER)
             continue;
-        scene->stopped = meter_charge(scene->meter, 1);
+        scene->stopped = meter_charge(scene->meter, NODE_WORK);
         if (scene->stopped != METER_GOES_ON)
             break;
         scene->schema->at = item->as.node;

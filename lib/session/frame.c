@@ -264,6 +264,7 @@ static PetriStatus evaluate_frame(PetriSession *session) {
 // Updates the systems of an evaluated frame.
 static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
+    session->spent = session->meter.work; // evaluation and systems have one budget
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);
     bool exhausted = scene_take_exhausted(session->scene);
     exhausted |= state_take_exhausted(session->state);

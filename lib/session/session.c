@@ -21,7 +21,7 @@ void petri_options_init(PetriOptions *options, size_t size) {
                                 .simplify = true,
                                 .stack_bytes = (size_t)4 << 20,
                                 .memory_bytes = (size_t)2 << 30,
-                                .work = UINT64_C(1) << 27};
+                                .work = UINT64_C(1) << 30};
     memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
@@ -113,6 +113,8 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
         return PETRI_MEMORY;
     if (session->calls++ == 0) {
         meter_begin(&session->meter, session->options.work, session->steadfast ? NULL : &session->interrupt);
+        session->meter.work = session->spent;
+        session->spent = 0;
         session->vm.at = NULL;
         session->schema.at = NULL;
     }

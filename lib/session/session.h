@@ -59,6 +59,7 @@ struct PetriSession {
     Vm vm;
     Vm static_vm; // evaluates ahead while a program is compiled
     atomic_bool interrupt;
+    uint64_t spent; // of the work that the next protected call may do
     Meter meter;    // of all that is done and held for the script
     uint32_t calls; // protected ones under way, one within the other
     bool steadfast; // what is being done must not be interrupted

@@ -122,7 +122,7 @@ uint32_t value_wrap_index(double x, uint32_t n);
 // A deep copy: nothing in the result points outside the arena, but for functions and symbols.
 Value value_copy(Arena *arena, Value v);
 
-enum { VALUE_TEXT_WORK = 8 }; // of an element that is written as text
+enum { VALUE_TEXT_WORK = 16 }; // of an element that is written as text
 // The text of a vector: the concatenation of its elements' texts (L6).
 Str value_text(Arena *arena, const SymbolTable *symbols, Value v);
 

@@ -81,7 +81,7 @@ OPTION(FOR_REPL, "limit", 0, "N", WHOLE(1, INT64_MAX), limit, "frames that .run 
 OPTION(FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "threads", 0, "N", WHOLE(1, 1024), threads, "worker threads (as many as CPUs); results never depend on it")
 OPTION(FOR_TEST, "threads", 0, "N", read_text, as_threads, "as with run, for all scripts")
 OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "memory", 0, "BYTES", read_amount, memory, "bytes that a script may take, such as 512M (2G)")
-OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "work", 0, "N", read_amount, work, "steps of work that a frame of a script may take, such as 1G (128M)")
+OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "work", 0, "N", read_amount, work, "steps of work that a frame of a script may take, such as 4G (1G, some ten seconds)")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "neighbours", 0, "WHEN", ONE_OF(read_choice, "auto", "never", "always"), neighbours, "lists of neighbours in physics: auto, never or always; results never depend on it")
 OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "as with run, for all scripts")
 OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate everything in every frame; results never depend on it")

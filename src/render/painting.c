@@ -5,6 +5,7 @@
 #include <signal.h>
 #include <stdlib.h>
 #include <string.h>
+#include <time.h>
 #include <unistd.h>
 
 #include "base/source.h"
@@ -13,8 +14,10 @@
 #include "cli/progress.h"
 #include "render/recording.h"
 #include "render/video.h"
+#include "run/frames.h"
 
 enum { QUEUE = 4, MOST_WORKERS = 16 };
+static const double PATIENCE = 0.05; // seconds
 
 typedef struct Job Job;
 struct Job {
@@ -36,6 +39,7 @@ struct Painting {
     bool begun;  // there is a first worker
     bool ending; // no more will be added
     bool failed;
+    int left; // that were given up in their midst
     double seconds;
     const char *film; // the rest is the threads' own
     double fps;
@@ -210,13 +214,24 @@ Painting *painting_start(const char *film, double film_fps, double fps) {
     return painting;
 }
 
+// Waits for a change, but not long: a signal is none.
+static void wait_a_moment(Painting *painting) {
+    enum { NANOSECONDS = 20000000, SECOND = 1000000000 };
+    struct timespec until;
+    clock_gettime(CLOCK_REALTIME, &until);
+    until.tv_nsec += NANOSECONDS;
+    until.tv_sec += until.tv_nsec / SECOND;
+    until.tv_nsec %= SECOND;
+    pthread_cond_timedwait(&painting->changed, &painting->lock, &until);
+}
+
 bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file) {
     Job *job = memory_zeroed(sizeof *job);
     *job = (Job){.picture = picture, .for_film = for_film, .looks_back = petri_picture_looks_back(picture)};
     job->file = file == NULL ? NULL : memory_text(file);
     pthread_mutex_lock(&painting->lock);
-    while (painting->waiting_count >= QUEUE && !painting->failed) {
-        pthread_cond_wait(&painting->changed, &painting->lock);
+    while (painting->waiting_count >= QUEUE && !painting->failed && frames_signal() == 0) {
+        wait_a_moment(painting);
     }
     *painting->last = job;
     painting->last = &job->next;
@@ -242,13 +257,37 @@ void painting_tell(Painting *painting, PetriSession *session) {
     }
 }
 
+// Waits until nothing is drawn any more; after a signal for a moment only, unless it is for a film. Returns how many
+// are given up.
+static int wait_for_end(Painting *painting) {
+    double signalled = 0;
+    for (;;) {
+        int running = 0;
+        for (int i = 0; i < MOST_WORKERS; i++) {
+            running += painting->running[i] != NULL;
+        }
+        if (running == 0 && painting->waiting == NULL) {
+            return 0;
+        }
+        if (frames_signal() != 0 && painting->film == NULL) {
+            signalled = signalled == 0 ? clock_seconds() : signalled;
+            if (clock_seconds() - signalled > PATIENCE) {
+                painting->failed = true; // what waits is not begun any more
+                return running + painting->waiting_count;
+            }
+        }
+        wait_a_moment(painting);
+    }
+}
+
 bool painting_finish(Painting *painting, PetriSession *session, bool abandon, const char **trouble) {
     pthread_mutex_lock(&painting->lock);
     painting->ending = true;
     painting->failed = painting->failed || abandon;
     pthread_cond_broadcast(&painting->changed);
+    painting->left = wait_for_end(painting);
     pthread_mutex_unlock(&painting->lock);
-    while (painting->worker_count > 0) {
+    while (painting->left == 0 && painting->worker_count > 0) {
         pthread_join(painting->workers[--painting->worker_count], NULL);
     }
     painting_tell(painting, session);
@@ -268,6 +307,10 @@ bool painting_finish(Painting *painting, PetriSession *session, bool abandon, co
     }
     *trouble = painting->trouble[0] == '\0' ? NULL : painting->trouble;
     return !painting->failed;
+}
+
+int painting_left(const Painting *painting) {
+    return painting->left;
 }
 
 double painting_seconds(const Painting *painting) {

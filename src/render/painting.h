@@ -15,16 +15,21 @@ typedef struct Painting Painting;
 // name are `fps` fast. NULL after a message.
 Painting *painting_start(const char *film, double film_fps, double fps);
 // Takes over a picture: for the film, for a file (whose name is copied) or NULL, and for the files that its own
-// `!record` nodes name. Pictures that look back are to be added of each frame. Waits while many are waiting. False if
-// something has failed before.
+// `!record` nodes name. Pictures that look back are to be added of each frame. Waits while many are waiting, until a
+// signal came. False if something has failed before.
 bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file);
 // Gives what was wrong with pictures that are done to the session's diagnostic callback, and frees them.
 void painting_tell(Painting *painting, PetriSession *session);
-// Waits for what is waiting and completes the film; with `abandon` gives up what is not done. False if something has
+// Waits for what is waiting and completes the film; with `abandon` gives up what is not done. After a signal pictures
+// have a moment to be done, frames of a film all the time that they need. False if something has
 // failed; *trouble is then the reason if there is one that was not told through pictures, valid until painting_free.
 bool painting_finish(Painting *painting, PetriSession *session, bool abandon, const char **trouble);
+// How many pictures painting_finish has given up, some in the midst of their being drawn: nothing stops those threads
+// but the end of the process.
+int painting_left(const Painting *painting);
 // Seconds spent on drawing and writing, by all threads.
 double painting_seconds(const Painting *painting);
+// Only if none is left.
 void painting_free(Painting *painting);
 
 #endif

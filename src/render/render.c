@@ -21,6 +21,7 @@ typedef struct Render {
     PetriPictureOptions picture;
     Painting *painting;
     int64_t drawn;
+    bool left;         // a thread still draws what is given up
     bool failed;       // nothing more is to be drawn
     Piped piped;       // for standard output
     const char *shown; // how messages call what is written
@@ -103,7 +104,9 @@ static bool check_folder(const char *file) {
 // Draws the last frame: for the film, for a file, or only for its own `!record` nodes.
 static void draw_frame(Render *render, bool for_film, const char *file) {
     PetriPicture *picture = NULL;
+    frames_working(&render->frames, true);
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
+    frames_working(&render->frames, false);
     if (status == PETRI_MEMORY) {
         progress_erase(&render->frames.progress);
         message("out of memory");
@@ -177,12 +180,18 @@ static int end_render(Render *render, bool going) {
     bool keeps = render->kind != OUTPUT_PICTURE && render->drawn > 0;
     bool abandon = (stopped != 0 && !keeps) || !going || render->failed;
     bool good = painting_finish(render->painting, frames->session, abandon, &trouble);
+    if (painting_left(render->painting) > 0) {
+        render->left = true;
+        render->drawn -= painting_left(render->painting);
+        stopped = frames_signal(); // which may have come just now
+        keeps = keeps && render->drawn > 0;
+    }
     frames_end(frames, going);
     if (trouble != NULL) {
         message("%s", trouble);
     }
     if (stopped != 0) {
-        report_stop(render, keeps && good);
+        report_stop(render, keeps && (good || render->left));
         return frames->state.behind ? STATUS_FAILED : STATUS_SIGNAL + stopped;
     }
     if (!going || !good || state_file_failed(&frames->state)) {
@@ -223,7 +232,9 @@ static int render_frames(Render *render) {
         output_picture(render);
     }
     int status = end_render(render, going);
-    painting_free(render->painting);
+    if (!render->left) {
+        painting_free(render->painting);
+    }
     return status;
 }
 
@@ -253,6 +264,10 @@ static int render_run(const Host *host, Options *options) {
         status = STATUS_FAILED;
     }
     piped_close(&render.piped);
+    if (render.left) {
+        fflush(NULL);
+        _exit(status); // at once: what those threads use must stay as long as they do
+    }
     petri_close(&render.frames.session);
     return status;
 }

@@ -118,13 +118,19 @@ bool frames_due(const Frames *frames) {
            options_due(frames->options, frames->done - frames->early, frames->start, frames_fps(frames));
 }
 
+void frames_working(Frames *frames, bool begins) {
+    working = begins ? frames->session : NULL;
+    if (!begins) {
+        petri_interrupted(frames->session); // what came too late must not stop the next thing
+    }
+}
+
 bool frames_step(Frames *frames) {
     progress_update(&frames->progress, frames->done - frames->early);
     int64_t number = petri_frame(frames->session).number + 1; // of the frame, even if it is given up
-    working = frames->session;
+    frames_working(frames, true);
     PetriStatus status = interrupted ? PETRI_INTERRUPTED : petri_step(frames->session);
-    working = NULL;
-    petri_interrupted(frames->session); // what came too late must not stop the next thing
+    frames_working(frames, false);
     frames->given_up = status == PETRI_INTERRUPTED;
     if (frames->given_up) {
         return false;

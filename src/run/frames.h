@@ -33,6 +33,8 @@ bool frames_due(const Frames *frames);
 // Makes one frame. False if there is no going on: after a message, for a limit that one frame has reached the next will
 // reach as well, or because a signal has made it give the frame up (given_up).
 bool frames_step(Frames *frames);
+// Between these calls, a signal interrupts the session.
+void frames_working(Frames *frames, bool begins);
 // Takes the progress line away and, if all went well, saves the state.
 void frames_end(Frames *frames, bool going);
 // The signal that asked for an end, or 0.

@@ -10,12 +10,17 @@ trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM
 cd "$work" || exit 1
 
-# interrupted NAME SCRIPT: a run of a script without limits, ended by Ctrl-C after two seconds.
+# interrupted NAME SCRIPT [ARGUMENTS...]: a run of a script without limits, or what the arguments say, ended by Ctrl-C
+# after a second. Without a script, that of before.
 interrupted() {
-    printf '%b\n' "$2" >long.fl
-    "$petri" run --work 1000T --memory 3G --threads "$threads" --frames 3 --quiet long.fl >out 2>err </dev/null &
+    name=$1
+    [ -z "$2" ] || printf '%b\n' "$2" >long.fl
+    shift 2
+    [ $# -gt 0 ] || set -- run --frames 3
+    # What a script starts in the background ignores SIGINT unless told otherwise.
+    env --default-signal=INT "$petri" "$@" --work 1000T --memory 3G --threads "$threads" --quiet long.fl >out 2>err </dev/null &
     job=$!
-    sleep 2
+    sleep 1
     start=$(date +%s%N)
     kill -INT $job 2>/dev/null
     tries=0
@@ -23,14 +28,19 @@ interrupted() {
         sleep 0.01
         tries=$((tries + 1))
     done
-    echo "$1, $threads threads: $((($(date +%s%N) - start) / 1000000)) ms"
+    took=$((($(date +%s%N) - start) / 1000000))
+    echo "$took ms: $name, $threads threads" | tee -a times
     kill -KILL $job 2>/dev/null
     wait $job
     status=$?
-    check "$1 is interrupted" status_is 130
+    check "$name is interrupted" status_is 130
 }
 shared='func f(n, v)\n    f(n-1, (!n << (v;v))) if n>0 else v\n'
 groups='func g(n, v)\n    g(n-1, (!group << (v;v))) if n>0 else v\n'
+window='!window size=3000\n    !canvas\n'
+printf '%b\n' "$window        !rect size=1" >small.fl
+mkdir d1 d2 d3 d4 d5 d6 d7 d8
+many='*/../*/../*/../*/../*/../*/../*/../*/../*/../*'
 for threads in 1 2; do
     interrupted "a sort" '!a x=len(sort(uniform(i+frame)[..1e7]) for i in ..100)'
     interrupted "noise" '!a x=len(noise(1, (..10000)+frame, ..10000))'
@@ -47,5 +57,20 @@ for threads in 1 2; do
     interrupted "random forces" '!physics state=:c dimensions=2\n    for i in ..1e6\n        !random\n    for i in ..1000\n        !particle id=i'
     interrupted "a tree of groups" "$groups"'!physics state=:c dimensions=2\n    g(60, !group)'
     interrupted "many steps" '!physics state=:c dimensions=2 resolution=1e-9\n    for i in ..10000\n        !particle id=i position=i;0 velocity=1'
+    interrupted "glob" "!a x=len(glob('$many'))"
+    if "$petri" render --frame 0 --quiet small.fl -o small.png 2>err; then
+        interrupted "a drawing" "$window        for i in ..1e6\n            !rect size=3000 point=i;0\n            !fill color=1;0;0;0.1" \
+            render --frame 0 -o picture.png
+        check "a drawing leaves nothing" [ -z "$(ls -A | grep picture)" ]
+        interrupted "a series" "" render --frames 1000 -o picture%d.png
+        interrupted "a save" '!window size=8000\n    !canvas\n        !rect size=4000\n        !fill color=1;0;0' \
+            render --frame 0 -o picture.png
+    fi
+    yes '!a x=1;2;y;3 b="some text"' | head -n 3000000 >long.fl
+    interrupted "loading" ""
+    : >long.fl
 done
+sort -n times | awk '{ t[NR] = $1 } END { print "median " t[int((NR + 1) / 2)] " ms, worst " t[NR] " ms"; exit t[NR] > 5000 }'
+status=$?
+check "each is answered" status_is 0
 finish

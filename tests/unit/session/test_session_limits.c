@@ -4,6 +4,9 @@
 // Loops that never end in practice: the frame's work is limited.
 static void test_work(void **state) {
     Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.work = 1 << 27;
+    player_reopen(player, &options);
     assert_int_equal(
         player_load(player, "!counter state=:c rate=1\nlet v=..20000\n!a v=(frame if 0 for y in v for x in v)\n"),
         PETRI_OK);
