@@ -206,7 +206,7 @@ static bool read_state(Repl *repl, const char *file) {
     if (access(file, F_OK) != 0) {
         return repl_fail(repl, "cannot read '%s': %s", file, strerror(errno));
     }
-    return petri_restore(repl->session, file) == PETRI_OK;
+    return repl_status(repl, petri_restore(repl->session, file));
 }
 
 // A script that is wrong is no reason to leave: it can be mended, and is watched.

@@ -248,7 +248,7 @@ static bool run_load(Repl *repl, const char *rest) {
 }
 
 static bool run_save(Repl *repl, const char *rest) {
-    if (petri_save(repl->session, rest) != PETRI_OK) {
+    if (!repl_status(repl, petri_save(repl->session, rest))) {
         return false;
     }
     repl_say(repl, "the state after frame %" PRId64 " is in %s", petri_frame(repl->session).number, rest);
@@ -259,7 +259,7 @@ static bool run_restore(Repl *repl, const char *rest) {
     if (access(rest, R_OK) != 0) {
         return repl_fail(repl, "cannot read '%s': %s", rest, strerror(errno));
     }
-    if (petri_restore(repl->session, rest) != PETRI_OK) {
+    if (!repl_status(repl, petri_restore(repl->session, rest))) {
         return false;
     }
     repl_say(repl, "the next frame is the one after %" PRId64, petri_frame(repl->session).number);

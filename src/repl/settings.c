@@ -51,10 +51,9 @@ static bool set(Repl *repl, const char *name, const char *definition) {
     uint64_t warnings = petri_diagnostic_count(repl->session, PETRI_WARNING);
     bool good = petri_define(repl->session, definition) == PETRI_OK ||
                 repl_fail(repl, ".set expects NAME VALUE, such as .set COUNT 50");
-    if (good && petri_reload(repl->session, NULL) != PETRI_OK) {
+    if (good && !repl_status(repl, petri_reload(repl->session, NULL))) {
         petri_config_use(repl->session, before);
         good = false;
-        repl->failed = true;
     }
     petri_config_free(before);
     if (good) {

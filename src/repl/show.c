@@ -242,7 +242,7 @@ static bool run_watch(Repl *repl, const char *rest) {
         return true;
     }
     SCOPED_BYTES value = {0};
-    if (petri_evaluate(repl->session, rest, PETRI_Z, &result, bytes_collect, &value) != PETRI_OK) {
+    if (!repl_status(repl, petri_evaluate(repl->session, rest, PETRI_Z, &result, bytes_collect, &value))) {
         return false;
     }
     output_format(&repl->output, "%s = %s\n", rest, value.data);

@@ -6,10 +6,7 @@
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
 
-work=$(mktemp -d) || exit 1
-trap 'chmod -R u+rwx "$work"; rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
+scratch
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm

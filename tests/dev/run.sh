@@ -5,10 +5,7 @@
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
+scratch
 tell_more() {
     for file in out err calls; do
         sed "s/^/  $file: /" $file | tail -n 15

@@ -5,10 +5,7 @@ set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 build=$(cd "$1" && pwd)
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
+scratch
 SHELL=/bin/sh # that of `script`
 export SHELL
 helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }

@@ -5,10 +5,7 @@ set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
+scratch
 
 # interrupted NAME SCRIPT [ARGUMENTS...]: a run of a script without limits, or what the arguments say, ended by Ctrl-C
 # after a second. Without a script, that of before.

@@ -5,11 +5,8 @@ set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cp "$here"/*.fl "$work"
-cd "$work" || exit 1
+scratch
+cp "$here"/*.fl .
 # The address sanitizer takes terabytes of addresses for itself.
 limit=3145728
 (ulimit -v $limit && "$petri" --version) >/dev/null 2>&1 || limit=unlimited

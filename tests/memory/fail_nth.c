@@ -21,7 +21,7 @@ void *__libc_calloc(size_t count, size_t size);
 void *__libc_realloc(void *bytes, size_t size);
 void *__libc_memalign(size_t alignment, size_t size);
 
-static uintptr_t first, last; // of the program's code; nothing is counted before they are known
+static uintptr_t base, first, last; // where the program is, and its code; nothing is counted before they are known
 static long fail_at, fail_from;
 static atomic_long count;
 
@@ -30,7 +30,8 @@ static int find_program(struct dl_phdr_info *program, size_t size, void *context
     (void)context;
     for (int i = 0; i < program->dlpi_phnum; i++)
         if (program->dlpi_phdr[i].p_type == PT_LOAD && program->dlpi_phdr[i].p_flags & PF_X) {
-            first = program->dlpi_addr + program->dlpi_phdr[i].p_vaddr;
+            base = program->dlpi_addr;
+            first = base + program->dlpi_phdr[i].p_vaddr;
             last = first + program->dlpi_phdr[i].p_memsz;
         }
     return 1; // the program itself comes first
@@ -66,12 +67,15 @@ static int fails(const void *caller) {
     if (number != fail_at && (fail_from == 0 || number < fail_from))
         return 0;
     if (getenv("FAIL_TELL"))
-        fprintf(stderr, "allocation %ld: called from %#lx\n", number, (unsigned long)(from - first));
+        fprintf(stderr, "allocation %ld: called from %#lx\n", number, (unsigned long)(from - base));
     errno = ENOMEM;
     return 1;
 }
 
 #define FAILS fails(__builtin_return_address(0))
+
+// What stands here takes the place of the C library's own.
+#pragma GCC visibility push(default)
 
 void *malloc(size_t size) {
     return FAILS ? NULL : __libc_malloc(size);

@@ -15,10 +15,7 @@ wanted=$*
 tries=${TRIES:-12}
 [ "$tries" != all ] || tries=1000000
 
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cd "$work" || exit 1
+scratch
 unset NO_COLOR
 TMPDIR=$work
 TERM=xterm
@@ -113,8 +110,9 @@ fail() {
     shift
     [ -z "$wanted" ] || case " $wanted " in *" $act "*) ;; *) return ;; esac
     run 0 FAIL_AT "$@"
-    check "$act: $(cat count) allocations" status_is "$good"
     total=$(cat count)
+    # Fewer, and it is the counting that does not work.
+    check "$act: $total allocations" eval 'status_is "$good" && [ "$total" -ge 20 ]'
     rm -rf good.new
     mv new good.new
     mv out good.out

@@ -4,11 +4,8 @@ set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
 petri=$(program "$1") || exit 2
-work=$(mktemp -d) || exit 1
-trap 'rm -rf "$work"' EXIT
-trap 'exit 130' INT TERM
-cp -R "$here"/*.fl "$here"/lib "$work"
-cd "$work" || exit 1
+scratch
+cp -R "$here"/*.fl "$here"/lib .
 LC_ALL=C.UTF-8
 export LC_ALL
 

@@ -32,6 +32,14 @@ finish() {
     [ "$failed" -eq 0 ]
 }
 
+# scratch: goes into a new folder, `work`, which is gone when the test ends.
+scratch() {
+    work=$(mktemp -d) || exit 1
+    trap 'chmod -R u+rwx "$work"; rm -rf "$work"' EXIT
+    trap 'exit 130' INT TERM
+    cd "$work" || exit 1
+}
+
 # program PATH: the same from the root; ends the test if there is no such program.
 program() {
     if [ ! -x "$1" ]; then

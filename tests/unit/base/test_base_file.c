@@ -1,26 +1,7 @@
 // test_base_file.c: whole files in and out.
-#include "folder.h"
+#include "files.h"
 
 #include "base/file.h"
-
-static Arena arena;
-static Folder folder;
-
-static int setup(void **state) {
-    (void)state;
-    arena_init(&arena, "test", SIZE_MAX);
-    folder_open(&folder);
-    return 0;
-}
-
-static int teardown(void **state) {
-    (void)state;
-    folder_close(&folder);
-    arena_free(&arena);
-    return 0;
-}
-
-#define FILE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
 
 static const char *content(const char *name, size_t limit) {
     Str bytes;

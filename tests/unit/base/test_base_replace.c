@@ -1,5 +1,5 @@
 // test_base_replace.c: files that are replaced as a whole.
-#include "folder.h"
+#include "files.h"
 
 #include "base/file.h"
 #include "base/replace.h"
@@ -7,25 +7,6 @@
 #include <errno.h>
 #include <fcntl.h>
 #include <sys/file.h>
-
-static Arena arena;
-static Folder folder;
-
-static int setup(void **state) {
-    (void)state;
-    arena_init(&arena, "test", SIZE_MAX);
-    folder_open(&folder);
-    return 0;
-}
-
-static int teardown(void **state) {
-    (void)state;
-    folder_close(&folder);
-    arena_free(&arena);
-    return 0;
-}
-
-#define FILE_TEST(function) cmocka_unit_test_setup_teardown(function, setup, teardown)
 
 static void expect(const char *name, const char *text) {
     Str bytes;

@@ -33,23 +33,14 @@ static mpfr_t at[3], line, best;
 
 // f(x) in half units of its last place, modulo 1, in 2^-62
 static int64_t phase(const Subject *subject, double x, double y, mpfr_t f, mpfr_exp_t unit) {
-    mpfr_t a, b;
-    mpfr_inits2(160, a, b, (mpfr_ptr)0);
-    mpfr_set_d(a, x, MPFR_RNDN);
-    mpfr_set_d(b, y, MPFR_RNDN);
-    if (subject->model1)
-        subject->model1(f, a, MPFR_RNDN);
-    else
-        subject->model2(f, a, b, MPFR_RNDN);
+    model_value(subject, f, x, y);
     if (unit == 0)
         unit = mpfr_get_exp(f) - 53;
     mpfr_mul_2si(line, f, -(long)unit, MPFR_RNDN);
-    mpfr_set_d(a, 0.5, MPFR_RNDN);
-    mpfr_add(line, line, a, MPFR_RNDN);
+    mpfr_add_d(line, line, 0.5, MPFR_RNDN);
     mpfr_frac(line, line, MPFR_RNDN);
     mpfr_mul_2si(line, line, 62, MPFR_RNDN);
     int64_t p = mpfr_get_sj(line, MPFR_RNDN);
-    mpfr_clears(a, b, (mpfr_ptr)0);
     return (p % MODULUS + MODULUS) % MODULUS;
 }
 

@@ -48,16 +48,25 @@ static inline void model_start(void) {
     mpfr_set_emax(1024);
 }
 
-static inline double model(const Subject *subject, double x, double y) {
-    static mpfr_t a, b, r;
+// r = f(x, y), rounded to the precision of r; the return value is MPFR's, on which side of f it is.
+static inline int model_value(const Subject *subject, mpfr_t r, double x, double y) {
+    static mpfr_t a, b;
     static bool ready;
     if (!ready)
-        mpfr_inits(a, b, r, (mpfr_ptr)0);
+        mpfr_inits2(53, a, b, (mpfr_ptr)0);
     ready = true;
     mpfr_set_d(a, x, MPFR_RNDN);
     mpfr_set_d(b, y, MPFR_RNDN);
-    int side = subject->model1 ? subject->model1(r, a, MPFR_RNDN) : subject->model2(r, a, b, MPFR_RNDN);
-    mpfr_subnormalize(r, side, MPFR_RNDN);
+    return subject->model1 ? subject->model1(r, a, MPFR_RNDN) : subject->model2(r, a, b, MPFR_RNDN);
+}
+
+static inline double model(const Subject *subject, double x, double y) {
+    static mpfr_t r;
+    static bool ready;
+    if (!ready)
+        mpfr_init(r);
+    ready = true;
+    mpfr_subnormalize(r, model_value(subject, r, x, y), MPFR_RNDN);
     return mpfr_get_d(r, MPFR_RNDN);
 }
 

@@ -55,26 +55,20 @@ static inline void watch_start(void) {
 
 // |high + low| 2^k - |f(x, y)|, over the bound; k takes out the scale that exp and pow add only at the end.
 static inline double watch_share(const Subject *subject, const Watch *watch, double x, double y) {
-    mpfr_t a, b, f, sum;
-    mpfr_inits2(200, a, b, f, sum, (mpfr_ptr)0);
-    mpfr_set_d(a, x, MPFR_RNDN);
-    mpfr_set_d(b, y, MPFR_RNDN);
-    if (subject->model1)
-        subject->model1(f, a, MPFR_RNDN);
-    else
-        subject->model2(f, a, b, MPFR_RNDN);
+    mpfr_t scale, f, sum;
+    mpfr_inits2(200, scale, f, sum, (mpfr_ptr)0);
+    model_value(subject, f, x, y);
     mpfr_set_d(sum, watch->high, MPFR_RNDN);
-    mpfr_set_d(b, watch->low, MPFR_RNDN);
-    mpfr_add(sum, sum, b, MPFR_RNDN);
+    mpfr_add_d(sum, sum, watch->low, MPFR_RNDN);
     mpfr_abs(sum, sum, MPFR_RNDN);
     mpfr_abs(f, f, MPFR_RNDN);
     if (subject->name[0] == 'e' || subject->name[0] == 'p') {
-        mpfr_div(a, f, sum, MPFR_RNDN);
-        mpfr_mul_2si(f, f, -lround(log2(mpfr_get_d(a, MPFR_RNDN))), MPFR_RNDN);
+        mpfr_div(scale, f, sum, MPFR_RNDN);
+        mpfr_mul_2si(f, f, -lround(log2(mpfr_get_d(scale, MPFR_RNDN))), MPFR_RNDN);
     }
     mpfr_sub(f, f, sum, MPFR_RNDN);
     double share = fabs(mpfr_get_d(f, MPFR_RNDN)) / watch->error;
-    mpfr_clears(a, b, f, sum, (mpfr_ptr)0);
+    mpfr_clears(scale, f, sum, (mpfr_ptr)0);
     return share;
 }
 
