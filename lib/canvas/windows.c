@@ -17,16 +17,20 @@ static bool is_source(NodeKind kind) {
            kind == KIND_SHADER;
 }
 
-static bool has_source(const Schema *schema, const Node *node, int depth) {
+static bool has_source(const Schema *schema, const Node *node, int depth, uint32_t *left) {
     enum { DEEPEST = 100 }; // nobody draws what is deeper
     for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
         NodeKind kind = schema_kind_in(schema, node->children[i], PLACE_PICTURES);
-        if (kind < KIND_COUNT && (is_source(kind) || has_source(schema, node->children[i], depth + 1)))
+        if (*left == 0 || (kind < KIND_COUNT && is_source(kind)))
+            return true;
+        --*left;
+        if (kind < KIND_COUNT && has_source(schema, node->children[i], depth + 1, left))
             return true;
     }
     return false;
 }
 
 bool canvas_in_window(const Schema *schema, const Node *window) {
-    return has_source(schema, window, 0);
+    uint32_t left = CANVAS_LOOK;
+    return has_source(schema, window, 0, &left);
 }

@@ -156,36 +156,40 @@ static bool names_last(const Schema *schema, const Node *node) {
 }
 
 // Whether something in a canvas shows the picture of another node.
-static bool shows_others(const Schema *schema, const Node *node, int depth) {
+static bool shows_others(const Schema *schema, const Node *node, int depth, uint32_t *left) {
     enum { DEEPEST = 1000 };
-    if ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&
-        (attr_value(schema, node, ROW_IMAGE_IMAGE_ID).len > 0 ||
-         attr_value(schema, node, ROW_IMAGE_TEXTURE_ID).len > 0))
+    if (*left == 0 || ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&
+                       (attr_value(schema, node, ROW_IMAGE_IMAGE_ID).len > 0 ||
+                        attr_value(schema, node, ROW_IMAGE_TEXTURE_ID).len > 0)))
         return true;
+    --*left;
     for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++)
-        if (shows_others(schema, node->children[i], depth + 1))
+        if (shows_others(schema, node->children[i], depth + 1, left))
             return true;
     return false;
 }
 
-static bool looks_back(const Schema *schema, const Node *node, NodeKind kind, int depth) {
+static bool looks_back(const Schema *schema, const Node *node, NodeKind kind, int depth, uint32_t *left) {
     enum { DEEPEST = 100 };
-    if (kind == KIND_FEEDBACK || kind == KIND_REFERENCE || names_last(schema, node) ||
+    if (*left == 0 || kind == KIND_FEEDBACK || kind == KIND_REFERENCE || names_last(schema, node) ||
         (kind == KIND_RECORD && attr_value(schema, node, ROW_RECORD_FILENAME).len > 0))
         return true;
+    --*left;
     for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
-        NodeKind child = schema_kind_in(schema, node->children[i], PLACE_PICTURES);
-        if (child == KIND_CANVAS ? shows_others(schema, node->children[i], 0)
-                                 : child < KIND_COUNT && looks_back(schema, node->children[i], child, depth + 1))
+        const Node *child = node->children[i];
+        NodeKind inside = schema_kind_in(schema, child, PLACE_PICTURES);
+        if (inside == KIND_CANVAS ? shows_others(schema, child, 0, left)
+                                  : inside < KIND_COUNT && looks_back(schema, child, inside, depth + 1, left))
             return true;
     }
     return false;
 }
 
 static bool any_looks_back(const Shown *shown) {
+    uint32_t left = CANVAS_LOOK;
     const Node *window;
     for (uint32_t at = 0; (window = canvas_next_window(shown->schema, shown->tree, &at)) != NULL;)
-        if (looks_back(shown->schema, window, KIND_WINDOW, 0))
+        if (looks_back(shown->schema, window, KIND_WINDOW, 0, &left))
             return true;
     return false;
 }
