@@ -13,8 +13,8 @@ const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at) {
 
 // A program alone makes nothing, but these do: out of nothing, or from elsewhere.
 static bool is_source(NodeKind kind) {
-    return kind == KIND_CANVAS || kind == KIND_CANVAS3D || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE || kind == KIND_NOISE ||
-           kind == KIND_SHADER;
+    return kind == KIND_CANVAS || kind == KIND_CANVAS3D || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE ||
+           kind == KIND_NOISE || kind == KIND_SHADER;
 }
 
 static bool has_source(const Schema *schema, const Node *node, int depth, uint32_t *left) {

@@ -294,7 +294,8 @@ static PetriStatus act_profile(Stage *stage) {
 static PetriStatus act_records(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
-    bool ready = petri_picture_ready(stage->player.session, &options), records = petri_looks_back(stage->player.session);
+    bool ready = petri_picture_ready(stage->player.session, &options),
+         records = petri_looks_back(stage->player.session);
     PetriStatus status = petri_picture(stage->player.session, &options, &picture);
     if (status == PETRI_OK) {
         assert_true(ready && !records);
