@@ -35,6 +35,11 @@ command -v xdotool        : xdotool
 command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
+command -v cmake          : cmake make
+command -v mandoc         : mandoc
+command -v zsh            : zsh
+command -v fish           : fish
+command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra

@@ -50,18 +50,21 @@ static void take_three(double out[3], const double *v, uint32_t n) {
 
 // Takes the particles that are somewhere; `numbers` tells where each has gone.
 static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system, uint32_t *numbers) {
+    PhysColumns columns = phys_columns(view->engine);
     double most = 0;
     system->bodies = arena_alloc_array(arena, view->particle_count, sizeof *system->bodies);
     for (uint32_t i = 0; i < view->particle_count; i++) {
-        PhysParticle particle;
+        const double *position = phys_at_particle(columns.position, i);
+        double radius = *phys_at_particle(columns.radius, i), charge = *phys_at_particle(columns.charge, i);
         numbers[i] = UINT32_MAX;
-        if (!phys_get_particle(view->engine, i, &particle) || !numbers_finite(particle.position, view->dimensions, 1))
+        if (!numbers_finite(position, view->dimensions, 1))
             continue;
         AutoBody *body = &system->bodies[system->body_count];
         numbers[i] = system->body_count++;
-        *body = (AutoBody){.radius = isfinite(particle.radius) ? particle.radius : 0, .anchor = particle.anchor};
-        take_three(body->position, particle.position, view->dimensions);
-        body->shade = isfinite(particle.charge) ? particle.charge : 0;
+        *body =
+            (AutoBody){.radius = isfinite(radius) ? radius : 0, .anchor = columns.anchor[i * columns.anchor_stride]};
+        take_three(body->position, position, view->dimensions);
+        body->shade = isfinite(charge) ? charge : 0;
         most = fmax(most, fabs(body->shade));
     }
     system->charged = most > 0;
@@ -71,12 +74,12 @@ static void copy_bodies(Arena *arena, const SceneView *view, AutoSystem *system,
 
 // Without charges the shade is the speed: half way up where the frame would be crossed in two seconds.
 static void shade_by_speed(const SceneView *view, AutoSystem *system, const uint32_t *numbers) {
+    PhysColumns columns = phys_columns(view->engine);
     for (uint32_t i = 0; i < view->particle_count; i++) {
-        PhysParticle particle;
         double v[3];
-        if (numbers[i] == UINT32_MAX || !phys_get_particle(view->engine, i, &particle) || !particle.velocity)
+        if (numbers[i] == UINT32_MAX)
             continue;
-        take_three(v, particle.velocity, view->dimensions);
+        take_three(v, phys_at_particle(columns.velocity, i), view->dimensions);
         double speed = maths_hypot(maths_hypot(v[0], v[1]), v[2]);
         system->bodies[numbers[i]].shade = isfinite(speed) ? speed / (speed + system->frame.half) : 1;
     }

@@ -31,7 +31,7 @@ static void add_triangle(Mesh *mesh, uint32_t a, uint32_t b, uint32_t c) {
 
 Mesh mesh_box(Arena *arena, bool repeat) {
     // Of each face the corners at (0, 0), (1, 0) and (0, 1) of its texture, in halves.
-    static const signed char corners[6][3][3] = {
+    static const int corners[6][3][3] = {
         {{1, -1, 1}, {1, -1, -1}, {1, 1, 1}},  {{-1, -1, -1}, {-1, -1, 1}, {-1, 1, -1}},
         {{-1, 1, 1}, {1, 1, 1}, {-1, 1, -1}},  {{-1, -1, -1}, {1, -1, -1}, {-1, -1, 1}},
         {{-1, -1, 1}, {1, -1, 1}, {-1, 1, 1}}, {{1, -1, -1}, {-1, -1, -1}, {1, 1, -1}},

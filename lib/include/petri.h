@@ -84,8 +84,8 @@ typedef struct PetriOptions {
     // (`!record`) below its own and `write_folders`. Lists of names that end in NULL, or NULL; "/" allows all.
     const char *const *read_folders;
     const char *const *write_folders;
-    bool no_files;    // … it uses none at all, and imports none
-    bool keep_forces; // let petri_particle tell the force on each particle
+    bool no_files;                                                     // … it uses none at all, and imports none
+    bool keep_forces;                                                  // for PetriSystem.force
     void (*diagnostic)(void *host, const PetriDiagnostic *diagnostic); // NULL: silent
     void *host;
     // Vector instructions that physics may use: "scalar", "avx2" or "avx512", or what there is below that. NULL (the
@@ -254,28 +254,99 @@ PetriStatus petri_save(PetriSession *session, const char *file);
 // damaged is PETRI_INVALID (with a diagnostic) and changes nothing either.
 PetriStatus petri_restore(PetriSession *session, const char *file);
 
-// The particle systems of the last frame, for drawing and measuring. Numbers count from 0 in order of declaration; each
-// function is false beyond the last, and if memory is used up. Texts and vectors are valid until the next of these
-// calls, steps or loads; names of systems until the next step or load.
-typedef struct PetriSystem {
-    const char *name; // its state prefix in printed form, such as ":cells"
-    uint32_t dimensions;
-    uint32_t particle_count; // anchors too
-    uint32_t force_count;    // force appliers and barriers
-    uint64_t steps;          // simulation steps in the frame
-} PetriSystem;
+// A value of the language: a vector of numbers, or of elements of several kinds. It is a view of what lies in the
+// session, and lives as long as the function says that gives it; functions that take one copy what they keep. A host
+// makes one from its own numbers or elements. Symbols are numbers (petri_symbol).
+typedef enum PetriType { PETRI_NUMBER, PETRI_STRING, PETRI_NODE, PETRI_FUNCTION } PetriType;
+typedef struct PetriNode PetriNode;
+typedef struct PetriString {
+    const char *bytes; // UTF-8; U+0000 may be among it, and no NUL byte follows
+    size_t length;
+} PetriString;
+typedef struct PetriItem {
+    PetriType type;
+    union {
+        double number;
+        const PetriString *string;
+        const PetriNode *node;
+        const void *function;
+    } as;
+} PetriItem;
+typedef struct PetriValue {
+    uint32_t length;        // elements; 0: null
+    const double *numbers;  // if all are numbers, else NULL
+    const PetriItem *items; // if some are not, else NULL
+} PetriValue;
+// The printed form of a value, which the language reads back if there are only numbers and strings in it. NULL if
+// memory is used up or it is no value. Valid until the next petri_text, step or load, or text that is printed.
+const char *petri_text(PetriSession *session, PetriValue value);
+// The number that is the symbol `:name`; NaN if the name is none, or memory is used up. It never changes.
+double petri_symbol(PetriSession *session, const char *name);
+// The name of the symbol that a number is, or NULL. Valid as long as the session.
+const char *petri_symbol_name(const PetriSession *session, double number);
 
-typedef struct PetriParticle {
-    const char *id; // in printed form
-    bool anchor;
-    double radius;
-    double mass;
-    double charge;
-    const double *position; // as many doubles as the system has dimensions; they may be non-finite
-    const double *velocity;
-    const double *force; // the sum of all forces on it in the frame's last step; NULL for an anchor, if no step was
-                         // made or without PetriOptions.keep_forces
-} PetriParticle;
+// The state dictionary, which scripts read with `$`. A value is valid until something may change the state: a step,
+// petri_state_set, a load, petri_clear, petri_rewind or petri_restore.
+//
+// The value under a key; null if there is none, the key is none, or memory is used up.
+PetriValue petri_state_get(PetriSession *session, PetriValue key);
+// Stores a value under a key, or removes it if the value is null; the next frame has it. Keys and values are numbers
+// and strings; PETRI_INVALID for others, a value that is not finite or a key with NaN, and within a callback.
+PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
+// The entries, one after the other, in the order in which their keys came to be there: `*cursor` starts at 0; false at
+// the end.
+bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
+
+// A name of the host's, which scripts read as any other name and whose value may be another in each frame: the scripts
+// that are loaded from now on see it, and need not be loaded again for another value. Like definitions it is not seen
+// by modules. The name stays with the session; null is a value. PETRI_INVALID if it is no name or one of the engine's
+// (such as `time`), for nodes and functions, and within a callback.
+PetriStatus petri_give(PetriSession *session, const char *name, PetriValue value);
+
+// The tree that the last frame has come to: its nodes, and perhaps other elements. All that is reached from it is valid
+// until the next step, load or text typed at the prompt, petri_rewind, petri_restore or petri_clear.
+PetriValue petri_tree(const PetriSession *session);
+// Of a node: the word behind its `!`, its tags, attributes and children by number from 0; NULL beyond the last.
+const char *petri_tree_kind(const PetriNode *node);
+const char *petri_tree_tag(const PetriNode *node, uint32_t number);
+const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value); // its name
+const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number);
+// The attribute of this name, or null.
+PetriValue petri_tree_get(const PetriNode *node, const char *name);
+
+// Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
+typedef struct PetriColumn {
+    const double *data; // NULL if there are none
+    size_t stride;
+} PetriColumn;
+
+// A particle system of the last frame. Anchors are particles, too. Its columns point into the session, and nothing is
+// copied: they are valid until the next step, load, rewind, restore or clear.
+typedef struct PetriSystem {
+    const char *name;    // its state prefix in printed form, such as ":cells"; valid as the columns are
+    uint32_t dimensions; // doubles of a position, velocity or force
+    uint32_t particle_count;
+    uint32_t force_count; // force appliers and barriers
+    uint64_t steps;       // simulation steps in the frame
+    PetriColumn position; // may be non-finite
+    PetriColumn velocity;
+    PetriColumn force; // the sum of all forces in the frame's last step, 0 on an anchor. `data` is NULL if no step was
+                       // made, or without PetriOptions.keep_forces
+    PetriColumn radius;
+    PetriColumn mass;
+    PetriColumn charge;
+    const bool *anchor; // that of particle i is `anchor[i * anchor_stride]`
+    size_t anchor_stride;
+} PetriSystem;
+// By number from 0 in order of declaration; false beyond the last, and if memory is used up.
+bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
+// The id of a particle; null if there is none. Valid until the next petri_id or petri_force, and as the columns are.
+PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle);
+// The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made
+// when they are asked for first and whenever the system has got others. Valid as the columns are.
+PetriColumn petri_ids(PetriSession *session, size_t system);
+// The number of the particle that has an id; false if there is none, or memory is used up.
+bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 
 // A force applier or barrier: what can be seen of it.
 typedef struct PetriForce {
@@ -287,8 +358,8 @@ typedef struct PetriForce {
     const double *normal;
 } PetriForce;
 
-bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
-bool petri_particle(PetriSession *session, size_t system, uint32_t number, PetriParticle *particle);
+// By number from 0 in order of declaration; false beyond the last, and if memory is used up. Vectors are valid until
+// the next petri_force or petri_id, and as the columns of the system are.
 bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
 // Whether the last frame has anything to draw: a window with a canvas, or physics. A library of its own draws it

@@ -252,7 +252,7 @@ EXACT(log10, exact_logarithm, wide_log10_e)
 // --- power
 
 static bool is_whole(double y) {
-    return double_absolute(y) >= 0x1p53 || (double)(int64_t)y == y;
+    return double_absolute(y) >= 0x1p53 || (y == y && (double)(int64_t)y == y);
 }
 
 static bool is_odd(double y) {

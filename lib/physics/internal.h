@@ -112,6 +112,7 @@ struct PhysSystem {
     Buffer rows;             // 2 n doubles by handle
     Buffer own_forces;       // n doubles by handle, the particles' own forces, if they have any
     Buffer last_rows;        // those of the description before
+    Buffer force_rows;       // n doubles by handle, with PhysOptions.keep_forces: the forces of the last step
     Buffer not_finite;    // uint8_t by handle: results of the last frame that were not, see PhysTime.keep_last_finite
     Buffer force_records; // ForceRecord in order of the calls
     Buffer vectors;       // double

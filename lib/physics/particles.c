@@ -21,7 +21,9 @@ static bool reserve_columns(PhysSystem *system) {
     uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + LINE - 1) / LINE * LINE : count;
     uint64_t doubles = VECTORS * n * stride + SCALARS * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
     uint64_t flags = (count + sizeof(double) - 1) / sizeof(double);
-    if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)))
+    if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)) ||
+        (system->options.keep_forces &&
+         !phys_buffer_reserve(system, &system->force_rows, 0, count, n * sizeof(double))))
         return false;
     *columns = (Columns){.dimensions = n, .count = system->particle_count, .stride = stride};
     if (!count)
@@ -173,6 +175,17 @@ bool phys_clear_not_finite(PhysSystem *system) {
     return true;
 }
 
+// The forces by handle, for those who look.
+static void store_forces(PhysSystem *system) {
+    const Columns *columns = &system->columns;
+    size_t n = columns->dimensions;
+    for (size_t i = 0; i < columns->count; i++) {
+        double *row = (double *)system->force_rows.bytes + n * system->order[i];
+        for (size_t k = 0; k < n; k++)
+            row[k] = columns->anchor[i] ? 0 : columns->force[k * columns->stride + i];
+    }
+}
+
 static int shares_for(const PhysSystem *system) {
     enum { MIN_FOR_THREADS = 10000 }; // particles
     return phys_shares(system, system->particle_count, MIN_FOR_THREADS);
@@ -191,4 +204,6 @@ void phys_store(PhysSystem *system, bool keep) {
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
         system->any_not_finite |= storing.any_not_finite[w];
     system->any_from_attribute &= !keep || system->any_not_finite;
+    if (system->options.keep_forces && system->stepped)
+        store_forces(system);
 }

@@ -38,8 +38,8 @@ void phys_free(PhysSystem *system) {
         return;
     Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,       &system->force_records,
                          &system->vectors,   &system->indices,    &system->forces,     &system->column_data,
-                         &system->last_rows, &system->not_finite, &system->own_forces, &system->terms,
-                         &system->chain};
+                         &system->last_rows, &system->not_finite, &system->own_forces, &system->force_rows,
+                         &system->terms,     &system->chain};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
@@ -288,33 +288,25 @@ bool phys_velocity_finite(const PhysSystem *system, uint32_t particle) {
     return !has_mark(system, particle, PHYS_NOT_FINITE_VELOCITY);
 }
 
-bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description) {
-    const double *row = phys_position(system, particle);
-    if (!row)
-        return false;
-    const ParticleRecord *record = (const ParticleRecord *)system->particles.bytes + particle;
-    size_t n = system->dimensions;
-    *description = (PhysParticle){
-        .position = row,
-        .velocity = row + n,
-        .force = system->has_own_forces ? (const double *)system->own_forces.bytes + n * particle : NULL,
-        .ease = record->ease,
-        .radius = record->radius,
-        .mass = record->mass,
-        .charge = record->charge,
-        .anchor = record->anchor,
-    };
-    return true;
-}
+_Static_assert(sizeof(ParticleRecord) % sizeof(double) == 0, "a column of records has a stride in doubles");
 
-bool phys_force_on(const PhysSystem *system, uint32_t particle, double *sum) {
-    if (!system->stepped || !system->options.keep_forces || particle >= system->particle_count ||
-        ((const ParticleRecord *)system->particles.bytes)[particle].anchor)
-        return false;
-    const Columns *columns = &system->columns;
-    for (size_t k = 0; k < columns->dimensions; k++)
-        sum[k] = columns->force[k * columns->stride + system->place[particle]];
-    return true;
+PhysColumns phys_columns(const PhysSystem *system) {
+    if (!system->particle_count)
+        return (PhysColumns){.anchor = NULL};
+    const ParticleRecord *records = system->particles.bytes;
+    enum { RECORD = sizeof *records / sizeof(double) };
+    size_t n = system->dimensions;
+    bool forces = system->stepped && system->options.keep_forces;
+    return (PhysColumns){
+        .position = {system->rows.bytes, ROW_VECTORS * n},
+        .velocity = {(const double *)system->rows.bytes + n, ROW_VECTORS * n},
+        .force = {forces ? system->force_rows.bytes : NULL, n},
+        .radius = {&records->radius, RECORD},
+        .mass = {&records->mass, RECORD},
+        .charge = {&records->charge, RECORD},
+        .anchor = &records->anchor,
+        .anchor_stride = sizeof *records,
+    };
 }
 
 uint32_t phys_force_count(const PhysSystem *system) {

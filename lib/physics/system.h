@@ -84,7 +84,7 @@ typedef struct PhysOptions {
     PhysNeighbours neighbours;
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
     Meter *meter;      // that work and memory are charged to, which outlives the system; NULL: none
-    bool keep_forces;  // for phys_force_on; costs one store per particle and step
+    bool keep_forces;  // for PhysColumns.force; costs one store per particle and step
 } PhysOptions;
 
 // A new system has one thread, the detected level and lists where they pay.
@@ -166,11 +166,26 @@ bool phys_position_finite(const PhysSystem *system, uint32_t particle);
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 
 // For showing a system as it stands after phys_simulate. All vectors are valid until the next phys_begin.
-// The description of a particle, its position and velocity as simulated; false for a handle that does not exist.
-bool phys_get_particle(const PhysSystem *system, uint32_t particle, PhysParticle *description);
-// Copies the sum of the forces on a particle in the last step, n doubles. False if nothing was simulated since
-// phys_begin or phys_rest, the forces were not kept, or it is an anchor, on which no force acts.
-bool phys_force_on(const PhysSystem *system, uint32_t particle, double *sum);
+// Where the numbers of all particles lie, by handle: those of the next one are `stride` doubles on.
+typedef struct PhysColumn {
+    const double *numbers; // NULL without particles
+    size_t stride;
+} PhysColumn;
+typedef struct PhysColumns {
+    PhysColumn position; // as simulated, n doubles
+    PhysColumn velocity;
+    PhysColumn force; // n doubles: the sum of the forces on it in the last step, zeros for an anchor. `numbers` is NULL
+                      // if nothing was simulated since phys_begin or phys_rest, or the forces were not kept
+    PhysColumn radius;
+    PhysColumn mass;
+    PhysColumn charge;
+    const bool *anchor; // the next one is `anchor_stride` bytes on
+    size_t anchor_stride;
+} PhysColumns;
+PhysColumns phys_columns(const PhysSystem *system);
+static inline const double *phys_at_particle(PhysColumn column, uint32_t particle) {
+    return column.numbers + particle * column.stride;
+}
 uint32_t phys_force_count(const PhysSystem *system);
 // Force appliers and barriers, by number from 0 in the order of the calls; false beyond the last.
 bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);

@@ -446,8 +446,10 @@ static const Program *compile_file(Compiler *compiler, const Ast *ast) {
     FunctionScope function;
     compile_function_open(compiler, &function, NULL);
     compiler->repeats = options->module; // a module may be imported at several places
-    for (uint32_t i = 0; i < options->param_count; i++)
+    for (uint32_t i = 0; i < options->param_count; i++) {
         compile_bind(compiler, BINDING_PARAM, options->params[i], (Span){0}, NULL);
+        compiler->function->scope->used = true; // it is the host's, who gives it to whatever script
+    }
     const Binding *params = function.scope;
     Program *program = arena_alloc(compiler->arena, sizeof *program);
     *program = (Program){.source = compiler->source, .param_count = options->param_count};

@@ -11,6 +11,7 @@ void mirror_free(Mirror *mirror) {
     free(mirror->slots);
     free(mirror->last_slots);
     free(mirror->anchors);
+    free(mirror->ids);
 }
 
 bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count) {
@@ -61,6 +62,7 @@ void mirror_open(PhysicsTree *tree) {
         mirror->last_capacity = before.slot_capacity;
     }
     mirror->slot_count = mirror->anchor_count = 0;
+    mirror->ids_known = false;
     mirror->state = MIRROR_OPEN;
     phys_begin(tree->engine, tree->dimensions);
 }

@@ -59,6 +59,10 @@ typedef struct Mirror {
     uint32_t anchor_count;
     uint32_t anchor_capacity;
     uint32_t missing; // entries that the state does not have yet
+    double *ids;      // of all particles, for those who ask (scene_view_ids)
+    uint32_t id_capacity;
+    bool ids_known;  // they were looked at since the last tree was read whole
+    bool ids_single; // … and each is one number, which is there
 } Mirror;
 
 typedef struct PhysicsTree PhysicsTree;

@@ -3,6 +3,7 @@
 
 #include "scene/systems.h"
 
+#include <math.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -181,7 +182,8 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
                             .particle_count = count < listed ? count : listed,
                             .steps = system->steps,
                             .began = system->began,
-                            .slots = system->mirror.slots};
+                            .slots = system->mirror.slots,
+                            .system = (PhysicsSystem *)system};
         return true;
     }
     return false;
@@ -190,4 +192,45 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle) {
     Value key = state_slot_key(state, view->slots[2 * particle]);
     return value_slice(arena, key, view->prefix.len, key.len - view->prefix.len);
+}
+
+// The number that is an id, or the quiet NaN, which no key has.
+static double single_id(const State *state, const SceneView *view, uint32_t particle) {
+    Value key = state_slot_key(state, view->slots[2 * (size_t)particle]);
+    if (key.len != view->prefix.len + 1)
+        return NAN;
+    Item last = value_at(&key, key.len - 1);
+    return last.type == ITEM_NUMBER ? last.as.number : NAN;
+}
+
+bool scene_view_ids(const State *state, const SceneView *view, const double **ids) {
+    Mirror *mirror = &view->system->mirror;
+    *ids = NULL;
+    if (!view->particle_count)
+        return true;
+    if (!mirror->ids_known) {
+        if (!heap_reserve((void **)&mirror->ids, &mirror->id_capacity, view->particle_count - 1, sizeof *mirror->ids))
+            return false;
+        mirror->ids_single = mirror->ids_known = true;
+        for (uint32_t i = 0; i < view->particle_count && mirror->ids_single; i++) {
+            mirror->ids[i] = single_id(state, view, i);
+            mirror->ids_single = mirror->ids[i] == mirror->ids[i];
+        }
+    }
+    *ids = mirror->ids_single ? mirror->ids : NULL;
+    return true;
+}
+
+bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle) {
+    SceneFrame frame = {.state = state, .arena = arena};
+    PhysicsTree tree = {.scene = scene,
+                        .system = view->system,
+                        .frame = &frame,
+                        .prefix = view->prefix,
+                        .body_count = view->particle_count};
+    int64_t found = physics_find_body(&tree, id);
+    if (tree.failed)
+        arena_exhausted(arena);
+    *particle = (uint32_t)found;
+    return found != PHYSICS_NO_BODY && found < view->particle_count;
 }

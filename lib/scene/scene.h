@@ -56,10 +56,15 @@ typedef struct SceneView {
     uint64_t steps; // made in the last update
     bool began;     // it had simulated before that
     const StateSlot *slots;
+    PhysicsSystem *system;
 } SceneView;
 bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view);
 // The id of a particle of a view: what its key has beyond the prefix.
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);
+// All ids, if each is one number, else NULL; false if memory is used up. They stay until the system gets others.
+bool scene_view_ids(const State *state, const SceneView *view, const double **ids);
+// The particle with this id; false if there is none.
+bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *view, Value id, uint32_t *particle);
 // What the host reports of the user's hands, for `!pointer` and `!key` (input_bind.h).
 Input *scene_input(Scene *scene);
 // Updates all systems from the node elements of `tree`; returns the simulation steps made.

@@ -111,6 +111,8 @@ static void open_scratch(PetriSession *session, Heard *heard) {
     heard->scratch = petri_open(&options);
     if (heard->scratch)
         heard->scratch->reach = session->reach; // whose lists outlive it
+    if (heard->scratch)
+        session_copy_given(session, heard->scratch);
     for (uint32_t i = 0; heard->scratch && i < session->config.define_count; i++)
         if (petri_define(heard->scratch, session->config.defines[i].text) == PETRI_MEMORY)
             petri_close(&heard->scratch);

@@ -190,6 +190,8 @@ void session_evaluate(PetriSession *session) {
     frame->value_count = 0;
     frame->values = arena_alloc_array(&frame->arena, list->names.count, sizeof(Value));
     frame->working = true;
+    for (uint32_t i = 0; i < session->config.program->program->param_count; i++)
+        frame->values[frame->value_count++] = value_copy(&frame->arena, session->given.items[i]->value);
     Value tree = run_program(session, session->config.program->program);
     for (uint32_t i = 0; i < list->count; i++) {
         Value more = run_program(session, list->statements[i].program);

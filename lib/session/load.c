@@ -161,9 +161,10 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
     unit->source = source_new(&unit->arena, name, unit->path, text);
     const Ast *ast = parse(session, unit, &unit->scratch, unit->source);
+    Names given = {session->given.names, session->given.count};
     unit->empty = ast && ast->count == 0;
     if (ast)
-        unit->program = unit_compile(session, unit, ast, module, (Names){0});
+        unit->program = unit_compile(session, unit, ast, module, module ? (Names){0} : given);
     else
         unit->why = STR("it does not parse");
     arena_free(&unit->scratch);

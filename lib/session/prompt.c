@@ -37,15 +37,15 @@ typedef struct Job {
 
 // --- lists
 
-// The list before (NULL: none) with room for so many statements and the names of the program after its own.
-static PromptList *make_list(const PromptList *before, uint32_t count, const Program *program) {
-    uint32_t old = before ? before->names.count : 0, more = program ? program->export_count : 0;
+// Room for so many statements, with the names before and those of a program.
+static PromptList *make_list(Names before, uint32_t count, const Program *program) {
+    uint32_t old = before.count, more = program ? program->export_count : 0;
     PromptList *list = malloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
     if (!list)
         return NULL;
     const Symbol **names = (const Symbol **)(void *)(list->statements + count);
     for (uint32_t i = 0; i < old; i++)
-        names[i] = before->names.items[i];
+        names[i] = before.items[i];
     for (uint32_t i = 0; i < more; i++)
         names[old + i] = program->exports[i].name;
     list->references = 1;
@@ -54,12 +54,12 @@ static PromptList *make_list(const PromptList *before, uint32_t count, const Pro
     return list;
 }
 
-PromptList *prompt_list_new(const Program *script) {
-    return make_list(NULL, 0, script);
+PromptList *prompt_list_new(Names given, const Program *script) {
+    return make_list((Names){given.items, script ? script->param_count : 0}, 0, script);
 }
 
 PromptList *prompt_list_add(const PromptList *before, const PromptStatement *statement) {
-    PromptList *list = make_list(before, before->count + 1, statement->program);
+    PromptList *list = make_list(before->names, before->count + 1, statement->program);
     if (!list)
         return NULL;
     for (uint32_t i = 0; i < before->count; i++)
@@ -80,7 +80,7 @@ void prompt_list_free(PromptList *list) {
 
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
                          PromptList **made) {
-    *made = prompt_list_new(script);
+    *made = prompt_list_new((Names){session->given.names, session->given.count}, script);
     for (uint32_t i = 0; *made && i < list->count; i++) {
         PromptStatement statement = list->statements[i];
         if (choice == PROMPT_NONE || (choice == PROMPT_BINDINGS && statement.adds))

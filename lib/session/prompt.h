@@ -17,7 +17,7 @@ typedef struct PromptStatement {
 typedef struct PromptList {
     uint32_t references;
     uint32_t count;
-    Names names; // exports of the script, then of each statement
+    Names names; // what the host gives the script, exports of the script, then of each statement
     PromptStatement statements[];
 } PromptList;
 
@@ -25,8 +25,9 @@ typedef struct Prompt {
     Arena arena; // of one expression
 } Prompt;
 
-// The list of a script without statements; without names for NULL. NULL if memory is used up.
-PromptList *prompt_list_new(const Program *script);
+// The list of a script without statements; without names for NULL. NULL if memory is used up. `given` begins with the
+// script's parameters.
+PromptList *prompt_list_new(Names given, const Program *script);
 // A list with one statement more, or NULL.
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);
 // Gives a reference back; NULL is fine.

@@ -185,7 +185,7 @@ static void open_parts(PetriSession *session, void *context) {
     reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
     session->options.read_folders = session->options.write_folders = NULL; // they are the host's
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
-    session->config.prompts = prompt_list_new(NULL);
+    session->config.prompts = prompt_list_new((Names){0}, NULL);
     if (!session->state || !session->files || !session->noise || !session->config.prompts ||
         (options->profile && !session->vm.profile))
         arena_exhausted(&session->arena);
@@ -239,6 +239,7 @@ void petri_close(PetriSession **handle) {
     if (!session)
         return;
     petri_config_free(session->shared);
+    session_free_given(session);
     prompt_list_free(session->config.prompts);
     unit_free(session->config.program);
     for (Unit *unit = session->loader.modules, *next; unit; unit = next) {
@@ -290,8 +291,7 @@ static Value define_value(PetriSession *session, Str text) {
     }
 }
 
-// Is a text a name of the language (L2.4)?
-static bool is_name(Str text) {
+bool session_is_name(Str text) {
     while (text.len > 1 && text.bytes[text.len - 1] == '\'')
         text.len--;
     for (size_t at = 0, next = 0; at < text.len; at = next) {
@@ -325,7 +325,7 @@ PetriStatus petri_define(PetriSession *session, const char *definition) {
 }
 
 PetriStatus session_define(PetriSession *session, Str name, Str value) {
-    if (!is_name(name) || utf8_find_error(value) != value.len)
+    if (!session_is_name(name) || utf8_find_error(value) != value.len)
         return PETRI_INVALID;
     uint32_t count = session->config.define_count;
     Define *defines = arena_alloc_array(&session->arena, count + 1, sizeof *defines);

@@ -30,6 +30,22 @@ typedef struct Config {
     double resolution; // 0: as systems say
 } Config;
 
+// A name that the host gives values to. One that cannot be copied leaves the one before.
+typedef struct GivenName {
+    const Symbol *name;
+    Value value;
+    Value next;      // while it is copied
+    Arena arenas[2]; // `value` is in arenas[turn]
+    bool turn;
+} GivenName;
+
+// In the order in which they were given first, which is that of the parameters of scripts loaded since then.
+typedef struct GivenNames {
+    const Symbol *const *names;
+    GivenName *const *items;
+    uint32_t count;
+} GivenNames;
+
 struct PetriConfig {
     uint32_t references;
     uint64_t number;
@@ -46,7 +62,7 @@ struct PetriSession {
     PetriOptions options;
     Arena arena;      // session lifetime: symbols, definitions
     Arena text_arena; // texts given to the host, reset by most uses
-    Arena view_arena; // … about systems: until the next petri_system, petri_particle, petri_force
+    Arena view_arena; // … about systems: until the next petri_id, petri_force
     SymbolTable symbols;
     State *state;
     Scene *scene;
@@ -65,6 +81,7 @@ struct PetriSession {
     bool steadfast; // what is being done must not be interrupted
     ArenaEnd end;   // how the last one ended that was given up
 
+    GivenNames given;
     Config config;
     PetriConfig *shared;    // the same, once somebody has asked for it
     uint64_t config_number; // of the present configuration
@@ -85,6 +102,17 @@ void session_arena(PetriSession *session, Arena *arena, const char *name, size_t
 
 // Goes back to before a frame that was given up, if that has not been possible so far; false if it still is not.
 bool session_heal(PetriSession *session);
+
+// Is a text a name of the language (L2.4)?
+bool session_is_name(Str text);
+// A value as a host sees it: valid as long as what `v` points to and `v` itself.
+PetriValue session_show(const Value *v);
+// A host's value, with elements in the arena and the texts and numbers of the host; false if it is none.
+bool session_take(Arena *arena, PetriValue given, Value *taken);
+
+// Gives another session the names that this one has, and frees them.
+void session_copy_given(const PetriSession *session, PetriSession *to);
+void session_free_given(PetriSession *session);
 
 // Defines a name; the text is that of its value. Within a protected call.
 PetriStatus session_define(PetriSession *session, Str name, Str value);

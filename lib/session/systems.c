@@ -35,17 +35,30 @@ static const char *name_of(PetriSession *session, size_t number, Value prefix) {
     return frame->system_names[number];
 }
 
+static PetriColumn shown_column(PhysColumn column) {
+    return (PetriColumn){column.numbers, column.stride};
+}
+
 static void find_system(PetriSession *session, void *context) {
     Request *request = context;
     SceneView view;
     if (!scene_view(session->scene, session->state, request->system, &view))
         return;
+    PhysColumns columns = phys_columns(view.engine);
     *(PetriSystem *)request->out = (PetriSystem){
         .name = name_of(session, request->system, view.prefix),
         .dimensions = view.dimensions,
         .particle_count = view.particle_count,
         .force_count = phys_force_count(view.engine),
         .steps = view.steps,
+        .position = shown_column(columns.position),
+        .velocity = shown_column(columns.velocity),
+        .force = shown_column(columns.force),
+        .radius = shown_column(columns.radius),
+        .mass = shown_column(columns.mass),
+        .charge = shown_column(columns.charge),
+        .anchor = columns.anchor,
+        .anchor_stride = columns.anchor_stride,
     };
     request->found = true;
 }
@@ -54,31 +67,69 @@ bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
     return session && system && ask(session, find_system, number, 0, system);
 }
 
-static void find_particle(PetriSession *session, void *context) {
+static void find_id(PetriSession *session, void *context) {
     Request *request = context;
-    uint32_t particle = request->number;
     SceneView view;
-    PhysParticle described;
-    if (!scene_view(session->scene, session->state, request->system, &view) || particle >= view.particle_count ||
-        !phys_get_particle(view.engine, particle, &described))
-        return;
     Arena *arena = &session->view_arena;
-    double *force = arena_alloc_array(arena, view.dimensions, sizeof *force);
-    *(PetriParticle *)request->out = (PetriParticle){
-        .id = format_text(arena, &session->symbols, scene_view_id(arena, session->state, &view, particle)).bytes,
-        .anchor = described.anchor,
-        .radius = described.radius,
-        .mass = described.mass,
-        .charge = described.charge,
-        .position = described.position,
-        .velocity = described.velocity,
-        .force = phys_force_on(view.engine, particle, force) ? force : NULL,
-    };
+    if (!scene_view(session->scene, session->state, request->system, &view) || request->number >= view.particle_count)
+        return;
+    const Value *key = state_slot_key_at(session->state, view.slots[2 * (size_t)request->number]);
+    PetriValue *id = request->out;
+    request->found = true;
+    if (key->kind == VALUE_NUMBERS) {
+        *id = (PetriValue){.length = key->len - view.prefix.len, .numbers = value_numbers(key) + view.prefix.len};
+        return;
+    }
+    Value *slice = arena_alloc(arena, sizeof *slice);
+    *slice = scene_view_id(arena, session->state, &view, request->number);
+    *id = session_show(slice);
+}
+
+PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle) {
+    PetriValue id = {0};
+    return session && ask(session, find_id, system, particle, &id) ? id : (PetriValue){0};
+}
+
+static void find_ids(PetriSession *session, void *context) {
+    Request *request = context;
+    SceneView view;
+    const double *ids;
+    if (!scene_view(session->scene, session->state, request->system, &view))
+        return;
+    if (!scene_view_ids(session->state, &view, &ids))
+        arena_exhausted(&session->view_arena);
+    *(PetriColumn *)request->out = (PetriColumn){ids, 1};
     request->found = true;
 }
 
-bool petri_particle(PetriSession *session, size_t number, uint32_t particle, PetriParticle *out) {
-    return session && out && ask(session, find_particle, number, particle, out);
+PetriColumn petri_ids(PetriSession *session, size_t system) {
+    PetriColumn ids = {NULL, 1};
+    if (session)
+        ask(session, find_ids, system, 0, &ids);
+    return ids;
+}
+
+typedef struct Search {
+    PetriValue id;
+    uint32_t found;
+} Search;
+
+static void find_by_id(PetriSession *session, void *context) {
+    Request *request = context;
+    Search *search = request->out;
+    SceneView view;
+    Value id;
+    request->found = scene_view(session->scene, session->state, request->system, &view) &&
+                     session_take(&session->view_arena, search->id, &id) &&
+                     scene_view_find(session->scene, session->state, &session->view_arena, &view, id, &search->found);
+}
+
+bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle) {
+    Search search = {id, 0};
+    if (!session || !particle || !ask(session, find_by_id, system, 0, &search))
+        return false;
+    *particle = search.found;
+    return true;
 }
 
 static void find_force(PetriSession *session, void *context) {

@@ -249,6 +249,14 @@ Value state_slot_key(const State *state, StateSlot slot) {
     return slot < state->count ? state->entries[slot].key : VALUE_NULL;
 }
 
+const Value *state_slot_key_at(const State *state, StateSlot slot) {
+    return &state->entries[slot].key;
+}
+
+const Value *state_slot_at(const State *state, StateSlot slot) {
+    return &state->entries[slot].value;
+}
+
 // Puts a value that the entry owns from now on in the place of the one it has.
 static void replace(State *state, StateEntry *entry, Value owned) {
     state->live += (owned.len > 0);

@@ -36,6 +36,9 @@ StateSlot state_find(const State *state, Value key);
 Value state_slot_get(const State *state, StateSlot slot);
 // The key of a slot; a borrowed view, valid until state_clear.
 Value state_slot_key(const State *state, StateSlot slot);
+// Where it is: valid until a slot is made, or state_clear. The slot must exist.
+const Value *state_slot_key_at(const State *state, StateSlot slot);
+const Value *state_slot_at(const State *state, StateSlot slot); // likewise, or until it is written to
 // As state_set. Numbers of unchanged length are overwritten in place.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 

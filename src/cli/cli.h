@@ -27,7 +27,7 @@ typedef struct OptionSpec {
     bool (*read)(const struct Args *args, void *field);
     int64_t least; // of whole numbers
     int64_t most;
-    const char *const *words; // to choose from, ended by NULL
+    const char *const *words; // to choose from (some, with commas, if the value is a LIST), ended by NULL
 } OptionSpec;
 
 // All options; the last has no name.

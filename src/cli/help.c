@@ -24,19 +24,21 @@ int help_end(Output *output) {
     return status;
 }
 
+const char HELP_TITLE[] = "runs Flitter scripts that hold systems of particles";
+const char HELP_BEGINNING[] =
+    "To begin: petri new dish, then petri view dish.fl, and change dish.fl in an editor.\n\n"
+    "'petri help COMMAND' lists a command's options. Scripts are made of functions ('petri help builtins') and\n"
+    "nodes ('petri help nodes'); 'petri help WORD' tells of one, such as sin, particle or tempo. SCRIPT.fl may\n"
+    "be - for standard input. 'petri --version' prints the version.";
+
 int help_overview(const Command *const *commands) {
     Output *output = help_begin();
-    output_format(output, "petri %s: runs Flitter scripts that hold systems of particles\n\n", petri_version());
+    output_format(output, "petri %s: %s\n\n", petri_version(), HELP_TITLE);
     output_format(output, "usage: petri SCRIPT.fl\n       petri COMMAND [options] ...\n\n");
     for (size_t i = 0; commands[i] != NULL; i++) {
         output_format(output, "  %-8s %s\n", commands[i]->name, commands[i]->summary);
     }
-    output_format(
-        output,
-        "\nTo begin: petri new dish, then petri view dish.fl, and change dish.fl in an editor.\n\n"
-        "'petri help COMMAND' lists a command's options. Scripts are made of functions ('petri help builtins') and\n"
-        "nodes ('petri help nodes'); 'petri help WORD' tells of one, such as sin, particle or tempo. SCRIPT.fl may\n"
-        "be - for standard input. 'petri --version' prints the version.\n");
+    output_format(output, "\n%s\n", HELP_BEGINNING);
     return help_end(output);
 }
 

@@ -12,6 +12,17 @@ int help_end(Output *output);
 // An option and what it does, in a line.
 void help_option(Output *output, const OptionSpec *spec);
 
+// What `petri help` and the manual begin with: after the name, and after the list of commands.
+extern const char HELP_TITLE[], HELP_BEGINNING[];
+
+// Words of the language that are neither functions nor nodes, ended by one without a word (topics.c).
+typedef struct Topic {
+    const char *word;
+    const char *form;
+    const char *help;
+} Topic;
+extern const Topic TOPICS[];
+
 // What there is to say of a word of the language, for `petri help` and `.help` at the prompt (topics.c).
 
 // Tells of the built-in function, the node (`!name` means no other), the word or the attribute of this name. False if

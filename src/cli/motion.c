@@ -3,42 +3,40 @@
 
 #include <math.h>
 #include <stdlib.h>
-#include <string.h>
 
 #include "cli/bytes.h"
 
-static double speed_square(const PetriParticle *particle, uint32_t dimensions) {
+static double speed_square(const PetriSystem *system, uint32_t particle) {
+    const double *velocity = system->velocity.data + particle * system->velocity.stride;
     double square = 0;
-    for (uint32_t k = 0; k < dimensions; k++) {
-        square += particle->velocity[k] * particle->velocity[k];
+    for (uint32_t k = 0; k < system->dimensions; k++) {
+        square += velocity[k] * velocity[k];
     }
     return square;
 }
 
-double particle_speed(const PetriParticle *particle, uint32_t dimensions) {
-    return sqrt(speed_square(particle, dimensions));
+double particle_speed(const PetriSystem *system, uint32_t particle) {
+    return sqrt(speed_square(system, particle));
 }
 
-static void add_particle(Motion *motion, const PetriParticle *particle, uint32_t dimensions) {
-    double square = speed_square(particle, dimensions), speed = sqrt(square);
-    for (uint32_t k = 0; k < dimensions; k++) {
-        motion->momentum[k] += particle->mass * particle->velocity[k];
+static void add_particle(Motion *motion, const PetriSystem *system, uint32_t i) {
+    const double *velocity = system->velocity.data + i * system->velocity.stride;
+    double square = speed_square(system, i), speed = sqrt(square), mass = system->mass.data[i * system->mass.stride];
+    for (uint32_t k = 0; k < system->dimensions; k++) {
+        motion->momentum[k] += mass * velocity[k];
     }
-    motion->moving++;
-    motion->kinetic_energy += 0.5 * particle->mass * square;
-    if (motion->fastest_id == NULL || speed > motion->fastest) {
-        free(motion->fastest_id);
-        motion->fastest_id = memory_text(particle->id);
+    motion->kinetic_energy += 0.5 * mass * square;
+    if (motion->moving++ == 0 || speed > motion->fastest) {
+        motion->fastest_particle = i;
         motion->fastest = speed;
     }
 }
 
-Motion motion_measure(PetriSession *session, size_t number, const PetriSystem *system) {
+Motion motion_measure(const PetriSystem *system) {
     Motion motion = {.momentum = memory_zeroed(system->dimensions * sizeof(double))};
-    PetriParticle particle;
-    for (uint32_t i = 0; petri_particle(session, number, i, &particle); i++) {
-        if (!particle.anchor) {
-            add_particle(&motion, &particle, system->dimensions);
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        if (!system->anchor[i * system->anchor_stride]) {
+            add_particle(&motion, system, i);
         }
     }
     return motion;
@@ -46,5 +44,4 @@ Motion motion_measure(PetriSession *session, size_t number, const PetriSystem *s
 
 void motion_free(Motion *motion) {
     free(motion->momentum);
-    free(motion->fastest_id);
 }

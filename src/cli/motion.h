@@ -7,16 +7,16 @@
 #include "petri.h"
 
 typedef struct Motion {
-    uint32_t moving;       // particles
-    double kinetic_energy; // half the mass times the speed squared
-    double *momentum;      // mass times velocity
-    double fastest;        // speed
-    char *fastest_id;      // NULL without particles
+    uint32_t moving;           // particles
+    double kinetic_energy;     // half the mass times the speed squared
+    double *momentum;          // mass times velocity
+    double fastest;            // speed
+    uint32_t fastest_particle; // if some are moving
 } Motion;
 
-double particle_speed(const PetriParticle *particle, uint32_t dimensions);
-// Of the system with this number; free it with motion_free.
-Motion motion_measure(PetriSession *session, size_t number, const PetriSystem *system);
+double particle_speed(const PetriSystem *system, uint32_t particle);
+// Free it with motion_free.
+Motion motion_measure(const PetriSystem *system);
 void motion_free(Motion *motion);
 
 #endif

@@ -68,7 +68,7 @@ OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "lockstep", 0, NULL, read_unset, realt
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER, "realtime", 0, NULL, read_flag, realtime, "follow the wall clock; time counts from frame 0")
 OPTION(FOR_VIEW, "lockstep", 0, NULL, read_unset, realtime, "time is frame/fps, as fast as possible")
 OPTION(FOR_VIEW, "realtime", 0, NULL, read_flag, realtime, "follow the wall clock (the default); time counts from frame 0")
-OPTION(FOR_RUN | FOR_GOLDEN, "print", 0, "LIST", read_sections, sections, "print any of tree, state, log, error, hash (SHA-256 of the state), with commas; logs alone if not given")
+OPTION(FOR_RUN | FOR_GOLDEN, "print", 0, "LIST", ONE_OF(read_sections, "tree", "state", "log", "error", "hash"), sections, "print any of tree, state, log, error, hash (SHA-256 of the state), with commas; logs alone if not given")
 OPTION(FOR_RUN | FOR_GOLDEN, "every", 0, "K", WHOLE(1, INT64_MAX), every, "print and record each K-th frame, starting with frame 0")
 OPTION(FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "define", 'D', "NAME=VALUE", read_definition, definitions, "set a parameter of the script; may be repeated")
 OPTION(FOR_CHECK, "define", 'D', "NAME=VALUE", read_definition, definitions, "define a name for the scripts; may be repeated")

@@ -122,14 +122,13 @@ static bool read_choice(const Args *args, void *field) {
     return true;
 }
 
-// Some of tree, state, log, error, hash, as the bits PETRI_PRINT_…, which follow each other.
+// Some of the row's words, as the bits PETRI_PRINT_…, which follow each other.
 static bool read_sections(const Args *args, void *field) {
-    static const char *const names[] = {"tree", "state", "log", "error", "hash", NULL};
     unsigned *sections = field;
     SCOPED_TEXT list = memory_text(args->value);
     *sections = 0;
     for (char *rest = list; rest != NULL;) {
-        int section = find_word(names, strsep(&rest, ","));
+        int section = find_word(args->option->words, strsep(&rest, ","));
         if (section < 0) {
             return wrong_value(args, "a list of tree, state, log, error, hash");
         }

@@ -8,24 +8,17 @@
 #include "cli/table.h"
 #include "petri.h"
 
-typedef struct Topic {
-    const char *word;
-    const char *form;
-    const char *help;
-} Topic;
-
-static const Topic topics[] = {
+const Topic TOPICS[] = {
 #define TOPIC(word, form, help) {word, form, help},
 #include "cli/topic_list.h"
 #undef TOPIC
+    {0},
 };
 
-enum { TOPIC_COUNT = sizeof topics / sizeof topics[0] };
-
 static bool tell_word(Output *output, const char *word) {
-    for (size_t i = 0; i < TOPIC_COUNT; i++) {
-        if (strcmp(topics[i].word, word) == 0) {
-            output_format(output, "%s\n    %s\n", topics[i].form, topics[i].help);
+    for (size_t i = 0; TOPICS[i].word != NULL; i++) {
+        if (strcmp(TOPICS[i].word, word) == 0) {
+            output_format(output, "%s\n    %s\n", TOPICS[i].form, TOPICS[i].help);
             return true;
         }
     }
@@ -130,7 +123,7 @@ void topics_offer(StrNearest *nearest) {
             nearest_offer(nearest, attribute.name);
         }
     }
-    for (size_t i = 0; i < TOPIC_COUNT; i++) {
-        nearest_offer(nearest, topics[i].word);
+    for (size_t i = 0; TOPICS[i].word != NULL; i++) {
+        nearest_offer(nearest, TOPICS[i].word);
     }
 }

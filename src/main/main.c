@@ -12,22 +12,6 @@
 #include "cli/pass_on.h"
 #include "main/commands.h"
 
-#ifdef PETRI_PICTURES
-const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
-                                   &CHECK_COMMAND, &NEW_COMMAND,  &HELP_COMMAND,   NULL};
-#else // those that never draw
-const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND, NULL};
-#endif
-
-const Command *command_find(const char *name) {
-    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
-        if (strcmp(COMMANDS[i]->name, name) == 0) {
-            return COMMANDS[i];
-        }
-    }
-    return NULL;
-}
-
 // A script's name has a dot or a slash in it, or is the name of something that exists.
 static bool looks_like_file(const char *word) {
     return strpbrk(word, "./") != NULL || access(word, F_OK) == 0;

@@ -280,7 +280,7 @@ const Command RENDER_COMMAND = {
         "Draws what a script's !window holds, or its particles if it does not draw itself. OUT's suffix tells what is\n"
         "written: a picture of the last frame, or of one that is chosen; a picture of each frame, if the name has a\n"
         "place for its number (%05d); or a film, for which ffmpeg has to be installed. '-o -' writes to standard\n"
-        "output when all is drawn: petri render dish.fl -o - --format gif >dish.gif\n"
+        "output when all is drawn (petri render dish.fl -o - --format gif >dish.gif).\n"
         "Ctrl-C ends a film or a series after the frame at hand and keeps what is done; a second Ctrl-C keeps no "
         "film.\n"
         "\n"

@@ -161,19 +161,25 @@ static void add_number(Table *table, double x) {
     add_vector(table, &x, 1);
 }
 
-static uint32_t count_anchors(const Repl *repl, size_t number) {
-    PetriParticle particle;
+static const double *row(PetriColumn column, uint32_t particle) {
+    return column.data == NULL ? NULL : column.data + particle * column.stride;
+}
+
+static bool is_anchor(const PetriSystem *system, uint32_t particle) {
+    return system->anchor[particle * system->anchor_stride];
+}
+
+static uint32_t count_anchors(const PetriSystem *system) {
     uint32_t anchors = 0;
-    for (uint32_t i = 0; petri_particle(repl->session, number, i, &particle); i++) {
-        anchors += particle.anchor;
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        anchors += is_anchor(system, i);
     }
     return anchors;
 }
 
 static void show_particles(Repl *repl, size_t number, const PetriSystem *system, const Wish *wish) {
     SCOPED_TABLE table = table_new(5);
-    PetriParticle particle;
-    uint32_t anchors = count_anchors(repl, number), moving = system->particle_count - anchors;
+    uint32_t anchors = count_anchors(system), moving = system->particle_count - anchors;
     output_format(&repl->output, "%s: %" PRIu32 " particle%s", system->name, moving, moving == 1 ? "" : "s");
     if (anchors > 0) {
         output_format(&repl->output, ", %" PRIu32 " anchor%s", anchors, anchors == 1 ? "" : "s");
@@ -183,15 +189,16 @@ static void show_particles(Repl *repl, size_t number, const PetriSystem *system,
     for (size_t i = 0; i < 5; i++) {
         table_add(&table, heads[i]);
     }
-    for (uint32_t i = 0; i < wish->most && petri_particle(repl->session, number, i, &particle); i++) {
-        table_add(&table, particle.id);
-        add_vector(&table, particle.position, system->dimensions);
-        add_vector(&table, particle.velocity, system->dimensions);
-        add_number(&table, particle_speed(&particle, system->dimensions));
-        if (particle.anchor) {
+    for (uint32_t i = 0; i < wish->most && i < system->particle_count; i++) {
+        const char *id = petri_text(repl->session, petri_id(repl->session, number, i));
+        table_add(&table, id == NULL ? "" : id);
+        add_vector(&table, row(system->position, i), system->dimensions);
+        add_vector(&table, row(system->velocity, i), system->dimensions);
+        add_number(&table, particle_speed(system, i));
+        if (is_anchor(system, i)) {
             table_add(&table, "anchor");
         } else {
-            add_vector(&table, particle.force, system->dimensions);
+            add_vector(&table, row(system->force, i), system->dimensions);
         }
     }
     table_write(&table, &repl->output);
@@ -211,7 +218,7 @@ static bool run_particles(Repl *repl, const char *rest) {
 
 static void show_energy(Repl *repl, size_t number, const PetriSystem *system, const Wish *wish) {
     (void)wish;
-    Motion motion = motion_measure(repl->session, number, system);
+    Motion motion = motion_measure(system);
     output_format(&repl->output, "%s: %" PRIu32 " particle%s, %" PRIu64 " step%s\n", system->name, motion.moving,
                   motion.moving == 1 ? "" : "s", system->steps, system->steps == 1 ? "" : "s");
     if (motion.moving > 0) {
@@ -222,7 +229,8 @@ static void show_energy(Repl *repl, size_t number, const PetriSystem *system, co
         table_add(&table, "  momentum");
         add_vector(&table, motion.momentum, system->dimensions);
         table_add(&table, "  fastest");
-        bytes_format(&fastest, "%s at %.6g", motion.fastest_id, motion.fastest);
+        const char *id = petri_text(repl->session, petri_id(repl->session, number, motion.fastest_particle));
+        bytes_format(&fastest, "%s at %.6g", id == NULL ? "" : id, motion.fastest);
         table_add(&table, fastest.data);
         table_write(&table, &repl->output);
     }

@@ -4,7 +4,6 @@
 #include <inttypes.h>
 #include <stdio.h>
 
-#include "cli/bytes.h"
 #include "cli/motion.h"
 
 void stats_count(Stats *stats, PetriSession *session) {
@@ -22,7 +21,7 @@ void stats_count(Stats *stats, PetriSession *session) {
 static void print_system(PetriSession *session, size_t number, const PetriSystem *system) {
     enum { MOST_COMPONENTS = 4 };
     fprintf(stderr, "  system %s, %" PRIu32 "-dimensional", system->name, system->dimensions);
-    Motion motion = motion_measure(session, number, system);
+    Motion motion = motion_measure(system);
     fprintf(stderr, ": %" PRIu32 " particle%s", motion.moving, motion.moving == 1 ? "" : "s");
     if (system->particle_count > motion.moving) {
         fprintf(stderr, ", %" PRIu32 " anchor%s", system->particle_count - motion.moving,
@@ -33,8 +32,9 @@ static void print_system(PetriSession *session, size_t number, const PetriSystem
         fprintf(stderr, "%s%.9g", k == 0 ? "" : ";", motion.momentum[k]);
     }
     fputs(system->dimensions > MOST_COMPONENTS ? ";…\n" : "\n", stderr);
-    if (motion.fastest_id != NULL) {
-        fprintf(stderr, "    fastest particle  %s at %.9g\n", motion.fastest_id, motion.fastest);
+    if (motion.moving > 0) {
+        const char *id = petri_text(session, petri_id(session, number, motion.fastest_particle));
+        fprintf(stderr, "    fastest particle  %s at %.9g\n", id == NULL ? "" : id, motion.fastest);
     }
     motion_free(&motion);
 }
@@ -53,10 +53,6 @@ void stats_print(const Stats *stats, PetriSession *session, double seconds) {
     fprintf(stderr, "  %-18s%.4g million a second of physics\n", "particle-steps", rate * 1e-6);
     PetriSystem system;
     for (size_t i = 0; petri_system(session, i, &system); i++) {
-        Bytes name = {0}; // its text lasts only until the next particle is read
-        bytes_add_text(&name, system.name);
-        system.name = name.data;
         print_system(session, i, &system);
-        bytes_free(&name);
     }
 }

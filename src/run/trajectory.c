@@ -58,14 +58,19 @@ bool trajectory_open(Trajectory *trajectory, const char *path) {
     return true;
 }
 
-static double component(const double *vector, uint32_t k, uint32_t dimensions) {
-    return k < dimensions ? vector[k] : 0;
+static double number(PetriColumn column, uint32_t particle) {
+    return column.data[particle * column.stride];
+}
+
+static void add_xyz_vector(Output *output, PetriColumn column, uint32_t particle, uint32_t dimensions) {
+    for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++) {
+        output_format(output, " %.17g", k < dimensions ? column.data[particle * column.stride + k] : 0);
+    }
 }
 
 static void add_xyz(Output *output, PetriSession *session) {
     PetriFrame frame = petri_frame(session);
     PetriSystem system;
-    PetriParticle particle;
     uint64_t count = 0;
     for (size_t s = 0; petri_system(session, s, &system); s++) {
         count += system.particle_count;
@@ -76,16 +81,13 @@ static void add_xyz(Output *output, PetriSession *session) {
                   count, frame.time, frame.number);
     uint64_t id = 0;
     for (size_t s = 0; petri_system(session, s, &system); s++) {
-        for (uint32_t i = 0; i < system.particle_count && petri_particle(session, s, i, &particle); i++) {
+        for (uint32_t i = 0; i < system.particle_count; i++) {
             output_format(output, "X");
-            for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++) {
-                output_format(output, " %.17g", component(particle.position, k, system.dimensions));
-            }
-            for (uint32_t k = 0; k < XYZ_DIMENSIONS; k++) {
-                output_format(output, " %.17g", component(particle.velocity, k, system.dimensions));
-            }
-            output_format(output, " %.17g %.17g %.17g %" PRIu64 " %zu %d\n", particle.radius, particle.mass,
-                          particle.charge, id++, s, particle.anchor ? 1 : 0);
+            add_xyz_vector(output, system.position, i, system.dimensions);
+            add_xyz_vector(output, system.velocity, i, system.dimensions);
+            output_format(output, " %.17g %.17g %.17g %" PRIu64 " %zu %d\n", number(system.radius, i),
+                          number(system.mass, i), number(system.charge, i), id++, s,
+                          system.anchor[i * system.anchor_stride] ? 1 : 0);
         }
     }
 }
@@ -133,37 +135,41 @@ static void add_csv_vector(const Trajectory *trajectory, Output *output, const d
     }
 }
 
-static void add_csv(Trajectory *trajectory, PetriSession *session) {
+static bool add_csv(Trajectory *trajectory, PetriSession *session) {
     Output *output = &trajectory->output;
     PetriFrame frame = petri_frame(session);
     PetriSystem system;
-    PetriParticle particle;
     if (trajectory->dimensions == 0) {
         add_csv_header(trajectory, session);
     }
     for (size_t s = 0; petri_system(session, s, &system); s++) {
-        char *name = memory_text(system.name); // it is valid until the next call only
-        for (uint32_t i = 0; i < system.particle_count && petri_particle(session, s, i, &particle); i++) {
+        for (uint32_t i = 0; i < system.particle_count; i++) {
+            const char *id = petri_text(session, petri_id(session, s, i));
+            if (id == NULL) {
+                return false;
+            }
             output_format(output, "%" PRId64 ",%.17g", frame.number, frame.time);
-            add_csv_text(output, name);
-            add_csv_text(output, particle.id);
-            output_format(output, ",%d", particle.anchor ? 1 : 0);
-            add_csv_vector(trajectory, output, particle.position, system.dimensions);
-            add_csv_vector(trajectory, output, particle.velocity, system.dimensions);
-            output_format(output, ",%.17g,%.17g,%.17g\n", particle.radius, particle.mass, particle.charge);
+            add_csv_text(output, system.name);
+            add_csv_text(output, id);
+            output_format(output, ",%d", system.anchor[i * system.anchor_stride] ? 1 : 0);
+            add_csv_vector(trajectory, output, system.position.data + i * system.position.stride, system.dimensions);
+            add_csv_vector(trajectory, output, system.velocity.data + i * system.velocity.stride, system.dimensions);
+            output_format(output, ",%.17g,%.17g,%.17g\n", number(system.radius, i), number(system.mass, i),
+                          number(system.charge, i));
         }
-        free(name);
     }
+    return true;
 }
 
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
+    bool whole = true;
     if (!trajectory->csv) {
         add_xyz(&trajectory->output, session);
     } else {
-        add_csv(trajectory, session);
+        whole = add_csv(trajectory, session);
     }
-    if (petri_diagnostic_count(session, PETRI_ERROR) != errors) { // a particle is missing for want of memory
+    if (!whole || petri_diagnostic_count(session, PETRI_ERROR) != errors) { // something is missing for want of memory
         trajectory->output.error = ENOMEM;
     }
     atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment

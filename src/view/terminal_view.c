@@ -220,8 +220,8 @@ static void terminal_size(Display *display, int width, int height, int *drawn_wi
 static void add_lines(Bytes *out, const char *text, int row, const Display *display, const char *look) {
     for (const char *line = text; line != NULL && *text != '\0' && row < display->rows; row++) {
         bytes_format(out, "\033[%d;1H%s %.*s\033[K\033[0m", row + 1, look, (int)strcspn(line, "\n"), line);
-        line = strchr(line, '\n');
-        line += line != NULL;
+        const char *end = strchr(line, '\n');
+        line = end == NULL ? NULL : end + 1;
     }
 }
 

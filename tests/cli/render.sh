@@ -312,12 +312,12 @@ END
         check "… the old film is left alone" cmp -s film.mp4 before.mp4
         check "… and no half of a new one" nothing_beside
         printf '!window size=200;200\n    !canvas\n        !ellipse point=frame%%200 radius=9 fill=true\n' >long.fl
-        # start_long ARGUMENT...: renders without end until the film has grown; stop_long: waits for its end.
+        # start_long ARGUMENT...: renders without end until there are frames; stop_long: waits for its end.
         start_long() {
             "$petri" render long.fl --frames 1000000 "$@" >out 2>err </dev/null &
             job=$!
             tries=0
-            while [ -z "$(find . -name 'long*' -size +0c ! -name long.fl)" ] && [ $tries -lt 300 ]; do
+            while ! frames_there && [ $tries -lt 300 ]; do
                 sleep 0.1
                 tries=$((tries + 1))
             done
@@ -327,8 +327,17 @@ END
             status=$?
         }
         # Others may be at work on this machine: ours is that in this folder.
-        encoders() { for id in $(pgrep -x ffmpeg); do readlink "/proc/$id/cwd"; done; }
-        no_ffmpeg() { ! encoders | grep -qxF "$work"; }
+        encoder() {
+            for id in $(pgrep -x ffmpeg); do
+                [ "$(readlink "/proc/$id/cwd")" != "$work" ] || echo "$id"
+            done
+        }
+        no_ffmpeg() { [ -z "$(encoder)" ]; }
+        # A film has no name before it is whole: what ffmpeg has read tells, 160 kB a frame.
+        frames_there() {
+            [ -z "$(find . -name 'long*.png' -size +0c)" ] || return 0
+            awk '$1 == "rchar:" { read = $2 } END { exit read < 3e6 }' "/proc/$(encoder)/io" 2>/dev/null
+        }
         for suffix in mp4 webm gif; do
             start_long -o long.$suffix
             kill -INT "$job"
@@ -358,7 +367,7 @@ END
             sleep 1
             kill -INT "$job"
             sleep 0.5
-            kill -INT "$job"
+            kill -INT "$job" 2>/dev/null
             stop_long
             check "a second Ctrl-C ends at once: $output" status_is 130
             check "… and leaves nothing half: $output" nothing_beside

@@ -54,7 +54,8 @@ fi
 whole_frames() { [ $(($(wc -l <w.csv) % 300)) -eq 1 ] && [ "$(tail -n 1 w.csv | tr -cd , | wc -c)" -eq 11 ]; }
 number=129
 for signal in HUP INT TERM; do
-    "$petri" run w.fl --frames 100000000 --trajectory w.csv >out 2>err </dev/null &
+    # Whoever started this test may ignore SIGHUP, as nohup does.
+    env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trajectory w.csv >out 2>err </dev/null &
     job=$!
     sleep 1
     kill -$signal $job

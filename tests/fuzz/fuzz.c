@@ -96,12 +96,17 @@ void fuzz_load(PetriSession *session, const char *script) {
 void fuzz_look(PetriSession *session) {
     enum { MOST = 50 };
     PetriSystem system;
-    PetriParticle particle;
     PetriForce force;
     PetriParameter parameter;
     for (size_t i = 0; i < 4 && petri_system(session, i, &system); i++) {
-        for (uint32_t j = 0; j < MOST && petri_particle(session, i, j, &particle); j++)
-            seen += strlen(particle.id) + (size_t)(particle.position[system.dimensions - 1] > 0);
+        for (uint32_t j = 0; j < MOST && j < system.particle_count; j++) {
+            PetriValue id = petri_id(session, i, j);
+            const char *text = petri_text(session, id);
+            uint32_t found = 0;
+            seen += text ? strlen(text) : 0;
+            seen += petri_find(session, i, id, &found) ? found : 0;
+            seen += (size_t)(system.position.data[j * system.position.stride + system.dimensions - 1] > 0);
+        }
         for (uint32_t j = 0; j < MOST && petri_force(session, i, j, &force); j++)
             seen += strlen(force.kind);
     }

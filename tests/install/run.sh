@@ -1,6 +1,6 @@
 #!/bin/sh
 # run.sh BUILD draws|none SANITIZERS: installs what BUILD holds into a folder, moves that elsewhere, and tries it: the
-# command and the program that it starts, the hints that it gives, the library.
+# command and the program that it starts, the hints that it gives, the library, the manual and the completions.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -12,7 +12,7 @@ helps() { "$1" help 2>&1 | tee out | grep -q 'usage: petri'; }
 
 DESTDIR=$work/made meson install -C "$build" --no-rebuild >log 2>&1
 check "meson install" [ $? -eq 0 ]
-binary=$(find made -name petri -type f)
+binary=$(find made -path '*/bin/petri')
 [ -n "$binary" ] || { cat log; echo "FAIL nothing is installed"; exit 1; }
 mkdir "with blanks"
 mv "$(dirname "$(dirname "$binary")")" "with blanks/prefix"
@@ -64,42 +64,11 @@ else
     echo "skipped: the hints, for petri does not draw or there are no pseudo-terminals"
 fi
 
-# An embedder's programs. The sanitizers' own libraries are none of its business.
+# The sanitizers' own libraries are none of an embedder's business.
 if [ "$3" = none ] && command -v cc >/dev/null; then
-    printf '#include <petri.h>\n#include <stdio.h>\nint main(void) {\n    return puts(petri_version()) < 0;\n}\n' >app.c
-    ln -s "$prefix" moved
-    PKG_CONFIG_PATH=$(dirname "$(find moved/ -name petri.pc)")
-    export PKG_CONFIG_PATH
-    sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH"/petri*.pc # it is in another place now
-    # shellcheck disable=SC2046 # options are words
-    cc app.c -o app $(pkg-config --cflags --libs petri) >out 2>&1
-    check "a program with libpetri links" [ $? -eq 0 ]
-    check "and runs" [ "$(./app)" = "$("$prefix/bin/petri" --version | sed 's/petri //')" ]
-    pkg-config --libs petri >out
-    check "without what draws" [ "$(grep -c -e pango -e cairo -e jpeg -e draw out)" -eq 0 ]
-    cat >draws.c <<'EOF'
-#include <petri-draw.h>
-int main(void) {
-    PetriOptions options = petri_default_options();
-    PetriPictureOptions wanted = petri_default_picture_options();
-    PetriSession *session = petri_open(&options);
-    PetriPainter *painter = petri_painter_open();
-    PetriPicture *picture;
-    uint32_t pixels[4];
-    petri_load_text(session, "red.fl", "!window size=2;2\n    !canvas\n        !rect size=2;2 color=1;0;0 fill=true\n",
-                    PETRI_Z);
-    petri_step(session);
-    if (petri_picture(session, &wanted, &picture) != PETRI_OK)
-        return 1;
-    PetriStatus status = petri_picture_draw(picture, painter, pixels, 2, 2, 8);
-    return status == PETRI_MISSING ? 2 : status != PETRI_OK || pixels[3] != 0xffff0000u;
-}
-EOF
-    # shellcheck disable=SC2046 # options are words
-    cc draws.c -o draws $(pkg-config --cflags --libs petri-draw) >out 2>&1
-    check "a program with libpetri-draw links" [ $? -eq 0 ]
-    ./draws
-    status=$?
-    check "and draws, if it can" [ $status -eq "$([ "$2" = draws ] && echo 0 || echo 2)" ]
+    # shellcheck source=tests/install/embed.sh
+    . "$here/embed.sh"
 fi
+# shellcheck source=tests/install/manual.sh
+. "$here/manual.sh"
 finish

@@ -186,12 +186,28 @@ static PetriStatus act_restore(Stage *stage) {
 
 static PetriStatus act_systems(Stage *stage) {
     PetriSystem system;
-    PetriParticle particle;
+    uint32_t particle = 0;
     PetriForce force;
     bool found = petri_system(stage->player.session, 1, &system) &&
-                 petri_particle(stage->player.session, 0, 1, &particle) &&
-                 petri_force(stage->player.session, 0, 0, &force);
+                 petri_find(stage->player.session, 0, petri_id(stage->player.session, 0, 1), &particle) &&
+                 petri_ids(stage->player.session, 0).data != NULL && petri_force(stage->player.session, 0, 0, &force);
     return found ? PETRI_OK : PETRI_MEMORY;
+}
+
+static const PetriString some_text = {"some text", 9};
+static const PetriItem some_items[] = {{PETRI_STRING, {.string = &some_text}}, {PETRI_NUMBER, {.number = 5}}};
+static const PetriValue some_value = {.length = 2, .items = some_items};
+
+static PetriStatus act_state(Stage *stage) {
+    PetriStatus status = petri_state_set(stage->player.session, some_value, some_value);
+    if (status == PETRI_OK && !petri_text(stage->player.session, petri_state_get(stage->player.session, some_value)))
+        status = petri_state_set(stage->player.session, some_value, (PetriValue){0}) == PETRI_OK ? PETRI_MEMORY
+                                                                                                 : PETRI_INVALID;
+    return status;
+}
+
+static PetriStatus act_give(Stage *stage) {
+    return petri_give(stage->player.session, "given", some_value);
 }
 
 static PetriStatus act_picture(Stage *stage) {
@@ -353,6 +369,8 @@ static const Row rows[] = {
     {"save", act_save, false},
     {"restore", act_restore, false},
     {"systems", act_systems, false},
+    {"state", act_state, false},
+    {"give", act_give, false},
     {"picture", act_picture, false},
     {"automatic picture", act_automatic_picture, false},
     {"print", act_print, false},

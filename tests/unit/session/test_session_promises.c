@@ -2,6 +2,8 @@
 #include "folder.h"
 #include "player.h"
 
+#include <math.h>
+
 #include <sys/stat.h>
 #include <sys/wait.h>
 #include <time.h>
@@ -17,7 +19,6 @@ static void test_lifetimes(void **state) {
     PetriSession *session = player->session;
     Folder folder;
     PetriSystem system;
-    PetriParticle particle;
     PetriPrompted done;
     PetriResult result;
     folder_open(&folder);
@@ -29,7 +30,7 @@ static void test_lifetimes(void **state) {
     player_step(player, 1);
     const char *source = petri_source(session, 0);
     assert_true(petri_system(session, 1, &system));
-    assert_true(petri_particle(session, 0, 0, &particle));
+    PetriValue id = petri_id(session, 0, 0);
     for (size_t i = 0; petri_name(session, i); i++) {
     }
     player_state(player);
@@ -39,7 +40,8 @@ static void test_lifetimes(void **state) {
     assert_string_equal(statement, "let twice=2*frame");
     assert_string_equal(name, "twice");
     assert_string_equal(system.name, ":b");
-    assert_string_equal(particle.id, "0");
+    assert_int_equal(id.length, 1);
+    assert_number("id", id.numbers[0], 0);
     player_step(player, 1);
     assert_string_equal(statement, "let twice=2*frame");
     folder_close(&folder);
@@ -101,7 +103,7 @@ static void test_null(void **state) {
     PetriPrompted done;
     PetriResult result;
     PetriSystem system;
-    PetriParticle particle;
+    uint32_t particle;
     PetriForce force;
     PetriParameter parameter;
     double x;
@@ -173,7 +175,23 @@ static void test_null(void **state) {
     assert_false(petri_key_bound(NULL, "a"));
     assert_false(petri_key_bound(session, NULL));
     assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
-    assert_false(petri_particle(NULL, 0, 0, &particle) || petri_particle(session, 0, 0, NULL));
+    assert_int_equal(petri_id(NULL, 0, 0).length, 0);
+    assert_null(petri_ids(NULL, 0).data);
+    assert_false(petri_find(NULL, 0, (PetriValue){0}, &particle) || petri_find(session, 0, (PetriValue){0}, NULL));
+    PetriValue value = {0};
+    uint32_t cursor = 0;
+    assert_null(petri_text(NULL, value));
+    assert_int_equal(petri_state_get(NULL, value).length, 0);
+    assert_int_equal(petri_state_set(NULL, value, value), PETRI_INVALID);
+    assert_false(petri_state_next(NULL, &cursor, &value, &value) || petri_state_next(session, NULL, &value, &value));
+    assert_false(petri_state_next(session, &cursor, NULL, &value) || petri_state_next(session, &cursor, &value, NULL));
+    assert_int_equal(petri_give(NULL, "a", value), PETRI_INVALID);
+    assert_int_equal(petri_give(session, NULL, value), PETRI_INVALID);
+    assert_int_equal(petri_tree(NULL).length, 0);
+    assert_true(!petri_tree_tag(NULL, 0) && !petri_tree_attribute(NULL, 0, &value));
+    assert_int_equal(petri_tree_get(NULL, "a").length, 0);
+    assert_true(isnan(petri_symbol(NULL, "a")) && isnan(petri_symbol(session, NULL)));
+    assert_null(petri_symbol_name(NULL, 1));
     assert_false(petri_force(NULL, 0, 0, &force) || petri_force(session, 0, 0, NULL));
     assert_false(petri_parameter(NULL, 0, &parameter) || petri_parameter(session, 0, NULL));
     assert_false(petri_builtin(0, NULL) || petri_node_kind(0, NULL) || petri_node_attribute(0, 0, NULL));

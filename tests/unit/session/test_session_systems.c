@@ -37,36 +37,48 @@ static void test_systems(void **state) {
     assert_false(petri_system(player->session, 0, &system));
 }
 
+static PetriSystem system_of(Player *player, size_t number) {
+    PetriSystem system;
+    assert_true(petri_system(player->session, number, &system));
+    return system;
+}
+
+static const double *at(PetriColumn column, uint32_t particle) {
+    return column.data + particle * column.stride;
+}
+
+static const char *id_text(Player *player, size_t system, uint32_t particle) {
+    return petri_text(player->session, petri_id(player->session, system, particle));
+}
+
 static void test_particles(void **state) {
     Player *player = *state;
     for (int keep = 0; keep <= 1; keep++) {
         open_keeping(player, keep);
         player_run(player, SCRIPT, 2);
-        PetriParticle particle;
-        assert_true(petri_particle(player->session, 0, 0, &particle));
-        assert_string_equal(particle.id, "'p';1");
-        assert_false(particle.anchor);
-        assert_number("mass", particle.mass, 2);
-        assert_number("radius", particle.radius, 3);
-        assert_number("charge", particle.charge, 4);
-        assert_number("x", particle.position[0], 1);
-        assert_number("y", particle.position[1], 2);
-        assert_true(petri_particle(player->session, 0, 1, &particle));
-        assert_true(particle.anchor);
-        assert_string_equal(particle.id, ":top");
-        assert_null(particle.force);
-        assert_true(petri_particle(player->session, 0, 2, &particle));
+        PetriSystem a = system_of(player, 0);
+        assert_string_equal(id_text(player, 0, 0), "'p';1");
+        assert_false(a.anchor[0]);
+        assert_number("mass", *at(a.mass, 0), 2);
+        assert_number("radius", *at(a.radius, 0), 3);
+        assert_number("charge", *at(a.charge, 0), 4);
+        assert_number("x", at(a.position, 0)[0], 1);
+        assert_number("y", at(a.position, 0)[1], 2);
+        assert_true(a.anchor[a.anchor_stride]);
+        assert_string_equal(id_text(player, 0, 1), ":top");
+        assert_false(a.anchor[2 * a.anchor_stride]);
         // One step of 0.1 under a force of 6;8 on a mass of 1 (spec physics.md 4.3).
-        assert_number("v", particle.velocity[0], 1 + 6 * 0.1);
-        assert_true(keep == (particle.force != NULL));
+        assert_number("v", at(a.velocity, 2)[0], 1 + 6 * 0.1);
+        assert_true(keep == (a.force.data != NULL));
         if (keep) {
-            assert_number("fx", particle.force[0], 6);
-            assert_number("fy", particle.force[1], 8);
+            assert_number("fx", at(a.force, 2)[0], 6);
+            assert_number("fy", at(a.force, 2)[1], 8);
+            assert_number("on what the group does not hold", at(a.force, 0)[0], 0);
+            assert_number("on an anchor", at(a.force, 1)[1], 0);
         }
-        assert_false(petri_particle(player->session, 0, 3, &particle));
-        assert_true(petri_particle(player->session, 1, 0, &particle));
-        assert_null(particle.force); // no step was made
-        assert_false(petri_particle(player->session, 2, 0, &particle));
+        assert_null(system_of(player, 1).force.data); // no step was made
+        assert_int_equal(petri_id(player->session, 0, 3).length, 0);
+        assert_int_equal(petri_id(player->session, 2, 0).length, 0);
     }
 }
 
@@ -78,12 +90,10 @@ static void test_forces_of_many(void **state) {
                "!physics state=:a dimensions=3 time=time resolution=1\n    !constant force=1;2;3\n"
                "    for i in ..50\n        !particle id=i position=i;0;0 mass=i+1 force=0;0;i\n",
                3);
+    PetriSystem system = system_of(player, 0);
     for (uint32_t i = 0; i < 50; i++) {
-        PetriParticle particle;
-        assert_true(petri_particle(player->session, 0, i, &particle));
-        assert_non_null(particle.force);
-        assert_number("fx", particle.force[0], 1);
-        assert_number("fz", particle.force[2], 3.0 + i);
+        assert_number("fx", at(system.force, i)[0], 1);
+        assert_number("fz", at(system.force, i)[2], 3.0 + i);
     }
 }
 
@@ -94,11 +104,66 @@ static void test_rest(void **state) {
     player_run(player, "!physics state=:a dimensions=2 time=frame//2\n    !particle id=1\n    !constant force=6;8\n",
                2);
     for (int frame = 1; frame < 6; frame++) {
-        PetriParticle particle;
-        assert_true(petri_particle(player->session, 0, 0, &particle));
-        assert_true((frame % 2 == 0) == (particle.force != NULL));
+        assert_true((frame % 2 == 0) == (system_of(player, 0).force.data != NULL));
         player_step(player, 1);
     }
+}
+
+// The columns are the engine's own numbers, which a frame with the same particles leaves where they are.
+static void test_no_copies(void **state) {
+    Player *player = *state;
+    player_run(player,
+               "!physics state=:a dimensions=2 time=time\n"
+               "    for i in ..100\n        !particle id=i velocity=1;0 position=0;i\n",
+               3);
+    PetriSystem before = system_of(player, 0);
+    double x = at(before.position, 70)[0];
+    player_step(player, 1);
+    PetriSystem after = system_of(player, 0);
+    assert_ptr_equal(before.position.data, after.position.data);
+    assert_ptr_equal(before.mass.data, after.mass.data);
+    assert_true(at(after.position, 70)[0] > x);
+}
+
+static uint32_t find(Player *player, PetriValue id) {
+    uint32_t found = 1000;
+    return petri_find(player->session, 0, id, &found) ? found : 999;
+}
+
+static PetriValue one(const double *id) {
+    return (PetriValue){.length = 1, .numbers = id};
+}
+
+static void test_ids(void **state) {
+    Player *player = *state;
+    player_run(player, SCRIPT, 2);
+    double top = petri_symbol(player->session, "top"), seven = 7;
+    const PetriString p = {"p", 1};
+    PetriItem items[] = {{PETRI_STRING, {.string = &p}}, {PETRI_NUMBER, {.number = 1}}};
+    assert_string_equal(petri_symbol_name(player->session, top), "top");
+    assert_null(petri_symbol_name(player->session, 12));
+    assert_int_equal(find(player, one(&seven)), 2);
+    assert_int_equal(find(player, one(&top)), 1);
+    assert_int_equal(find(player, (PetriValue){.length = 2, .items = items}), 0);
+    assert_int_equal(find(player, (PetriValue){.length = 1, .items = items}), 999);
+    assert_int_equal(find(player, (PetriValue){0}), 999);
+    assert_int_equal(find(player, (PetriValue){.length = 1}), 999); // no value at all
+    assert_null(petri_ids(player->session, 0).data);
+    for (uint32_t i = 0; i < 3; i++)
+        assert_int_equal(find(player, petri_id(player->session, 0, i)), i);
+    // Others, in another order and of a prefix with text, whose numbers are none in the key.
+    player_run(player, "!physics state='s';1 dimensions=2 time=time\n    for i in 4;3;5\n        !particle id=i\n", 1);
+    for (int frame = 0; frame < 3; frame++, player_step(player, 1)) {
+        PetriColumn ids = petri_ids(player->session, 0);
+        assert_number("first id", ids.data[0], 4);
+        assert_number("last id", ids.data[2 * ids.stride], 5);
+        assert_number("the second alone", petri_id(player->session, 0, 1).numbers[0], 3);
+        assert_int_equal(find(player, petri_id(player->session, 0, 1)), 1);
+    }
+    player_run(player, "!physics state='s';1 dimensions=2 time=time\n    !particle id=frame\n", 8);
+    assert_number("a new one in each frame", petri_ids(player->session, 0).data[0], 7);
+    player_step(player, 1);
+    assert_number("a new one in each frame", petri_ids(player->session, 0).data[0], 8);
 }
 
 static void test_forces(void **state) {
@@ -122,7 +187,8 @@ static void test_forces(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_systems), PLAYER_TEST(test_particles), PLAYER_TEST(test_forces_of_many),
-        PLAYER_TEST(test_rest),    PLAYER_TEST(test_forces),
+        PLAYER_TEST(test_rest),    PLAYER_TEST(test_no_copies), PLAYER_TEST(test_ids),
+        PLAYER_TEST(test_forces),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

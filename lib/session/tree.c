@@ -1,0 +1,39 @@
+// tree.c: the tree of the last frame, as petri.h shows it.
+#include "session/session.h"
+
+#include <string.h>
+
+static const Node *node_of(const PetriNode *node) {
+    return (const Node *)node;
+}
+
+PetriValue petri_tree(const PetriSession *session) {
+    return session ? session_show(&session->frame.tree) : (PetriValue){0};
+}
+
+const char *petri_tree_kind(const PetriNode *node) {
+    return node ? node_of(node)->kind->name.bytes : NULL;
+}
+
+const char *petri_tree_tag(const PetriNode *node, uint32_t number) {
+    return node && number < node_of(node)->tag_count ? node_of(node)->tags[number]->name.bytes : NULL;
+}
+
+const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value) {
+    if (!node || !value || number >= node_of(node)->attr_count)
+        return NULL;
+    const Attr *attr = &node_of(node)->attrs[number];
+    *value = session_show(&attr->value);
+    return attr->name->name.bytes;
+}
+
+PetriValue petri_tree_get(const PetriNode *node, const char *name) {
+    for (uint32_t i = 0; node && name && i < node_of(node)->attr_count; i++)
+        if (strcmp(node_of(node)->attrs[i].name->name.bytes, name) == 0)
+            return session_show(&node_of(node)->attrs[i].value);
+    return (PetriValue){0};
+}
+
+const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number) {
+    return node && number < node_of(node)->child_count ? (const PetriNode *)node_of(node)->children[number] : NULL;
+}

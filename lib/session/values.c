@@ -1,0 +1,91 @@
+// values.c: values of the language as petri.h shows and takes them.
+#include "session/session.h"
+
+#include "value/format.h"
+
+#include <math.h>
+#include <string.h>
+
+// A host sees elements where they lie, so both sides lay them out alike.
+_Static_assert(sizeof(PetriItem) == sizeof(Item) && offsetof(PetriItem, as) == offsetof(Item, as), "same elements");
+_Static_assert(sizeof(PetriString) == sizeof(String) && offsetof(PetriString, length) == offsetof(String, text.len),
+               "same strings");
+_Static_assert((int)PETRI_NUMBER == (int)ITEM_NUMBER && (int)PETRI_STRING == (int)ITEM_STRING &&
+                   (int)PETRI_NODE == (int)ITEM_NODE && (int)PETRI_FUNCTION == (int)ITEM_FUNCTION,
+               "same types");
+
+PetriValue session_show(const Value *v) {
+    if (v->kind == VALUE_MIXED)
+        return (PetriValue){.length = v->len, .items = (const PetriItem *)v->as.items};
+    return v->len > 0 ? (PetriValue){.length = v->len, .numbers = value_numbers(v)} : (PetriValue){0};
+}
+
+bool session_take(Arena *arena, PetriValue given, Value *taken) {
+    *taken = VALUE_NULL;
+    if (given.length == 0)
+        return true;
+    if (given.length > VALUE_MAX_LEN || !given.numbers == !given.items)
+        return false;
+    bool only_numbers = given.numbers != NULL;
+    if (only_numbers) {
+        *taken = value_numbers_view(given.numbers, given.length);
+        return true;
+    }
+    Vector vector = vector_new(arena);
+    for (uint32_t i = 0; i < given.length; i++) {
+        const Item *item = (const Item *)&given.items[i];
+        if (item->type == ITEM_STRING) {
+            Str text = item->as.string ? item->as.string->text : (Str){0};
+            if (!item->as.string || (text.len && !text.bytes) || utf8_find_error(text) != text.len)
+                return false;
+        } else if (item->type != ITEM_NUMBER && (item->type > ITEM_FUNCTION || !item->as.node)) {
+            return false;
+        }
+        vector_add_item(&vector, *item);
+    }
+    *taken = vector_finish(&vector);
+    return true;
+}
+
+typedef struct Printed {
+    PetriValue value;
+    const char *text;
+} Printed;
+
+static void print_value(PetriSession *session, void *context) {
+    Printed *printed = context;
+    Value value;
+    arena_reset(&session->text_arena);
+    if (session_take(&session->text_arena, printed->value, &value))
+        printed->text = format_text(&session->text_arena, &session->symbols, value).bytes;
+}
+
+const char *petri_text(PetriSession *session, PetriValue value) {
+    if (!session)
+        return NULL;
+    Printed printed = {value, NULL};
+    return session_protect(session, NULL, print_value, &printed) == PETRI_OK ? printed.text : NULL;
+}
+
+typedef struct Known {
+    const char *name;
+    const Symbol *symbol;
+} Known;
+
+static void know(PetriSession *session, void *context) {
+    Known *known = context;
+    known->symbol = symbol_know(&session->symbols, str_from(known->name));
+}
+
+double petri_symbol(PetriSession *session, const char *name) {
+    if (!session || !name || !session_is_name(str_from(name)))
+        return NAN;
+    Known known = {name, NULL};
+    session_protect(session, NULL, know, &known);
+    return known.symbol ? known.symbol->number : NAN;
+}
+
+const char *petri_symbol_name(const PetriSession *session, double number) {
+    const Symbol *symbol = session ? symbol_of_number(&session->symbols, number) : NULL;
+    return symbol ? symbol->name.bytes : NULL;
+}

@@ -1,0 +1,20 @@
+// commands.c: the commands that this program has.
+#include "main/commands.h"
+
+#include <string.h>
+
+#ifdef PETRI_PICTURES
+const Command *const COMMANDS[] = {&RUN_COMMAND,   &VIEW_COMMAND, &RENDER_COMMAND, &REPL_COMMAND, &TEST_COMMAND,
+                                   &CHECK_COMMAND, &NEW_COMMAND,  &HELP_COMMAND,   NULL};
+#else // those that never draw
+const Command *const COMMANDS[] = {&RUN_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND, NULL};
+#endif
+
+const Command *command_find(const char *name) {
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        if (strcmp(COMMANDS[i]->name, name) == 0) {
+            return COMMANDS[i];
+        }
+    }
+    return NULL;
+}

@@ -1,0 +1,263 @@
+// completion.c: completions for bash, zsh and fish, of the commands, their options and what these take.
+//
+// Each is the shell's own few lines, with the words of the tables between them.
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/options.h"
+#include "packaging/packaging.h"
+#include "petri.h"
+
+static void write_text(Output *output, const char *text) {
+    output_format(output, "%s", text);
+}
+
+// Text within single quotes of a shell; `escaped` has the characters that take a backslash before them.
+static void write_quoted(Output *output, const char *text, const char *escaped) {
+    for (const char *c = text; *c != '\0'; c++) {
+        if (*c == '\'') {
+            write_text(output, "'\\''");
+        } else {
+            output_format(output, strchr(escaped, *c) != NULL ? "\\%c" : "%c", *c);
+        }
+    }
+}
+
+// The option's words, with something before and behind them.
+static void write_around(Output *output, const char *before, const OptionSpec *option, const char *behind) {
+    write_text(output, before);
+    for (int i = 0; option->words[i] != NULL; i++) {
+        output_format(output, i == 0 ? "%s" : " %s", option->words[i]);
+    }
+    write_text(output, behind);
+}
+
+static void write_command_names(Output *output) {
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, i == 0 ? "%s" : " %s", COMMANDS[i]->name);
+    }
+}
+
+// What `petri help` tells of: commands, functions, nodes.
+static void write_topics(Output *output) {
+    write_text(output, "builtins nodes version ");
+    write_command_names(output);
+    PetriBuiltin builtin;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        output_format(output, " %s", builtin.name);
+    }
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        output_format(output, " %s", kind.name);
+    }
+}
+
+// `COMMAND --OPTION|COMMAND -O`, as a pattern of bash. Each shell takes what is no command for a script to run.
+static void write_bash_pattern(Output *output, const Command *command, const OptionSpec *option) {
+    output_format(output, "    '%s --%s'", command->name, option->name);
+    if (option->letter != '\0') {
+        output_format(output, " | '%s -%c'", command->name, option->letter);
+    }
+    write_text(output, ") ");
+}
+
+static void write_bash_values(Output *output, const Command *command) {
+    for (const OptionSpec *option = NULL; (option = option_after(command, option)) != NULL;) {
+        if (option->value == NULL) {
+            continue;
+        }
+        write_bash_pattern(output, command, option);
+        if (option->words != NULL) {
+            write_around(output, option_takes(option, "LIST") ? "_petri_list '" : "_petri_words '", option, "'");
+        } else {
+            write_text(output, option_takes(option, "FILE")  ? "_petri_files -f"
+                               : option_takes(option, "DIR") ? "_petri_files -d"
+                                                             : ":");
+        }
+        write_text(output, " ;;\n");
+    }
+}
+
+void completion_bash(Output *output) {
+    write_text(output, "# petri's completion for bash.\n"
+                       "_petri_words() { mapfile -t COMPREPLY < <(compgen -W \"$1\" -- \"$current\"); }\n"
+                       "_petri_list() {\n"
+                       "    local before=${current%\"${current##*,}\"}\n"
+                       "    compopt -o nospace\n"
+                       "    mapfile -t COMPREPLY < <(compgen -P \"$before\" -W \"$1\" -- \"${current##*,}\")\n"
+                       "}\n"
+                       "_petri_files() {\n"
+                       "    compopt -o filenames\n"
+                       "    mapfile -t COMPREPLY < <(compgen \"$@\" -- \"$current\")\n"
+                       "}\n"
+                       "_petri_scripts() {\n"
+                       "    compopt -o filenames\n"
+                       "    mapfile -t -O \"${#COMPREPLY[@]}\" COMPREPLY < <(compgen -d -- \"$current\"\n"
+                       "        compgen -f -X '!*.fl' -- \"$current\")\n"
+                       "}\n"
+                       "_petri() {\n"
+                       "    local current=${COMP_WORDS[COMP_CWORD]} previous=${COMP_WORDS[COMP_CWORD - 1]}\n"
+                       "    local command=${COMP_WORDS[1]} options=\n"
+                       "    COMPREPLY=()\n"
+                       "    if [[ $current == = ]]; then\n"
+                       "        current=\n"
+                       "    elif [[ $previous == = ]]; then\n"
+                       "        previous=${COMP_WORDS[COMP_CWORD - 2]}\n"
+                       "    fi\n"
+                       "    case $command in\n"
+                       "    ");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, "%s%s", i == 0 ? "" : " | ", COMMANDS[i]->name);
+    }
+    write_text(output, ") ;;\n"
+                       "    *) command=run ;;\n"
+                       "    esac\n"
+                       "    if [[ $COMP_CWORD == 1 && $current != -* ]]; then\n"
+                       "        _petri_words '");
+    write_command_names(output);
+    write_text(output, "'\n        _petri_scripts\n        return\n    fi\n    case \"$command $previous\" in\n");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        write_bash_values(output, COMMANDS[i]);
+    }
+    write_text(output, "    'help help') _petri_words '");
+    write_topics(output);
+    write_text(output, "' ;;\n    *)\n        case $command in\n");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, "        %s) options='--help", COMMANDS[i]->name);
+        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option)) != NULL;) {
+            output_format(output, " --%s", option->name);
+        }
+        write_text(output, "' ;;\n");
+    }
+    write_text(output, "        esac\n"
+                       "        if [[ $current == -* ]]; then\n"
+                       "            _petri_words \"$options\"\n"
+                       "        else\n"
+                       "            _petri_scripts\n"
+                       "        fi\n"
+                       "        ;;\n"
+                       "    esac\n"
+                       "}\n"
+                       "complete -F _petri petri\n");
+}
+
+static void write_zsh_option(Output *output, const OptionSpec *option) {
+    output_format(output, "            ");
+    if (option->letter != '\0') {
+        output_format(output, "{-%c+,--%s=}", option->letter, option->name);
+    } else {
+        output_format(output, "--%s%s", option->name, option->value == NULL ? "" : "=");
+    }
+    write_text(output, "'[");
+    write_quoted(output, option->help, "[]:\\");
+    write_text(output, "]");
+    if (option->value != NULL) {
+        output_format(output, ":%s:", option->value);
+        bool list = option_takes(option, "LIST");
+        if (option->words != NULL) {
+            write_around(output, list ? "_values -s , LIST " : "(", option, list ? "" : ")");
+        } else {
+            write_text(output, option_takes(option, "FILE")  ? "_files"
+                               : option_takes(option, "DIR") ? "_files -/"
+                                                             : " ");
+        }
+    }
+    write_text(output, "' \\\n");
+}
+
+void completion_zsh(Output *output) {
+    write_text(output, "#compdef petri\n"
+                       "# petri's completion for zsh.\n"
+                       "_petri() {\n"
+                       "    local curcontext=$curcontext context state line command=run\n"
+                       "    typeset -A opt_args\n"
+                       "    local -a commands\n"
+                       "    commands=(\n");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, "        '%s:", COMMANDS[i]->name);
+        write_quoted(output, COMMANDS[i]->summary, ":\\");
+        write_text(output, "'\n");
+    }
+    write_text(output, "    )\n"
+                       "    if ((CURRENT == 2)) && [[ $PREFIX != -* ]]; then\n"
+                       "        _alternative 'commands:command:{ _describe command commands }' \\\n"
+                       "            'scripts:script:_files -g \"*.fl\"'\n"
+                       "        return\n"
+                       "    fi\n"
+                       "    if ((${commands[(I)$words[2]:*]})); then\n"
+                       "        command=$words[2]\n"
+                       "        shift words\n"
+                       "        ((CURRENT--))\n"
+                       "    fi\n"
+                       "    case $command in\n"
+                       "    help) compadd -- ");
+    write_topics(output);
+    write_text(output, " ;;\n");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        if (COMMANDS[i]->raw) {
+            continue;
+        }
+        output_format(output, "    %s)\n        _arguments -s -S \\\n", COMMANDS[i]->name);
+        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option)) != NULL;) {
+            write_zsh_option(output, option);
+        }
+        write_text(output, "            '--help[tell of the command and its options]' \\\n"
+                           "            '*:script:_files -g \"*.fl\"'\n"
+                           "        ;;\n");
+    }
+    write_text(output, "    esac\n"
+                       "}\n"
+                       "if [[ $funcstack[1] == _petri ]]; then\n"
+                       "    _petri \"$@\"\n"
+                       "else\n"
+                       "    compdef _petri petri\n"
+                       "fi\n");
+}
+
+static void write_fish_option(Output *output, const OptionSpec *option, const char *condition) {
+    output_format(output, "complete -c petri -n '%s' -l %s", condition, option->name);
+    if (option->letter != '\0') {
+        output_format(output, " -s %c", option->letter);
+    }
+    if (option->words != NULL && option_takes(option, "LIST")) {
+        write_around(output, " -x -a '(__fish_append , ", option, ")'");
+    } else if (option->words != NULL) {
+        write_around(output, " -x -a '", option, "'");
+    } else if (option->value != NULL) {
+        write_text(output, option_takes(option, "FILE")  ? " -r -F"
+                           : option_takes(option, "DIR") ? " -x -a '(__fish_complete_directories)'"
+                                                         : " -x");
+    }
+    write_text(output, " -d '");
+    write_quoted(output, option->help, "\\");
+    write_text(output, "'\n");
+}
+
+void completion_fish(Output *output) {
+    write_text(output, "# petri's completion for fish.\n");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, "complete -c petri -n __fish_use_subcommand -a %s -d '", COMMANDS[i]->name);
+        write_quoted(output, COMMANDS[i]->summary, "\\");
+        write_text(output, "'\n");
+    }
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        Bytes condition = {0};
+        if (COMMANDS[i] == &RUN_COMMAND) { // also where a script stands in the command's place
+            bytes_add_text(&condition, "not __fish_seen_subcommand_from");
+            for (size_t k = 0; COMMANDS[k] != NULL; k++) {
+                bytes_format(&condition, "%s%s", COMMANDS[k] == &RUN_COMMAND ? "" : " ",
+                             COMMANDS[k] == &RUN_COMMAND ? "" : COMMANDS[k]->name);
+            }
+        } else {
+            bytes_format(&condition, "__fish_seen_subcommand_from %s", COMMANDS[i]->name);
+        }
+        for (const OptionSpec *option = NULL; (option = option_after(COMMANDS[i], option)) != NULL;) {
+            write_fish_option(output, option, condition.data);
+        }
+        bytes_free(&condition);
+    }
+    write_text(output, "complete -c petri -l help -d 'tell of the command and its options'\n"
+                       "complete -c petri -n '__fish_seen_subcommand_from help' -f -a '");
+    write_topics(output);
+    write_text(output, "'\n");
+}

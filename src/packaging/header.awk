@@ -1,0 +1,81 @@
+# header.awk: petri.h(3), of a header's comments and declarations. Variables: version.
+#
+# A comment that begins a line is text, what stands between two of them is shown as it is, with the comments at its lines'
+# ends. What the preprocessor alone reads is left out.
+function escaped(text) {
+    gsub(/\\/, "\\e", text)
+    gsub(/-/, "\\-", text)
+    gsub(/'/, "\\(aq", text)
+    gsub(/`/, "\\(ga", text)
+    gsub(/\^/, "\\(ha", text)
+    gsub(/~/, "\\(ti", text)
+    return (text ~ /^\./ ? "\\\\&" : "") text
+}
+function show(kind) {
+    if (shown == kind)
+        return
+    if (shown == "code")
+        print ".EE"
+    if (kind == "code")
+        print ".PP\n.EX"
+    else if (kind == "text" && started)
+        print ".PP"
+    shown = kind
+}
+FNR == 1 {
+    name = FILENAME
+    sub(/.*\//, "", name)
+    summary = $0
+    sub(/^[^:]*: /, "", summary)
+    end = index(summary, ". ")
+    $0 = end ? "// " substr(summary, end + 2) : "//"
+    summary = substr(summary, 1, end ? end - 1 : length(summary) - 1)
+    upper = toupper(name)
+    gsub(/-/, "\\-", upper)
+    printf ".TH %s 3 \"\" \"petri %s\" petri\n.SH NAME\n%s \\- %s\n", upper, version, escaped(name), escaped(summary)
+    printf ".SH SYNOPSIS\n.B #include <%s>\n.PP\ncc ... $(pkg\\-config \\-\\-cflags \\-\\-libs %s)\n", escaped(name),
+        escaped(substr(name, 1, length(name) - 2))
+    print ".SH DESCRIPTION"
+}
+/^#(if|ifdef|ifndef|else|endif|pragma|include|error|elif)/ || /\\$/ || /^extern "C"/ || (/^}$/ && !depth) { next }
+/^#define PETRI(_DRAW)?_H$/ { next }
+/^$/ {
+    pending = 1
+    next
+}
+depth == 0 && /^\/\// {
+    if (pending)
+        show("")
+    pending = 0
+    line = $0
+    sub(/^\/\/ ?/, "", line)
+    if (line == "")
+        show("")
+    else if (line ~ /^- /) {
+        show("item")
+        print ".IP \\(bu 2\n" escaped(substr(line, 3))
+        started = 1
+    } else {
+        if (shown != "item" || line !~ /^  /)
+            show("text")
+        sub(/^ +/, "", line)
+        print escaped(line)
+        started = 1
+    }
+    next
+}
+{
+    behind = shown == "code"
+    show("code")
+    if (pending && behind)
+        print ".sp"
+    pending = 0
+    print escaped($0)
+    text = $0
+    sub(/\/\/.*/, "", text)
+    depth += gsub(/{/, "", text) - gsub(/}/, "", text)
+}
+END {
+    show("")
+    printf ".SH SEE ALSO\n.BR petri (1),\n.BR petri (5)\n"
+}

@@ -1,0 +1,40 @@
+// main.c: writes one page of the manual, or what a shell completes, to standard output. The build runs it; nobody has
+// it afterwards.
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/help.h"
+#include "packaging/packaging.h"
+
+static const struct {
+    const char *name;
+    void (*write)(Output *output);
+} products[] = {
+    {"petri.1", page_of_petri}, {"petri.5", page_of_language}, {"bash", completion_bash},
+    {"zsh", completion_zsh},    {"fish", completion_fish},
+};
+
+static bool write_product(Output *output, const char *name) {
+    for (size_t i = 0; i < sizeof products / sizeof products[0]; i++) {
+        if (strcmp(products[i].name, name) == 0) {
+            products[i].write(output);
+            return true;
+        }
+    }
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        char page[32];
+        snprintf(page, sizeof page, "petri-%s.1", COMMANDS[i]->name);
+        if (strcmp(page, name) == 0) {
+            page_of_command(output, COMMANDS[i]);
+            return true;
+        }
+    }
+    return false;
+}
+
+int main(int argc, char **argv) {
+    Output *output = help_begin();
+    bool known = argc == 2 && write_product(output, argv[1]);
+    int status = help_end(output);
+    return known ? status : STATUS_USAGE;
+}

@@ -1,0 +1,23 @@
+// packaging.h: what petri's own tables come to for those who install it: manual pages and completions.
+#ifndef PETRI_SRC_PACKAGING_H
+#define PETRI_SRC_PACKAGING_H
+
+#include "cli/output.h"
+#include "main/commands.h"
+
+// The next option of the command's, or NULL beyond the last; `after` is the one before, or NULL.
+const OptionSpec *option_after(const Command *command, const OptionSpec *after);
+// Whether the option's value is named so in help: "FILE", "DIR" or "LIST".
+bool option_takes(const OptionSpec *option, const char *value);
+
+// petri(1), the page of a command, and petri(5), in the macros of man(7).
+void page_of_petri(Output *output);
+void page_of_command(Output *output, const Command *command);
+void page_of_language(Output *output);
+
+// What the shells take.
+void completion_bash(Output *output);
+void completion_zsh(Output *output);
+void completion_fish(Output *output);
+
+#endif

@@ -1,0 +1,141 @@
+// pages.c: petri(1) and the page of each command, made of the tables that `petri help` is made of.
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/help.h"
+#include "packaging/packaging.h"
+#include "packaging/roff.h"
+#include "repl/repl.h"
+
+const OptionSpec *option_after(const Command *command, const OptionSpec *after) {
+    const OptionSpec *option = after == NULL ? OPTIONS : after + 1;
+    while (option->name != NULL && !(option->commands & command->options)) {
+        option++;
+    }
+    return option->name == NULL ? NULL : option;
+}
+
+bool option_takes(const OptionSpec *option, const char *value) {
+    return option->value != NULL && strcmp(option->value, value) == 0;
+}
+
+static const struct {
+    const char *name;
+    const char *help;
+} variables[] =
+    {
+        {"NO_COLOR", "if it is not empty, messages and pictures in the terminal have no colours"},
+        {"PETRI_CPU",
+         "scalar, avx2 or avx512: the vector instructions that are used at the most; results never depend on it"},
+        {"TMPDIR", "the folder of what '-o -' writes until it is complete (/tmp)"},
+        {"XDG_STATE_HOME", "the history of the prompt is petri/history in this folder (~/.local/state)"},
+},
+  statuses[] = {
+      {"0", "all went well"},
+      {"1", "a script is wrong, a limit was reached, a file could not be written, a test has failed"},
+      {"2", "the command line is wrong; nothing was done"},
+      {"128+N", "signal N ended it"},
+};
+
+#define WRITE_ITEMS(output, rows)                                                                                      \
+    for (size_t i = 0; i < sizeof(rows) / sizeof(rows)[0]; i++) {                                                      \
+        roff_item(output, (rows)[i].name, "");                                                                         \
+        roff_text(output, (rows)[i].help);                                                                             \
+        output_format(output, "\n");                                                                                   \
+    }
+
+void page_of_petri(Output *output) {
+    roff_begin(output, "petri", 1, HELP_TITLE);
+    roff_heading(output, "SYNOPSIS");
+    output_format(output, ".B petri\n.I SCRIPT.fl\n.br\n.B petri\n.I COMMAND\n[options] ...\n");
+    roff_heading(output, "DESCRIPTION");
+    roff_paragraphs(output, HELP_BEGINNING);
+    roff_heading(output, "COMMANDS");
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        output_format(output, ".TP\n.BR petri\\-%s (1)\n", COMMANDS[i]->name);
+        roff_text(output, COMMANDS[i]->summary);
+        output_format(output, "\n");
+    }
+    roff_heading(output, "EXIT STATUS");
+    WRITE_ITEMS(output, statuses)
+    roff_heading(output, "ENVIRONMENT");
+    WRITE_ITEMS(output, variables)
+    roff_see_also(output, (const char *const[]){"petri-run(1)", "petri(5)", "petri.h(3)", NULL});
+}
+
+static void write_option(Output *output, const OptionSpec *option) {
+    output_format(output, ".TP\n");
+    char name[64];
+    if (option->letter != '\0') {
+        snprintf(name, sizeof name, "-%c", option->letter);
+        roff_bold(output, name);
+        output_format(output, ", ");
+    }
+    snprintf(name, sizeof name, "--%s", option->name);
+    roff_bold(output, name);
+    if (option->value != NULL) {
+        output_format(output, " \\fI");
+        roff_text(output, option->value);
+        output_format(output, "\\fR");
+    }
+    output_format(output, "\n");
+    roff_text(output, option->help);
+    output_format(output, "\n");
+}
+
+// Lines `  COMMAND   what it is for`, with three blanks or one before a word that is no option.
+static void write_examples(Output *output, const char *examples) {
+    enum { COMMENT_COLUMN = 50 }; // in all of them
+    while (*examples != '\0') {
+        int length = (int)strcspn(examples, "\n"), end = length < COMMENT_COLUMN ? length : COMMENT_COLUMN;
+        const char *comment = examples + end;
+        while (end > 0 && examples[end - 1] == ' ') {
+            end--;
+        }
+        char text[256];
+        snprintf(text, sizeof text, "%.*s", end - 2, examples + 2);
+        roff_item(output, text, "");
+        snprintf(text, sizeof text, "%.*s", (int)(examples + length - comment), comment);
+        roff_text(output, text);
+        output_format(output, text[0] == '\0' ? "\\&\n" : "\n");
+        examples += length + (examples[length] == '\n');
+    }
+}
+
+static void write_prompt_commands(Output *output) {
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        char rest[64];
+        snprintf(rest, sizeof rest, "%s%s", command->operands[0] == '\0' ? "" : " ", command->operands);
+        roff_item(output, command->name, rest);
+        roff_text(output, command->help);
+        output_format(output, "\n");
+    }
+}
+
+void page_of_command(Output *output, const Command *command) {
+    char name[32];
+    snprintf(name, sizeof name, "petri-%s", command->name);
+    roff_begin(output, name, 1, command->summary);
+    roff_heading(output, "SYNOPSIS");
+    output_format(output, ".B petri %s\n%s", command->name, command->options == 0 ? "" : "[options]\n");
+    roff_text(output, command->operands);
+    output_format(output, "\n");
+    roff_heading(output, "DESCRIPTION");
+    roff_paragraphs(output, command->details);
+    if (command->options != 0) {
+        roff_heading(output, "OPTIONS");
+    }
+    for (const OptionSpec *option = NULL; (option = option_after(command, option)) != NULL;) {
+        write_option(output, option);
+    }
+    if (command == &REPL_COMMAND) {
+        roff_heading(output, "COMMANDS OF THE PROMPT");
+        write_prompt_commands(output);
+    }
+    if (command->examples != NULL) {
+        roff_heading(output, "EXAMPLES");
+        write_examples(output, command->examples);
+    }
+    roff_see_also(output, (const char *const[]){"petri(1)", "petri(5)", NULL});
+}

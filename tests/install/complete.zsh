@@ -1,0 +1,11 @@
+# complete.zsh FOLDER: what the completion in this folder makes of some lines, a line each.
+zmodload zsh/zpty
+zpty terminal zsh -f -i
+zpty -w terminal "PS1=; fpath=($1:q \$fpath); autoload -Uz compinit; compinit -u -D; unsetopt list_ambiguous auto_menu"
+# Enter gives the line back instead of running it.
+zpty -w terminal 'give-back() { print -r -- "<$BUFFER>"; BUFFER=; zle accept-line }; zle -N give-back; bindkey "^M" give-back; bindkey "^J" give-back'
+for words in 'petri ren' 'petri run --traj' 'petri run --neighbours=n' 'petri one.fl --traj' 'petri help electros'; do
+    zpty -w -n terminal $words$'\t\r'
+    zpty -r -m terminal output '*<petri*>*' && print -r -- ${${output##*<}%%>*}
+done
+zpty -d terminal

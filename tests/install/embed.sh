@@ -1,0 +1,67 @@
+# embed.sh: sourced by run.sh: programs of embedders, built with what is installed in `prefix`, by pkg-config and by CMake.
+# shellcheck shell=sh disable=SC2154 # check.sh and run.sh set them
+printf '#include <petri.h>\n#include <stdio.h>\nint main(void) {\n    return puts(petri_version()) < 0;\n}\n' >app.c
+ln -s "$prefix" moved
+PKG_CONFIG_PATH=$(dirname "$(find moved/ -name petri.pc)")
+export PKG_CONFIG_PATH
+sed -i "s|^prefix=.*|prefix=$work/moved|" "$PKG_CONFIG_PATH"/petri*.pc # it is in another place now
+# shellcheck disable=SC2046 # options are words
+cc app.c -o app $(pkg-config --cflags --libs petri) >out 2>&1
+check "a program with libpetri links" [ $? -eq 0 ]
+LD_LIBRARY_PATH=$(dirname "$PKG_CONFIG_PATH") # where it is installed the loader knows
+export LD_LIBRARY_PATH
+version=$("$prefix/bin/petri" --version | sed 's/petri //')
+check "and runs" [ "$(./app)" = "$version" ]
+LC_ALL=C readelf -d app >out
+check "with the shared one" has out "Shared library: [libpetri.so.0]"
+# shellcheck disable=SC2046 # options are words
+cc app.c -o app_static $(pkg-config --cflags petri) -L"$LD_LIBRARY_PATH" -l:libpetri.a -lm -lpthread >out 2>&1
+check "a program with the static libpetri links" [ $? -eq 0 ]
+check "and runs alone" [ "$(env -u LD_LIBRARY_PATH ./app_static)" = "$version" ]
+pkg-config --libs petri >out
+check "without what draws" [ "$(grep -c -e pango -e cairo -e jpeg -e draw out)" -eq 0 ]
+cat >draws.c <<'EOF'
+#include <petri-draw.h>
+int main(void) {
+    PetriOptions options = petri_default_options();
+    PetriPictureOptions wanted = petri_default_picture_options();
+    PetriSession *session = petri_open(&options);
+    PetriPainter *painter = petri_painter_open();
+    PetriPicture *picture;
+    uint32_t pixels[4];
+    petri_load_text(session, "red.fl", "!window size=2;2\n    !canvas\n        !rect size=2;2 color=1;0;0 fill=true\n",
+                    PETRI_Z);
+    petri_step(session);
+    if (petri_picture(session, &wanted, &picture) != PETRI_OK)
+        return 1;
+    PetriStatus status = petri_picture_draw(picture, painter, pixels, 2, 2, 8);
+    return status == PETRI_MISSING ? 2 : status != PETRI_OK || pixels[3] != 0xffff0000u;
+}
+EOF
+# shellcheck disable=SC2046 # options are words
+cc draws.c -o draws $(pkg-config --cflags --libs petri-draw) >out 2>&1
+check "a program with libpetri-draw links" [ $? -eq 0 ]
+./draws
+status=$?
+check "and draws, if it can" [ $status -eq "$([ "$2" = draws ] && echo 0 || echo 2)" ]
+if command -v cmake >/dev/null; then
+    cat >CMakeLists.txt <<'EOF'
+cmake_minimum_required(VERSION 3.16)
+project(app C)
+find_package(petri 0.2 REQUIRED)
+add_executable(app app.c)
+target_link_libraries(app petri::petri)
+add_executable(draws draws.c)
+target_link_libraries(draws petri::draw)
+EOF
+    { cmake -S . -B cmake -DCMAKE_PREFIX_PATH="$prefix" && cmake --build cmake; } >out 2>&1
+    check "CMake builds them" [ $? -eq 0 ]
+    check "and the program runs" [ "$(env -u LD_LIBRARY_PATH cmake/app)" = "$version" ]
+    ./cmake/draws
+    check "and draws like the other" [ $? -eq $status ]
+    sed -i 's/petri 0.2/petri 0.1/' CMakeLists.txt
+    cmake -S . -B cmake >out 2>&1
+    check "but not where another version is wanted" has out 'requested version "0.1"'
+else
+    echo "skipped: CMake, which is not there"
+fi

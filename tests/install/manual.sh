@@ -1,0 +1,104 @@
+# manual.sh: sourced by run.sh: the pages of the manual, the completions, what desktops read, as they are installed in
+# `prefix`. What has no tool here to look with is named.
+# shellcheck shell=sh disable=SC2154 # check.sh and run.sh set them
+share=$prefix/share
+without() { echo "skipped: $1, for there is no $2"; }
+
+pages="man1/petri.1 man5/petri.5 man3/petri.h.3 man3/petri-draw.h.3"
+for name in $("$prefix/bin/petri" help | sed -n 's/^  \([a-z]*\) .*/\1/p'); do
+    pages="$pages man1/petri-$name.1"
+done
+check "each command has a page" [ "$(echo "$pages" | wc -w)" -ge 12 ]
+# quiet_pages COMMAND...: it has nothing to say of any page, but that none has a date.
+quiet_pages() {
+    for page in $pages; do
+        "$@" "$share/man/$page" 2>&1 >/dev/null | grep -v -e 'missing date' || true
+        [ -s "$share/man/$page" ] || echo "$page is not there"
+    done >out
+    empty out
+}
+lint() { mandoc -T lint -W warning "$1" >&2; }
+formatted() { man --warnings -E UTF-8 -l -Tutf8 "$1"; }
+if command -v mandoc >/dev/null; then
+    check "mandoc finds nothing wrong" quiet_pages lint
+    # shows PAGE TEXT: the page has it when it is read.
+    shows() { mandoc -T utf8 -O width=200 "$share/man/$1" | sed 's/.\x08//g' >out && has out "$2"; }
+    check "a command's page has its options" shows man1/petri-run.1 "--trajectory FILE"
+    check "with their help" shows man1/petri-run.1 "print and record each K-th frame"
+    check "and examples" shows man1/petri-run.1 "petri run dish.fl -D DROPS=50 --frames 100"
+    check "that of the prompt has its commands" shows man1/petri-repl.1 ".until EXPR"
+    check "that of the language has words" shows man5/petri.5 "%pragma tempo N"
+    check "and functions" shows man5/petri.5 "uniform(value=null)"
+    check "and nodes" shows man5/petri.5 "!electrostatic"
+    check "and attributes" shows man5/petri.5 "max_distance"
+    for name in $(sed -n 's/^\(.*[ *]\)\{0,1\}\(petri_[a-z_]*\)(.*/\2/p' "$prefix/include/petri.h"); do
+        grep -q "$(echo "$name" | sed 's/-/\\\\-/g')(" "$share/man/man3/petri.h.3" || echo "$name"
+    done >out
+    check "that of the header has all functions" empty out
+    check "and what they promise" shows man3/petri.h.3 "A session is used by one thread at a time"
+else
+    without "the pages" mandoc
+fi
+if command -v man >/dev/null && command -v groff >/dev/null; then
+    check "man has no warning" quiet_pages formatted
+else
+    without "the pages once more" "man or groff"
+fi
+
+bash_completion=$share/bash-completion/completions/petri
+# completes "OPTIONS" WORD...: what bash offers for the last of these words, in a line.
+completes() {
+    bash -c 'compopt() { :; }; . "$0" && COMP_WORDS=("$@") && COMP_CWORD=$(($# - 1)) && _petri && echo "${COMPREPLY[*]}"' \
+        "$bash_completion" "$@"
+}
+touch one.fl two.txt
+mkdir -p folder
+if command -v bash >/dev/null; then
+    check "bash completes commands" [ "$(completes petri re)" = "render repl" ]
+    check "options" [ "$(completes petri run --traj)" = --trajectory ]
+    check "of this command only" [ -z "$(completes petri check --traj)" ]
+    check "and of a script without command" [ "$(completes petri one.fl --traj)" = --trajectory ]
+    check "words" [ "$(completes petri run --neighbours n)" = never ]
+    check "lists of words" [ "$(completes petri run --print tree,h)" = tree,hash ]
+    check "words behind an equals sign" [ "$(completes petri run --color = al)" = always ]
+    check "folders" [ "$(completes petri run --allow-read fol)" = folder ]
+    check "scripts" [ "$(completes petri run o)" = one.fl ]
+    check "no other files" [ -z "$(completes petri run tw)" ]
+    check "topics of help" [ "$(completes petri help electro)" = electrostatic ]
+else
+    without "its completion" bash
+fi
+fish_completion=$share/fish/vendor_completions.d/petri.fish
+offers() { HOME=$work fish --no-config -c "source '$fish_completion'; complete -C '$1'" 2>&1 | cut -f 1 | xargs; }
+if command -v fish >/dev/null; then
+    check "fish completes commands" [ "$(offers 'petri re')" = "render repl" ]
+    check "options" [ "$(offers 'petri run --traj')" = --trajectory ]
+    check "of this command only" [ -z "$(offers 'petri check --traj')" ]
+    check "words" [ "$(offers 'petri run --neighbours n')" = never ]
+    check "lists of words" [ "$(offers 'petri run --print tree,h')" = tree,hash ]
+    check "topics of help" [ "$(offers 'petri help electro')" = electrostatic ]
+else
+    without "its completion" fish
+fi
+if command -v zsh >/dev/null; then
+    # A terminal of zsh's own, in which Tab is pressed; the line that stands there then is given back.
+    zsh -f "$here/complete.zsh" "$share/zsh/site-functions" >out 2>&1
+    check "zsh completes" [ "$(xargs <out)" = \
+        "petri render petri run --trajectory= petri run --neighbours=never petri one.fl --trajectory= petri help electrostatic" ]
+else
+    without "its completion" zsh
+fi
+
+if command -v desktop-file-validate >/dev/null; then
+    desktop-file-validate "$share/applications/petri.desktop" >out 2>&1
+    check "the desktop file is valid" [ $? -eq 0 ]
+else
+    without "the desktop file" desktop-file-validate
+fi
+if command -v update-mime-database >/dev/null; then
+    cp -r "$share/mime" mime
+    update-mime-database mime >out 2>&1
+    check "the type of scripts is known" has mime/globs text/x-flitter:*.fl
+else
+    without "the type of scripts" update-mime-database
+fi
