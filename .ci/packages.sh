@@ -17,12 +17,13 @@ pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, films, effects and three dimensions:
+# For windows, films, effects, three dimensions and plans of petri sweep:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
+pkg-config --exists yaml-0.1: libyaml-dev
 "
 # For the tests; those that lack a tool are skipped:
 TEST_NEEDS="$BUILD_NEEDS
@@ -60,7 +61,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy cmocka x11 mpfr'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 mpfr'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -14,7 +14,10 @@ struct Options;
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 }; // plus its number
 
 // Which commands an option is for.
-enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64 };
+// clang-format off
+enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
+       FOR_SWEEP = 128 };
+// clang-format on
 
 // One option.
 typedef struct OptionSpec {
@@ -59,6 +62,7 @@ typedef struct Command {
 extern const Command RUN_COMMAND;
 extern const Command RENDER_COMMAND;
 extern const Command REPL_COMMAND;
+extern const Command SWEEP_COMMAND;
 extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;

@@ -164,7 +164,7 @@ static bool read_colour(const Args *args, void *field) {
 static bool read_definition(const Args *args, void *field) {
     const char *equals = strchr(args->value, '=');
     if (equals == NULL || equals == args->value) {
-        return wrong_value(args, "NAME=VALUE");
+        return wrong_value(args, args->option->value);
     }
     texts_add(field, args->value);
     return true;
@@ -290,6 +290,8 @@ int command_run(const Command *command, const Host *host, int argc, char **argv)
     int status = options_read(&options, command, argc, argv);
     status = status == OPTIONS_READ ? command->run(host, &options) : status;
     texts_free(&options.definitions);
+    texts_free(&options.axes);
+    texts_free(&options.metrics);
     texts_free(&options.read_folders);
     texts_free(&options.write_folders);
     scripts_free(&options.scripts);

@@ -24,7 +24,8 @@ bool progress_possible(void) {
 }
 
 void progress_start(Progress *progress, bool enabled, int64_t total) {
-    *progress = (Progress){.enabled = enabled && total > 0, .total = total, .start = clock_seconds()};
+    *progress =
+        (Progress){.enabled = enabled && total > 0, .total = total, .things = "frames", .start = clock_seconds()};
 }
 
 void terminal_extent(int fd, int *columns, int *rows) {
@@ -40,10 +41,11 @@ static void draw(const Progress *progress, int64_t done, double elapsed) {
     double left = rate > 0 ? (double)(progress->total - done) / rate : 0;
     long long seconds = left < MOST_SECONDS ? (long long)left : MOST_SECONDS;
     char numbers[128];
-    int length = snprintf(numbers, sizeof numbers, "%lld/%lld frames", (long long)done, (long long)progress->total);
+    int length = snprintf(numbers, sizeof numbers, "%lld/%lld %s", (long long)done, (long long)progress->total,
+                          progress->things);
     if (done > 0) {
-        length += snprintf(numbers + length, sizeof numbers - (size_t)length, ", %.1f frames/s, %lld:%02lld left", rate,
-                           seconds / 60, seconds % 60);
+        length += snprintf(numbers + length, sizeof numbers - (size_t)length, ", %.1f %s/s, %lld:%02lld left", rate,
+                           progress->things, seconds / 60, seconds % 60);
     }
     char bar[BAR_WIDTH + 4] = "";
     int columns = DEFAULT_COLUMNS, rows = 0;

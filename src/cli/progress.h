@@ -8,9 +8,10 @@
 typedef struct Progress {
     bool enabled;
     bool drawn;
-    int64_t total; // frames to come in all
-    double start;  // seconds of the monotonic clock
-    double last;   // when it was drawn last
+    int64_t total;      // frames to come in all
+    const char *things; // what they are called: frames
+    double start;       // seconds of the monotonic clock
+    double last;        // when it was drawn last
 } Progress;
 
 // Seconds of the monotonic clock.

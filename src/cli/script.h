@@ -2,6 +2,7 @@
 #ifndef PETRI_SRC_SCRIPT_H
 #define PETRI_SRC_SCRIPT_H
 
+#include "cli/bytes.h"
 #include "cli/cli.h"
 #include "petri.h"
 
@@ -22,6 +23,10 @@ void script_second(const char *first, const char *second);
 void script_suggest(const char *name);
 // The folder that it is in, "." for this one; to be freed.
 char *script_folder(const char *name);
+// Adds a word as a shell takes it.
+void shell_add_word(Bytes *text, const char *word);
+// Adds the program as it was called, from the current folder where it is below that.
+void shell_add_program(Bytes *text, const char *called);
 // Tells on standard error how to see what a script shows, and how to keep a picture of it: command lines that work from
 // the current folder.
 void hint_pictures(const Host *host, const char *script);

@@ -92,6 +92,7 @@ mpfr) test -e "$WORK/later/libmpfr-dev" ;;
 chafa) test -e "$WORK/later/libchafa-dev" ;;
 libedit) test -e "$WORK/later/libedit-dev" ;;
 sdl2) test -e "$WORK/later/libsdl2-dev" ;;
+yaml-0.1) test -e "$WORK/later/libyaml-dev" ;;
 cmocka) test -e "$WORK/later/libcmocka-dev" ;;
 x11) test -e "$WORK/later/libx11-dev" ;;
 esac

@@ -1,0 +1,12 @@
+// crew.h: the processes that make runs, so that one that crashes is a row of the table and no more.
+#ifndef PETRI_SRC_CREW_H
+#define PETRI_SRC_CREW_H
+
+#include "sweep/journal.h"
+#include "sweep/sweep.h"
+
+// Makes all runs of ours that are not done yet, `jobs` at a time. STATUS_DONE, or the status to exit with: after a
+// message, or 128 plus the number of a signal.
+int crew_work(Sweep *sweep, Journal *journal, int64_t jobs);
+
+#endif

@@ -1,0 +1,231 @@
+// design.c: which runs there are: all combinations of values or a sample of them, each with all seeds.
+#include <inttypes.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/table.h"
+#include "petri.h"
+#include "sweep/sweep.h"
+
+enum { MOST_RUNS = 10000000 };
+
+const char *design_value(const Design *design, size_t run, size_t axis) {
+    return design->axes[axis].values.items[design->places[run * design->axis_count + axis]];
+}
+
+static Axis *find_axis(const Design *design, const char *name) {
+    for (size_t i = 0; i < design->axis_count; i++) {
+        if (strcmp(design->axes[i].name, name) == 0) {
+            return &design->axes[i];
+        }
+    }
+    return NULL;
+}
+
+static void free_axis(Axis *axis) {
+    free(axis->name);
+    texts_free(&axis->values);
+}
+
+void design_free(Design *design) {
+    for (size_t i = 0; i < design->axis_count; i++) {
+        free_axis(&design->axes[i]);
+    }
+    free(design->axes);
+    free(design->places);
+}
+
+// Of a name that is given twice the last counts, as with `petri run`; so the command line changes what a plan says.
+static bool take_axis(Design *design, const char *text) {
+    Axis axis;
+    bool good = axis_read(&axis, text);
+    Axis *place = find_axis(design, axis.name);
+    if (place == NULL) {
+        place = &design->axes[design->axis_count++];
+    } else {
+        free_axis(place);
+    }
+    *place = axis;
+    return good;
+}
+
+static bool take_axes(Design *design, const Options *options) {
+    design->axes = memory_zeroed((options->axes.count + 1) * sizeof *design->axes);
+    for (size_t i = 0; i < options->axes.count; i++) {
+        if (!take_axis(design, options->axes.items[i])) {
+            return false;
+        }
+    }
+    if (options->seeds == 0) {
+        return true;
+    }
+    if (find_axis(design, "SEED") != NULL) {
+        message("both --seeds and -D SEED were given: --seeds N stands for -D SEED=1..N");
+        return false;
+    }
+    char seeds[48];
+    snprintf(seeds, sizeof seeds, "SEED=1..%" PRId64, options->seeds);
+    design->seeded = true;
+    return take_axis(design, seeds);
+}
+
+// Makes room for the runs; false after a message if there are too many.
+static bool make_room(Design *design, double runs) {
+    if (runs > MOST_RUNS) {
+        message("%.0f runs are too many: at most %d; --sample latin:N takes some of them", runs, MOST_RUNS);
+        return false;
+    }
+    design->run_count = (size_t)runs;
+    design->places = memory_zeroed(design->run_count * (design->axis_count + 1) * sizeof *design->places);
+    return true;
+}
+
+// The first name changes most slowly.
+static bool make_grid(Design *design) {
+    double runs = 1;
+    for (size_t i = 0; i < design->axis_count; i++) {
+        runs *= (double)design->axes[i].values.count;
+    }
+    if (!make_room(design, runs)) {
+        return false;
+    }
+    for (size_t run = 0; run < design->run_count; run++) {
+        size_t rest = run;
+        for (size_t i = design->axis_count; i > 0; i--) {
+            size_t count = design->axes[i - 1].values.count;
+            design->places[run * design->axis_count + i - 1] = (uint32_t)(rest % count);
+            rest /= count;
+        }
+    }
+    return true;
+}
+
+typedef struct Sample {
+    size_t count;
+    uint64_t seed;
+} Sample;
+
+// `latin:COUNT` or `latin:COUNT:SEED`.
+static bool read_sample(const char *text, Sample *sample) {
+    char *end = NULL;
+    long count = strncmp(text, "latin:", 6) == 0 ? strtol(text + 6, &end, 10) : 0;
+    bool good = count >= 1 && count <= MOST_RUNS;
+    sample->count = (size_t)count;
+    sample->seed = 0;
+    if (good && *end == ':' && end[1] >= '0' && end[1] <= '9') {
+        sample->seed = strtoull(end + 1, &end, 10);
+    }
+    if (!good || *end != '\0') {
+        message("option '--sample' expects latin:COUNT or latin:COUNT:SEED, not '%s'", text);
+        return false;
+    }
+    return true;
+}
+
+typedef struct Random {
+    uint64_t key;
+    uint64_t count;
+} Random;
+
+static uint64_t next_random(Random *random) {
+    return hash_mix(random->key + ++random->count * UINT64_C(0x9e3779b97f4a7c15));
+}
+
+// A Latin hypercube: of `count` slices of an axis each sample has another, and a random place in it.
+static void sample_axis(Design *design, size_t number, const Sample *sample, size_t seeds) {
+    Axis *axis = &design->axes[number];
+    Random random = {.key = hash_bytes(sample->seed, axis->name, strlen(axis->name))};
+    uint32_t *slices = memory_zeroed(sample->count * sizeof *slices);
+    for (uint32_t i = 0; i < sample->count; i++) {
+        uint32_t other = (uint32_t)(next_random(&random) % (i + 1));
+        slices[i] = slices[other];
+        slices[other] = i;
+    }
+    size_t listed = axis->values.count;
+    if (axis->continuous) {
+        texts_free(&axis->values);
+    }
+    for (size_t i = 0; i < sample->count; i++) {
+        double within = (double)(next_random(&random) >> 11) * 0x1p-53;
+        double part = (slices[i] + within) / (double)sample->count;
+        uint32_t place = axis->continuous ? (uint32_t)i : (uint32_t)(part * (double)listed);
+        if (axis->continuous) {
+            char value[32];
+            snprintf(value, sizeof value, "%.12g", axis->least + part * (axis->most - axis->least));
+            texts_add(&axis->values, value);
+        }
+        for (size_t seed = 0; seed < seeds; seed++) {
+            design->places[(i * seeds + seed) * design->axis_count + number] = place;
+        }
+    }
+    free(slices);
+}
+
+static bool make_sample(Design *design, const char *text) {
+    Sample sample;
+    size_t seeds = design->seeded ? design->axes[design->axis_count - 1].values.count : 1;
+    if (!read_sample(text, &sample) || !make_room(design, (double)sample.count * (double)seeds)) {
+        return false;
+    }
+    for (size_t i = 0; i < design->axis_count - design->seeded; i++) {
+        sample_axis(design, i, &sample, seeds);
+    }
+    for (size_t run = 0; design->seeded && run < design->run_count; run++) {
+        design->places[(run + 1) * design->axis_count - 1] = (uint32_t)(run % seeds);
+    }
+    return true;
+}
+
+// --- what --where leaves out
+
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
+    bool *told = host;
+    *told = true;
+    fputs(diagnostic->rendered, stderr);
+}
+
+// The expression with each name as it is in a run: `(A < B) where A=(1) B=(2)`.
+static bool holds(PetriSession *session, const Design *design, size_t run, const char *where, PetriResult *result) {
+    SCOPED_BYTES text = {0};
+    bytes_format(&text, "(%s)%s", where, design->axis_count > 0 ? " where" : "");
+    for (size_t i = 0; i < design->axis_count; i++) {
+        bytes_format(&text, " %s=", design->axes[i].name);
+        axis_add_literal(&text, design_value(design, run, i));
+    }
+    return petri_evaluate(session, text.data, text.length, result, NULL, NULL) == PETRI_OK;
+}
+
+static bool choose(Design *design, const char *where, const Host *host) {
+    bool told = false, good = true;
+    PetriOptions wanted = petri_default_options();
+    wanted.stack_bytes = host->stack_bytes;
+    wanted.no_files = true;
+    wanted.diagnostic = on_diagnostic;
+    wanted.host = &told;
+    PetriSession *session = petri_open(&wanted);
+    good = session != NULL && petri_load_text(session, "--where", "", 0) == PETRI_OK;
+    size_t left = 0, width = design->axis_count;
+    for (size_t run = 0; good && run < design->run_count; run++) {
+        PetriResult result = {0};
+        good = holds(session, design, run, where, &result) && !told;
+        if (good && result.is_true) {
+            memmove(&design->places[left++ * width], &design->places[run * width], width * sizeof *design->places);
+        }
+    }
+    petri_close(&session);
+    design->run_count = left;
+    if (!good || left == 0) {
+        message(good ? "no run is left: '%s' never holds"
+                     : "option '--where' expects an expression of the names, not '%s'",
+                where);
+    }
+    return good && left > 0;
+}
+
+bool design_make(Design *design, const Options *options, const Host *host) {
+    *design = (Design){0};
+    return take_axes(design, options) &&
+           (options->sample == NULL ? make_grid(design) : make_sample(design, options->sample)) &&
+           (options->where == NULL || choose(design, options->where, host));
+}

@@ -1,0 +1,248 @@
+#!/bin/sh
+# run.sh: `petri sweep` as its user sees it: which runs there are, the table whatever happens on the way, plans, pictures.
+# usage: tests/sweep/run.sh PATH-OF-PETRI draws|none yaml|none
+# shellcheck disable=SC2016 # dollars are for petri
+set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+scratch
+unset NO_COLOR
+
+sweep() {
+    timeout 100 "$petri" sweep "$@" >out 2>err </dev/null
+    status=$?
+}
+out_is() { [ "$(cat out)" = "$1" ]; }
+same() { cmp "$1" "$2"; }
+# refused WHAT TEXT ARGS...: a wrong command line, with this text in its message.
+refused() {
+    check_name=$1 text=$2
+    shift 2
+    sweep "$@"
+    check "$check_name" status_is 2
+    check "$check_name: it says why" has err "$text"
+}
+
+# --- which runs there are
+
+cat >sum.fl <<'END'
+let A=A or 1 B=B or 2 SEED=SEED or 1 V=V or (1;2)
+END
+sweep sum.fl -D 'A=1;5..20|5' -D B=2 --frames 3 --metric total=A+B
+check "a list with a range, and a constant" out_is 'run,A,B,frame,total,error
+1,1,2,2,3,
+2,5,2,2,7,
+3,10,2,2,12,
+4,15,2,2,17,
+5,20,2,2,22,'
+sweep sum.fl -D A=0.1..0.3\|0.1 --seeds 2 --frames 1 --metric a=A --metric s=SEED
+check "steps are decimal, seeds change fastest" out_is 'run,A,SEED,frame,a,s,error
+1,0.1,1,0,0.1,1,
+2,0.1,2,0,0.1,2,
+3,0.2,1,0,0.2,1,
+4,0.2,2,0,0.2,2,
+5,0.3,1,0,0.3,1,
+6,0.3,2,0,0.3,2,'
+sweep sum.fl -D 'V=(3;4)' --frames 1 --metric length=len\(V\) --metric 'text="a,b"' --metric 'nothing=null'
+check "a vector is in parentheses; cells are quoted where they must be" out_is "run,V,frame,length,text,nothing,error
+1,3;4,0,2,\"'a,b'\",,"
+sweep sum.fl -D 'V=(3;4);(5;6;7)' --frames 1 --metric length=len\(V\)
+check "so are vectors in a list" [ "$(tail -n 2 out)" = '1,3;4,0,2,
+2,5;6;7,0,3,' ]
+sweep sum.fl -D A=1..3 -D B=1..3 --where 'A < B' --frames 1 --metric total=A+B
+check "--where" [ "$(tail -n 3 out)" = '1,1,2,0,3,
+2,1,3,0,4,
+3,2,3,0,5,' ]
+sweep sum.fl -D A=1..2 --frames 8 --every 3 --until 'frame >= A*4' --metric total=A+frame
+check "--every and --until" out_is 'run,A,frame,total,error
+1,1,0,1,
+1,1,3,4,
+1,1,4,5,
+2,2,0,2,
+2,2,3,5,
+2,2,6,8,
+2,2,7,9,'
+sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11 --frames 1 --metric b=B
+check "a sample: as many runs as it says" lines_are out 12
+check "each of eleven steps once" [ "$(cut -d, -f5 out | tail -n 11 | sort -n | uniq | wc -l)" -eq 11 ]
+slices=$(tail -n 11 out | cut -d, -f2 | awk '{ print int(($1 - 1) / 8 * 11) }' | sort -n | uniq | wc -l)
+check "and each slice of a range" [ "$slices" -eq 11 ]
+cp out first
+sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11 --frames 1 --metric b=B --jobs 3
+check "the same again, whatever the number of processes" same out first
+sweep sum.fl -D A=1..9 -D B=10..20\|1 --sample latin:11:7 --frames 1 --metric b=B
+check "another seed, another sample" [ "$(cmp -s out first; echo $?)" -eq 1 ]
+
+# --- summary and plots
+
+sweep sum.fl -D A=1..2 --seeds 4 --frames 1 --metric x=A*SEED*SEED --summary means.csv -o t.csv
+check "mean, deviation, quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,deviation,least,quartile1,median,quartile3,most
+1,x,4,7.5,6.5574385243,1,3.25,6.5,10.75,16
+2,x,4,15,13.1148770486,2,6.5,13,21.5,32' ]
+sweep sum.fl -D A=1..2 --frames 9 --until 'frame == A' --summary means.csv -o t.csv
+check "when it ended, where nothing else is measured" has means.csv '2,frame,1,2,,2,2,2,2,2'
+if [ "$2" = draws ]; then
+    sweep sum.fl -D A=1..5 -D 'B=1;2' --frames 3 --metric x=A*B --plot plot.svg -o t.csv
+    check "a plot" grep -q '</svg>' plot.svg
+    check "of which nothing is amiss" [ "$(wc -l <err)" -eq 1 ]
+    sweep sum.fl -D A=1 --frames 3 --metric x=null --every 1 --plot plot.png -o t.csv
+    check "and of nothing at all" [ -s plot.png ]
+fi
+
+# --- the table, whatever happens on the way
+
+cat >dish.fl <<'END'
+let DROPS=DROPS or 20 -- 1..100 how many
+    SEED=SEED or 1
+!physics state=:drops dimensions=2
+    for i in ..DROPS
+        !particle id=i position=9*normal(:start;SEED)[2*i;2*i+1]
+    !gravity strength=50
+    !collision strength=100
+END
+far='far=sum(hypot($(:drops;i)) for i in ..DROPS)'
+# cells ARGS...: the words of the sweep that is interrupted.
+before=
+cells() { $before "$petri" sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 500 --every 250 --metric "$far" --quiet "$@"; }
+cells --jobs 1 -o whole.csv
+check "60 runs with three rows each" lines_are whole.csv 181
+check "nothing else stays" [ "$(echo whole.csv*)" = "whole.csv whole.csv.runs" ]
+cells --jobs 3 >out
+check "the order is that of the runs" same whole.csv out
+line=$(sed -n 47p whole.csv.runs)
+value=$(awk -F, '$1 == 47 && $4 == 499 { print $5 }' whole.csv)
+sh -c "$line --print log" >out 2>err
+check "a line of the commands runs" status_is 0
+sh -c "$line --print state" 2>err | awk '/^@499 /{ on = 1 } on' >state
+again=$(awk '/^\$\(:drops;[0-9]+\) = / { split($3, p, ";"); sum += sqrt(p[1]*p[1] + p[2]*p[2]) } END { printf "%.9g", sum }' state)
+check "and makes the run again: $value" [ "$again" = "$(printf '%.9g' "$value")" ]
+
+# runs_of FILE: how many runs its journal has.
+runs_of() { cat "$1" 2>/dev/null | grep -c '^run '; }
+# kill_at COUNT: the sweep, killed as soon as it has made this many runs.
+kill_at() {
+    (before=exec && cells --jobs 2 -o killed.csv 2>err) &
+    child=$!
+    while kill -0 $child 2>/dev/null && [ "$(runs_of killed.csv.part)" -lt "$1" ]; do :; done
+    kill -9 $child 2>/dev/null
+    wait $child 2>/dev/null
+}
+for count in 1 5 6 13 20; do
+    kill_at $count
+    check "killed after $count runs: what is done is kept" [ "$(runs_of killed.csv.part)" -ge $count ]
+    check "no table is there" [ ! -e killed.csv ]
+done
+printf 'run 59 100 5' >>killed.csv.part # cut in the middle
+cells -o killed.csv
+check "then the table is the same to the last byte" same whole.csv killed.csv
+check "and so are the commands" same whole.csv.runs killed.csv.runs
+check "the journal is gone" [ ! -e killed.csv.part ]
+
+kill_at 5
+sweep dish.fl -D DROPS=10..30\|5 --seeds 12 --frames 501 --every 250 --metric "$far" -o killed.csv
+check "another sweep does not go on with it" status_is 2
+check "but tells what to do" has err 'remove it to begin anew'
+rm killed.csv.part
+
+cat >slow.fl <<'END'
+let N=N or 1 BIG=sum(i*i for i in ..100000*N+0*frame)
+END
+# A process of the crew is ended from outside, as the system does that is short of memory: the run is made again.
+crew() { pgrep -P "$1" | head -n 1; }
+end_one() {
+    rm -f slow.csv*
+    "$petri" sweep slow.fl -D N='1;1;1;1;1;1' --frames 30 --metric x=BIG --jobs 1 --quiet -o slow.csv 2>err &
+    child=$!
+    while kill -0 $child && [ "$(runs_of slow.csv.part)" -lt 1 ]; do :; done
+    kill "$1" "$(crew $child)"
+    wait $child
+    status=$?
+}
+if command -v pgrep >/dev/null; then
+    end_one -KILL
+    check "a killed process is no failure" status_is 0
+    check "its run is made again" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 6 ]
+    end_one -ABRT
+    check "a crash is a row" [ "$(grep -c '^[2-6],1,0,,crashed: signal 6' slow.csv)" -eq 1 ]
+    check "of one run" [ "$(grep -c ',29,333328333350000,$' slow.csv)" -eq 5 ]
+fi
+sweep slow.fl -D 'N=1;100;2' --frames 2 --metric x=N --work 5M
+check "so is a limit, with its message" [ "$(cut -c 1-62 out | sed -n '3p;4p')" = '2,100,0,,slow.fl:1:22: the frame takes more than its 5242880 u
+3,2,1,2,' ]
+check "and the run ends well" status_is 0
+check "it says that one failed" has err '1 of 3 runs failed'
+
+# --- in parts
+
+for part in 2 1 3; do
+    check "nothing is written before all parts are there" [ ! -e parts.csv ]
+    cells --jobs 1 --shard $part/3 -o parts.csv 2>err
+done
+check "the last part writes the table" same whole.csv parts.csv
+check "no journal stays" [ "$(echo parts.csv*)" = "parts.csv parts.csv.runs" ]
+OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=2 cells -o parts2.csv 2>err
+check "mpirun deals parts out" exists parts2.csv.part-2-of-2
+cells -o parts2.csv
+check "without, what is there is used" same whole.csv parts2.csv
+check "and goes" [ "$(echo parts2.csv*)" = "parts2.csv parts2.csv.runs" ]
+
+# --- plans
+
+if [ "$3" = yaml ]; then
+    mkdir plans
+    cp sum.fl plans
+    cat >plans/sum.yaml <<'END'
+script: sum.fl
+define:
+  A: 1..3
+  V: [(3;4), 5;6]   # two vectors
+frames: 2
+metric:
+  total: >-
+    A +
+    sum(V)
+END
+    sweep --plan plans/sum.yaml
+    check "a plan" out_is 'run,A,V,frame,total,error
+1,1,3;4,1,8,
+2,1,5;6,1,12,
+3,2,3;4,1,9,
+4,2,5;6,1,13,
+5,3,3;4,1,10,
+6,3,5;6,1,14,'
+    sweep --plan plans/sum.yaml -D A=7 --frames 5
+    check "the command line counts more" [ "$(sed -n 2p out)" = '1,7,3;4,4,14,' ]
+    printf 'script: sum.fl\nfrmes: 2\n' >wrong.yaml
+    refused "a wrong line of a plan" "wrong.yaml:2:1: 'frmes' is no option of petri sweep, did you mean frames" --plan wrong.yaml
+    printf 'script: sum.fl\nframes: x\n' >wrong.yaml
+    refused "a wrong value" "option '--frames' expects a whole number" --plan wrong.yaml
+    printf 'a: [1\n' >wrong.yaml
+    refused "no YAML" 'wrong.yaml:2:1: this is no YAML' --plan wrong.yaml
+    sweep --plan "$root/samples/dish.yaml" --frames 2 -D DROPS=5 --summary means.csv
+    check "the sample" [ "$(cut -d, -f1-4 out | tail -n 1)" = '3,5,0.5,1' ]
+else
+    refused "no plan without libyaml" 'built without libyaml' --plan sum.yaml
+fi
+
+# --- what is wrong
+
+refused "no script" 'no script was given'
+refused "no metric" 'nothing is measured' sum.fl
+refused "a range that ends before it begins" 'ends before it begins' sum.fl -D A=3..1 --metric a=A
+refused "a value that is missing" 'a value is missing' sum.fl -D 'A=1;;2' --metric a=A
+refused "a name that is a column" 'has a column of this name' sum.fl -D A=1 --metric A=1
+refused "no expression" "option '--metric' expects an expression, not '1+'" sum.fl --metric 'a=1+'
+refused "no expression of names" "option '--where' expects" sum.fl -D A=1 --where 'X > 1' --metric a=A
+refused "no combination" "no run is left: 'A > 5' never holds" sum.fl -D A=1 --where 'A > 5' --metric a=A
+refused "no such sample" 'latin:COUNT' sum.fl -D A=1..2 --sample grid --metric a=A
+refused "too many runs" 'runs are too many' sum.fl -D A=1..10000 -D B=1..10000 --metric a=A
+refused "no such part" 'expects I/N' sum.fl --shard 3/2 --metric a=A -o t.csv
+refused "a value that the script does not take" "'x' is not a number" sum.fl -D A=x --metric a=A
+sweep gone.fl --metric a=1
+check "no such script" status_is 1
+check "one message" has err "cannot read 'gone.fl'"
+sweep sum.fl -D C=1..2 --metric a=A --frames 1
+check "a name that nobody reads is told, once" count_is err "the definition of 'C' has no effect" 1
+
+finish
