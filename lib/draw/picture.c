@@ -9,12 +9,25 @@
 
 #include <math.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { USUAL_SIZE = 512, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
 enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
 
-PetriPictureOptions petri_default_picture_options(void) {
-    return (PetriPictureOptions){.scale = 1, .window = -1};
+void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
+    const PetriPictureOptions usual = {.size = size, .scale = 1, .window = -1};
+    memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
+}
+
+// The options of a host, who may have been compiled with an earlier petri-draw.h, whose struct was shorter. False if
+// they were not initialised, or are those of a later one.
+static bool take_options(PetriPictureOptions *options, const PetriPictureOptions *given) {
+    size_t least = offsetof(PetriPictureOptions, automatic) + sizeof options->automatic;
+    if (!given || given->size < least || given->size > sizeof *options)
+        return false;
+    petri_picture_options_init(options, sizeof *options);
+    memcpy(options, given, given->size);
+    return true;
 }
 
 // What petri_picture is working on.
@@ -265,7 +278,8 @@ static bool choose_pixels(Request *request) {
 enum { LONGEST_START = 2 };
 
 bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options) {
-    if (!session || !options)
+    PetriPictureOptions wanted;
+    if (!session || !take_options(&wanted, options))
         return false;
     Shown shown = session_shown(session);
     const Node *window = find_window(&shown, options->window);
@@ -338,16 +352,19 @@ static void make_protected(PetriSession *session, void *context) {
 }
 
 PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *options, PetriPicture **out) {
-    if (!session || !options || !out)
+    PetriPictureOptions wanted;
+    if (!session || !out)
         return PETRI_INVALID;
     *out = NULL;
+    if (!take_options(&wanted, options))
+        return PETRI_INVALID;
     Shown shown = session_shown(session);
     PetriPicture *picture = calloc(1, sizeof *picture);
     if (!picture)
         return session_tell_end(session, PETRI_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", shown.memory_bytes);
     picture->arena.meter = shown.meter;
-    Request request = {.shown = shown, .options = options, .picture = picture, .status = PETRI_INVALID};
+    Request request = {.shown = shown, .options = &wanted, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_OK;
     picture->picture.beat = petri_frame(session).beat;
     if (shown.number >= 0)

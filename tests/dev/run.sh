@@ -30,7 +30,8 @@ machine() {
     done
     cp "$root/dev" "$work/project"
     cp "$root"/.ci/* "$work/project/.ci"
-    sed -i "s|/usr/share/fonts|$work/fonts|; s|/usr/lib/\*|$work/mesa|; s|:/usr/sbin:/sbin||" "$work/project/dev" "$work/project/.ci"/*
+    sed -i "s|/usr/share/fonts|$work/fonts|; s|/usr/lib/\*|$work/mesa|;
+            s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$work/project/dev" "$work/project/.ci"/*
     : >"$work/calls"
     uid=0 network=yes breaks=
     stand_in bin/id <<'END'
@@ -66,6 +67,8 @@ case " $* " in
         imagemagick) package=compare ;;
         libgl1-mesa-dri) touch "$WORK/mesa/dri/swrast_dri.so" ;;
         desktop-file-utils) package=desktop-file-validate ;;
+        python3-dev) package=python3-config ;;
+        python3-*) package=python3 ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
         fonts-liberation) mkdir -p "$WORK/fonts/truetype/liberation" ;;
         fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;

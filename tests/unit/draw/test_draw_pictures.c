@@ -96,6 +96,10 @@ static void test_sizes(void **state) {
     check_size(player, options, 5, 3);
     options.height = -1;
     take(player, options, PETRI_INVALID);
+    take(player, (PetriPictureOptions){.scale = 1, .window = -1}, PETRI_INVALID); // not initialised
+    options = petri_default_picture_options();
+    options.size++; // of a later petri-draw.h
+    take(player, options, PETRI_INVALID);
     player_run(player, "!window\n    !canvas\n", 1);
     check_size(player, petri_default_picture_options(), 512, 512);
     player_run(player, "!window\n    !canvas size=30;20\n", 1);
