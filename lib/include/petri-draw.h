@@ -93,7 +93,8 @@ typedef struct PetriRecord {
 // The number `index` of the records of the picture that the painter has made last (petri_picture_make). False beyond
 // the last. Valid until the painter makes another picture.
 PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
-// Writes its file, a picture, as petri_picture_save does: .png, .jpg, .svg or .pdf.
+// Writes its file, a picture: .png, .jpg, .svg or .pdf. PETRI_OK and failures as petri_picture_save has them;
+// PETRI_INVALID, too, beyond the last and for one that is refused.
 PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index);
 
 // Draws into width x height pixels, rows `stride` bytes apart (a multiple of 4): 32 bits each, alpha in the highest
