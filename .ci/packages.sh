@@ -33,6 +33,12 @@ command -v xdotool        : xdotool
 command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
+/usr/bin/python3 -I -c 'import build'      : python3-build
+/usr/bin/python3 -I -c 'import cffi'       : python3-cffi
+/usr/bin/python3 -I -c 'import numpy'      : python3-numpy
+/usr/bin/python3 -I -c 'import setuptools' : python3-setuptools
+/usr/bin/python3 -I -c 'import wheel'      : python3-wheel
+command -v python3-config : python3-dev
 command -v cmake          : cmake make
 command -v mandoc         : mandoc
 command -v zsh            : zsh
@@ -57,7 +63,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

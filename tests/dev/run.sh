@@ -30,7 +30,7 @@ machine() {
     done
     cp "$root/dev" "$work/project"
     cp "$root"/.ci/* "$work/project/.ci"
-    sed -i "s|/usr/share/fonts|$work/fonts|; s|:/usr/sbin:/sbin||" "$work/project/dev" "$work/project/.ci"/*
+    sed -i "s|/usr/share/fonts|$work/fonts|; s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$work/project/dev" "$work/project/.ci"/*
     : >"$work/calls"
     uid=0 network=yes breaks=
     stand_in bin/id <<'END'
@@ -65,6 +65,8 @@ case " $* " in
         x11-utils) package=xprop ;;
         imagemagick) package=compare ;;
         desktop-file-utils) package=desktop-file-validate ;;
+        python3-dev) package=python3-config ;;
+        python3-*) package=python3 ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
         fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;
         esac

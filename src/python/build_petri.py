@@ -1,0 +1,57 @@
+"""What cffi makes petri._petri of: the declarations of petri.h and petri-draw.h themselves, and a few functions in C.
+
+PETRI_HEADERS is the folder of the headers, PETRI_LIBRARIES what the linker is told. Without them pkg-config is asked
+for an installed libpetri-draw.
+"""
+
+import os
+import re
+import shlex
+import subprocess
+from pathlib import Path
+
+import cffi
+
+
+def pkg_config(option):
+    words = subprocess.run(["pkg-config", option, "petri-draw"], check=True, stdout=subprocess.PIPE, text=True)
+    return shlex.split(words.stdout)
+
+
+def declarations(header):
+    """The header without what is for the preprocessor, for C++, or a body."""
+    text = Path(header).read_text(encoding="utf-8")
+    text = re.sub(r"#ifdef __cplusplus\n.*?#endif\n", "", text, flags=re.S)
+    text = re.sub(r"^static inline .*?^}\n", "", text, flags=re.S | re.M)
+    text = re.sub(r"^#(?:[^\n]*\\\n)*[^\n]*\n", "", text, flags=re.M)
+    return re.sub(r"\bPETRI_API\b", "", text)
+
+
+if "PETRI_HEADERS" in os.environ:
+    headers = os.environ["PETRI_HEADERS"]
+    compile_args = ["-I" + headers]
+    link_args = shlex.split(os.environ["PETRI_LIBRARIES"])
+else:
+    compile_args = pkg_config("--cflags")
+    link_args = pkg_config("--libs")
+    headers = subprocess.run(["pkg-config", "--variable=includedir", "petri-draw"], check=True, stdout=subprocess.PIPE,
+                             text=True).stdout.strip()
+
+here = Path(__file__).parent
+ffi = cffi.FFI()
+ffi.cdef(declarations(Path(headers) / "petri.h") + declarations(Path(headers) / "petri-draw.h"))
+helpers = (here / "helpers.h").read_text(encoding="utf-8")
+ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
+ffi.cdef("""
+    extern "Python" void petri_python_diagnostic(void *host, const PetriDiagnostic *diagnostic);
+    extern "Python" bool petri_python_write(void *host, const char *text, size_t length);
+""")
+ffi.set_source(
+    "petri._petri",
+    helpers + (here / "helpers.c").read_text(encoding="utf-8"),
+    extra_compile_args=compile_args + ["-std=c17", "-D_XOPEN_SOURCE=700", "-fvisibility=hidden"],
+    extra_link_args=link_args,
+)
+
+if __name__ == "__main__":
+    ffi.compile(verbose=True)

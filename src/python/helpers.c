@@ -1,0 +1,95 @@
+// helpers.c: see helpers.h, which stands before this when it is compiled.
+#include <signal.h>
+#include <string.h>
+
+static PetriSession *volatile under_way; // of the main thread
+static volatile sig_atomic_t interrupted;
+static struct sigaction outer; // Python's handler
+
+static void on_interrupt(int number, siginfo_t *info, void *context) {
+    interrupted = 1;
+    petri_interrupt(under_way);
+    if (outer.sa_flags & SA_SIGINFO) {
+        outer.sa_sigaction(number, info, context);
+    } else {
+        outer.sa_handler(number);
+    }
+}
+
+PetriStatus petri_python_step(PetriSession *session, size_t count, bool heed) {
+    PetriStatus status = PETRI_OK;
+    struct sigaction ours = {.sa_flags = SA_SIGINFO | SA_RESTART};
+    ours.sa_sigaction = on_interrupt;
+    interrupted = 0;
+    if (heed) {
+        under_way = session;
+        // Nobody is told where nobody listens.
+        heed = sigaction(SIGINT, NULL, &outer) == 0 && outer.sa_handler != SIG_IGN && outer.sa_handler != SIG_DFL &&
+               sigaction(SIGINT, &ours, NULL) == 0;
+    }
+    while (status == PETRI_OK && count-- > 0) {
+        status = petri_step(session);
+    }
+    if (heed) {
+        sigaction(SIGINT, &outer, NULL);
+        if (interrupted && status != PETRI_INTERRUPTED) {
+            petri_interrupted(session); // it came too late, and is none of the next step's business
+        }
+    }
+    return status;
+}
+
+int petri_python_system(PetriSession *session, int number, const char *name, PetriSystem *system) {
+    if (number >= 0 && petri_system(session, (size_t)number, system) && (!name || strcmp(system->name, name) == 0)) {
+        return number;
+    }
+    for (int i = 0; name && petri_system(session, (size_t)i, system); i++) {
+        if (strcmp(system->name, name) == 0) {
+            return i;
+        }
+    }
+    return -1;
+}
+
+bool petri_python_view(PetriSession *session, int number, const char *name, char which, PetriPythonView *view) {
+    PetriSystem system;
+    if (petri_python_system(session, number, name, &system) < 0) {
+        return false;
+    }
+    const PetriColumn *column = which == 'p'   ? &system.position
+                                : which == 'v' ? &system.velocity
+                                : which == 'f' ? &system.force
+                                : which == 'r' ? &system.radius
+                                : which == 'm' ? &system.mass
+                                               : &system.charge;
+    view->address = (uintptr_t)column->data;
+    view->count = system.particle_count;
+    view->width = strchr("pvf", which) ? system.dimensions : 1;
+    view->stride = column->stride;
+    return true;
+}
+
+bool petri_python_state(PetriSession *session, const double *key, uint32_t length, PetriValue *value) {
+    *value = petri_state_get(session, (PetriValue){.length = length, .numbers = key});
+    return value->length == 0 || value->numbers;
+}
+
+bool petri_python_pair(PetriSession *session, double symbol, double number, PetriValue *value) {
+    return petri_python_state(session, (const double[]){symbol, number}, 2, value);
+}
+
+void petri_python_close(PetriSession *session) {
+    petri_close(&session);
+}
+
+void petri_python_painter_close(PetriPainter *painter) {
+    petri_painter_close(&painter);
+}
+
+void petri_python_picture_free(PetriPicture *picture) {
+    petri_picture_free(&picture);
+}
+
+void petri_python_picture_options(PetriPictureOptions *options) {
+    *options = petri_default_picture_options();
+}

@@ -1,0 +1,107 @@
+"""What is told of scripts: diagnostics, which come as exceptions or as warnings."""
+
+from __future__ import annotations
+
+import warnings
+from typing import NamedTuple, Optional
+
+from ._petri import ffi, lib
+
+_LEVELS = {lib.PETRI_ERROR: "error", lib.PETRI_WARNING: "warning", lib.PETRI_NOTE: "note"}
+
+
+class Diagnostic(NamedTuple):
+    """One thing that is wrong with a script. Lines and columns count from 1; without a place `file` is None."""
+
+    level: str
+    file: Optional[str]
+    line: int
+    column: int
+    text: str
+    code: Optional[str]
+    rendered: str
+
+
+class _Told:
+    """The file, line, column and code of the first diagnostic, and all of them."""
+
+    def __init__(self, message: str, diagnostics: tuple[Diagnostic, ...] = ()):
+        super().__init__(message)
+        self.diagnostics = diagnostics
+        first = diagnostics[0] if diagnostics else Diagnostic("error", None, 0, 0, message, None, message)
+        self.file, self.line, self.column = first.file, first.line, first.column
+        self.code, self.text = first.code, first.text
+
+
+class PetriError(_Told, Exception):
+    """What failed. `diagnostics` tell why; `file`, `line`, `column`, `code` and `text` are those of the first."""
+
+
+class ScriptError(PetriError, ValueError):
+    """The script or expression is wrong, or there is none."""
+
+
+class LimitError(PetriError):
+    """A frame, load or picture asked for more work or memory than it may have; it was given up and changed nothing."""
+
+
+class OutOfMemoryError(PetriError, MemoryError):
+    """The machine's memory is used up."""
+
+
+class MissingLibraryError(PetriError):
+    """This build of libpetri-draw cannot draw."""
+
+
+class InterruptedStep(PetriError):
+    """Session.interrupt() was called: what was under way was given up and changed nothing."""
+
+
+class PetriWarning(_Told, UserWarning):
+    """What is hardly meant, or does less than it seems. Has the attributes of PetriError."""
+
+
+_ERRORS = {
+    lib.PETRI_INVALID: (ScriptError, "there is no such script, or it makes no sense"),
+    lib.PETRI_LIMIT: (LimitError, "a limit was reached"),
+    lib.PETRI_MEMORY: (OutOfMemoryError, "out of memory"),
+    lib.PETRI_MISSING: (MissingLibraryError, "this build cannot draw"),
+    lib.PETRI_INTERRUPTED: (InterruptedStep, "interrupted"),
+}
+
+
+def _text(pointer) -> str:
+    return ffi.string(pointer).decode("utf-8", "replace")
+
+
+@ffi.def_extern()
+def petri_python_diagnostic(host, diagnostic) -> None:
+    ffi.from_handle(host).append(Diagnostic(
+        _LEVELS[diagnostic.level],
+        _text(diagnostic.file) if diagnostic.file else None,
+        diagnostic.line,
+        diagnostic.column,
+        _text(diagnostic.text),
+        _text(diagnostic.code) if diagnostic.code else None,
+        _text(diagnostic.rendered),
+    ))
+
+
+def finish(status: int, told: list[Diagnostic], message: Optional[str] = None) -> None:
+    """Raises what the status means; what was told otherwise becomes warnings."""
+    diagnostics = tuple(told)
+    told.clear()
+    if status != lib.PETRI_OK:
+        kind, default = _ERRORS[status]
+        reasons = tuple(d for d in diagnostics if d.level != "warning")
+        raise kind("".join(d.rendered for d in reasons).rstrip() or message or default, reasons)
+    for number, first in enumerate(diagnostics):
+        if first.level == "note":
+            continue
+        notes = []
+        for d in diagnostics[number + 1:]:
+            if d.level != "note":
+                break
+            notes.append(d)
+        warning = PetriWarning(first.text + (f" [{first.code}]" if first.code else ""), (first, *notes))
+        warnings.warn_explicit(warning, None, first.file or "<petri>", first.line)

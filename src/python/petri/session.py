@@ -1,0 +1,233 @@
+"""A session: a script that is run frame by frame."""
+
+from __future__ import annotations
+
+import os
+import threading
+from dataclasses import dataclass
+from itertools import count
+from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Union
+
+from . import values
+from ._petri import ffi, lib
+from .errors import Diagnostic, ScriptError, finish
+from .picture import Picture
+from .state import State
+from .systems import Systems
+
+_MAIN = threading.main_thread().ident
+
+
+@dataclass
+class Options:
+    """How a session runs; the fields are those of PetriOptions in petri.h, where None is its default."""
+
+    fps: Optional[float] = None
+    threads: int = 0
+    memory_bytes: Optional[int] = None
+    work: Optional[int] = None
+    realtime: bool = False
+    simplify: bool = True
+    keep_forces: bool = False
+    no_files: bool = False
+    read_folders: Sequence[Union[str, os.PathLike]] = ()
+    write_folders: Sequence[Union[str, os.PathLike]] = ()
+
+
+class Frame(NamedTuple):
+    """A frame's number, from 0, and its clocks."""
+
+    number: int
+    time: float
+    beat: float
+    fps: float
+    tempo: float
+    physics_steps: int
+    evaluation_seconds: float
+    physics_seconds: float
+
+
+class Snapshot:
+    """All that decides how a session goes on, for Session.rewind."""
+
+    def __init__(self, session: Any, frame: int):
+        pointer = lib.petri_snapshot(session)
+        if not pointer:
+            raise MemoryError("out of memory")
+        # The session outlives it.
+        self._c = ffi.gc(pointer, lambda p, session=session: lib.petri_snapshot_free(p))
+        self._session = session
+        self.frame = frame
+        self.nbytes: int = lib.petri_snapshot_bytes(pointer)
+
+    def __repr__(self) -> str:
+        return f"<petri.Snapshot after frame {self.frame}>"
+
+
+@ffi.def_extern(onerror=lambda *error: False)
+def petri_python_write(host: Any, text: Any, length: int) -> bool:
+    ffi.from_handle(host).append(ffi.buffer(text, length)[:])
+    return True
+
+
+class Session:
+    """A script and all that it does.
+
+    `source` is the script's file, or its text if there is a line end in it. Further keywords define names for the
+    script: `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised
+    (ScriptError, …), what is hardly meant is a PetriWarning. Several threads may use a session, one after the other.
+    """
+
+    def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None, **defines: Any):
+        self._lock = threading.Lock()
+        self._told: List[Diagnostic] = []
+        self._painter: Any = None
+        self._c = self._open(options or Options())
+        self.state = State(self._c, self._lock)
+        self.systems = Systems(self)
+        for name, value in defines.items():
+            text = value if isinstance(value, str) else self._printed(value)
+            self._call(lib.petri_define, f"{name}={text}".encode(), message=f"{name} is no name that can be defined")
+        if isinstance(source, str) and "\n" in source:
+            data = source.encode()
+            self._call(lib.petri_load_text, b"<string>", data, len(data))
+        else:
+            self._call(lib.petri_load, os.fsencode(source))
+
+    def _open(self, wanted: Options) -> Any:
+        options = ffi.new("PetriOptions *")
+        lib.petri_options_init(options, ffi.sizeof("PetriOptions"))
+        for name in ("fps", "threads", "memory_bytes", "work", "realtime", "simplify", "keep_forces", "no_files"):
+            value = getattr(wanted, name)
+            if value is not None:
+                setattr(options, name, value)
+        keep = []
+        for name in ("read_folders", "write_folders"):
+            texts = [ffi.new("char[]", os.fsencode(folder)) for folder in getattr(wanted, name)]
+            folders = ffi.new("const char *[]", [*texts, ffi.NULL])
+            keep += [texts, folders]
+            setattr(options, name, folders)
+        options.interruptible = True
+        options.diagnostic = lib.petri_python_diagnostic
+        options.host = handle = ffi.new_handle(self._told)
+        pointer = lib.petri_open(options)
+        if not pointer:
+            raise ValueError(f"there is no session with {wanted}")
+        return ffi.gc(pointer, lambda p, handle=handle: lib.petri_python_close(p))
+
+    def _printed(self, value: Any) -> str:
+        encoded, keep = values.encode(self._c, value)
+        text = lib.petri_text(self._c, encoded)
+        if not text:
+            raise ValueError(f"{value!r} is no value of the language")
+        return ffi.string(text).decode()
+
+    def _call(self, function: Any, *arguments: Any, message: Optional[str] = None) -> None:
+        with self._lock:
+            status = function(self._c, *arguments)
+        if status or self._told:
+            finish(status, self._told, message)
+
+    def _collect(self, function: Any, *arguments: Any, after: tuple = ()) -> str:
+        pieces: List[bytes] = []
+        handle = ffi.new_handle(pieces)
+        self._call(function, *arguments, lib.petri_python_write, handle, *after)
+        return b"".join(pieces).decode("utf-8", "replace")
+
+    def step(self, n: int = 1) -> None:
+        """Makes n frames; another thread may use Python meanwhile. Ctrl-C gives the frame at hand up."""
+        with self._lock:
+            status = lib.petri_python_step(self._c, n, threading.get_ident() == _MAIN)
+        if status or self._told:
+            finish(status, self._told)
+
+    def __iter__(self) -> Iterator[Frame]:
+        """The frames, one after the other, without end."""
+        for _ in count():
+            self.step()
+            yield self.frame
+
+    def frames(self, n: int) -> Iterator[Frame]:
+        """The next n frames."""
+        for _ in range(n):
+            self.step()
+            yield self.frame
+
+    @property
+    def frame(self) -> Frame:
+        """The frame that was made last; its number is -1 before the first."""
+        frame = lib.petri_frame(self._c)
+        return Frame(*(getattr(frame, name) for name in Frame._fields))
+
+    def evaluate(self, text: str) -> values.Value:
+        """The value of an expression, in the frame that was made last."""
+        data = text.encode()
+        return values.parse(self._collect(lib.petri_evaluate, data, len(data), ffi.new("PetriResult *")))
+
+    def interrupt(self) -> None:
+        """Has another thread's step end with InterruptedStep; the frame at hand is given up. For any thread."""
+        lib.petri_interrupt(self._c)
+
+    def snapshot(self) -> Snapshot:
+        """Keeps all that decides how the session goes on."""
+        with self._lock:
+            return Snapshot(self._c, lib.petri_frame(self._c).number)
+
+    def rewind(self, snapshot: Snapshot) -> None:
+        """Goes back to just after the frame of a snapshot: what follows is the same to the last bit."""
+        if snapshot._session is not self._c:
+            raise ValueError("the snapshot is of another session")
+        self._call(lib.petri_rewind, snapshot._c)
+
+    def save(self, file: Union[str, os.PathLike]) -> None:
+        """Writes the state to a file, for restore."""
+        self._call(lib.petri_save, os.fsencode(file))
+
+    def restore(self, file: Union[str, os.PathLike]) -> None:
+        """Goes on from what was saved, to the last bit."""
+        if not os.path.exists(file):
+            raise FileNotFoundError(file)
+        self._call(lib.petri_restore, os.fsencode(file))
+
+    def set_parameter(self, name: str, value: Any) -> None:
+        """Gives a parameter (`let SIZE=SIZE or 20`) another value from the next frame on; None: its default."""
+        text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
+        self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
+
+    def text(self, *sections: str) -> str:
+        """What `petri run --print` writes of the frame: any of "tree", "state", "log", "error", "hash"."""
+        bits = 0
+        for section in sections:
+            bits |= getattr(lib, f"PETRI_PRINT_{section.upper()}")
+        return self._collect(lib.petri_print, bits)
+
+    def picture(self, width: int = 0, height: int = 0, *, scale: float = 1, window: int = -1,
+                automatic: Optional[bool] = None) -> Picture:
+        """What the last frame shows: its window; the particles where it draws none, or if `automatic`."""
+        options = ffi.new("PetriPictureOptions *")
+        lib.petri_python_picture_options(options)
+        options.width, options.height, options.scale, options.window = width, height, scale, window
+        if automatic is not None:
+            options.automatic = lib.PETRI_AUTO_ALWAYS if automatic else lib.PETRI_AUTO_NEVER
+        pointer = ffi.new("PetriPicture **")
+        self._call(lib.petri_picture, options, pointer, message="there is nothing to draw")
+        return Picture(self, pointer[0])
+
+    def _open_painter(self) -> Any:
+        if self._painter is None:
+            self._painter = ffi.gc(lib.petri_painter_open(), lib.petri_python_painter_close)
+        return self._painter
+
+    def close(self) -> None:
+        """Ends the session. Its memory is given back when nothing shows it any more."""
+        with self._lock:
+            self._c = self.state._session = ffi.NULL
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, *error: Any) -> None:
+        self.close()
+
+    def __repr__(self) -> str:
+        return "<petri.Session, closed>" if not self._c else f"<petri.Session after frame {self.frame.number}>"

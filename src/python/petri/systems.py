@@ -1,0 +1,209 @@
+"""The particle systems of a session, as numpy arrays that lie in the session itself."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING, Any, Iterator, List
+
+import numpy
+
+from . import values
+from ._petri import ffi, lib
+
+if TYPE_CHECKING:
+    from .session import Session
+
+
+class _Memory:
+    """What an array is of, for numpy; keeps the session alive as long as there is an array."""
+
+    __slots__ = ("__array_interface__", "session")
+
+    def __init__(self, address: int, shape: tuple, strides: tuple, session: Any, kind: str = "<f8"):
+        self.__array_interface__ = {"version": 3, "typestr": kind, "data": (address, True), "shape": shape,
+                                    "strides": strides}
+        self.session = session
+
+
+def _column(letter: str, doc: str) -> property:
+    def get(self: System) -> numpy.ndarray:
+        return self._array(letter)
+
+    return property(get, doc=doc)
+
+
+class System:
+    """A particle system, with N particles (anchors are among them) of d dimensions.
+
+    Its arrays are views of the session's own memory: nothing is copied, they cannot be written to, and they are to be
+    asked for anew after each step, for the session may have put its particles elsewhere. `.copy()` keeps one.
+    """
+
+    def __init__(self, session: Session, number: int, name: bytes):
+        self._owner = session
+        self._number = number
+        self._printed = name
+        self._struct = ffi.new("PetriSystem *")
+        self._view = ffi.new("PetriPythonView *")
+        self._arrays: dict[str, tuple] = {}
+
+    def _array(self, letter: str) -> numpy.ndarray:
+        view = self._view
+        with self._owner._lock:
+            session = self._owner._c
+            if not lib.petri_python_view(session, self._number, self._printed, letter.encode(), view):
+                raise self._gone()
+            place = address, count, width, stride = view.address, view.count, view.width, view.stride
+            # What lies where the last array lay is what that array shows.
+            if letter in self._arrays and self._arrays[letter][0] == place:
+                return self._arrays[letter][1]
+            shape = (count, width) if letter in "pvf" else (count,)
+            if address == 0:
+                array = numpy.zeros(shape)
+                if letter == "f" and count:
+                    array[:] = numpy.nan
+                array.flags.writeable = False
+            else:
+                strides = (8 * stride, 8) if letter in "pvf" else (8 * stride,)
+                array = numpy.asarray(_Memory(address, shape, strides, session))
+        self._arrays[letter] = (place, array)
+        return array
+
+    def _fetch(self) -> Any:
+        with self._owner._lock:
+            number = lib.petri_python_system(self._owner._c, self._number, self._printed, self._struct)
+        if number < 0:
+            raise self._gone()
+        self._number = number
+        return self._struct
+
+    def _gone(self) -> LookupError:
+        return LookupError(f"the last frame has no system {self.name!r}")
+
+    position = _column("p", "Where the particles are: float64, N×d, read-only.")
+    velocity = _column("v", "Their velocities: float64, N×d, read-only.")
+    force = _column("f", "The sum of all forces on each in the frame's last step: float64, N×d, read-only; 0 on an "
+                         "anchor. NaN if no step was made or without Options.keep_forces.")
+    radius = _column("r", "float64, N, read-only.")
+    mass = _column("m", "float64, N, read-only.")
+    charge = _column("c", "float64, N, read-only.")
+
+    @property
+    def anchor(self) -> numpy.ndarray:
+        """Which particles are anchors: bool, N, read-only."""
+        struct = self._fetch()
+        if struct.particle_count == 0:
+            return numpy.zeros(0, bool)
+        address = int(ffi.cast("uintptr_t", struct.anchor))
+        return numpy.asarray(_Memory(address, (struct.particle_count,), (struct.anchor_stride,), self._owner._c, "|b1"))
+
+    @property
+    def name(self) -> str:
+        """The key of its state: "cells" for `state=:cells`; other keys than symbols as they are printed."""
+        return _plain(self._printed)
+
+    @property
+    def dimensions(self) -> int:
+        """d, the components of a position."""
+        return self._fetch().dimensions
+
+    @property
+    def steps(self) -> int:
+        """Simulation steps in the last frame."""
+        return self._fetch().steps
+
+    @property
+    def ids(self) -> List[Any]:
+        """The ids of the particles, N of them: int, float, str for symbols, Text for strings, tuples of these."""
+        count = self._fetch().particle_count
+        with self._owner._lock:
+            session = self._owner._c
+            return [values.whole(values.decode(session, lib.petri_id(session, self._number, i))) for i in range(count)]
+
+    def index(self, id: Any) -> int:
+        """The row of the particle with this id; KeyError if there is none."""
+        self._fetch()
+        found = ffi.new("uint32_t *")
+        with self._owner._lock:
+            encoded, keep = values.encode(self._owner._c, id)
+            if not lib.petri_find(self._owner._c, self._number, encoded, found):
+                raise KeyError(id)
+        return found[0]
+
+    def to_dataframe(self) -> Any:
+        """A pandas DataFrame, with a row for each particle: id, anchor, x1 … xd, v1 … vd, radius, mass, charge."""
+        pandas = _optional("pandas", "to_dataframe")
+        columns: dict[str, Any] = {"id": self.ids, "anchor": self.anchor.copy()}
+        for letter, array in (("x", self.position), ("v", self.velocity)):
+            for k in range(array.shape[1]):
+                columns[f"{letter}{k + 1}"] = array[:, k].copy()
+        for name in ("radius", "mass", "charge"):
+            columns[name] = getattr(self, name).copy()
+        return pandas.DataFrame(columns)
+
+    def to_ase(self) -> Any:
+        """An ase.Atoms of element X, with positions, velocities, masses and charges, in at most three dimensions."""
+        ase = _optional("ase", "to_ase")
+        position, velocity = numpy.zeros((len(self), 3)), numpy.zeros((len(self), 3))
+        width = min(3, self.dimensions)
+        position[:, :width] = self.position[:, :width]
+        velocity[:, :width] = self.velocity[:, :width]
+        atoms = ase.Atoms(numbers=[0] * len(self), positions=position, masses=self.mass, charges=self.charge)
+        atoms.set_velocities(velocity)
+        atoms.set_array("radius", self.radius.copy())
+        return atoms
+
+    def __len__(self) -> int:
+        return self._fetch().particle_count
+
+    def __repr__(self) -> str:
+        try:
+            return f"<petri.System {self.name!r}: {len(self)} particles, {self.dimensions} dimensions>"
+        except LookupError:
+            return f"<petri.System {self.name!r}, which is gone>"
+
+
+class Systems(Mapping):
+    """The systems of the last frame by name, in the order of the script."""
+
+    def __init__(self, session: Session):
+        self._session = session
+        self._known: dict[str, System] = {}
+
+    def _names(self) -> List[bytes]:
+        struct, names = ffi.new("PetriSystem *"), []
+        with self._session._lock:
+            while lib.petri_python_system(self._session._c, len(names), ffi.NULL, struct) >= 0:
+                names.append(ffi.string(struct.name))
+        return names
+
+    def __getitem__(self, name: str) -> System:
+        system = self._known.get(name)
+        if system is not None:
+            return system
+        for number, printed in enumerate(self._names()):
+            if name == _plain(printed):
+                self._known[name] = System(self._session, number, printed)
+                return self._known[name]
+        raise KeyError(name)
+
+    def __iter__(self) -> Iterator[str]:
+        return iter([_plain(name) for name in self._names()])
+
+    def __len__(self) -> int:
+        return len(self._names())
+
+    def __repr__(self) -> str:
+        return f"<petri.Systems: {', '.join(self) or 'none'}>"
+
+
+def _plain(printed: bytes) -> str:
+    name = printed.decode()
+    return name[1:] if name.startswith(":") and ";" not in name else name
+
+
+def _optional(module: str, purpose: str) -> Any:
+    try:
+        return __import__(module)
+    except ImportError as error:
+        raise ImportError(f"{purpose}() needs {module}, which is not installed (Debian: python3-{module})") from error

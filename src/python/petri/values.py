@@ -1,0 +1,132 @@
+"""Values of the language as Python has them.
+
+A vector is a tuple, a vector of one element that element, null None. Numbers are float, symbols such as `:cells` are
+str, and strings are Text, which is a str, too: they are told apart because `$:cells` and `$'cells'` are different keys.
+"""
+
+from __future__ import annotations
+
+import re
+from typing import Any, Iterable, Optional, Tuple, Union
+
+from ._petri import ffi, lib
+
+# Symbols are numbers below this one.
+_SYMBOLS_BELOW = -8.98e307
+
+
+class Text(str):
+    """A string of the language, as opposed to a symbol."""
+
+    __slots__ = ()
+
+    def __repr__(self) -> str:
+        return f"Text({super().__repr__()})"
+
+
+Element = Union[float, int, str, Text]
+Value = Union[None, Element, Tuple[Element, ...]]
+
+
+def elements(value: Any) -> Iterable[Any]:
+    """What there is in a value from Python: anything that can be gone through, but no str, is a vector."""
+    if value is None:
+        return
+    if isinstance(value, (str, float, int)) or not hasattr(value, "__iter__"):
+        yield value
+    else:
+        for part in value:
+            yield from elements(part)
+
+
+def symbol(session: Any, name: str) -> float:
+    """The number that a symbol is."""
+    number = lib.petri_symbol(session, name.removeprefix(":").encode())
+    if number != number:
+        raise ValueError(f"{name!r} is no name: a str stands for a symbol, petri.Text for a string")
+    return number
+
+
+def encode(session: Any, value: Any) -> Tuple[Any, list]:
+    """A PetriValue, and what has to live as long."""
+    parts = [symbol(session, part) if isinstance(part, str) and not isinstance(part, Text) else part
+             for part in elements(value)]
+    result = ffi.new("PetriValue *", {"length": len(parts)})
+    if not any(isinstance(part, Text) for part in parts):
+        numbers = ffi.new("double[]", [float(part) for part in parts])
+        result.numbers = numbers
+        return result[0], [result, numbers]
+    items, keep = ffi.new("PetriItem[]", len(parts)), [result]
+    for item, part in zip(items, parts):
+        if isinstance(part, Text):
+            data = part.encode()
+            text = ffi.new("char[]", data)
+            string = ffi.new("PetriString *", {"bytes": text, "length": len(data)})
+            keep += [text, string]
+            item.type, getattr(item, "as").string = lib.PETRI_STRING, string
+        else:
+            item.type, getattr(item, "as").number = lib.PETRI_NUMBER, float(part)
+    result.items = items
+    return result[0], [*keep, items]
+
+
+def number(session: Any, x: float) -> Element:
+    if x < _SYMBOLS_BELOW:
+        name = lib.petri_symbol_name(session, x)
+        return ffi.string(name).decode() if name else x
+    return x
+
+
+def _item(session: Any, item: Any) -> Any:
+    value = getattr(item, "as")
+    if item.type == lib.PETRI_NUMBER:
+        return number(session, value.number)
+    if item.type == lib.PETRI_STRING:
+        return Text(ffi.buffer(value.string.bytes, value.string.length)[:].decode("utf-8", "replace"))
+    return None  # nodes and functions, of which no state has any
+
+
+def decode(session: Any, value: Any) -> Value:
+    """A value of Python's own."""
+    length = value.length
+    if length == 0:
+        return None
+    if not value.numbers:
+        result = tuple(_item(session, value.items[i]) for i in range(length))
+    elif length == 1:
+        return number(session, value.numbers[0])
+    else:
+        result = tuple(ffi.unpack(value.numbers, length))
+        if min(result) < _SYMBOLS_BELOW:
+            result = tuple(number(session, x) for x in result)
+    return result[0] if length == 1 else result
+
+
+def whole(value: Value) -> Value:
+    """Numbers that are whole as int, for keys."""
+    if isinstance(value, tuple):
+        return tuple(whole(part) for part in value)  # type: ignore[misc]
+    return int(value) if isinstance(value, float) and value.is_integer() else value
+
+
+_TOKEN = re.compile(r"\s*(?::(?P<symbol>\w+)|'(?P<text>(?:[^'\\]|\\.)*)'|(?P<number>[^;'\s]+))\s*(?:;|$)")
+
+
+def parse(printed: str) -> Optional[Value]:
+    """The value of a printed form; where it is none of numbers, symbols and strings, the form itself as Text."""
+    if printed in ("", "null"):
+        return None
+    parts, at = [], 0
+    while at < len(printed):
+        match = _TOKEN.match(printed, at)
+        try:
+            if match["symbol"]:
+                parts.append(match["symbol"])
+            elif match["number"]:
+                parts.append(float(match["number"]))
+            else:
+                parts.append(Text(re.sub(r"\\(.)", lambda m: {"n": "\n", "t": "\t"}.get(m[1], m[1]), match["text"])))
+        except (TypeError, ValueError):
+            return Text(printed)
+        at = match.end()
+    return parts[0] if len(parts) == 1 else tuple(parts)

@@ -1,0 +1,11 @@
+#!/bin/sh
+# wheel.sh SOURCE OUTPUT SCRATCH PYTHON: makes the folder OUTPUT with a wheel of the module in it. What build_petri.py
+# and setup.py ask for is in the environment. Nothing is downloaded.
+set -eu
+rm -rf "$2" "$3"
+mkdir -p "$3"
+cp -r "$1/petri" "$1"/*.py "$1"/*.h "$1"/*.c "$1/pyproject.toml" "$3"
+"$4" -I -m build --wheel --no-isolation --outdir "$2" "$3" >"$3/wheel.log" 2>&1 || {
+    cat "$3/wheel.log" >&2
+    exit 1
+}

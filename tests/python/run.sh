@@ -1,0 +1,22 @@
+#!/bin/sh
+# run.sh PETRI [PYTHON WHEEL]: the tests of the module for Python and what its tutorial shows, with the module as it is
+# in the wheel in the folder WHEEL.
+set -eu
+here=$(cd "$(dirname "$0")" && pwd)
+root=${here%/tests/*}
+[ $# -eq 3 ] || {
+    echo "skipped: no module was built, for there is no Python with build, cffi, numpy and setuptools"
+    exit 77
+}
+PETRI=$1
+export PETRI
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+"$2" -m zipfile -e "$3"/petri-*.whl "$scratch"
+PYTHONPATH=$scratch
+PYTHONDONTWRITEBYTECODE=1
+export PYTHONPATH PYTHONDONTWRITEBYTECODE
+"$2" "$here/test_petri.py"
+cd "$root/samples" # scripts of the tutorial are there
+"$2" -m doctest "$root/src/python/TUTORIAL.md"
+"$2" "$root/tests/bench/python.py" petri.fl 1

@@ -1,0 +1,355 @@
+"""The module for Python: each promise of its docstrings, as far as a test can hold it to them."""
+
+import gc
+import os
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import types
+import unittest
+import unittest.mock
+import warnings
+from pathlib import Path
+
+import numpy
+import petri
+
+SAMPLES = Path(__file__).parents[2] / "samples"
+DISH = """\
+let COUNT=COUNT or 3
+!physics state=:dish dimensions=2
+    !anchor id=:middle position=0;0
+    for i in ..COUNT
+        !particle id=i position=i+1;2*i velocity=1;0 radius=5 mass=2 charge=i
+    !distance from=0 to=1 strength=10 fixed=2
+"""
+RED = "!window size=4;2\n    !canvas\n        !rect size=4;2 color=1;0;0 fill=true\n"
+
+
+class Views(unittest.TestCase):
+    def setUp(self):
+        self.session = petri.Session(DISH)
+        self.session.step(3)
+        self.dish = self.session.systems["dish"]
+
+    def test_are_what_the_state_has(self):
+        self.assertEqual((len(self.dish), self.dish.dimensions), (4, 2))
+        self.assertEqual(self.dish.position.shape, (4, 2))
+        self.assertEqual(self.dish.ids, ["middle", 0, 1, 2])
+        for row, id in enumerate(self.dish.ids[1:], 1):
+            self.assertEqual(tuple(self.dish.position[row]), self.session.state["dish", id])
+            self.assertEqual(tuple(self.dish.velocity[row]), self.session.state["dish", id, "velocity"])
+            self.assertEqual(self.dish.index(id), row)
+        with self.assertRaises(KeyError):
+            self.dish.index(99)
+
+    def test_have_all_columns(self):
+        self.assertEqual(list(self.dish.radius[1:]), [5, 5, 5])
+        self.assertEqual(list(self.dish.mass[1:]), [2, 2, 2])
+        self.assertEqual(list(self.dish.charge[1:]), [0, 1, 2])
+        self.assertEqual(list(self.dish.anchor), [True, False, False, False])
+        self.assertTrue(numpy.isnan(self.dish.force).all())
+
+    def test_forces_are_kept_on_request(self):
+        session = petri.Session(DISH, options=petri.Options(keep_forces=True))
+        session.step(3)
+        force = session.systems["dish"].force
+        self.assertGreater(abs(force[1]).max(), 0)
+        numpy.testing.assert_array_equal(force[1], -force[2])
+
+    def test_copy_nothing_and_are_read_only(self):
+        self.assertTrue(numpy.shares_memory(self.dish.position, self.dish.position))
+        self.assertFalse(self.dish.position.flags.owndata)
+        with self.assertRaises(ValueError):
+            self.dish.position[0, 0] = 1
+        with self.assertRaises(ValueError):
+            self.dish.position.flags.writeable = True
+
+    def test_are_of_the_last_frame(self):
+        before = self.dish.position.copy()
+        self.session.step()
+        self.assertFalse(numpy.array_equal(before, self.dish.position))
+
+    def test_outlive_the_session(self):
+        position = self.dish.position
+        copy = position.copy()
+        self.session.close()
+        del self.session, self.dish
+        gc.collect()
+        numpy.testing.assert_array_equal(position, copy)
+
+    def test_follow_the_systems(self):
+        session = petri.Session("for name in (:a;:b) if frame < 2 else (:b;:c)\n"
+                                "    !physics state=name dimensions=1\n        !particle id=name position=frame\n")
+        session.step(2)
+        b = session.systems["b"]
+        self.assertEqual((list(session.systems), b.ids), (["a", "b"], ["b"]))
+        a = session.systems["a"]
+        session.step()
+        self.assertEqual((list(session.systems), b.ids), (["b", "c"], ["b"]))
+        with self.assertRaises(LookupError):
+            a.position
+        with self.assertRaises(KeyError):
+            petri.Session(DISH).systems["nothing"]
+
+
+class State(unittest.TestCase):
+    def setUp(self):
+        self.session = petri.Session(DISH)
+        self.session.step(2)
+        self.state = self.session.state
+
+    def test_is_a_mapping(self):
+        self.assertIn(("dish", 2), self.state)
+        self.assertEqual(self.state["dish", 2], self.state[("dish", 2.0)])
+        self.assertEqual(dict(self.state)["dish", 2], self.state["dish", 2])
+        self.assertEqual(len(self.state), len(list(self.state)))
+        self.assertIsNone(self.state.get(("dish", 17)))
+        with self.assertRaises(KeyError):
+            self.state["dish", 17]
+
+    def test_can_be_set(self):
+        for value in (3.0, (1.0, 2.0), "word", ("a", "b", 3.0), petri.Text("a text"), (petri.Text(""), 1.0, "s")):
+            self.state["mine", petri.Text("key")] = value
+            self.assertEqual(self.state["mine", petri.Text("key")], value)
+            self.assertEqual(type(self.state["mine", petri.Text("key")]), type(value))
+        self.assertNotIn(("mine", "key"), self.state)
+        del self.state["mine", petri.Text("key")]
+        self.assertNotIn(("mine", petri.Text("key")), self.state)
+        with self.assertRaises(KeyError):
+            del self.state["mine"]
+        with self.assertRaises(ValueError):
+            self.state["mine"] = float("nan")
+
+    def test_is_seen_by_the_next_frame(self):
+        session = petri.Session("!out value=$:mine\n")
+        session.step()
+        session.state["mine"] = numpy.arange(3.0)
+        session.step()
+        self.assertIn("!out value=0;1;2", session.text("tree"))
+
+    def test_numbers_are_symbols_only_if_they_are(self):
+        self.state["mine"] = "word"
+        self.assertEqual(self.session.evaluate("$:mine==:word"), 1)
+        self.assertEqual(self.session.evaluate("$:mine=='word'"), 0)
+
+
+class Running(unittest.TestCase):
+    def test_is_what_the_command_does(self):
+        file = SAMPLES / "petri.fl"
+        run = subprocess.run([os.environ["PETRI"], "run", file, "--frames", "11", "--every", "10", "--print", "hash"],
+                             check=True, stdout=subprocess.PIPE, text=True)
+        session = petri.Session(file)
+        frames = [session.text("hash").strip() for frame in session.frames(11) if frame.number % 10 == 0]
+        self.assertEqual("\n".join(frames).split(), run.stdout.split())
+
+    def test_frames(self):
+        session = petri.Session("%pragma tempo 30\n!x\n", options=petri.Options(fps=10))
+        self.assertEqual(session.frame.number, -1)
+        numbers = []
+        for frame in session:
+            numbers.append(frame.number)
+            if frame.number == 4:
+                break
+        self.assertEqual(numbers, [0, 1, 2, 3, 4])
+        self.assertEqual((frame.time, frame.beat, frame.fps, frame.tempo), (0.4, 0.2, 10, 30))
+
+    def test_definitions_and_parameters(self):
+        session = petri.Session(DISH, COUNT=5)
+        session.step()
+        self.assertEqual(len(session.systems["dish"]), 6)
+        session.set_parameter("COUNT", 2)
+        session.step()
+        self.assertEqual(len(session.systems["dish"]), 3)
+        session.set_parameter("COUNT", None)
+        session.step()
+        self.assertEqual(len(session.systems["dish"]), 4)
+        with self.assertRaises(petri.ScriptError):
+            session.set_parameter("NOTHING", 2)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            given = petri.Session("let V=V or 0 W=W or 'x'\n!x v=V w=W\n", V=(1, 2), W=petri.Text("it's"))
+        given.step()
+        self.assertIn('!x v=1;2 w="it\'s"', given.text("tree"))
+
+    def test_evaluate(self):
+        session = petri.Session("let a=1;2;3\n")
+        session.step()
+        for text, value in {"a": (1, 2, 3), "sum(a)": 6, "null": None, ":word": "word", "'te;xt'": petri.Text("te;xt"),
+                            "1;:b;'c'": (1, "b", petri.Text("c")), "-1e300;inf": (-1e300, float("inf"))}.items():
+            self.assertEqual(session.evaluate(text), value)
+            self.assertEqual(type(session.evaluate(text)), type(value) if value != 6 else float)
+        with self.assertRaises(petri.ScriptError):
+            session.evaluate("1 +")
+
+    def test_rewind(self):
+        session = petri.Session(DISH)
+        session.step(5)
+        snapshot = session.snapshot()
+        session.step(5)
+        there = session.text("hash")
+        session.rewind(snapshot)
+        self.assertEqual((session.frame.number, snapshot.frame), (4, 4))
+        session.step(5)
+        self.assertEqual(session.text("hash"), there)
+        with self.assertRaises(ValueError):
+            petri.Session(DISH).rewind(snapshot)
+        del session
+        gc.collect()
+        self.assertGreater(snapshot.nbytes, 0)
+
+    def test_save(self):
+        session, other = petri.Session(DISH), petri.Session(DISH)
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "dish.state"
+            with self.assertRaises(FileNotFoundError):
+                other.restore(file)
+            session.step(5)
+            session.save(file)
+            other.restore(file)
+        session.step()
+        other.step()
+        self.assertEqual(session.text("state"), other.text("state"))
+
+    def test_close(self):
+        with petri.Session(DISH) as session:
+            session.step()
+            session.snapshot()
+        for use in (session.step, session.snapshot, lambda: session.evaluate("1"), lambda: session.state["a"],
+                    lambda: session.systems["dish"], lambda: session.picture(), lambda: next(iter(session))):
+            self.assertRaises((petri.ScriptError, LookupError, MemoryError, ValueError), use)
+
+
+class Threads(unittest.TestCase):
+    def test_interrupt_of_another_thread(self):
+        session = petri.Session(DISH)
+        ended = []
+
+        def run():
+            try:
+                session.step(10**12)
+            except petri.InterruptedStep as error:
+                ended.append(error)
+
+        thread = threading.Thread(target=run)
+        thread.start()  # without the lock of the interpreter, or the next line never ran
+        while session._lock.acquire(blocking=False):
+            session._lock.release()
+        session.interrupt()
+        thread.join()
+        self.assertEqual(len(ended), 1)
+        session.step(3)
+        self.assertIn(("dish", 0), session.state)
+
+    def test_control_c(self):
+        session = petri.Session(DISH)
+        killer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+        killer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            session.step(10**12)
+        killer.join()
+        number = session.frame.number
+        session.step()
+        self.assertEqual(session.frame.number, number + 1)
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
+    def test_one_after_the_other(self):
+        session = petri.Session(DISH)
+        threads = [threading.Thread(target=lambda: [session.step(10) for _ in range(20)]) for _ in range(4)]
+        for thread in threads:
+            thread.start()
+        for _ in range(100):
+            len(session.state), session.frame, session.systems.get("dish")
+        for thread in threads:
+            thread.join()
+        self.assertEqual(session.frame.number, 799)
+
+
+class Diagnostics(unittest.TestCase):
+    def test_errors(self):
+        with tempfile.TemporaryDirectory() as folder:
+            file = Path(folder) / "wrong.fl"
+            file.write_text("!x\n    y=(1\n")
+            with self.assertRaises(petri.ScriptError) as caught:
+                petri.Session(file)
+        error = caught.exception
+        self.assertEqual((error.file, error.line, error.column, error.code), (str(file), 2, 6, "syntax"))
+        self.assertIn("y=(1\n", str(error))
+        self.assertEqual(error.diagnostics[0].level, "error")
+        with self.assertRaises(petri.ScriptError) as caught:
+            petri.Session("nowhere.fl")
+        self.assertIn("nowhere.fl", str(caught.exception))
+
+    def test_limits(self):
+        session = petri.Session("for i in ..1000000\n    !x y=i+frame\n", options=petri.Options(work=10000))
+        with self.assertRaises(petri.LimitError) as caught:
+            session.step()
+        self.assertEqual((caught.exception.code, caught.exception.line), ("work-limit", 2))
+
+    def test_warnings(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            petri.Session("!physics state=:a dimensions=2 strange=3\n    !particle id=1 position=1;2\n").step()
+        self.assertEqual([(w.category, w.lineno, w.message.column, w.message.code) for w in caught],
+                         [(petri.PetriWarning, 1, 32, "unknown-attribute")])
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(petri.PetriWarning):
+                petri.Session("let x=1\n", NOTHING=1)
+
+    def test_wrong_arguments(self):
+        with self.assertRaises(ValueError):
+            petri.Session(DISH, options=petri.Options(fps=-1))
+        with self.assertRaises(ValueError):
+            petri.Session(DISH).state["no name"]
+        with self.assertRaises((TypeError, ValueError)):
+            petri.Session(DISH).state[object()]
+
+
+class Elsewhere(unittest.TestCase):
+    def test_pictures(self):
+        session = petri.Session(RED)
+        session.step()
+        try:
+            pixels = session.picture().pixels
+        except petri.MissingLibraryError:
+            self.skipTest("this build does not draw")
+        self.assertEqual((pixels.shape, pixels.dtype), ((2, 4, 4), numpy.uint8))
+        self.assertTrue((pixels == [255, 0, 0, 255]).all())
+        picture = session.picture(8, 4)
+        self.assertEqual((picture.width, picture.height, picture.frame), (8, 4, 0))
+        session.close()
+        self.assertEqual(picture._repr_png_()[:8], b"\x89PNG\r\n\x1a\n")
+        with tempfile.TemporaryDirectory() as folder:
+            with self.assertRaises(petri.ScriptError):
+                picture.save(Path(folder) / "picture.bmp")
+            picture.save(Path(folder) / "picture.svg")
+            self.assertIn("<svg", (Path(folder) / "picture.svg").read_text())
+        empty = petri.Session("let x=1\n")
+        empty.step()
+        self.assertRaises(petri.ScriptError, empty.picture)
+
+    def test_tables(self):
+        session = petri.Session(DISH)
+        session.step()
+        dish = session.systems["dish"]
+        with unittest.mock.patch.dict(sys.modules, pandas=types.SimpleNamespace(DataFrame=dict)):
+            table = dish.to_dataframe()
+        self.assertEqual(list(table), ["id", "anchor", "x1", "x2", "v1", "v2", "radius", "mass", "charge"])
+        numpy.testing.assert_array_equal(table["x2"], dish.position[:, 1])
+        self.assertTrue(table["x2"].flags.owndata)
+
+    def test_what_is_not_installed(self):
+        dish = petri.Session(DISH)
+        dish.step()
+        with unittest.mock.patch.dict(sys.modules, pandas=None, ase=None):
+            with self.assertRaisesRegex(ImportError, r"to_dataframe\(\) needs pandas.*python3-pandas"):
+                dish.systems["dish"].to_dataframe()
+            with self.assertRaisesRegex(ImportError, r"to_ase\(\) needs ase.*python3-ase"):
+                dish.systems["dish"].to_ase()
+
+
+if __name__ == "__main__":
+    unittest.main(verbosity=0)
