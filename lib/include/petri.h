@@ -151,6 +151,10 @@ PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, 
 // systems are updated changes nothing with PetriOptions.interruptible; without, the frame counts, and each system has
 // made it or stays as it was.
 PETRI_API PetriStatus petri_step(PetriSession *session);
+// The same at a time in seconds and a beat of the host's own, from which petri_step would go on; it never waits.
+// Systems rest in a frame whose time is not later than that of the one before. PETRI_INVALID, too, if they are not
+// finite.
+PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
 
 // In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
 // 0 if it is due, and in lockstep.
@@ -331,6 +335,33 @@ PETRI_API const PetriNode *petri_tree_child(const PetriNode *node, uint32_t numb
 // The attribute of this name, or null. Valid as long as the node.
 PETRI_API PetriValue petri_tree_get(const PetriNode *node, const char *name);
 
+// A built-in function of the host's own. While it runs, nothing of its session may be called but petri_symbol_name and
+// what takes a PetriCall, and it must return: no longjmp, no exception.
+typedef struct PetriCall PetriCall;
+// The arguments are those by position, then null for each parameter that has none; a `...` may bring more. All is valid
+// during the call. The result is copied, unless it is made of petri_call_numbers; null for what is no value.
+typedef PetriValue PetriFunctionCall(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count);
+typedef struct PetriFunction {
+    size_t size; // sizeof(PetriFunction)
+    const char *name;
+    const char
+        *parameters;  // such as "x, y=0, ...": those with a default may be left out; eight at the most before `...`
+    const char *help; // a line; may be NULL
+    bool pure; // the same arguments always give the same result, so that a call may be made once, when a script is
+               // loaded
+    PetriFunctionCall *call;
+    void *host; // for `call`
+} PetriFunction;
+// Adds a function for the scripts and modules loaded from now on. It stays with the session, and texts are copied.
+// PETRI_INVALID for a name that is none, is the engine's, a built-in's or another function's, for parameters that make
+// no sense, and within a callback.
+PETRI_API PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function);
+// Room for the numbers of a result; NULL if memory is used up. Valid until the call returns its result.
+PETRI_API double *petri_call_numbers(PetriCall *call, uint32_t count);
+// Tells the script's author what is wrong with the arguments, as `NAME: text` at the place of the call, once; the
+// result is null then. The text is copied and may be cut after 200 bytes.
+PETRI_API void petri_call_fault(PetriCall *call, const char *text);
+
 // Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
 typedef struct PetriColumn {
     const double *data; // NULL if there are none
@@ -494,6 +525,8 @@ typedef struct PetriBuiltin {
     const char *help;
 } PetriBuiltin;
 PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
+// The same for those that the host has added. Valid as long as the session.
+PETRI_API bool petri_function(const PetriSession *session, size_t number, PetriBuiltin *function);
 
 // A number as `--runtime` takes it: seconds with suffix or a time code. False if it is none.
 PETRI_API bool petri_read_number(const char *text, double *x);

@@ -388,6 +388,8 @@ static void adopt(PetriSession *session, const Load *load, LoadPurpose purpose) 
 }
 
 static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) {
+    if (session->calls > 0)
+        return PETRI_INVALID;
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;
