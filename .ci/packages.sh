@@ -12,12 +12,15 @@ command -v re2c           : re2c
 pkg-config --exists cairo : libcairo2-dev
 pkg-config --exists pangocairo : libpango1.0-dev
 pkg-config --exists libjpeg : libjpeg-dev
+pkg-config --exists libpng  : libpng-dev
 pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, films and plans of petri sweep:
+# For windows, films, effects, three dimensions and plans of petri sweep:
 BUILD_NEEDS="$RUN_NEEDS
+pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
+ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
@@ -45,8 +48,10 @@ command -v zsh            : zsh
 command -v fish           : fish
 command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
+pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
+test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
 CLANG_NEEDS='command -v clang: clang'
 COVERAGE_NEEDS='command -v llvm-cov: llvm'
@@ -63,7 +68,7 @@ command -v mpirun: openmpi-bin
 '
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {
