@@ -23,7 +23,7 @@ find "$folder" -name 'petri-*-static' | while read -r program; do
 done
 install "$(debs petri)"
 petri new dish
-petri run dish.fl --frames 10 --print hash
+petri run dish.fl --frames 10 --print hash --every 9
 petri render dish.fl -o dish.png --frames 1 --quiet
 head -c 8 dish.png | grep -q PNG
 petri help sin | grep -q Sine
