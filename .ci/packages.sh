@@ -12,12 +12,15 @@ command -v re2c           : re2c
 pkg-config --exists cairo : libcairo2-dev
 pkg-config --exists pangocairo : libpango1.0-dev
 pkg-config --exists libjpeg : libjpeg-dev
+pkg-config --exists libpng  : libpng-dev
 pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, films and plans of petri sweep:
+# For windows, films, effects, three dimensions and plans of petri sweep:
 BUILD_NEEDS="$RUN_NEEDS
+pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
+ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
@@ -51,6 +54,7 @@ command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
+test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
 CLANG_NEEDS='command -v clang: clang'
 COVERAGE_NEEDS='command -v llvm-cov: llvm'
@@ -73,11 +77,11 @@ command -v xz               : xz-utils
 '
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
-WITHOUT='-Dcairo=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled -Dpython=disabled
-    -Dtests=false -Ddefault_library=static'
+WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
+    -Dpython=disabled -Dtests=false -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg chafa libedit sdl2 yaml-0.1 cmocka x11 mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -42,6 +42,24 @@ PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, Can
     return missing(faults);
 }
 
+PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    (void)painter, (void)picture;
+    return missing(faults);
+}
+
+const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
+    (void)painter, (void)picture;
+    *count = 0;
+    return NULL;
+}
+
+PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
+                               CanvasFormat format, Arena *arena, Str *bytes, DiagSink *faults) {
+    (void)painter, (void)picture, (void)record, (void)format, (void)arena;
+    *bytes = STR("");
+    return missing(faults);
+}
+
 PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
                                  uint32_t *pixels, int width, int height, size_t stride) {
     (void)painter, (void)labels, (void)count, (void)scale, (void)pixels, (void)width, (void)height, (void)stride;

@@ -4,10 +4,13 @@
 // step it; each step evaluates the script for one frame and lets its systems write the state dictionary.
 //
 // Rules that hold everywhere:
-// - A session is used by one thread at a time; different sessions are independent.
+// - A session is used by one thread at a time, and so is what comes from it: values, nodes, configurations, snapshots.
+//   Different sessions are independent. Functions that take no handle may be called by any thread at any time.
 // - A parameter struct need only live until the call returns. Text is UTF-8; a length of PETRI_Z means NUL-terminated.
-// - A function that can fail returns a PetriStatus. Nothing is half done: a script that cannot be loaded leaves the
-//   one that is running, and a frame that hits a limit or is interrupted leaves the state as it was.
+// - A function that can fail returns a PetriStatus; any of them may be PETRI_MEMORY, for NULL arguments PETRI_INVALID,
+//   and those that load, step, print or evaluate may be PETRI_LIMIT or PETRI_INTERRUPTED as well. Nothing is half done:
+//   a script that cannot be loaded leaves the one that is running, and a frame that hits a limit or is interrupted
+//   leaves the state as it was.
 // - What is wrong with a script is told through the diagnostic callback, each thing once per place and load. Nothing in
 //   the library prints, exits or changes the process's locale, signals or working directory.
 // - Where NULL is not said to mean something, it is answered with PETRI_INVALID, false, NULL or 0, and nothing is done.
@@ -22,8 +25,17 @@
 #ifdef __cplusplus
 extern "C" {
 #endif
-#ifdef __GNUC__
-#pragma GCC visibility push(default) // all else stays within the library, also in a shared one made of it
+
+// Of this header; petri_version_number tells that of the library, which may be a later one.
+#define PETRI_VERSION_MAJOR 0
+#define PETRI_VERSION_MINOR 2
+#define PETRI_VERSION_PATCH 0
+#define PETRI_VERSION_NUMBER (PETRI_VERSION_MAJOR * 10000 + PETRI_VERSION_MINOR * 100 + PETRI_VERSION_PATCH)
+
+#ifdef __GNUC__ // what a shared library shows; all else stays within it
+#define PETRI_API __attribute__((visibility("default")))
+#else
+#define PETRI_API
 #endif
 
 #define PETRI_Z SIZE_MAX
@@ -39,9 +51,12 @@ typedef enum PetriStatus {
     PETRI_INTERRUPTED, // petri_interrupt was called: what was under way is given up and has changed nothing
 } PetriStatus;
 
+// A status in words, for messages; "unknown status" for other numbers. Lives as long as the library.
+PETRI_API const char *petri_status_text(PetriStatus status);
+
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 
-// One diagnostic. Texts are valid during the callback only.
+// One diagnostic. A callback must copy the texts that it keeps.
 typedef struct PetriDiagnostic {
     PetriLevel level;
     const char *file; // NULL without a place
@@ -95,53 +110,58 @@ typedef struct PetriOptions {
 } PetriOptions;
 
 // Writes the defaults of the first `size` bytes of options.
-void petri_options_init(PetriOptions *options, size_t size);
+PETRI_API void petri_options_init(PetriOptions *options, size_t size);
 static inline PetriOptions petri_default_options(void) {
     PetriOptions options;
     petri_options_init(&options, sizeof options);
     return options;
 }
 
-// A session without a script, or NULL if memory is used up or the options were not initialised or make no sense.
-PetriSession *petri_open(const PetriOptions *options);
+// A session without a script, which lives until petri_close, or NULL if memory is used up or the options were not
+// initialised or make no sense.
+PETRI_API PetriSession *petri_open(const PetriOptions *options);
 // Frees the session and sets the handle to NULL. A handle that is NULL already is fine.
-void petri_close(PetriSession **session);
+PETRI_API void petri_close(PetriSession **session);
 
 // Defines a name for the scripts loaded from now on (`-D`): "name=value", where value is `;`-separated numbers with
 // suffixes, time codes, `:symbols` or strings. PETRI_INVALID without an equals sign, or if that which is before it is
 // no name. Loading a script tells of definitions that it does not take.
-PetriStatus petri_define(PetriSession *session, const char *definition);
+PETRI_API PetriStatus petri_define(PetriSession *session, const char *definition);
 
 // Loads a script from a file; frames count from 0 again, the state dictionary is kept. `file` is also what messages
-// call it and what relative file names in it start from.
-PetriStatus petri_load(PetriSession *session, const char *file);
-// The same from text; `name` stands for the file, one such as `<stdin>` for a stream.
-PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
+// call it and what relative file names in it start from. PETRI_INVALID if it cannot be read or is no script.
+PETRI_API PetriStatus petri_load(PetriSession *session, const char *file);
+// The same from text; `name` stands for the file, one such as `<stdin>` for a stream. PETRI_INVALID likewise.
+PETRI_API PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length);
 // The same, while frame numbers, time and beat go on: for a script that was changed, and whose file is no pipe. Of
 // tempo and fps, those count anew whose pragma was changed. NULL stands for the text that was loaded last, for when
-// definitions have changed: what was told of it is not told again.
-PetriStatus petri_reload(PetriSession *session, const char *file);
+// definitions have changed: what was told of it is not told again. PETRI_INVALID likewise, and if there is none.
+PETRI_API PetriStatus petri_reload(PetriSession *session, const char *file);
 // The files that the loaded script was made from, by number from 0: itself, what it includes, and modules that some
 // script has imported. NULL beyond the last. Valid until the next load or step.
-const char *petri_source(PetriSession *session, size_t number);
+PETRI_API const char *petri_source(PetriSession *session, size_t number);
 // Compiles a file and makes its first frame for the diagnostics only, with the names that are defined: what would be
 // told when it is loaded, run and drawn, and what is hardly meant. No system goes on, nothing is drawn or written, and
-// the loaded script runs on as if nothing had happened.
-PetriStatus petri_check(PetriSession *session, const char *file);
-// The same for a text; `name` stands for the file.
-PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
+// the loaded script runs on as if nothing had happened. PETRI_INVALID if it cannot be read or is no script.
+PETRI_API PetriStatus petri_check(PetriSession *session, const char *file);
+// The same for a text; `name` stands for the file. PETRI_INVALID likewise.
+PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, const char *text, size_t length);
 
 // Evaluates the next frame (0 first) and updates its systems. PETRI_INVALID if no script is loaded. PETRI_MEMORY while
 // systems are updated changes nothing with PetriOptions.interruptible; without, the frame counts, and each system has
 // made it or stays as it was.
-PetriStatus petri_step(PetriSession *session);
+PETRI_API PetriStatus petri_step(PetriSession *session);
+// The same at a time in seconds and a beat of the host's own, from which petri_step would go on; it never waits.
+// Systems rest in a frame whose time is not later than that of the one before. PETRI_INVALID, too, if they are not
+// finite.
+PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
 
 // In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
 // 0 if it is due, and in lockstep.
-double petri_due(const PetriSession *session);
+PETRI_API double petri_due(const PetriSession *session);
 // In real time: the time that has passed since the last frame does not count, so that the next one follows it as if
 // nothing had happened in between. For hosts that pause, or take long over something.
-void petri_hold(PetriSession *session);
+PETRI_API void petri_hold(PetriSession *session);
 
 // A parameter of the loaded script: `let NAME=NAME or DEFAULT -- 1..500 what it is` at its top level, which takes the
 // value that a definition of NAME gives it, if that is true, else its default. A range at the start of the comment
@@ -164,12 +184,12 @@ typedef struct PetriParameter {
 } PetriParameter;
 // By number from 0, the script's own and those of what it includes first, then those of the modules that it imports at
 // its top level; false beyond the last. Texts are valid until the next call that may change or show anything.
-bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
+PETRI_API bool petri_parameter(PetriSession *session, size_t number, PetriParameter *parameter);
 // Gives a parameter of the script another value, as petri_define reads it, or its default if `value` is NULL. The next
 // frame has it, while state, frame numbers, time and beat go on. PETRI_INVALID, and nothing is changed, if the script
 // has no such parameter, if the default is a number and the value is none, or if included files cannot be read any
 // more.
-PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
+PETRI_API PetriStatus petri_set_parameter(PetriSession *session, const char *name, const char *value);
 
 // The frame that petri_step made last.
 typedef struct PetriFrame {
@@ -182,8 +202,8 @@ typedef struct PetriFrame {
     double evaluation_seconds; // time spent on the script
     double physics_seconds;    // time spent on the systems
 } PetriFrame;
-
-PetriFrame petri_frame(const PetriSession *session);
+// A copy.
+PETRI_API PetriFrame petri_frame(const PetriSession *session);
 
 // What the user's hands do, for the `!pointer` and `!key` nodes inside a script's `!window`. Report it whenever it
 // happens; the next frame sees it in the state dictionary, from the second frame with the node on. What was pressed and
@@ -201,58 +221,58 @@ typedef struct PetriPointer {
 } PetriPointer;
 // NULL: the user has turned away; the pointer is outside, all buttons and keys are let go. PETRI_INVALID for a position
 // that is not finite.
-PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
+PETRI_API PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer);
 // A key goes down or up: a letter, a digit, or a word such as "space", "left", "page_up", "f1", "left_shift" (README).
 // PETRI_INVALID for other names.
-PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
+PETRI_API PetriStatus petri_key(PetriSession *session, const char *name, bool pressed);
 // Whether a `!key` in the last frame asked for the key, so that it should not mean anything else to the host.
-bool petri_key_bound(PetriSession *session, const char *name);
+PETRI_API bool petri_key_bound(PetriSession *session, const char *name);
 // Asks for an end of what is under way (or of the next): a step, a load, a picture, a text that is printed or evaluated
 // returns PETRI_INTERRUPTED, within some milliseconds. The one function that may be called from a signal handler or
 // from another thread.
-void petri_interrupt(PetriSession *session);
+PETRI_API void petri_interrupt(PetriSession *session);
 // Whether such a wish has not been met yet; forgets it.
-bool petri_interrupted(PetriSession *session);
+PETRI_API bool petri_interrupted(PetriSession *session);
 
 // Changes the clock from here on: frame number, time and beat do not jump. PETRI_INVALID unless above 0 and finite.
-PetriStatus petri_set_tempo(PetriSession *session, double tempo);
-PetriStatus petri_set_fps(PetriSession *session, double fps);
+PETRI_API PetriStatus petri_set_tempo(PetriSession *session, double tempo);
+PETRI_API PetriStatus petri_set_fps(PetriSession *session, double fps);
 // The longest step of all systems, whatever they say themselves; 0: as they say. PETRI_INVALID below 0 or not finite.
-PetriStatus petri_set_resolution(PetriSession *session, double resolution);
-double petri_resolution(const PetriSession *session);
+PETRI_API PetriStatus petri_set_resolution(PetriSession *session, double resolution);
+PETRI_API double petri_resolution(const PetriSession *session);
 // Forgets the state dictionary and goes to before frame 0.
-void petri_clear(PetriSession *session);
+PETRI_API void petri_clear(PetriSession *session);
 
 // A session's configuration: script, definitions, statements of the prompt, clock rates, resolution. It is shared, not
 // copied, and must be freed before the session is closed.
 typedef struct PetriConfig PetriConfig;
 // The present one, or NULL if memory is used up. Free with petri_config_free, which takes NULL, too.
-PetriConfig *petri_config(PetriSession *session);
-void petri_config_free(PetriConfig *config);
+PETRI_API PetriConfig *petri_config(PetriSession *session);
+PETRI_API void petri_config_free(PetriConfig *config);
 // Goes back to a configuration of this session; state, frame, time and beat stay.
-void petri_config_use(PetriSession *session, PetriConfig *config);
+PETRI_API void petri_config_use(PetriSession *session, PetriConfig *config);
 // A number that is another whenever the configuration is; modules that changed on disk count as well.
-uint64_t petri_config_number(const PetriSession *session);
+PETRI_API uint64_t petri_config_number(const PetriSession *session);
 
 // A copy of all that decides how a session goes on: state, systems, input, clock and configuration. Free it before the
 // session.
 typedef struct PetriSnapshot PetriSnapshot;
 // NULL if memory is used up. Free with petri_snapshot_free, which takes NULL, too.
-PetriSnapshot *petri_snapshot(PetriSession *session);
-void petri_snapshot_free(PetriSnapshot *snapshot);
-size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a configuration is shared
+PETRI_API PetriSnapshot *petri_snapshot(PetriSession *session);
+PETRI_API void petri_snapshot_free(PetriSnapshot *snapshot);
+PETRI_API size_t petri_snapshot_bytes(const PetriSnapshot *snapshot); // of its own; a configuration is shared
 // Goes back to just after the frame of a snapshot of this session: the next frames are the same to the last bit, as
 // long as the files that the script reads are. The frame's tree is not there until then. PETRI_MEMORY changes nothing.
-PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
+PETRI_API PetriStatus petri_rewind(PetriSession *session, const PetriSnapshot *snapshot);
 
 // Writes the state dictionary, the frame number and what the systems need to go on (not what the user's hands do) to a
 // file, which is replaced as a
 // whole and synchronised to the disk. PETRI_INVALID (with a diagnostic) if it cannot be written.
-PetriStatus petri_save(PetriSession *session, const char *file);
+PETRI_API PetriStatus petri_save(PetriSession *session, const char *file);
 // Takes a saved state back, after petri_load: the next frame is the one after that which was saved, and goes on from it
 // to the last bit. A file that does not exist is PETRI_OK and changes nothing. One that cannot be read, is cut short or
 // damaged is PETRI_INVALID (with a diagnostic) and changes nothing either.
-PetriStatus petri_restore(PetriSession *session, const char *file);
+PETRI_API PetriStatus petri_restore(PetriSession *session, const char *file);
 
 // A value of the language: a vector of numbers, or of elements of several kinds. It is a view of what lies in the
 // session, and lives as long as the function says that gives it; functions that take one copy what they keep. A host
@@ -279,40 +299,68 @@ typedef struct PetriValue {
 } PetriValue;
 // The printed form of a value, which the language reads back if there are only numbers and strings in it. NULL if
 // memory is used up or it is no value. Valid until the next petri_text, step or load, or text that is printed.
-const char *petri_text(PetriSession *session, PetriValue value);
+PETRI_API const char *petri_text(PetriSession *session, PetriValue value);
 // The number that is the symbol `:name`; NaN if the name is none, or memory is used up. It never changes.
-double petri_symbol(PetriSession *session, const char *name);
+PETRI_API double petri_symbol(PetriSession *session, const char *name);
 // The name of the symbol that a number is, or NULL. Valid as long as the session.
-const char *petri_symbol_name(const PetriSession *session, double number);
+PETRI_API const char *petri_symbol_name(const PetriSession *session, double number);
 
 // The state dictionary, which scripts read with `$`. A value is valid until something may change the state: a step,
 // petri_state_set, a load, petri_clear, petri_rewind or petri_restore.
 //
 // The value under a key; null if there is none, the key is none, or memory is used up.
-PetriValue petri_state_get(PetriSession *session, PetriValue key);
+PETRI_API PetriValue petri_state_get(PetriSession *session, PetriValue key);
 // Stores a value under a key, or removes it if the value is null; the next frame has it. Keys and values are numbers
 // and strings; PETRI_INVALID for others, a value that is not finite or a key with NaN, and within a callback.
-PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
+PETRI_API PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value);
 // The entries, one after the other, in the order in which their keys came to be there: `*cursor` starts at 0; false at
 // the end.
-bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
+PETRI_API bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value);
 
 // A name of the host's, which scripts read as any other name and whose value may be another in each frame: the scripts
 // that are loaded from now on see it, and need not be loaded again for another value. Like definitions it is not seen
 // by modules. The name stays with the session; null is a value. PETRI_INVALID if it is no name or one of the engine's
 // (such as `time`), for nodes and functions, and within a callback.
-PetriStatus petri_give(PetriSession *session, const char *name, PetriValue value);
+PETRI_API PetriStatus petri_give(PetriSession *session, const char *name, PetriValue value);
 
 // The tree that the last frame has come to: its nodes, and perhaps other elements. All that is reached from it is valid
 // until the next step, load or text typed at the prompt, petri_rewind, petri_restore or petri_clear.
-PetriValue petri_tree(const PetriSession *session);
-// Of a node: the word behind its `!`, its tags, attributes and children by number from 0; NULL beyond the last.
-const char *petri_tree_kind(const PetriNode *node);
-const char *petri_tree_tag(const PetriNode *node, uint32_t number);
-const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value); // its name
-const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number);
-// The attribute of this name, or null.
-PetriValue petri_tree_get(const PetriNode *node, const char *name);
+PETRI_API PetriValue petri_tree(const PetriSession *session);
+// Of a node: the word behind its `!`, its tags, attributes and children by number from 0; NULL beyond the last. Valid
+// as long as the node.
+PETRI_API const char *petri_tree_kind(const PetriNode *node);
+PETRI_API const char *petri_tree_tag(const PetriNode *node, uint32_t number);
+PETRI_API const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriValue *value); // its name
+PETRI_API const PetriNode *petri_tree_child(const PetriNode *node, uint32_t number);
+// The attribute of this name, or null. Valid as long as the node.
+PETRI_API PetriValue petri_tree_get(const PetriNode *node, const char *name);
+
+// A built-in function of the host's own. While it runs, nothing of its session may be called but petri_symbol_name and
+// what takes a PetriCall, and it must return: no longjmp, no exception.
+typedef struct PetriCall PetriCall;
+// The arguments are those by position, then null for each parameter that has none; a `...` may bring more. All is valid
+// during the call. The result is copied, unless it is made of petri_call_numbers; null for what is no value.
+typedef PetriValue PetriFunctionCall(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count);
+typedef struct PetriFunction {
+    size_t size; // sizeof(PetriFunction)
+    const char *name;
+    const char
+        *parameters;  // such as "x, y=0, ...": those with a default may be left out; eight at the most before `...`
+    const char *help; // a line; may be NULL
+    bool pure; // the same arguments always give the same result, so that a call may be made once, when a script is
+               // loaded
+    PetriFunctionCall *call;
+    void *host; // for `call`
+} PetriFunction;
+// Adds a function for the scripts and modules loaded from now on. It stays with the session, and texts are copied.
+// PETRI_INVALID for a name that is none, is the engine's, a built-in's or another function's, for parameters that make
+// no sense, and within a callback.
+PETRI_API PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function);
+// Room for the numbers of a result; NULL if memory is used up. Valid until the call returns its result.
+PETRI_API double *petri_call_numbers(PetriCall *call, uint32_t count);
+// Tells the script's author what is wrong with the arguments, as `NAME: text` at the place of the call, once; the
+// result is null then. The text is copied and may be cut after 200 bytes.
+PETRI_API void petri_call_fault(PetriCall *call, const char *text);
 
 // Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
 typedef struct PetriColumn {
@@ -339,14 +387,14 @@ typedef struct PetriSystem {
     size_t anchor_stride;
 } PetriSystem;
 // By number from 0 in order of declaration; false beyond the last, and if memory is used up.
-bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
+PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
 // The id of a particle; null if there is none. Valid until the next petri_id or petri_force, and as the columns are.
-PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle);
+PETRI_API PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle);
 // The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made
 // when they are asked for first and whenever the system has got others. Valid as the columns are.
-PetriColumn petri_ids(PetriSession *session, size_t system);
+PETRI_API PetriColumn petri_ids(PetriSession *session, size_t system);
 // The number of the particle that has an id; false if there is none, or memory is used up.
-bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
+PETRI_API bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 
 // A force applier or barrier: what can be seen of it.
 typedef struct PetriForce {
@@ -360,17 +408,17 @@ typedef struct PetriForce {
 
 // By number from 0 in order of declaration; false beyond the last, and if memory is used up. Vectors are valid until
 // the next petri_force or petri_id, and as the columns of the system are.
-bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
+PETRI_API bool petri_force(PetriSession *session, size_t system, uint32_t number, PetriForce *force);
 
 // Whether the last frame has anything to draw: a window with a canvas, or physics. A library of its own draws it
 // (petri-draw.h).
-bool petri_drawable(PetriSession *session);
+PETRI_API bool petri_drawable(PetriSession *session);
 
 // The kinds of nodes that do something, with their attributes, for help and completion. Indices count from 0; false
 // beyond the last. Texts live as long as the library.
 typedef struct PetriNodeKind {
     const char *name; // without the `!`
-    const char *area; // "physics" or "canvas"; `group` is a kind of both
+    const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
     const char *help;
 } PetriNodeKind;
 
@@ -381,9 +429,9 @@ typedef struct PetriNodeAttribute {
     const char *help;     // "" where the name says all
     const char *unit;     // as words, such as "turns"; "" for none
 } PetriNodeAttribute;
-
-bool petri_node_kind(size_t kind, PetriNodeKind *out);
-bool petri_node_attribute(size_t kind, size_t attribute, PetriNodeAttribute *out);
+// By number from 0; false beyond the last.
+PETRI_API bool petri_node_kind(size_t kind, PetriNodeKind *out);
+PETRI_API bool petri_node_attribute(size_t kind, size_t attribute, PetriNodeAttribute *out);
 
 // What a frame's text holds (spec cli.md 3.3), in this order.
 enum {
@@ -398,14 +446,14 @@ enum {
 typedef bool PetriWrite(void *host, const char *text, size_t length);
 
 // Writes `@FRAME time=T beat=B` and the sections asked for. PETRI_INVALID if the writer said stop.
-PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host);
-// Only the log lines of the frame, each `> text`.
-PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host);
+PETRI_API PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host);
+// Only the log lines of the frame, each `> text`. PETRI_INVALID likewise.
+PETRI_API PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host);
 
 // Writes where the time has gone since the script was loaded, one line for each source line that was evaluated, one for
 // the systems and one for `output_seconds`, which the host has spent on output; the longest first. PETRI_INVALID
 // without the option `profile`, or if the writer said stop.
-PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host);
+PETRI_API PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host);
 
 // A prompt: text typed by a person, evaluated in the frame made last, where it sees the names of the script's top
 // level. Before the first frame, and after anything but a step has changed what names stand for, the script is
@@ -418,7 +466,7 @@ typedef enum PetriInput {
     PETRI_INPUT_PART,  // it cannot end here
 } PetriInput;
 // Whether more lines are needed.
-PetriInput petri_input(PetriSession *session, const char *text, size_t length);
+PETRI_API PetriInput petri_input(PetriSession *session, const char *text, size_t length);
 
 // What became of the statements of a text.
 typedef struct PetriPrompted {
@@ -431,14 +479,14 @@ typedef struct PetriPrompted {
 } PetriPrompted;
 // Takes a text, statement by statement. Values are written in printed form, nodes as trees, debug() as `> text`.
 // PETRI_INVALID if it does not parse; a statement that was given up is not kept.
-PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
-                         PetriPrompted *done);
+PETRI_API PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write,
+                                   void *host, PetriPrompted *done);
 // Drops what the prompt has kept: nodes, or bindings as well. Returns how many statements that were; none if
 // memory is used up.
-uint32_t petri_drop(PetriSession *session, bool bindings);
+PETRI_API uint32_t petri_drop(PetriSession *session, bool bindings);
 // A statement that is evaluated in each frame, by number from 0; NULL beyond the last. Valid until the next call that
 // changes the configuration.
-const char *petri_prompt_statement(const PetriSession *session, size_t number);
+PETRI_API const char *petri_prompt_statement(const PetriSession *session, size_t number);
 
 typedef struct PetriResult {
     bool is_true;
@@ -448,21 +496,27 @@ typedef struct PetriResult {
 } PetriResult;
 // Evaluates one expression; its value is written in one line, without end, unless `write` is NULL. PETRI_INVALID if it
 // is none.
-PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
-                           PetriWrite *write, void *host);
-// Evaluates the script for the present frame, or frame 0, if petri_step has not done so: for petri_print.
-PetriStatus petri_preview(PetriSession *session);
+PETRI_API PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
+                                     PetriWrite *write, void *host);
+// Evaluates the script for the present frame, or frame 0, if petri_step has not done so: for petri_print. PETRI_INVALID
+// if no script is loaded.
+PETRI_API PetriStatus petri_preview(PetriSession *session);
 
 // A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
 // Valid as long as the session.
-const char *petri_name(const PetriSession *session, size_t number);
+PETRI_API const char *petri_name(const PetriSession *session, size_t number);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
-// Writes the loaded script's syntax tree or compiled code.
-PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host);
+// Writes the loaded script's syntax tree or compiled code. PETRI_INVALID without one, or if the writer said stop.
+PETRI_API PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host);
 
 // How many diagnostics were given since the session was opened, by level.
-uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level);
+PETRI_API uint64_t petri_diagnostic_count(const PetriSession *session, PetriLevel level);
+// The last diagnostics, a hundred at the most, by number from 0, the oldest first; false beyond the last. Texts are
+// valid until the next diagnostic, petri_forget_diagnostics or petri_close.
+PETRI_API bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic);
+// Keeps none of those given so far, so that petri_diagnostic shows what the next calls have to say.
+PETRI_API void petri_forget_diagnostics(PetriSession *session);
 
 // One built-in function, for help. `index` counts from 0; false beyond the last. Texts live as long as the library.
 typedef struct PetriBuiltin {
@@ -470,16 +524,18 @@ typedef struct PetriBuiltin {
     const char *parameters;
     const char *help;
 } PetriBuiltin;
-bool petri_builtin(size_t index, PetriBuiltin *builtin);
+PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
+// The same for those that the host has added. Valid as long as the session.
+PETRI_API bool petri_function(const PetriSession *session, size_t number, PetriBuiltin *function);
 
 // A number as `--runtime` takes it: seconds with suffix or a time code. False if it is none.
-bool petri_read_number(const char *text, double *x);
+PETRI_API bool petri_read_number(const char *text, double *x);
 
-const char *petri_version(void);
+// The library's version as text, such as "0.2.0", and as a number like PETRI_VERSION_NUMBER. Lives as long
+// as the library.
+PETRI_API const char *petri_version(void);
+PETRI_API int petri_version_number(void);
 
-#ifdef __GNUC__
-#pragma GCC visibility pop
-#endif
 #ifdef __cplusplus
 }
 #endif

@@ -17,14 +17,14 @@ static void warn_hint(Compiler *compiler, Span span, const char *code, Str text,
     compile_report(compiler, span, DIAG_WARNING, code, text, hint);
 }
 
-static bool is_builtin(Str name) {
+static bool is_builtin(const Compiler *compiler, Str name) {
     Value value;
-    return builtin_find(name) || builtin_constant(name, &value);
+    return compile_find_builtin(compiler, name) || builtin_constant(name, &value);
 }
 
 void lint_bind(Compiler *compiler, const Binding *binding) {
     Str name = binding->name->name;
-    if (wanted(compiler) && is_builtin(name))
+    if (wanted(compiler) && is_builtin(compiler, name))
         compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
                        str_format(compiler->arena, "'%.*s' hides the built-in of that name", STR_ARGS(name)), (Str){0});
 }

@@ -3,10 +3,64 @@
 
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 enum { MOST_TOLD = 1000 };
 
+static void forget_kept(Diagnostics *diagnostics) {
+    for (uint32_t i = 0; i < MOST_KEPT; i++) {
+        free(diagnostics->kept[i]);
+        diagnostics->kept[i] = NULL;
+    }
+    diagnostics->kept_first = diagnostics->kept_count = 0;
+}
+
+// Copies a text to the end of a block.
+static const char *add_text(char **end, const char *text) {
+    size_t size = text ? strlen(text) + 1 : 0;
+    const char *copy = text ? memcpy(*end, text, size) : NULL;
+    *end += size;
+    return copy;
+}
+
+static size_t text_size(const char *text) {
+    return text ? strlen(text) + 1 : 0;
+}
+
+// One that there is no memory for is not kept.
+static void keep(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
+    PetriDiagnostic *copy = malloc(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) +
+                                   text_size(diagnostic->code) + text_size(diagnostic->rendered));
+    if (!copy)
+        return;
+    char *end = (char *)(copy + 1);
+    *copy = *diagnostic;
+    copy->file = add_text(&end, diagnostic->file);
+    copy->text = add_text(&end, diagnostic->text);
+    copy->code = add_text(&end, diagnostic->code);
+    copy->rendered = add_text(&end, diagnostic->rendered);
+    bool full = diagnostics->kept_count == MOST_KEPT;
+    PetriDiagnostic **place = &diagnostics->kept[(diagnostics->kept_first + diagnostics->kept_count) % MOST_KEPT];
+    free(*place);
+    *place = copy;
+    diagnostics->kept_first = (diagnostics->kept_first + full) % MOST_KEPT;
+    diagnostics->kept_count += !full;
+}
+
+bool petri_diagnostic(const PetriSession *session, size_t number, PetriDiagnostic *diagnostic) {
+    if (!session || !diagnostic || number >= session->diagnostics.kept_count)
+        return false;
+    *diagnostic = *session->diagnostics.kept[(session->diagnostics.kept_first + number) % MOST_KEPT];
+    return true;
+}
+
+void petri_forget_diagnostics(PetriSession *session) {
+    if (session)
+        forget_kept(&session->diagnostics);
+}
+
 void diagnostics_free(Diagnostics *diagnostics) {
+    forget_kept(diagnostics);
     index_free(&diagnostics->told_index);
     free(diagnostics->told);
 }
@@ -58,6 +112,7 @@ static void give(PetriSession *session, const Diag *diag, Str rendered) {
 
 void diagnostics_pass_on(PetriSession *session, const PetriDiagnostic *diagnostic) {
     session->diagnostics.counts[diagnostic->level]++;
+    keep(&session->diagnostics, diagnostic);
     if (session->options.diagnostic)
         session->options.diagnostic(session->options.host, diagnostic);
 }

@@ -7,7 +7,12 @@
 #include "base/diag.h"
 #include "base/table.h"
 
+enum { MOST_KEPT = 100 };
+
 typedef struct Diagnostics {
+    PetriDiagnostic *kept[MOST_KEPT]; // a ring of copies, each in a block of its own
+    uint32_t kept_first;              // the oldest
+    uint32_t kept_count;
     uint64_t *told; // hashes of what was given already
     uint32_t told_count;
     uint32_t told_capacity;

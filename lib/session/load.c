@@ -147,6 +147,8 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
                               .define_count = session->config.define_count,
                               .params = params.items,
                               .param_count = params.count,
+                              .functions = session->functions.rows,
+                              .function_count = session->functions.count,
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loader.compiling;
     session->loader.compiling = unit;

@@ -168,6 +168,8 @@ static void parse(PetriSession *session, void *context) {
 // Parses the text into a unit; the names in sight have values from then on.
 static PetriStatus begin(PetriSession *session, const char *text, size_t length, Job *job) {
     job->text = (Str){text, length == PETRI_Z ? strlen(text) : length};
+    if (session->calls > 0)
+        return PETRI_INVALID;
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
     session->loader.begun = NULL;

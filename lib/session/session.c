@@ -388,6 +388,8 @@ static void adopt(PetriSession *session, const Load *load, LoadPurpose purpose) 
 }
 
 static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) {
+    if (session->calls > 0)
+        return PETRI_INVALID;
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;
@@ -449,6 +451,25 @@ bool petri_read_number(const char *text, double *x) {
     return text && x && (literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x));
 }
 
+#define TEXT(x) #x
+#define VERSION_TEXT(major, minor, patch) TEXT(major) "." TEXT(minor) "." TEXT(patch)
+
 const char *petri_version(void) {
-    return PETRI_VERSION;
+    return VERSION_TEXT(PETRI_VERSION_MAJOR, PETRI_VERSION_MINOR, PETRI_VERSION_PATCH);
+}
+
+int petri_version_number(void) {
+    return PETRI_VERSION_NUMBER;
+}
+
+const char *petri_status_text(PetriStatus status) {
+    static const char *const texts[] = {
+        [PETRI_OK] = "all is well",
+        [PETRI_INVALID] = "what was given is wrong",
+        [PETRI_LIMIT] = "a limit was reached",
+        [PETRI_MEMORY] = "memory is used up",
+        [PETRI_MISSING] = "this build lacks a library",
+        [PETRI_INTERRUPTED] = "interrupted",
+    };
+    return (unsigned)status < sizeof texts / sizeof texts[0] ? texts[status] : "unknown status";
 }

@@ -38,7 +38,8 @@ FNR == 1 {
     print ".SH DESCRIPTION"
 }
 /^#(if|ifdef|ifndef|else|endif|pragma|include|error|elif)/ || /\\$/ || /^extern "C"/ || (/^}$/ && !depth) { next }
-/^#define PETRI(_DRAW)?_H$/ { next }
+/^#define PETRI(_DRAW)?_H$/ || /^#define PETRI_API/ { next }
+{ sub(/^PETRI_API /, "") }
 /^$/ {
     pending = 1
     next

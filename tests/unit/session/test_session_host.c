@@ -340,14 +340,68 @@ static void test_nodes(void **state) {
             rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
         }
     }
-    assert_int_equal(groups, 2); // of physics and of the canvas
+    assert_int_equal(groups, 3); // of physics, of the canvas and of three dimensions
     assert_int_equal(rects, 1);
     assert_false(petri_node_kind(kinds + 1000, &kind));
     assert_false(petri_node_attribute(kinds, 0, &attribute));
 }
 
+// The last diagnostics stay with the session, in order, copied.
+static void test_kept_diagnostics(void **state) {
+    Player *player = *state;
+    PetriDiagnostic kept;
+    assert_false(petri_diagnostic(player->session, 0, &kept));
+    player_load(player, "!a x=one y=two\n!b x=(three\n");
+    assert_true(petri_diagnostic(player->session, 0, &kept));
+    assert_string_equal(kept.file, "t.fl");
+    assert_int_equal(kept.level, PETRI_ERROR);
+    petri_forget_diagnostics(player->session);
+    assert_false(petri_diagnostic(player->session, 0, &kept));
+    player_run(player, "!a x=one y=two\n!b x=three\n", 1);
+    static const char *const names[] = {"one", "two", "three"};
+    for (size_t i = 0; i < 3; i++) {
+        assert_true(petri_diagnostic(player->session, i, &kept));
+        assert_string_equal(kept.code, "unbound-name");
+        assert_non_null(strstr(kept.text, names[i]));
+        assert_non_null(strstr(kept.rendered, kept.text));
+    }
+    assert_false(petri_diagnostic(player->session, 3, &kept));
+    // Of more than there is room for the first ones go.
+    petri_forget_diagnostics(player->session);
+    for (int load = 0; load < 3; load++) {
+        char script[4000] = "!a";
+        for (int i = 0; i < 45; i++)
+            snprintf(script + strlen(script), sizeof script - strlen(script), " a%d=b%d", i, 100 * load + i);
+        player_run(player, script, 1);
+    }
+    size_t count = 0;
+    while (petri_diagnostic(player->session, count, &kept))
+        count++;
+    assert_int_equal(count, 100);
+    assert_true(petri_diagnostic(player->session, 0, &kept));
+    const char *first = strstr(player_told(player), kept.text);
+    assert_non_null(first);
+    assert_true(petri_diagnostic(player->session, 99, &kept));
+    assert_true(strstr(player_told(player), kept.text) > first);
+}
+
+static void test_words(void **state) {
+    (void)state;
+    char version[40];
+    snprintf(version, sizeof version, "%d.%d.%d", PETRI_VERSION_MAJOR, PETRI_VERSION_MINOR, PETRI_VERSION_PATCH);
+    assert_string_equal(petri_version(), version);
+    assert_int_equal(petri_version_number(), PETRI_VERSION_NUMBER);
+    for (int i = PETRI_OK; i <= PETRI_INTERRUPTED; i++)
+        for (int k = PETRI_OK; k < i; k++)
+            assert_string_not_equal(petri_status_text((PetriStatus)i), petri_status_text((PetriStatus)k));
+    assert_string_equal(petri_status_text((PetriStatus)-1), "unknown status");
+    assert_string_equal(petri_status_text((PetriStatus)100), "unknown status");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_kept_diagnostics),
+        PLAYER_TEST(test_words),
         cmocka_unit_test(test_options),
         PLAYER_TEST(test_without_a_script),
         PLAYER_TEST(test_text_lengths),

@@ -210,6 +210,19 @@ static PetriStatus act_give(Stage *stage) {
     return petri_give(stage->player.session, "given", some_value);
 }
 
+static PetriValue give_nothing(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+    (void)call;
+    (void)host;
+    (void)arguments;
+    (void)count;
+    return (PetriValue){0};
+}
+
+static PetriStatus act_add_function(Stage *stage) {
+    return petri_add_function(stage->player.session, &(PetriFunction){sizeof(PetriFunction), "f", "x, y=0", "help",
+                                                                      false, give_nothing, NULL});
+}
+
 static PetriStatus act_picture(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
@@ -287,7 +300,7 @@ static PetriStatus act_simple(Stage *stage) {
     petri_set_fps(stage->player.session, 30);
     petri_hold(stage->player.session);
     petri_drawable(stage->player.session);
-    petri_records(stage->player.session);
+    petri_looks_back(stage->player.session);
     return petri_key(stage->player.session, "a", true);
 }
 
@@ -310,11 +323,15 @@ static PetriStatus act_profile(Stage *stage) {
 static PetriStatus act_records(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
-    bool ready = petri_picture_ready(stage->player.session, &options), records = petri_records(stage->player.session);
+    bool ready = petri_picture_ready(stage->player.session, &options),
+         records = petri_looks_back(stage->player.session);
     PetriStatus status = petri_picture(stage->player.session, &options, &picture);
     if (status == PETRI_OK) {
         assert_true(ready && !records);
-        assert_null(petri_picture_record(picture, 0));
+        PetriPainter *painter = petri_painter_open();
+        PetriRecord record;
+        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // it has not been made
+        petri_painter_close(&painter);
         petri_picture_tell(stage->player.session, picture);
     }
     petri_picture_free(&picture);
@@ -367,6 +384,7 @@ static const Row rows[] = {
     {"systems", act_systems, false},
     {"state", act_state, false},
     {"give", act_give, false},
+    {"add a function", act_add_function, false},
     {"picture", act_picture, false},
     {"automatic picture", act_automatic_picture, false},
     {"print", act_print, false},

@@ -180,6 +180,9 @@ static void test_null(void **state) {
     assert_false(petri_find(NULL, 0, (PetriValue){0}, &particle) || petri_find(session, 0, (PetriValue){0}, NULL));
     PetriValue value = {0};
     uint32_t cursor = 0;
+    PetriDiagnostic kept;
+    assert_false(petri_diagnostic(NULL, 0, &kept) || petri_diagnostic(session, 0, NULL));
+    petri_forget_diagnostics(NULL);
     assert_null(petri_text(NULL, value));
     assert_int_equal(petri_state_get(NULL, value).length, 0);
     assert_int_equal(petri_state_set(NULL, value, value), PETRI_INVALID);

@@ -1,0 +1,42 @@
+#!/bin/sh
+# check_abi.sh SOURCE_ROOT BUILD_ROOT: what the libraries show is what abi.txt lists, and nothing else: a name that vanishes
+# breaks programs that are compiled already, and a new one has to be kept from then on.
+set -eu
+listed=$1/tests/lint/abi.txt
+headers=$1/lib/include
+cd "$2"
+faults=0
+scratch=$(mktemp -d)
+trap 'rm -rf "$scratch"' EXIT
+
+# compare NAME WANTED FOUND
+compare() {
+    if ! diff "$2" "$3" >"$scratch/diff"; then
+        sed -n -e "s|^< |$1 lacks |p" -e "s|^> |$1 shows |p" "$scratch/diff"
+        faults=1
+    fi
+}
+
+# check NAME LIBRARY nm-options...: the linker's own names and the sanitizers' are nobody's.
+check() {
+    name=$1 library=$2
+    shift 2
+    [ -e "$library" ] || { echo "skipped: $library, which this build does not make"; return; }
+    nm "$@" --defined-only "$library" | awk 'NF == 3 && $3 !~ /^_|^\.|@/ { print $3 }' | sort -u >"$scratch/found"
+    compare "$library" "$scratch/$name" "$scratch/found"
+}
+
+grep '^petri ' "$listed" | sed 's/.* //' | sort >"$scratch/petri"
+sed -n 's/^petri[a-z-]* //p' "$listed" | sort >"$scratch/draw"
+check petri lib/session/libpetri.so -D
+check draw lib/draw/libpetri-draw.so -D
+check petri src/packaging/libpetri.a -g
+check draw src/packaging/libpetri-draw.a -g
+
+for header in petri petri-draw; do
+    awk 'match($0, /[ *]petri_[a-z_]+\(/) && /^PETRI_API/ { print substr($0, RSTART + 1, RLENGTH - 2) }' \
+        "$headers/$header.h" | sort >"$scratch/declared"
+    grep "^$header " "$listed" | sed 's/.* //' | sort >"$scratch/wanted"
+    compare "$header.h" "$scratch/wanted" "$scratch/declared"
+done
+exit $faults
