@@ -52,6 +52,7 @@ command -v zsh            : zsh
 command -v fish           : fish
 command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
+pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
@@ -78,10 +79,10 @@ command -v xz               : xz-utils
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
-    -Dpython=disabled -Dtests=false -Ddefault_library=static'
+    -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {
