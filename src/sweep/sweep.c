@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "cli/args.h"
+#include "cli/mpirun.h"
 #include "cli/output.h"
 #include "cli/script.h"
 #include "petri-draw.h"
@@ -83,29 +84,20 @@ static bool take_metrics(Sweep *sweep) {
     return true;
 }
 
-static int64_t number_of(const char *name) {
-    const char *text = getenv(name);
-    return text == NULL ? -1 : strtoll(text, NULL, 10);
-}
-
 // `2/4`; without --shard, what mpirun says.
 static bool take_shard(Sweep *sweep) {
-    static const char *const ranks[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMI_RANK", "PMI_SIZE"}};
     const char *text = sweep->options->shard;
-    long long shard = 1, shards = 1;
+    int shard = 1, shards = 1, rank = 0, count = 0;
     char behind = '\0';
     if (text != NULL) {
-        if (sscanf(text, "%lld/%lld%c", &shard, &shards, &behind) != 2 || shard < 1 || shard > shards) {
+        if (sscanf(text, "%d/%d%c", &shard, &shards, &behind) != 2 || shard < 1 || shard > shards) {
             message("option '--shard' expects I/N, such as 2/4 for the second of four, not '%s'", text);
             return false;
         }
     }
-    for (size_t i = 0; text == NULL && shards == 1 && i < sizeof ranks / sizeof ranks[0]; i++) {
-        int64_t rank = number_of(ranks[i][0]), size = number_of(ranks[i][1]);
-        if (rank >= 0 && rank < size) {
-            shard = rank + 1;
-            shards = size;
-        }
+    if (text == NULL && mpirun_rank(&rank, &count)) {
+        shard = rank + 1;
+        shards = count;
     }
     sweep->shard = (size_t)shard - 1;
     sweep->shards = (size_t)shards;
