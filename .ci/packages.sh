@@ -40,6 +40,7 @@ command -v openbox        : openbox
 /usr/bin/python3 -I -c 'import wheel'      : python3-wheel
 command -v python3-config : python3-dev
 command -v cmake          : cmake make
+command -v c++            : g++
 command -v mandoc         : mandoc
 command -v zsh            : zsh
 command -v fish           : fish
