@@ -201,6 +201,20 @@ bool reach_replace(const Reach *reach, const char *path, Replacement *replacemen
     return open >= 0 && replace_begin_in(replacement, open, name, 0);
 }
 
+bool reach_make_folders(const Reach *reach, const char *path) {
+    char resolved[PATH_MAX], prefix[PATH_MAX];
+    struct stat info;
+    if (strlen(path) >= sizeof prefix)
+        return true; // writing says what is wrong
+    for (const char *slash = strchr(path + 1, '/'); path[0] && slash; slash = strchr(slash + 1, '/')) {
+        memcpy(prefix, path, (size_t)(slash - path));
+        prefix[slash - path] = '\0';
+        if (stat(prefix, &info) < 0 && errno == ENOENT && reach_resolve(reach, REACH_WRITE, prefix, resolved))
+            mkdir(resolved, 0777);
+    }
+    return reach_resolve(reach, REACH_WRITE, path, resolved) || errno != EXDEV;
+}
+
 const char *reach_refusal(Arena *arena, const Reach *reach, ReachKind kind, const char *path) {
     static const char *const words[] = {[REACH_READ] = "read", [REACH_WRITE] = "write"};
     char resolved[PATH_MAX];

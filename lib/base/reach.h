@@ -41,6 +41,8 @@ bool reach_normal(const char *path, char normal[PATH_MAX]);
 int reach_open(const Reach *reach, const char *path, int flags);
 // replace_begin for a regular file, or a new one, within; false with errno set likewise.
 bool reach_replace(const Reach *reach, const char *path, Replacement *replacement);
+// Makes the folders that a file is to be in, as far as they are missing. False if it lies outside.
+bool reach_make_folders(const Reach *reach, const char *path);
 // Why a path is out of reach, and what would change that.
 const char *reach_refusal(Arena *arena, const Reach *reach, ReachKind kind, const char *path);
 

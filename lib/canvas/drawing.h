@@ -15,6 +15,7 @@ struct DrawNode {
     uint32_t child_count;
     const AttrValue *attrs; // as they were written: transforms are applied in this order
     const DrawNode *const *children;
+    Origin place; // its program's text, or the node; who tells of it sees to it that the source is still there
 };
 
 // The attribute, or NULL.

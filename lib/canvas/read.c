@@ -5,10 +5,6 @@
 
 #include <errno.h>
 
-static bool may_stand(PlaceKind place, PlaceKind children) {
-    return place == children || (place == PLACE_SOURCE && children == PLACE_DRAWING);
-}
-
 static void report_misplaced(const Reader *reader, const Node *child, bool known) {
     Text out = text_new(reader->arena);
     Str name = child->kind->name;
@@ -39,7 +35,7 @@ static bool may_use_file(const Reader *reader, const DrawNode *node) {
     const SchemaHost *host = &reader->schema->host;
     Origin place = node_place(reader->node, reader->schema->slots[name->row].name);
     host->report(host->host, writes ? DIAG_ERROR : DIAG_WARNING, writes ? "cannot-write" : "cannot-read", &place,
-                 writes ? STR("!record") : STR("!image"), STR("filename"),
+                 str_format(reader->arena, "!%s", schema_kinds[reader->kind].name), STR("filename"),
                  str_format(reader->arena, "cannot %s '%s': %s", writes ? "write" : "read", name->as.text.bytes,
                             reach_refusal(reader->arena, reach, kind, path)));
     return writes;
@@ -51,9 +47,10 @@ static void read_children(const Reader *reader, DrawNode *out) {
     const Node *node = reader->node;
     const DrawNode **children = arena_alloc_array(reader->arena, node->child_count, sizeof *children);
     for (uint32_t i = 0; i < node->child_count; i++) {
-        NodeKind child = schema_window_kind(reader->schema, node->children[i]);
-        if (child == KIND_COUNT || !may_stand(schema_kinds[child].place, schema_kinds[reader->kind].children)) {
-            report_misplaced(reader, node->children[i], child != KIND_COUNT);
+        NodeKind child = schema_kind_in(reader->schema, node->children[i], schema_kinds[reader->kind].children);
+        if (child == KIND_COUNT) {
+            report_misplaced(reader, node->children[i],
+                             schema_window_kind(reader->schema, node->children[i]) != KIND_COUNT);
             continue;
         }
         const DrawNode *read = read_node(reader->schema, reader->arena, node->children[i], child);
@@ -74,7 +71,8 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
         arena_charge(arena, (uint64_t)node->child_count * node->child_count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
-    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs};
+    const Symbol *program = schema->slots[ROW_SHADER_FRAGMENT].name;
+    *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs, .place = node_place(node, program)};
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
         return NULL;
     if (!may_use_file(&reader, out))

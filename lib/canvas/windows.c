@@ -11,9 +11,26 @@ const Node *canvas_next_window(const Schema *schema, Value tree, uint32_t *at) {
     return NULL;
 }
 
-bool canvas_in_window(const Schema *schema, const Node *window) {
-    for (uint32_t i = 0; i < window->child_count; i++)
-        if (schema_window_kind(schema, window->children[i]) == KIND_CANVAS)
+// A program alone makes nothing, but these do: out of nothing, or from elsewhere.
+static bool is_source(NodeKind kind) {
+    return kind == KIND_CANVAS || kind == KIND_CANVAS3D || kind == KIND_PICTURE_IMAGE || kind == KIND_REFERENCE ||
+           kind == KIND_NOISE || kind == KIND_SHADER;
+}
+
+static bool has_source(const Schema *schema, const Node *node, int depth, uint32_t *left) {
+    enum { DEEPEST = 100 }; // nobody draws what is deeper
+    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
+        NodeKind kind = schema_kind_in(schema, node->children[i], PLACE_PICTURES);
+        if (*left == 0 || (kind < KIND_COUNT && is_source(kind)))
             return true;
+        --*left;
+        if (kind < KIND_COUNT && has_source(schema, node->children[i], depth + 1, left))
+            return true;
+    }
     return false;
+}
+
+bool canvas_in_window(const Schema *schema, const Node *window) {
+    uint32_t left = CANVAS_LOOK;
+    return has_source(schema, window, 0, &left);
 }

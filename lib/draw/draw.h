@@ -4,7 +4,8 @@
 
 #include <pango/pangocairo.h>
 
-#include "draw/paint.h"
+#include "draw/list.h"
+#include "draw/pictures.h"
 
 typedef struct Picture Picture; // of an image file: images.c
 
@@ -14,8 +15,13 @@ struct PetriPainter {
     PangoContext *text_context;
     PangoLayout *layout;
     const char *family; // what the layout is set to; NULL at first in each picture
-    Look font;
+    ListText font;
     Picture *images;
+    Pictures *pictures;
+    Gl *gl;                 // opened when it is needed
+    const char *gl_problem; // why it cannot be; borrowed
+    uint64_t made;          // serial number of the picture whose tree was made last
+    Texture *shown;         // of its window; or NULL
 };
 
 // A picture being drawn.
@@ -24,28 +30,37 @@ typedef struct Canvas {
     const CanvasPicture *picture;
     cairo_t *cr;
     DiagSink *faults;
-    bool vector;         // the target is no array of pixels
-    uint32_t layers;     // that are open
-    double layer_pixels; // in them
-    double rows;         // of the target
-    double path_work;    // rows that the edges of the current path cross
-    double last_y;       // of its last point, on the target
-    bool failed;         // an error was reported
+    bool vector;                // the target is no array of pixels
+    uint32_t layers;            // that are open
+    double layer_pixels;        // in them
+    double rows;                // of the target
+    double path_work;           // rows that the edges of the current path cross
+    double last_y;              // of its last point, on the target
+    const List *list;           // or NULL
+    const ListCommand *path_of; // the command whose path is the current one; or NULL
+    cairo_matrix_t base;        // of the list's units
+    bool failed;                // an error was reported
 } Canvas;
 
 // Reports what drawing has found, each text once.
 __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel level, const char *code,
                                                       const char *format, ...);
 
-// tree.c
-void draw_tree(Canvas *canvas, const DrawNode *canvas_node);
+__attribute__((format(printf, 4, 5))) void draw_report(DiagSink *faults, DiagLevel level, const char *code,
+                                                       const char *format, ...);
 
-// looks.c
-// Takes a node's attributes, and the gradient or colour among its children, into a look.
-void draw_take_look(Look *look, const DrawNode *node);
-// Applies translate, scale and rotate in their order. False if nothing of what follows can be seen: it is squeezed to
-// nothing, or beyond all numbers.
-bool draw_transform(cairo_t *cr, const DrawNode *node);
+// paint.c
+// Draws a canvas into a cleared sRGB picture of its size. PETRI_OK, PETRI_INVALID after an error was reported, or
+// PETRI_MEMORY.
+PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
+                        DiagSink *faults);
+
+// show.c
+// Draws a list. The matrix in force is that of its units.
+void draw_list(Canvas *canvas, const List *list);
+// Draws without the paint's filter.
+void draw_plainly(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
+// Cairo would fail for good with another matrix.
 bool draw_is_invertible(const cairo_matrix_t *m);
 // How many pixels a unit is, about.
 double draw_scale_of(cairo_t *cr);
@@ -54,39 +69,43 @@ double draw_scale_of(cairo_t *cr);
 // Moves a point that is too far away for Cairo's coordinates to where it can be reckoned with.
 void draw_tame(Canvas *canvas, double *x, double *y);
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
-// Adds what a node stands for to the path. False if the node is none that adds to paths.
-bool draw_add_path(Canvas *canvas, const DrawNode *node);
+// Makes the command's path the current one, in the matrix that is in force.
+void draw_set_path(Canvas *canvas, const ListCommand *command);
+void draw_forget_path(Canvas *canvas);
 
 // paints.c
 cairo_operator_t draw_operator(int composite);
 // How the edges of what is filled or clipped are; Cairo keeps what was set last, for whatever it was.
-void draw_set_edges(Canvas *canvas, const Look *look);
-void draw_fill(Canvas *canvas, const Look *look);   // the path is kept
-void draw_stroke(Canvas *canvas, const Look *look); // the path is kept
-void draw_clip(Canvas *canvas, const Look *look);   // the path is kept
-// Paints what is in the clip with the source that is set.
-void draw_paint(Canvas *canvas, int composite, double alpha);
+void draw_set_edges(Canvas *canvas, bool antialias, int fill_type);
+// Fills or strokes the current path, or both as one figure.
+void draw_figure(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
+// Can the path be drawn in reasonable time? If not, the picture fails.
+bool draw_is_drawable(Canvas *canvas);
+
+// colours.c
+void draw_set_source(Canvas *canvas, const ListPaint *paint);
+
+// filters.c
+// Draws through the paint's filter.
+void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
 
 // text.c
 bool draw_text_open(PetriPainter *painter);
 void draw_text_close(PetriPainter *painter);
-void draw_text(Canvas *canvas, const DrawNode *node, const Look *look);
+void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
 
 // images.c
-void draw_image(Canvas *canvas, const DrawNode *node, const Look *look);
+void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint);
+// The pixels of an image and how many there are, to be given back; NULL, after a report, if there is none.
+cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image);
+// The picture of an image that stands among pictures, to be freed; NULL, after a report, if there is none.
+Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
+                            DiagSink *faults);
 void draw_images_close(PetriPainter *painter);
 // The pixels of a JPEG file; NULL with a reason.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
 
 // automatic.c
 void draw_automatic(Canvas *canvas, const AutoPicture *picture);
-
-// A path that is put aside while another is drawn.
-typedef struct KeptPath {
-    cairo_path_t *path; // NULL: there was none
-    double work;
-} KeptPath;
-KeptPath draw_keep_path(Canvas *canvas);
-void draw_put_back_path(Canvas *canvas, KeptPath kept);
 
 #endif

@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/source.h"
+#include "draw/resize.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -133,33 +134,32 @@ typedef struct Box {
 } Box;
 
 // False if it would be nothing.
-static bool find_box(const DrawNode *node, double width, double height, Box *box) {
-    double point[2], size[2];
-    draw_pair(node, ATTR_POINT, point);
-    *box = (Box){.x = point[0], .y = point[1], .scale_x = 1, .scale_y = 1};
-    bool fill = draw_pair(node, ATTR_FILL, size);
-    if (fill || draw_pair(node, ATTR_FIT, size)) {
-        double wide = size[0] / width, high = size[1] / height, scale = fill ? fmax(wide, high) : fmin(wide, high);
+static bool find_box(const ListImage *image, double width, double height, Box *box) {
+    const double *size = image->size;
+    *box = (Box){.x = image->point[0], .y = image->point[1], .scale_x = 1, .scale_y = 1};
+    if (image->fit == FIT_FILL || image->fit == FIT_INSIDE) {
+        double wide = size[0] / width, high = size[1] / height;
+        double scale = image->fit == FIT_FILL ? fmax(wide, high) : fmin(wide, high);
         box->scale_x = box->scale_y = scale;
         box->x += (size[0] - width * scale) / 2;
         box->y += (size[1] - height * scale) / 2;
-        box->cut = fill;
+        box->cut = image->fit == FIT_FILL;
         box->width = size[0];
         box->height = size[1];
-    } else if (draw_pair(node, ATTR_SIZE, size)) {
+    } else if (image->fit == FIT_SIZE) {
         box->scale_x = size[0] / width;
         box->scale_y = size[1] / height;
     }
-    return box->scale_x > 0 && box->scale_y > 0 && isfinite(box->scale_x) && isfinite(box->scale_y);
+    return box->scale_x != 0 && box->scale_y != 0 && isfinite(box->scale_x) && isfinite(box->scale_y);
 }
 
 static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box, const double point[2],
-                        const Look *look) {
+                        const ListPaint *paint) {
     cairo_t *cr = canvas->cr;
     double width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
-    KeptPath kept = draw_keep_path(canvas);
+    draw_forget_path(canvas);
     cairo_save(cr);
-    draw_set_edges(canvas, look);
+    draw_set_edges(canvas, paint->antialias, FILL_WINDING);
     if (box->cut) {
         double x1 = point[0], y1 = point[1], x2 = x1 + box->width, y2 = y1 + box->height;
         draw_tame(canvas, &x1, &y1);
@@ -174,32 +174,98 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
     if (draw_is_invertible(&placed)) {
         cairo_set_matrix(cr, &placed);
         cairo_set_source_surface(cr, surface, 0, 0);
-        cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // edges stay sharp when it is enlarged
+        cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+        cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // up to the edges
         cairo_rectangle(cr, 0, 0, width, height);
         cairo_clip(cr);
-        draw_paint(canvas, look->composite, 1);
+        cairo_set_operator(cr, draw_operator(paint->composite));
+        cairo_paint_with_alpha(cr, fmin(fmax(paint->color[3], 0), 1));
     }
     cairo_restore(cr);
-    draw_put_back_path(canvas, kept);
+    draw_forget_path(canvas);
 }
 
-void draw_image(Canvas *canvas, const DrawNode *node, const Look *look) {
-    const AttrValue *name = draw_attr(node, ATTR_FILENAME);
-    if (!name || name->as.text.len == 0)
-        return;
-    Arena *arena = &canvas->painter->arena;
-    const Reach *reach = &canvas->picture->reach;
-    const Picture *picture =
-        find(canvas->painter, reach, str_to_c(arena, path_join(arena, reach->directory, name->as.text)));
-    if (!picture->surface) {
-        draw_fault(canvas, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name->as.text.bytes,
-                   picture->problem ? picture->problem : "");
-        return;
-    }
+// The pixels of a file, or NULL after a report.
+static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, DiagSink *faults) {
+    Arena *arena = &painter->arena;
+    const Reach *reach = &picture->reach;
+    const Picture *found = find(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name)));
+    if (!found->surface)
+        draw_report(faults, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name.bytes,
+                    found->problem ? found->problem : "");
+    return found->surface;
+}
+
+// The picture of a node; NULL, after a report, if there is none.
+static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
+    PetriPainter *painter = canvas->painter;
+    Texture *texture = pictures_find(painter->pictures, id);
+    if (!texture || !texture_fetch(painter->gl, texture))
+        return NULL;
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
+    uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
+    for (int y = 0; pixels && y < texture->height; y++)
+        if (canvas->list->linear)
+            texture_linear_row(texture, y, pixels + (size_t)y * (size_t)texture->width);
+        else
+            texture_row(texture, y, false, pixels + (size_t)y * (size_t)texture->width);
+    cairo_surface_mark_dirty(surface);
+    return surface;
+}
+
+// Files count as sRGB: another copy for a linear canvas.
+static cairo_surface_t *linear_copy(cairo_surface_t *file) {
+    int width = cairo_image_surface_get_width(file), height = cairo_image_surface_get_height(file);
+    cairo_surface_t *copy = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
+    cairo_t *cr = cairo_create(copy);
+    cairo_set_source_surface(cr, file, 0, 0);
+    cairo_paint(cr);
+    cairo_destroy(cr);
+    cairo_surface_flush(copy);
+    uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(copy);
+    for (size_t i = 0; pixels && i < (size_t)width * (size_t)height; i++)
+        pixels[i] = texture_linear_pixel(pixels[i]);
+    cairo_surface_mark_dirty(copy);
+    return copy;
+}
+
+cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
+    if (image->file.len == 0)
+        return find_picture(canvas, image->id);
+    cairo_surface_t *surface = find_file(canvas->painter, canvas->picture, image->file, canvas->faults);
+    return !surface ? NULL : canvas->list->linear ? linear_copy(surface) : cairo_surface_reference(surface);
+}
+
+void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint) {
+    cairo_surface_t *surface = draw_find_image(canvas, image);
     Box box;
-    double point[2];
-    draw_pair(node, ATTR_POINT, point);
-    if (find_box(node, cairo_image_surface_get_width(picture->surface),
-                 cairo_image_surface_get_height(picture->surface), &box))
-        paint_image(canvas, picture->surface, &box, point, look);
+    if (!surface)
+        return;
+    if (find_box(image, cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), &box))
+        paint_image(canvas, surface, &box, image->point, paint);
+    cairo_surface_destroy(surface);
+}
+
+Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
+                            DiagSink *faults) {
+    const AttrValue *name = draw_attr(node, ATTR_FILENAME);
+    cairo_surface_t *surface =
+        name && name->as.text.len > 0 ? find_file(painter, picture, name->as.text, faults) : NULL;
+    if (!surface)
+        return NULL;
+    int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
+    pictures_size(node, &width, &height);
+    if (width < 1 || height < 1 || width > MOST_SIDE || height > MOST_SIDE || (int64_t)width * height > MOST_PIXELS) {
+        draw_report(faults, DIAG_WARNING, "bad-size", "!image: a picture can have 1 to %d pixels in width and height",
+                    MOST_SIDE);
+        return NULL;
+    }
+    cairo_format_t format = cairo_image_surface_get_format(surface);
+    Texture *texture = resize_pixels((const uint32_t *)(const void *)cairo_image_surface_get_data(surface),
+                                     cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
+                                     (size_t)cairo_image_surface_get_stride(surface), format == CAIRO_FORMAT_ARGB32,
+                                     width, height, draw_word(node, ATTR_FLIP));
+    if (!texture)
+        arena_exhausted(&painter->arena);
+    return texture;
 }

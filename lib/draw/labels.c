@@ -45,6 +45,7 @@ PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels
     PangoFontDescription *font = pango_font_description_from_string("monospace");
     cairo_scale(cr, scale, scale);
     pango_cairo_update_layout(cr, painter->layout);
+    pango_layout_set_attributes(painter->layout, NULL);
     painter->family = NULL;
     for (size_t i = 0; i < count; i++) {
         pango_font_description_set_absolute_size(font, labels[i].size * PANGO_SCALE);

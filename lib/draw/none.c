@@ -36,9 +36,25 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
 }
 
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
-                        Arena *arena, Str *bytes, DiagSink *faults) {
-    (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)arena;
-    *bytes = STR("");
+                        Encoded *out, DiagSink *faults) {
+    (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)out;
+    return missing(faults);
+}
+
+PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    (void)painter, (void)picture;
+    return missing(faults);
+}
+
+const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
+    (void)painter, (void)picture;
+    *count = 0;
+    return NULL;
+}
+
+PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
+                               CanvasFormat format, Encoded *out, DiagSink *faults) {
+    (void)painter, (void)picture, (void)record, (void)format, (void)out;
     return missing(faults);
 }
 

@@ -2,6 +2,7 @@
 #include "draw/paint.h"
 
 #include "draw/draw.h"
+#include "draw/encode.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
@@ -14,7 +15,8 @@ PetriPainter *petri_painter_open(void) {
     if (!painter)
         return NULL;
     arena_init(&painter->arena, "painter", SIZE_MAX);
-    if (draw_text_open(painter))
+    painter->pictures = pictures_new();
+    if (painter->pictures && draw_text_open(painter))
         return painter;
     petri_painter_close(&painter);
     return NULL;
@@ -29,17 +31,30 @@ void petri_painter_close(PetriPainter **handle) {
         return;
     draw_text_close(painter);
     draw_images_close(painter);
+    pictures_free(painter);
+    gl_close(painter->gl);
     arena_free(&painter->arena);
     free(painter);
 }
 
+static void report(DiagSink *faults, DiagLevel level, const char *code, const char *format, va_list args) {
+    Text text = text_new(faults->arena);
+    text_add_va(&text, format, args);
+    diag_report(faults, &(Diag){.level = level, .text = text_str(&text), .code = code});
+}
+
 void draw_fault(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
-    Text text = text_new(canvas->faults->arena);
     va_list args;
     va_start(args, format);
-    text_add_va(&text, format, args);
+    report(canvas->faults, level, code, format, args);
     va_end(args);
-    diag_report(canvas->faults, &(Diag){.level = level, .text = text_str(&text), .code = code});
+}
+
+void draw_report(DiagSink *faults, DiagLevel level, const char *code, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    report(faults, level, code, format, args);
+    va_end(args);
 }
 
 // Makes width x height units fill a box of the target, keeping their proportions.
@@ -49,50 +64,41 @@ static void fit(cairo_t *cr, double width, double height, double box_width, doub
     cairo_scale(cr, scale, scale);
 }
 
-static void draw_sheet(Canvas *canvas, const DrawNode *node) {
-    double size[2];
-    cairo_save(canvas->cr);
-    if (draw_pair(node, ATTR_SIZE, size) && size[0] > 0 && size[1] > 0)
-        fit(canvas->cr, size[0], size[1], canvas->picture->width, canvas->picture->height);
-    draw_tree(canvas, node);
-    cairo_restore(canvas->cr);
+// What is drawn on a surface.
+typedef struct Sheet {
+    const CanvasPicture *picture;
+    const DrawNode *canvas;  // or NULL
+    cairo_surface_t *pixels; // in place of a canvas; or NULL
+    double width;            // in units, made to fit
+    double height;
+    bool black; // behind it
+} Sheet;
+
+static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels) {
+    cairo_set_source_surface(cr, pixels, 0, 0);
+    cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_BILINEAR);
+    cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // within the clip
+    cairo_paint(cr);
 }
 
-// The first canvas can be drawn directly where it begins with nothing; the others are each drawn apart.
-static void draw_window(Canvas *canvas, const DrawNode *window) {
-    bool direct = !canvas->vector || !canvas->picture->opaque;
-    for (uint32_t i = 0; i < window->child_count; i++) {
-        if (window->children[i]->kind != KIND_CANVAS)
-            continue;
-        if (direct) {
-            draw_sheet(canvas, window->children[i]);
-        } else {
-            cairo_push_group(canvas->cr);
-            draw_sheet(canvas, window->children[i]);
-            cairo_pop_group_to_source(canvas->cr);
-            draw_paint(canvas, draw_word(window, ATTR_COMPOSITE), 1);
-        }
-        direct = false;
-    }
-}
-
-// Draws the whole picture. False if Cairo gave up.
-static bool draw_picture(Canvas *canvas, double width, double height) {
+// Draws the whole sheet. False if Cairo gave up.
+static bool draw_sheet(Canvas *canvas, const Sheet *sheet, double width, double height) {
     cairo_t *cr = canvas->cr;
-    const CanvasPicture *picture = canvas->picture;
     canvas->painter->family = NULL;
     cairo_set_tolerance(cr, 0.1);
-    if (canvas->vector && picture->opaque) {
+    if (sheet->black) {
         cairo_set_source_rgb(cr, 0, 0, 0);
         cairo_paint(cr);
     }
-    fit(cr, picture->width, picture->height, width, height);
-    cairo_rectangle(cr, 0, 0, picture->width, picture->height);
+    fit(cr, sheet->width, sheet->height, width, height);
+    cairo_rectangle(cr, 0, 0, sheet->width, sheet->height);
     cairo_clip(cr);
-    if (picture->window)
-        draw_window(canvas, picture->window);
-    else
-        draw_automatic(canvas, picture->automatic);
+    if (sheet->pixels)
+        draw_image_of(cr, sheet->pixels);
+    else if (sheet->canvas)
+        draw_list(canvas, list_build(&canvas->painter->arena, sheet->canvas));
+    else if (sheet->picture->automatic)
+        draw_automatic(canvas, sheet->picture->automatic);
     cairo_status_t status = cairo_status(cr);
     if (status != CAIRO_STATUS_SUCCESS && !canvas->failed)
         draw_fault(canvas, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn: %s",
@@ -104,26 +110,59 @@ static PetriStatus result_of(cairo_status_t status) {
     return status == CAIRO_STATUS_SUCCESS ? PETRI_OK : status == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;
 }
 
-// Draws on a surface, within the painter's escape for used-up memory.
-static PetriStatus draw_on(PetriPainter *painter, const CanvasPicture *picture, cairo_surface_t *surface, bool vector,
+typedef struct Drawing {
+    Canvas canvas;
+    const Sheet *sheet;
+    double width;
+    double height;
+    bool done;
+} Drawing;
+
+static void draw_protected(void *context) {
+    Drawing *drawing = context;
+    drawing->done = draw_sheet(&drawing->canvas, drawing->sheet, drawing->width, drawing->height);
+}
+
+// Draws on a surface of width x height.
+static PetriStatus draw_on(PetriPainter *painter, const Sheet *sheet, cairo_surface_t *surface, bool vector,
                            double width, double height, DiagSink *faults) {
-    jmp_buf escape;
-    cairo_t *volatile cr = cairo_create(surface);
+    cairo_t *cr = cairo_create(surface);
     PetriStatus result = result_of(cairo_status(cr));
     if (result == PETRI_OK) {
-        painter->arena.escape = faults->arena->escape = &escape;
-        if (setjmp(escape) == 0) {
-            Canvas canvas = {
-                .painter = painter, .picture = picture, .cr = cr, .faults = faults, .vector = vector, .rows = height};
-            if (!draw_picture(&canvas, width, height))
-                result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;
-        } else {
+        Drawing drawing = {.canvas = {.painter = painter,
+                                      .picture = sheet->picture,
+                                      .cr = cr,
+                                      .faults = faults,
+                                      .vector = vector,
+                                      .rows = height},
+                           .sheet = sheet,
+                           .width = width,
+                           .height = height};
+        Arena *arenas[] = {&painter->arena, faults->arena};
+        ArenaMark mark = arena_mark(&painter->arena);
+        if (arena_protect(arenas, 2, draw_protected, &drawing) != ARENA_DONE)
             result = PETRI_MEMORY;
-        }
-        painter->arena.escape = faults->arena->escape = NULL;
+        else if (!drawing.done)
+            result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;
+        arena_rewind(&painter->arena, mark);
     }
     cairo_destroy(cr);
-    arena_reset(&painter->arena);
+    return result;
+}
+
+static cairo_surface_t *surface_of(uint32_t *pixels, int width, int height, size_t stride) {
+    return cairo_image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, width, height,
+                                               (int)stride);
+}
+
+PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
+                        DiagSink *faults) {
+    Sheet sheet = {.picture = picture, .canvas = node, .width = texture->width, .height = texture->height};
+    cairo_surface_t *surface =
+        surface_of(texture->bytes, texture->width, texture->height, (size_t)texture->width * sizeof(uint32_t));
+    PetriStatus result = draw_on(painter, &sheet, surface, false, texture->width, texture->height, faults);
+    cairo_surface_finish(surface);
+    cairo_surface_destroy(surface);
     return result;
 }
 
@@ -141,12 +180,71 @@ static void clear(uint32_t *pixels, int width, int height, size_t stride) {
         memset((unsigned char *)pixels + (size_t)y * stride, 0, (size_t)width * sizeof *pixels);
 }
 
+// Makes the tree of pictures, once for each picture.
+static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    if (painter->made == picture->serial)
+        return PETRI_OK;
+    painter->shown = NULL;
+    PetriStatus result = pictures_make(painter, picture, faults, &painter->shown);
+    painter->made = result == PETRI_OK ? picture->serial : 0;
+    return result;
+}
+
+PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    if (picture->window && (picture->looks_back || !picture->direct))
+        return make_pictures(painter, picture, faults);
+    if (painter->made > 0) { // nothing of this frame can be continued in the next
+        pictures_forget(painter);
+        painter->made = 0;
+        painter->shown = NULL;
+    }
+    return PETRI_OK;
+}
+
+static void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride) {
+    for (int y = 0; y < texture->height; y++) {
+        uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
+        texture_row(texture, y, opaque, row);
+    }
+}
+
+// On a surface of its own size, to be destroyed.
+static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) {
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
+    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
+        draw_texture(texture, opaque, (uint32_t *)(void *)cairo_image_surface_get_data(surface),
+                     (size_t)cairo_image_surface_get_stride(surface));
+        cairo_surface_mark_dirty(surface);
+    }
+    return surface;
+}
+
+// The picture for a surface whose size may be another than its own. Its `pixels` are to be destroyed.
+static Sheet sheet_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
+    bool made = picture->window && !picture->direct && painter->shown;
+    return (Sheet){.picture = picture,
+                   .canvas = picture->direct,
+                   .pixels = made ? surface_of_texture(painter->shown, picture->opaque) : NULL,
+                   .width = picture->width,
+                   .height = picture->height,
+                   .black = vector && picture->opaque};
+}
+
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults) {
     clear(pixels, width, height, stride);
-    cairo_surface_t *surface =
-        cairo_image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, width, height, (int)stride);
-    PetriStatus result = draw_on(painter, picture, surface, false, width, height, faults);
+    PetriStatus result = draw_make(painter, picture, faults);
+    if (result != PETRI_OK)
+        return result;
+    const Texture *shown = painter->made == picture->serial ? painter->shown : NULL;
+    if (shown && shown->width == width && shown->height == height) {
+        draw_texture(shown, picture->opaque, pixels, stride);
+        return PETRI_OK;
+    }
+    cairo_surface_t *surface = surface_of(pixels, width, height, stride);
+    Sheet sheet = sheet_of(painter, picture, false);
+    result = draw_on(painter, &sheet, surface, false, width, height, faults);
+    cairo_surface_destroy(sheet.pixels);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
     if (result != PETRI_OK)
@@ -157,18 +255,20 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
 }
 
 static cairo_status_t collect(void *closure, const unsigned char *bytes, unsigned length) {
-    text_add(closure, (Str){(const char *)bytes, length});
-    return CAIRO_STATUS_SUCCESS;
+    return encoded_add(closure, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
-static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Text *out,
+static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Encoded *out,
                               DiagSink *faults) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
     PetriStatus result = result_of(cairo_surface_status(surface));
     if (result == PETRI_OK)
         result = draw_pixels(painter, picture, (uint32_t *)(void *)cairo_image_surface_get_data(surface), width, height,
                              (size_t)cairo_image_surface_get_stride(surface), faults);
-    if (result == PETRI_OK) {
+    const uint32_t *pixels = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
+    if (result == PETRI_OK && picture->opaque) { // rows of 32-bit pixels have no gaps
+        result = encode_png_pixels(out, pixels, width, height, false) ? PETRI_OK : PETRI_MEMORY;
+    } else if (result == PETRI_OK) {
         cairo_surface_mark_dirty(surface);
         result = result_of(cairo_surface_write_to_png_stream(surface, collect, out));
     }
@@ -176,15 +276,15 @@ static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *pictur
     return result;
 }
 
-static PetriStatus encode_vector(PetriPainter *painter, const CanvasPicture *picture, bool pdf, int width, int height,
-                                 Text *out, DiagSink *faults) {
+static PetriStatus encode_vector(PetriPainter *painter, const Sheet *sheet, bool pdf, int width, int height,
+                                 Encoded *out, DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(collect, out, width, height)
                                    : cairo_svg_surface_create_for_stream(collect, out, width, height);
     if (pdf) // the same bytes each time
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-    PetriStatus result = draw_on(painter, picture, surface, true, width, height, faults);
+    PetriStatus result = draw_on(painter, sheet, surface, true, width, height, faults);
     cairo_surface_finish(surface);
     if (result == PETRI_OK)
         result = result_of(cairo_surface_status(surface));
@@ -193,11 +293,43 @@ static PetriStatus encode_vector(PetriPainter *painter, const CanvasPicture *pic
 }
 
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
-                        Arena *arena, Str *bytes, DiagSink *faults) {
-    Text out = text_new(arena);
-    PetriStatus result = format == CANVAS_PNG
-                             ? encode_png(painter, picture, width, height, &out, faults)
-                             : encode_vector(painter, picture, format == CANVAS_PDF, width, height, &out, faults);
-    *bytes = text_str(&out);
+                        Encoded *out, DiagSink *faults) {
+    PetriStatus result = draw_make(painter, picture, faults);
+    if (result == PETRI_OK && format == CANVAS_PNG) {
+        result = encode_png(painter, picture, width, height, out, faults);
+    } else if (result == PETRI_OK) {
+        Sheet sheet = sheet_of(painter, picture, true);
+        result = encode_vector(painter, &sheet, format == CANVAS_PDF, width, height, out, faults);
+        cairo_surface_destroy(sheet.pixels);
+    }
     return result;
+}
+
+const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
+    *count = 0;
+    return painter->made == picture->serial ? pictures_records(painter->pictures, count) : NULL;
+}
+
+PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
+                               CanvasFormat format, Encoded *out, DiagSink *faults) {
+    const DrawNode *node = record->node;
+    const Texture *texture = record->texture;
+    bool alpha = draw_flag(node, ATTR_KEEP_ALPHA), good = true;
+    PetriStatus result = PETRI_OK;
+    if (format == CANVAS_PNG) {
+        good = encode_png_pixels(out, texture->bytes, texture->width, texture->height, alpha);
+    } else if (format == CANVAS_JPEG) {
+        good = encode_jpeg_pixels(out, texture->bytes, texture->width, texture->height,
+                                  (int)draw_number(node, ATTR_QUALITY));
+    } else {
+        Sheet sheet = {.picture = picture,
+                       .canvas = record->direct,
+                       .pixels = record->direct ? NULL : surface_of_texture(texture, !alpha),
+                       .width = texture->width,
+                       .height = texture->height,
+                       .black = !alpha};
+        result = encode_vector(painter, &sheet, format == CANVAS_PDF, texture->width, texture->height, out, faults);
+        cairo_surface_destroy(sheet.pixels);
+    }
+    return good ? result : PETRI_MEMORY;
 }

@@ -11,10 +11,23 @@
 #include "base/reach.h"
 #include "canvas/drawing.h"
 #include "draw/automatic.h"
+#include "draw/encode.h"
+#include "draw/texture.h"
+
+enum { PICTURE_NAMES = 64 };
 
 // One of `window` and `automatic` is there.
 typedef struct CanvasPicture {
-    const DrawNode *window;
+    const DrawNode *const *tops; // all windows of the frame
+    uint32_t top_count;
+    const DrawNode *window; // the one that is shown
+    const DrawNode *direct; // the canvas that is all of it; or NULL
+    bool looks_back;        // some window needs the frames before
+    double beat;
+    const char *names[PICTURE_NAMES]; // beat, time and the like, for programs
+    double numbers[PICTURE_NAMES];
+    uint32_t name_count;
+    uint64_t serial; // no other picture has this number
     const AutoPicture *automatic;
     double width; // in the script's units
     double height;
@@ -22,14 +35,28 @@ typedef struct CanvasPicture {
     Reach reach; // of the files that it names
 } CanvasPicture;
 
-typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_FORMAT_COUNT } CanvasFormat;
+typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;
 
+// A `!record` node, and what goes into its file.
+typedef struct Recorded {
+    const DrawNode *node;
+    const DrawNode *direct; // the canvas that is all of it; or NULL
+    Texture *texture;       // an sRGB picture
+} Recorded;
+
+// Makes the tree of pictures if that is needed, once for each picture: then the painter has its records.
+PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
 // Draws into premultiplied ARGB32 pixels. Whatever is wrong is reported to `faults`; after PETRI_INVALID one of them
 // is an error.
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults);
-// The bytes of a file that shows the picture, width x height pixels large, in the arena.
+// The bytes of a file that shows the picture, width x height pixels large.
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
-                        Arena *arena, Str *bytes, DiagSink *faults);
+                        Encoded *out, DiagSink *faults);
+// The records of the picture that was made last; none if it was another one.
+const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count);
+// The bytes of the file of one of them.
+PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
+                               CanvasFormat format, Encoded *out, DiagSink *faults);
 
 #endif

@@ -2,8 +2,10 @@
 #include "draw/picture.h"
 
 #include "base/file.h"
+#include "draw/pictures.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
@@ -14,13 +16,19 @@ PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uin
     return draw_pixels(painter, &picture->picture, pixels, width, height, stride, &picture->faults);
 }
 
-static bool find_format(const char *file, CanvasFormat *format) {
-    static const char *const suffixes[CANVAS_FORMAT_COUNT] = {
-        [CANVAS_PNG] = ".png", [CANVAS_SVG] = ".svg", [CANVAS_PDF] = ".pdf"};
-    for (int i = 0; i < CANVAS_FORMAT_COUNT; i++)
-        if (str_ends_with(str_from(file), str_from(suffixes[i]))) {
-            *format = (CanvasFormat)i;
-            return true;
+static bool find_format(const char *file, bool recorded, CanvasFormat *format) {
+    static const struct {
+        const char *suffix;
+        CanvasFormat format;
+    } suffixes[] = {{".png", CANVAS_PNG},
+                    {".svg", CANVAS_SVG},
+                    {".pdf", CANVAS_PDF},
+                    {".jpg", CANVAS_JPEG},
+                    {".jpeg", CANVAS_JPEG}};
+    for (size_t i = 0; i < sizeof suffixes / sizeof suffixes[0]; i++)
+        if (str_ends_with(str_from(file), str_from(suffixes[i].suffix))) {
+            *format = suffixes[i].format;
+            return recorded || *format != CANVAS_JPEG;
         }
     return false;
 }
@@ -29,7 +37,7 @@ bool petri_picture_format(const char *file) {
     if (!file)
         return false;
     CanvasFormat format;
-    return find_format(file, &format);
+    return find_format(file, false, &format);
 }
 
 static void report_file(PetriPicture *picture, const char *file, const char *problem) {
@@ -43,23 +51,28 @@ typedef struct Saving {
     PetriPainter *painter;
     CanvasFormat format;
     const char *file;
-    const Reach *reach; // NULL: any file
-    Arena arena;        // the file's bytes, apart from the picture's data and its faults
+    const Recorded *record; // NULL: the picture itself
+    const Reach *reach;     // NULL: any file
+    Encoded bytes;
     PetriStatus status;
 } Saving;
 
 static void save(void *context) {
     Saving *saving = context;
     PetriPicture *picture = saving->picture;
-    Str bytes;
-    saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width, picture->height,
-                                 &saving->arena, &bytes, &picture->faults);
+    if (saving->record)
+        saving->status = draw_encode_record(saving->painter, &picture->picture, saving->record, saving->format,
+                                            &saving->bytes, &picture->faults);
+    else
+        saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width,
+                                     picture->height, &saving->bytes, &picture->faults);
     if (saving->status != PETRI_OK)
         return;
     Replacement file;
     bool begun = reach_replace(saving->reach, saving->file, &file);
     bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
-    const char *problem = begun ? file_finish(&file, bytes) : strerror(errno);
+    const char *problem =
+        begun ? file_finish(&file, (Str){(const char *)saving->bytes.bytes, saving->bytes.length}) : strerror(errno);
     if (refused) {
         saving->status = PETRI_INVALID;
     } else if (problem) {
@@ -70,16 +83,18 @@ static void save(void *context) {
 
 static void report_name(void *context) {
     const Saving *saving = context;
-    report_file(saving->picture, saving->file, "a picture's name ends in .png, .svg or .pdf");
+    report_file(saving->picture, saving->file,
+                saving->record ? "a recorded picture's name ends in .png, .jpg, .svg or .pdf"
+                               : "a picture's name ends in .png, .svg or .pdf");
 }
 
 static PetriStatus save_picture(Saving *saving) {
     if (!saving->picture || !saving->painter || !saving->file)
         return PETRI_INVALID;
-    Arena *arenas[] = {&saving->arena, &saving->picture->arena};
-    arena_init(&saving->arena, "file", SIZE_MAX);
-    ArenaEnd end = arena_protect(arenas, 2, find_format(saving->file, &saving->format) ? save : report_name, saving);
-    arena_free(&saving->arena);
+    Arena *arenas[] = {&saving->picture->arena};
+    bool known = find_format(saving->file, saving->record != NULL, &saving->format);
+    ArenaEnd end = arena_protect(arenas, 1, known ? save : report_name, saving);
+    free(saving->bytes.bytes);
     return end == ARENA_DONE ? saving->status : PETRI_MEMORY;
 }
 
@@ -88,13 +103,67 @@ PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, con
         &(Saving){.picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID});
 }
 
-PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *painter, size_t index) {
-    if (!picture || index >= picture->record_count)
+PetriStatus petri_picture_make(PetriPicture *picture, PetriPainter *painter) {
+    if (!picture || !painter)
+        return PETRI_INVALID;
+    return draw_make(painter, &picture->picture, &picture->faults);
+}
+
+// What is read of a record, within a protected call.
+typedef struct Asking {
+    PetriPicture *picture;
+    const Recorded *recorded;
+    PetriRecord *record;
+} Asking;
+
+static const char *word_of(const DrawNode *node, AttrName name) {
+    const AttrValue *attr = draw_attr(node, name);
+    return attr ? attr->as.text.bytes : "";
+}
+
+static void fill_record(void *context) {
+    const Asking *asking = context;
+    const DrawNode *node = asking->recorded->node;
+    const Texture *texture = asking->recorded->texture;
+    Arena *arena = &asking->picture->arena;
+    const Reach *reach = &asking->picture->picture.reach;
+    const char *file = str_to_c(arena, path_join(arena, reach->directory, draw_attr(node, ATTR_FILENAME)->as.text));
+    *asking->record = (PetriRecord){
+        .file = file,
+        .refused = !reach_make_folders(reach, file),
+        .width = texture->width,
+        .height = texture->height,
+        .pixels = texture->bytes,
+        .keep_alpha = draw_flag(node, ATTR_KEEP_ALPHA),
+        .codec = word_of(node, ATTR_CODEC),
+        .pixfmt = word_of(node, ATTR_PIXFMT),
+        .limit = draw_number(node, ATTR_LIMIT),
+    };
+}
+
+static const Recorded *find_record(const PetriPicture *picture, const PetriPainter *painter, size_t index) {
+    uint32_t count;
+    const Recorded *records = draw_records(painter, &picture->picture, &count);
+    return index < count ? &records[index] : NULL;
+}
+
+bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record) {
+    if (!picture || !painter || !record)
+        return false;
+    Asking asking = {picture, find_record(picture, painter, index), record};
+    Arena *arenas[] = {&picture->arena};
+    return asking.recorded && arena_protect(arenas, 1, fill_record, &asking) == ARENA_DONE;
+}
+
+PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index) {
+    PetriRecord record;
+    if (!petri_picture_record(picture, painter, index, &record))
         return PETRI_INVALID;
     return save_picture(&(Saving){.picture = picture,
                                   .painter = painter,
                                   .format = CANVAS_PNG,
-                                  .file = picture->records[index],
+                                  .file = record.file,
+                                  .record = find_record(picture, painter, index),
                                   .reach = &picture->picture.reach,
                                   .status = PETRI_INVALID});
 }

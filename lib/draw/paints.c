@@ -12,55 +12,16 @@ cairo_operator_t draw_operator(int composite) {
     return operators[composite];
 }
 
-// These change what lies outside of the shape as well, unless they are clipped to it.
+// These change what lies outside of the figure as well, unless they are kept to it.
 static bool is_unbounded(int composite) {
     return composite == COMPOSITE_IN || composite == COMPOSITE_OUT || composite == COMPOSITE_DST_IN ||
            composite == COMPOSITE_DST_ATOP;
 }
 
-static void add_stops(cairo_pattern_t *pattern, const DrawNode *gradient) {
-    uint32_t count = gradient->child_count;
-    for (uint32_t i = 0; i < count; i++) {
-        const DrawNode *stop = gradient->children[i];
-        double even = count > 1 ? (double)i / (count - 1) : 0;
-        const AttrValue *color = draw_attr(stop, ATTR_COLOR);
-        double grey = schema_row(KIND_STOP, ATTR_COLOR)->fallback.value, offset = draw_number(stop, ATTR_OFFSET);
-        const double *c = color ? color->as.numbers : (const double[4]){grey, grey, grey, 1};
-        cairo_pattern_add_color_stop_rgba(pattern, isnan(offset) ? even : offset, c[0], c[1], c[2], c[3]);
-    }
-}
-
-static void set_gradient(Canvas *canvas, const DrawNode *gradient) {
-    double start[2], end[2], middle[2];
-    draw_pair(gradient, ATTR_START, start);
-    draw_pair(gradient, ATTR_POINT, middle);
-    double radius = draw_number(gradient, ATTR_RADIUS); // nan: it has none
-    cairo_pattern_t *pattern;
-    if (radius >= 0) {
-        pattern = cairo_pattern_create_radial(middle[0], middle[1], 0, middle[0], middle[1], radius);
-    } else {
-        draw_pair(gradient, ATTR_END, end);
-        pattern = cairo_pattern_create_linear(start[0], start[1], end[0], end[1]);
-    }
-    add_stops(pattern, gradient);
-    cairo_set_source(canvas->cr, pattern);
-    cairo_pattern_destroy(pattern);
-}
-
-void draw_set_edges(Canvas *canvas, const Look *look) {
-    cairo_set_antialias(canvas->cr, look->antialias ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
-    cairo_set_fill_rule(canvas->cr,
-                        look->fill_type == FILL_EVEN_ODD ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
-}
-
-static void set_paint(Canvas *canvas, const Look *look) {
-    cairo_t *cr = canvas->cr;
-    if (look->source)
-        set_gradient(canvas, look->source);
-    else
-        cairo_set_source_rgba(cr, look->color[0], look->color[1], look->color[2], look->color[3]);
-    cairo_set_operator(cr, draw_operator(look->composite));
-    draw_set_edges(canvas, look);
+void draw_set_edges(Canvas *canvas, bool antialias, int fill_type) {
+    bool even_odd = fill_type == FILL_EVEN_ODD || fill_type == FILL_INVERSE_EVEN_ODD;
+    cairo_set_antialias(canvas->cr, antialias ? CAIRO_ANTIALIAS_DEFAULT : CAIRO_ANTIALIAS_NONE);
+    cairo_set_fill_rule(canvas->cr, even_odd ? CAIRO_FILL_RULE_EVEN_ODD : CAIRO_FILL_RULE_WINDING);
 }
 
 // Filling takes a time that grows with the rows that the edges cross, and faster where they cross each other: a path of
@@ -68,8 +29,7 @@ static void set_paint(Canvas *canvas, const Look *look) {
 static const double SMOOTH_WORK = 1e6; // about a second
 static const double MOST_WORK = 1e7;   // some seconds without smooth edges
 
-// Whether the path can be drawn in reasonable time; if not, the picture fails.
-static bool is_drawable(Canvas *canvas) {
+bool draw_is_drawable(Canvas *canvas) {
     if (canvas->path_work > MOST_WORK && !canvas->failed) {
         draw_fault(canvas, DIAG_ERROR, "path-limit",
                    "a path is too complex to be drawn: it has too many points that are too far apart");
@@ -78,37 +38,22 @@ static bool is_drawable(Canvas *canvas) {
     return !canvas->failed;
 }
 
-void draw_fill(Canvas *canvas, const Look *look) {
-    cairo_t *cr = canvas->cr;
-    if (!is_drawable(canvas))
-        return;
-    set_paint(canvas, look);
-    if (canvas->path_work > SMOOTH_WORK)
-        cairo_set_antialias(cr, CAIRO_ANTIALIAS_NONE);
-    if (is_unbounded(look->composite)) {
-        cairo_save(cr);
-        cairo_clip_preserve(cr);
-        cairo_paint(cr);
-        cairo_restore(cr);
-    } else {
-        cairo_fill_preserve(cr);
-    }
-}
-
-static void set_line(Canvas *canvas, const Look *look) {
+static void set_line(Canvas *canvas, const ListPaint *paint) {
     static const cairo_line_join_t joins[] = {CAIRO_LINE_JOIN_MITER, CAIRO_LINE_JOIN_ROUND, CAIRO_LINE_JOIN_BEVEL};
     static const cairo_line_cap_t caps[] = {CAIRO_LINE_CAP_BUTT, CAIRO_LINE_CAP_ROUND, CAIRO_LINE_CAP_SQUARE};
-    cairo_set_line_join(canvas->cr, joins[look->join]);
-    cairo_set_miter_limit(canvas->cr, 4); // as Flitter's canvas has it
-    cairo_set_line_cap(canvas->cr, caps[look->cap]);
+    cairo_set_line_join(canvas->cr, joins[paint->join]);
+    cairo_set_miter_limit(canvas->cr, 4);
+    cairo_set_line_cap(canvas->cr, caps[paint->cap]);
+    const double *dashes = paint->dash_count > 0 ? canvas->list->numbers.at + paint->dashes : NULL;
+    cairo_set_dash(canvas->cr, dashes, (int)paint->dash_count, paint->dash_offset);
 }
 
-static void stroke_path(Canvas *canvas, const Look *look) {
+static void stroke_path(Canvas *canvas, const ListPaint *paint) {
     enum { WIDEST = 100000 }; // pixels: more cannot be seen, and Cairo's coordinates end somewhere
     cairo_t *cr = canvas->cr;
     double scale = draw_scale_of(cr);
-    if (look->stroke_width > 0) {
-        cairo_set_line_width(cr, fmin(look->stroke_width, WIDEST / scale));
+    if (paint->stroke_width > 0) {
+        cairo_set_line_width(cr, fmin(paint->stroke_width, WIDEST / scale));
         cairo_stroke_preserve(cr);
         return;
     }
@@ -121,7 +66,7 @@ static void stroke_path(Canvas *canvas, const Look *look) {
 
 // Strokes a long path in pieces, which is much faster than as a whole. Each piece begins with the end of the one
 // before, so that the corners between them are drawn.
-static void stroke_pieces(Canvas *canvas, const Look *look) {
+static void stroke_pieces(Canvas *canvas, const ListPaint *paint) {
     enum { PIECE = 16 };
     cairo_t *cr = canvas->cr;
     cairo_path_t *path = cairo_copy_path_flat(cr);
@@ -140,7 +85,7 @@ static void stroke_pieces(Canvas *canvas, const Look *look) {
             cairo_new_path(cr);
             for (int k = 0; k < count; k++)
                 cairo_line_to(cr, points[k][0], points[k][1]);
-            stroke_path(canvas, look);
+            stroke_path(canvas, paint);
             int kept = moves || count < 2 ? 0 : 2;
             for (int k = 0; k < kept; k++)
                 memcpy(points[k], points[count - kept + k], sizeof points[k]);
@@ -155,32 +100,92 @@ static void stroke_pieces(Canvas *canvas, const Look *look) {
     cairo_path_destroy(path);
 }
 
-// Pieces overlap: they are drawn into a mask, through which the colour is then painted once.
-static void stroke_long(Canvas *canvas, const Look *look) {
-    cairo_t *cr = canvas->cr;
-    KeptPath kept = draw_keep_path(canvas);
-    if (kept.path)
-        cairo_append_path(cr, kept.path);
-    cairo_push_group_with_content(cr, CAIRO_CONTENT_ALPHA);
-    cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
-    cairo_set_source_rgba(cr, 0, 0, 0, 1);
-    stroke_pieces(canvas, look);
-    cairo_pattern_t *mask = cairo_pop_group(cr);
-    set_paint(canvas, look);
-    cairo_mask(cr, mask);
-    cairo_pattern_destroy(mask);
-    draw_put_back_path(canvas, kept);
+// The parts of a figure, with the source and operator that are set.
+static void draw_parts(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    bool huge = canvas->path_work > SMOOTH_WORK;
+    if (command->fill) {
+        draw_set_edges(canvas, paint->antialias && !huge, command->path.fill_type);
+        cairo_fill_preserve(canvas->cr);
+    }
+    if (!command->stroke)
+        return;
+    draw_set_edges(canvas, paint->antialias, command->path.fill_type);
+    set_line(canvas, paint);
+    if (huge && !canvas->vector && paint->dash_count == 0) {
+        stroke_pieces(canvas, paint);
+        canvas->path_of = NULL; // of which the last piece is left
+    } else {
+        stroke_path(canvas, paint);
+    }
 }
 
-// A line cannot be clipped to, so it becomes a mask for what is made of all that is there.
-static void stroke_unbounded(Canvas *canvas, const Look *look) {
+// What is drawn next touches no more than the box of the figure.
+static void clip_to_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
     cairo_t *cr = canvas->cr;
-    cairo_surface_t *below = cairo_get_group_target(cr);
+    double x1, y1, x2, y2;
+    if (command->path.fill_type > FILL_EVEN_ODD)
+        return;
+    cairo_path_t *path = cairo_copy_path(cr);
+    cairo_matrix_t matrix;
+    cairo_get_matrix(cr, &matrix);
+    double wide =
+        fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
+    double border = command->stroke ? 2 * wide + 2 : 2; // the miter limit is 4
+    cairo_identity_matrix(cr);
+    cairo_path_extents(cr, &x1, &y1, &x2, &y2);
+    cairo_new_path(cr);
+    x1 = floor(x1 - border);
+    y1 = floor(y1 - border);
+    cairo_rectangle(cr, x1, y1, ceil(x2 + border) - x1, ceil(y2 + border) - y1);
+    cairo_clip(cr);
+    cairo_set_matrix(cr, &matrix);
+    cairo_append_path(cr, path);
+    cairo_path_destroy(path);
+}
+
+static cairo_pattern_t *make_mask(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    cairo_t *cr = canvas->cr;
     cairo_push_group_with_content(cr, CAIRO_CONTENT_ALPHA);
     cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
     cairo_set_source_rgba(cr, 0, 0, 0, 1);
-    stroke_path(canvas, look);
-    cairo_pattern_t *mask = cairo_pop_group(cr);
+    if (command->path.fill_type > FILL_EVEN_ODD && command->fill) {
+        cairo_paint(cr);
+        cairo_set_operator(cr, CAIRO_OPERATOR_DEST_OUT);
+    }
+    draw_parts(canvas, command, paint);
+    return cairo_pop_group(cr);
+}
+
+// d *= s of each pixel; false if these are no pixels of the same size.
+static bool multiply_pixels(cairo_surface_t *d, cairo_surface_t *s) {
+    if (cairo_surface_get_type(d) != CAIRO_SURFACE_TYPE_IMAGE ||
+        cairo_surface_get_type(s) != CAIRO_SURFACE_TYPE_IMAGE ||
+        cairo_image_surface_get_format(d) != CAIRO_FORMAT_ARGB32 ||
+        cairo_image_surface_get_format(s) != CAIRO_FORMAT_ARGB32 ||
+        cairo_image_surface_get_height(d) != cairo_image_surface_get_height(s) ||
+        cairo_image_surface_get_stride(d) != cairo_image_surface_get_stride(s))
+        return false;
+    cairo_surface_flush(d);
+    cairo_surface_flush(s);
+    unsigned char *to = cairo_image_surface_get_data(d), *from = cairo_image_surface_get_data(s);
+    size_t count = (size_t)cairo_image_surface_get_stride(d) * (size_t)cairo_image_surface_get_height(d);
+    for (size_t i = 0; to && from && i < count; i++)
+        to[i] = (unsigned char)((to[i] * from[i] + 127) / 255);
+    cairo_surface_mark_dirty(d);
+    return true;
+}
+
+// All that is there, combined with the source, as a group.
+static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int composite) {
+    cairo_t *cr = canvas->cr;
+    cairo_pattern_t *source = cairo_pattern_reference(cairo_get_source(cr)), *factor = NULL;
+    if (composite == COMPOSITE_MODULATE) {
+        cairo_push_group(cr);
+        cairo_set_source(cr, source);
+        cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
+        cairo_paint(cr);
+        factor = cairo_pop_group(cr);
+    }
     cairo_push_group(cr);
     cairo_save(cr);
     cairo_identity_matrix(cr);
@@ -188,35 +193,59 @@ static void stroke_unbounded(Canvas *canvas, const Look *look) {
     cairo_set_source_surface(cr, below, 0, 0);
     cairo_paint(cr);
     cairo_restore(cr);
-    set_paint(canvas, look);
-    cairo_paint(cr);
-    cairo_pop_group_to_source(cr);
-    cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
+    if (!factor) {
+        cairo_set_source(cr, source);
+        cairo_set_operator(cr, draw_operator(composite));
+        cairo_paint(cr);
+    }
+    cairo_pattern_t *all = cairo_pop_group(cr);
+    cairo_surface_t *d, *s;
+    if (factor && cairo_pattern_get_surface(all, &d) == CAIRO_STATUS_SUCCESS &&
+        cairo_pattern_get_surface(factor, &s) == CAIRO_STATUS_SUCCESS)
+        multiply_pixels(d, s);
+    if (factor)
+        cairo_pattern_destroy(factor);
+    cairo_pattern_destroy(source);
+    return all;
+}
+
+// The figure becomes a mask, through which its colour is then painted once.
+static void draw_through_mask(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    cairo_t *cr = canvas->cr;
+    cairo_save(cr);
+    clip_to_box(canvas, command, paint);
+    cairo_pattern_t *mask = make_mask(canvas, command, paint);
+    bool apart = (is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE) && !canvas->vector;
+    draw_set_source(canvas, paint);
+    cairo_set_operator(cr, draw_operator(paint->composite));
+    if (apart) {
+        cairo_pattern_t *all = combine_all(canvas, cairo_get_group_target(cr), paint->composite);
+        cairo_set_source(cr, all);
+        cairo_pattern_destroy(all);
+        cairo_set_operator(cr, CAIRO_OPERATOR_SOURCE);
+    }
     cairo_mask(cr, mask);
     cairo_pattern_destroy(mask);
+    cairo_restore(cr);
 }
 
-void draw_stroke(Canvas *canvas, const Look *look) {
-    if (!is_drawable(canvas))
+// Fill and stroke one after the other are one figure if nothing shines through.
+static bool is_solid(const ListPaint *paint) {
+    return paint->composite == COMPOSITE_OVER && paint->source == LIST_NONE && paint->color[3] >= 1;
+}
+
+void draw_figure(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    cairo_t *cr = canvas->cr;
+    if (!draw_is_drawable(canvas))
         return;
-    set_paint(canvas, look);
-    set_line(canvas, look);
-    if (canvas->path_work > SMOOTH_WORK && !canvas->vector)
-        stroke_long(canvas, look);
-    else if (is_unbounded(look->composite) && !canvas->vector)
-        stroke_unbounded(canvas, look);
-    else
-        stroke_path(canvas, look);
-}
-
-void draw_clip(Canvas *canvas, const Look *look) {
-    if (!is_drawable(canvas))
+    bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
+         both = command->fill && command->stroke;
+    bool pieces = command->stroke && canvas->path_work > SMOOTH_WORK; // which overlap
+    if (odd || command->path.fill_type > FILL_EVEN_ODD || ((both || pieces) && !is_solid(paint))) {
+        draw_through_mask(canvas, command, paint);
         return;
-    draw_set_edges(canvas, look);
-    cairo_clip_preserve(canvas->cr);
-}
-
-void draw_paint(Canvas *canvas, int composite, double alpha) {
-    cairo_set_operator(canvas->cr, draw_operator(composite));
-    cairo_paint_with_alpha(canvas->cr, fmin(fmax(alpha, 0), 1));
+    }
+    draw_set_source(canvas, paint);
+    cairo_set_operator(cr, draw_operator(paint->composite));
+    draw_parts(canvas, command, paint);
 }

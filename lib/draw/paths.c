@@ -1,4 +1,4 @@
-// paths.c: nodes that add to the path.
+// paths.c: paths of a list, and parts of ellipses, become Cairo's.
 #include "draw/draw.h"
 #include "maths/maths.h"
 
@@ -77,152 +77,57 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
     }
 }
 
-static void add_curve(Canvas *canvas, const DrawNode *node) {
-    double p[2], c1[2], c2[2];
-    if (!draw_pair(node, ATTR_POINT, p))
-        return;
-    bool first = draw_pair(node, ATTR_C1, c1), second = draw_pair(node, ATTR_C2, c2);
-    if (first && second) {
-        if (!cairo_has_current_point(canvas->cr))
-            move_to(canvas, c1[0], c1[1]);
-        curve_to(canvas, c1[0], c1[1], c2[0], c2[1], p[0], p[1]);
-    } else if (first || second) {
-        const double *c = first ? c1 : c2;
-        quadratic_to(canvas, c[0], c[1], p[0], p[1]);
-    } else {
-        line_to(canvas, p[0], p[1]);
-    }
-}
-
-static void add_arc(Canvas *canvas, const DrawNode *node) {
-    double p[2], r[2];
-    draw_pair(node, ATTR_POINT, p);
-    if (!draw_pair(node, ATTR_RADIUS, r))
-        return;
-    double start = draw_number(node, ATTR_START), sweep = draw_number(node, ATTR_SWEEP);
-    double end = draw_number(node, ATTR_END);
-    if (isnan(end))
-        end = start + sweep;
-    draw_ellipse_path(canvas, p[0], p[1], r[0], r[1], start, end - start, true);
-}
-
-static void add_rect(Canvas *canvas, const DrawNode *node) {
-    double p[2], size[2], r[2];
-    draw_pair(node, ATTR_POINT, p);
-    if (!draw_pair(node, ATTR_SIZE, size))
-        return;
-    draw_pair(node, ATTR_RADIUS, r);
-    double left = p[0], top = p[1], right = p[0] + size[0], bottom = p[1] + size[1];
-    // Radii that do not fit shrink together: a large one makes half circles at the shorter sides.
-    double part = fmin(1, fmin(size[0] / (2 * r[0]), size[1] / (2 * r[1])));
-    double rx = r[0] * part, ry = r[1] * part;
-    if (rx > 0 && ry > 0) {
-        draw_ellipse_path(canvas, right - rx, top + ry, rx, ry, 0.75, 0.25, false);
-        draw_ellipse_path(canvas, right - rx, bottom - ry, rx, ry, 0, 0.25, true);
-        draw_ellipse_path(canvas, left + rx, bottom - ry, rx, ry, 0.25, 0.25, true);
-        draw_ellipse_path(canvas, left + rx, top + ry, rx, ry, 0.5, 0.25, true);
-    } else {
-        move_to(canvas, left, top);
-        line_to(canvas, right, top);
-        line_to(canvas, right, bottom);
-        line_to(canvas, left, bottom);
-    }
-    cairo_close_path(canvas->cr);
-}
-
-static void add_ellipse(Canvas *canvas, const DrawNode *node) {
-    double p[2], r[2];
-    draw_pair(node, ATTR_POINT, p);
-    if (!draw_pair(node, ATTR_RADIUS, r))
-        return;
-    draw_ellipse_path(canvas, p[0], p[1], r[0], r[1], 0, 1, false);
-    cairo_close_path(canvas->cr);
-}
-
-// A corner that is rounded: the curve leaves the line at `curve` of the half of the piece before it, and joins it as
-// far behind.
-static void add_corner(Canvas *canvas, const double *before, const double *at, const double *after, double curve,
-                       bool first) {
-    double part = curve / 2;
-    double x1 = at[0] + (before[0] - at[0]) * part, y1 = at[1] + (before[1] - at[1]) * part;
-    if (first)
-        move_to(canvas, x1, y1);
-    else
-        line_to(canvas, x1, y1);
-    quadratic_to(canvas, at[0], at[1], at[0] + (after[0] - at[0]) * part, at[1] + (after[1] - at[1]) * part);
-}
-
-static void add_line(Canvas *canvas, const DrawNode *node) {
-    const AttrValue *attr = draw_attr(node, ATTR_POINTS);
-    uint32_t count = attr ? attr->count / 2 : 0;
-    if (count == 0)
-        return;
-    const double *points = attr->as.list;
-    double curve = fmin(fmax(draw_number(node, ATTR_CURVE), 0), 1);
-    bool close = draw_flag(node, ATTR_CLOSE) && count > 2;
-    if (curve == 0 || count < 3) {
-        for (uint32_t i = 0; i < count; i++)
-            (i ? line_to : move_to)(canvas, points[2 * i], points[2 * i + 1]);
-    } else {
-        if (!close)
-            move_to(canvas, points[0], points[1]);
-        for (uint32_t i = close ? 0 : 1; i < count - !close; i++)
-            add_corner(canvas, points + 2 * ((i + count - 1) % count), points + 2 * i, points + 2 * ((i + 1) % count),
-                       curve, i == 0);
-        if (!close)
-            line_to(canvas, points[2 * count - 2], points[2 * count - 1]);
-    }
-    if (draw_flag(node, ATTR_CLOSE))
+static void add_piece(Canvas *canvas, ListPiece kind, const double *n) {
+    switch (kind) {
+    case PIECE_MOVE:
+        move_to(canvas, n[0], n[1]);
+        break;
+    case PIECE_LINE:
+        line_to(canvas, n[0], n[1]);
+        break;
+    case PIECE_CURVE_2:
+        quadratic_to(canvas, n[0], n[1], n[2], n[3]);
+        break;
+    case PIECE_CURVE_3:
+        curve_to(canvas, n[0], n[1], n[2], n[3], n[4], n[5]);
+        break;
+    case PIECE_ARC:
+    case PIECE_ARC_ON:
+        draw_ellipse_path(canvas, n[0], n[1], n[2], n[3], n[4], n[5], kind == PIECE_ARC_ON);
+        break;
+    case PIECE_CLOSE:
         cairo_close_path(canvas->cr);
-}
-
-bool draw_add_path(Canvas *canvas, const DrawNode *node) {
-    double p[2];
-    switch ((NodeKind)node->kind) {
-    case KIND_MOVE_TO:
-        if (draw_pair(node, ATTR_POINT, p))
-            move_to(canvas, p[0], p[1]);
-        return true;
-    case KIND_LINE_TO:
-        if (draw_pair(node, ATTR_POINT, p))
-            line_to(canvas, p[0], p[1]);
-        return true;
-    case KIND_CURVE_TO:
-        add_curve(canvas, node);
-        return true;
-    case KIND_ARC:
-        add_arc(canvas, node);
-        return true;
-    case KIND_RECT:
-        add_rect(canvas, node);
-        return true;
-    case KIND_ELLIPSE:
-        add_ellipse(canvas, node);
-        return true;
-    case KIND_LINE:
-        add_line(canvas, node);
-        return true;
-    case KIND_CLOSE:
-        cairo_close_path(canvas->cr);
-        return true;
-    default:
-        return false;
+        break;
     }
 }
 
-KeptPath draw_keep_path(Canvas *canvas) {
-    cairo_t *cr = canvas->cr;
-    KeptPath kept = {cairo_has_current_point(cr) ? cairo_copy_path(cr) : NULL, canvas->path_work};
-    cairo_new_path(cr);
-    canvas->path_work = 0;
-    return kept;
+static bool is_set(const Canvas *canvas, const ListCommand *command) {
+    const ListCommand *set = canvas->path_of;
+    return set && set->path.first == command->path.first && set->path.last == command->path.last &&
+           set->path.end == command->path.end && set->matrix == command->matrix;
 }
 
-void draw_put_back_path(Canvas *canvas, KeptPath kept) {
+void draw_set_path(Canvas *canvas, const ListCommand *command) {
+    static const uint8_t counts[] = {2, 2, 4, 6, 6, 6, 0};
+    const List *list = canvas->list;
+    if (is_set(canvas, command))
+        return;
+    draw_forget_path(canvas);
+    canvas->path_of = command;
+    for (uint32_t run = command->path.first; run != LIST_NONE;) {
+        bool last = run == command->path.last;
+        uint32_t end = last ? command->path.end : list->runs.at[run].end;
+        for (uint32_t i = list->runs.at[run].start; i < end;) {
+            ListPiece kind = (ListPiece)list->numbers.at[i];
+            add_piece(canvas, kind, list->numbers.at + i + 1);
+            i += 1u + counts[kind];
+        }
+        run = last ? LIST_NONE : list->runs.at[run].next;
+    }
+}
+
+void draw_forget_path(Canvas *canvas) {
     cairo_new_path(canvas->cr);
-    canvas->path_work = kept.work;
-    if (kept.path) {
-        cairo_append_path(canvas->cr, kept.path);
-        cairo_path_destroy(kept.path);
-    }
+    canvas->path_work = 0;
+    canvas->path_of = NULL;
 }

@@ -2,6 +2,7 @@
 #include "draw/picture.h"
 
 #include "base/number.h"
+#include "draw/pictures.h"
 #include "maths/maths.h"
 #include "session/shown.h"
 #include "value/format.h"
@@ -10,7 +11,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { DEFAULT_WIDTH = 1920, DEFAULT_HEIGHT = 1080, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
+enum { USUAL_SIZE = 512, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
 enum { MOST_AUTO_SYSTEMS = 64 }; // in one automatic picture
 
 void petri_picture_options_init(PetriPictureOptions *options, size_t size) {
@@ -39,15 +40,19 @@ typedef struct Request {
     PetriStatus status;
 } Request;
 
-// The window of that number; of none in particular, the first with something to draw, or else the first.
+// The window of that number; of none in particular, the first with something to draw, one that is on the screen before
+// one that is not, or else the first.
 static const Node *find_window(const Shown *shown, int number) {
-    const Node *first = NULL, *window;
+    const Node *first = NULL, *offscreen = NULL, *window;
     for (uint32_t at = 0; (window = canvas_next_window(shown->schema, shown->tree, &at)) != NULL;) {
-        if (number < 0 ? canvas_in_window(shown->schema, window) : number-- == 0)
+        bool on_screen = schema_window_kind(shown->schema, window) == KIND_WINDOW;
+        if (number >= 0 ? number-- == 0 : on_screen && canvas_in_window(shown->schema, window))
             return window;
+        if (number < 0 && !offscreen && !on_screen && canvas_in_window(shown->schema, window))
+            offscreen = window;
         first = first || number >= 0 ? first : window;
     }
-    return first;
+    return offscreen ? offscreen : first;
 }
 
 // At most three of a vector's numbers; the missing ones are 0.
@@ -146,42 +151,98 @@ static void copy_systems(const Request *request, uint32_t count) {
     picture->picture.automatic = &picture->automatic;
 }
 
-static void take_window(Request *request, const Node *node) {
-    PetriPicture *picture = request->picture;
-    Arena *arena = &picture->arena;
-    const DrawNode *window = canvas_read(request->shown.schema, arena, node);
-    const AttrValue *title = draw_attr(window, ATTR_TITLE);
-    picture->picture.window = window;
-    picture->picture.opaque = window->kind == KIND_WINDOW;
-    picture->title = title ? title->as.text.bytes : "";
-    picture->records = arena_alloc_array(arena, window->child_count, sizeof *picture->records);
-    for (uint32_t i = 0; i < window->child_count; i++) {
-        const AttrValue *file =
-            window->children[i]->kind == KIND_RECORD ? draw_attr(window->children[i], ATTR_FILENAME) : NULL;
-        if (file && file->as.text.len)
-            picture->records[picture->record_count++] =
-                str_to_c(arena, path_join(arena, picture->picture.reach.directory, file->as.text));
-    }
+static Value attr_value(const Schema *schema, const Node *node, AttrRow row) {
+    return node_get(node, schema->slots[row].name);
 }
 
-// The size in the script's units: that of the window, else that of its first canvas, else the usual one. False if what
-// the window says makes no sense.
+static bool has_word(Str text, Str word) {
+    for (size_t i = 0; i + word.len <= text.len; i++)
+        if (str_equal((Str){text.bytes + i, word.len}, word))
+            return true;
+    return false;
+}
+
+// Whether a program names the frame before.
+static bool names_last(const Schema *schema, const Node *node) {
+    Value v = attr_value(schema, node, ROW_SHADER_FRAGMENT);
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
+        if (v.as.items[i].type == ITEM_STRING && has_word(v.as.items[i].as.string->text, STR("last")))
+            return true;
+    return false;
+}
+
+// Whether something in a canvas shows the picture of another node.
+static bool shows_others(const Schema *schema, const Node *node, int depth, uint32_t *left) {
+    enum { DEEPEST = 1000 };
+    if (*left == 0 || ((node->kind == schema->kinds[KIND_IMAGE] || node->kind == schema->kinds[KIND_PATTERN]) &&
+                       (attr_value(schema, node, ROW_IMAGE_IMAGE_ID).len > 0 ||
+                        attr_value(schema, node, ROW_IMAGE_TEXTURE_ID).len > 0)))
+        return true;
+    --*left;
+    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++)
+        if (shows_others(schema, node->children[i], depth + 1, left))
+            return true;
+    return false;
+}
+
+static bool looks_back(const Schema *schema, const Node *node, NodeKind kind, int depth, uint32_t *left) {
+    enum { DEEPEST = 100 };
+    if (*left == 0 || kind == KIND_FEEDBACK || kind == KIND_REFERENCE || names_last(schema, node) ||
+        (kind == KIND_RECORD && attr_value(schema, node, ROW_RECORD_FILENAME).len > 0))
+        return true;
+    --*left;
+    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
+        const Node *child = node->children[i];
+        NodeKind inside = schema_kind_in(schema, child, PLACE_PICTURES);
+        if (inside == KIND_CANVAS ? shows_others(schema, child, 0, left)
+                                  : inside < KIND_COUNT && looks_back(schema, child, inside, depth + 1, left))
+            return true;
+    }
+    return false;
+}
+
+static bool any_looks_back(const Shown *shown) {
+    uint32_t left = CANVAS_LOOK;
+    const Node *window;
+    for (uint32_t at = 0; (window = canvas_next_window(shown->schema, shown->tree, &at)) != NULL;)
+        if (looks_back(shown->schema, window, KIND_WINDOW, 0, &left))
+            return true;
+    return false;
+}
+
+// Copies all windows: each may show pictures of the others.
+static void take_windows(Request *request, const Node *shown) {
+    static _Atomic uint64_t serial;
+    PetriPicture *picture = request->picture;
+    CanvasPicture *canvases = &picture->picture;
+    const Node *window;
+    const DrawNode **tops = NULL;
+    for (uint32_t at = 0; (window = canvas_next_window(request->shown.schema, request->shown.tree, &at)) != NULL;) {
+        uint32_t count = canvases->top_count++;
+        tops = arena_grow(&picture->arena, tops, count * sizeof *tops, (count + 1) * sizeof *tops);
+        tops[count] = canvas_read(request->shown.schema, &picture->arena, window);
+        if (window == shown)
+            canvases->window = tops[count];
+    }
+    const AttrValue *title = canvases->window->kind == KIND_WINDOW ? draw_attr(canvases->window, ATTR_TITLE) : NULL;
+    picture->title = title ? title->as.text.bytes : "";
+    canvases->tops = tops;
+    canvases->opaque = canvases->window->kind == KIND_WINDOW;
+    canvases->looks_back = any_looks_back(&request->shown);
+    canvases->serial = ++serial;
+}
+
+// The size in the script's units: what the window says, else the usual one. False if that makes no sense.
 static bool choose_size(CanvasPicture *picture, const Node *node, const Symbol *name) {
     const DrawNode *window = picture->window;
+    picture->width = picture->height = window ? USUAL_SIZE : AUTO_SIDE;
     double size[2];
-    picture->width = window ? DEFAULT_WIDTH : AUTO_SIDE;
-    picture->height = window ? DEFAULT_HEIGHT : AUTO_SIDE;
     if (!window)
         return true;
-    bool found = draw_pair(window, ATTR_SIZE, size);
-    if (!found && node_get(node, name).len > 0)
-        return false;
-    for (uint32_t i = 0; i < window->child_count && !found; i++)
-        found = window->children[i]->kind == KIND_CANVAS && draw_pair(window->children[i], ATTR_SIZE, size);
-    if (found) {
-        picture->width = size[0];
-        picture->height = size[1];
-    }
+    if (!draw_pair(window, ATTR_SIZE, size))
+        return node_get(node, name).len == 0;
+    picture->width = floor(size[0]);
+    picture->height = floor(size[1]);
     return true;
 }
 
@@ -233,17 +294,11 @@ bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *optio
     return true;
 }
 
-bool petri_records(PetriSession *session) {
+bool petri_looks_back(PetriSession *session) {
     if (!session)
         return false;
     Shown shown = session_shown(session);
-    const Node *window;
-    for (uint32_t at = 0; (window = canvas_next_window(shown.schema, shown.tree, &at)) != NULL;)
-        for (uint32_t k = 0; k < window->child_count; k++)
-            if (schema_window_kind(shown.schema, window->children[k]) == KIND_RECORD &&
-                node_get(window->children[k], shown.schema->slots[ROW_RECORD_FILENAME].name).len > 0)
-                return true;
-    return false;
+    return any_looks_back(&shown);
 }
 
 // Fills the picture; false if there is none, with the problem if it is not told already.
@@ -269,7 +324,7 @@ static bool make_picture(Request *request) {
         return false;
     }
     if (window)
-        take_window(request, window);
+        take_windows(request, window);
     if (!choose_size(&picture->picture, window, shown->schema->slots[ROW_WINDOW_SIZE].name)) {
         request->problem = "the size of the window makes no sense";
         return false;
@@ -279,12 +334,20 @@ static bool make_picture(Request *request) {
         picture->picture.window = NULL;
         picture->picture.opaque = true;
     }
-    return choose_pixels(request);
+    if (!choose_pixels(request))
+        return false;
+    if (picture->picture.window)
+        picture->picture.direct =
+            pictures_direct(picture->picture.window, (int)picture->picture.width, (int)picture->picture.height);
+    return true;
 }
 
 static void make_protected(PetriSession *session, void *context) {
     Request *request = context;
     request->frames = session_drawing(session, MOST_AUTO_SYSTEMS * sizeof *request->frames);
+    CanvasPicture *picture = &request->picture->picture;
+    picture->name_count =
+        session_numbers(session, &request->picture->arena, picture->names, picture->numbers, PICTURE_NAMES);
     request->status = make_picture(request) ? PETRI_OK : PETRI_INVALID;
 }
 
@@ -303,6 +366,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     picture->arena.meter = shown.meter;
     Request request = {.shown = shown, .options = &wanted, .picture = picture, .status = PETRI_INVALID};
     PetriStatus status = PETRI_OK;
+    picture->picture.beat = petri_frame(session).beat;
     if (shown.number >= 0)
         status = session_tell_end(session, session_protect(session, &picture->arena, make_protected, &request),
                                   "the picture");
@@ -349,12 +413,15 @@ int64_t petri_picture_frame(const PetriPicture *picture) {
     return picture ? picture->frame : -1;
 }
 
-const char *petri_picture_record(const PetriPicture *picture, size_t index) {
-    return picture && index < picture->record_count ? picture->records[index] : NULL;
+bool petri_picture_looks_back(const PetriPicture *picture) {
+    return picture && picture->picture.looks_back && picture->picture.window != NULL;
 }
 
 void petri_picture_tell(PetriSession *session, PetriPicture *picture) {
     if (!session || !picture)
         return;
+    for (uint32_t i = 0; i < picture->faults.count; i++)
+        if (!session_has(session, &picture->faults.items[i]))
+            picture->faults.items[i].source = NULL;
     session_tell_all(session, &picture->faults);
 }

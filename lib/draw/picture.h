@@ -12,8 +12,6 @@ struct PetriPicture {
     int height;
     int64_t frame;
     const char *title;
-    const char **records;
-    uint32_t record_count;
     DiagSink faults; // found since, by whoever draws
 };
 

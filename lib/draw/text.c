@@ -57,8 +57,21 @@ static bool is_installed(PetriPainter *painter, const char *name) {
     return found;
 }
 
-// Reports a list of names none of which is there.
-static void check_family(Canvas *canvas, const char *list) {
+// The nearest to fonts that scripts name and machines often lack: their letters are as wide.
+static const char *stand_in(const char *name) {
+    static const char *const pairs[][2] = {{"Helvetica", "Liberation Sans"},
+                                           {"Arial", "Liberation Sans"},
+                                           {"Georgia", "Gelasio"},
+                                           {"Menlo", "DejaVu Sans Mono"}};
+    for (size_t i = 0; i < sizeof pairs / sizeof pairs[0]; i++)
+        if (!strcasecmp(name, pairs[i][0]))
+            return pairs[i][1];
+    return NULL;
+}
+
+// What there is of a list of names; the list itself, after a report, if there is none. It was given by the script
+// unless it is the usual one.
+static const char *find_family(Canvas *canvas, const char *list) {
     char name[128];
     for (const char *at = list;;) {
         at += strspn(at, " ,");
@@ -70,42 +83,63 @@ static void check_family(Canvas *canvas, const char *list) {
         if (trimmed < sizeof name) {
             memcpy(name, at, trimmed);
             name[trimmed] = 0;
+            const char *other = stand_in(name);
+            if (other && is_installed(canvas->painter, other))
+                return other;
             if (is_installed(canvas->painter, name))
-                return;
+                return list;
         }
         at += length;
     }
-    draw_fault(canvas, DIAG_WARNING, "unknown-font",
-               "!font: there is no font '%.100s' on this machine; another takes its place", list);
+    if (strcmp(list, schema_row(KIND_CANVAS, ATTR_FONT_FAMILY)->fallback.string) != 0)
+        draw_fault(canvas, DIAG_WARNING, "unknown-font",
+                   "!font: there is no font '%.100s' on this machine; another takes its place", list);
+    return list;
 }
 
-static void set_font(Canvas *canvas, const Look *look) {
+static PangoStretch stretch_of(int width) {
+    return (PangoStretch)((int)PANGO_STRETCH_ULTRA_CONDENSED + width);
+}
+
+static bool same_font(const ListText *a, const ListText *b) {
+    return a->family == b->family && a->size == b->size && a->weight == b->weight && a->width == b->width &&
+           a->slant == b->slant;
+}
+
+// Letter after letter, of this font alone.
+static void set_plain_letters(PangoLayout *layout) {
+    PangoAttrList *attributes = pango_attr_list_new();
+    pango_attr_list_insert(attributes, pango_attr_font_features_new("kern=0, liga=0, clig=0, calt=0"));
+    pango_attr_list_insert(attributes, pango_attr_fallback_new(FALSE));
+    pango_layout_set_attributes(layout, attributes);
+    pango_attr_list_unref(attributes);
+}
+
+static void set_font(Canvas *canvas, const ListText *text) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
     PetriPainter *painter = canvas->painter;
-    const Look *last = &painter->font;
-    if (painter->family == look->family && last->font_size == look->font_size && last->weight == look->weight &&
-        last->slant == look->slant)
+    if (painter->family && same_font(&painter->font, text))
         return;
-    if (painter->family != look->family)
-        check_family(canvas, look->family);
     PangoFontDescription *font = pango_font_description_new();
-    pango_font_description_set_family(font, look->family);
-    pango_font_description_set_absolute_size(font, look->font_size * PANGO_SCALE);
-    pango_font_description_set_weight(font, (PangoWeight)look->weight);
-    pango_font_description_set_style(font, styles[look->slant]);
+    pango_font_description_set_family(font, find_family(canvas, text->family));
+    pango_font_description_set_absolute_size(font, text->size * PANGO_SCALE);
+    pango_font_description_set_weight(font, (PangoWeight)fmax(text->weight, 1));
+    pango_font_description_set_stretch(font, stretch_of(text->width));
+    pango_font_description_set_style(font, styles[text->slant]);
     pango_layout_set_font_description(painter->layout, font);
     pango_font_description_free(font);
-    painter->family = look->family;
-    painter->font = *look;
+    set_plain_letters(painter->layout);
+    painter->family = text->family;
+    painter->font = *text;
 }
 
 // The size on the target decides what the font library can do.
-static bool has_drawable_size(Canvas *canvas, const Look *look) {
-    double pixels = look->font_size * draw_scale_of(canvas->cr);
-    if (pixels > LARGEST_FONT || look->font_size > LARGEST_FONT)
+static bool has_drawable_size(Canvas *canvas, double size) {
+    double pixels = size * draw_scale_of(canvas->cr);
+    if (pixels > LARGEST_FONT || size > LARGEST_FONT)
         draw_fault(canvas, DIAG_WARNING, "bad-font-size", "!text: letters of more than %g pixels are not drawn",
                    LARGEST_FONT);
-    return pixels > 0.1 && look->font_size > 0.001 && pixels <= LARGEST_FONT && look->font_size <= LARGEST_FONT;
+    return pixels > 0.1 && size > 0.001 && pixels <= LARGEST_FONT && size <= LARGEST_FONT;
 }
 
 // Where the base line of the layout begins.
@@ -121,42 +155,28 @@ static void place(PangoLayout *layout, bool center, double point[2]) {
     point[1] -= (ink.y + ink.height / 2.0) / PANGO_SCALE;
 }
 
-static void add_letters(Canvas *canvas, const double point[2]) {
-    double x = point[0], y = point[1];
-    draw_tame(canvas, &x, &y);
-    cairo_move_to(canvas->cr, x, y);
-    pango_cairo_layout_path(canvas->cr, canvas->painter->layout);
-}
-
-static void draw_letters(Canvas *canvas, const DrawNode *node, const Look *look, const double point[2]) {
-    bool fill = draw_flag(node, ATTR_FILL), stroke = draw_flag(node, ATTR_STROKE);
-    if (!fill && !stroke) {
-        add_letters(canvas, point);
+void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    const ListText *text = &canvas->list->texts.at[command->item];
+    if (text->weight <= 0 || !has_drawable_size(canvas, text->size))
         return;
-    }
-    KeptPath kept = draw_keep_path(canvas);
-    add_letters(canvas, point);
-    if (fill)
-        draw_fill(canvas, look);
-    if (stroke)
-        draw_stroke(canvas, look);
-    draw_put_back_path(canvas, kept);
-}
-
-void draw_text(Canvas *canvas, const DrawNode *node, const Look *look) {
-    const AttrValue *text = draw_attr(node, ATTR_TEXT);
-    double point[2];
-    draw_pair(node, ATTR_POINT, point);
-    if (!text || text->as.text.len == 0 || !has_drawable_size(canvas, look))
-        return;
-    if (text->as.text.len > LONGEST_TEXT) {
+    if (text->text.len > LONGEST_TEXT) {
         draw_fault(canvas, DIAG_WARNING, "long-text", "!text: texts of more than %d bytes are not drawn", LONGEST_TEXT);
         return;
     }
     PangoLayout *layout = canvas->painter->layout;
-    set_font(canvas, look);
+    double point[2] = {text->point[0], text->point[1]};
+    set_font(canvas, text);
     pango_cairo_update_layout(canvas->cr, layout);
-    pango_layout_set_text(layout, text->as.text.bytes, (int)text->as.text.len);
-    place(layout, draw_flag(node, ATTR_CENTER), point);
-    draw_letters(canvas, node, look, point);
+    pango_layout_set_text(layout, text->text.bytes, (int)text->text.len);
+    place(layout, text->center, point);
+    draw_forget_path(canvas);
+    draw_tame(canvas, &point[0], &point[1]);
+    cairo_move_to(canvas->cr, point[0], point[1]);
+    pango_cairo_layout_path(canvas->cr, layout);
+    ListPaint smooth = *paint;
+    ListCommand letters = *command;
+    smooth.antialias = true;
+    letters.path.fill_type = FILL_WINDING;
+    draw_figure(canvas, &letters, &smooth);
+    draw_forget_path(canvas);
 }

@@ -48,8 +48,10 @@ enum { PETRI_MOST_PIXELS = 16384 }; // the largest width and height of a picture
 // 1, and hosts show pictures from frame 2 on. True in frame 0 of a script without systems, of automatic pictures and of
 // a state that was restored, and in each frame from 2 on, whatever systems do then.
 PETRI_API bool petri_picture_ready(PetriSession *session, const PetriPictureOptions *options);
-// Whether the last frame has a `!record` node with a file name, so that a picture of it is wanted anyhow.
-PETRI_API bool petri_records(PetriSession *session);
+// Whether the pictures of the last frame depend on those of the frames before, or are written by a `!record` once for
+// each name: pictures of all frames must then be made by one painter, in their order, even of those that nobody looks
+// at (petri_picture_make).
+PETRI_API bool petri_looks_back(PetriSession *session);
 
 // The picture of the last frame in *picture, for the caller to free. PETRI_INVALID (with a diagnostic) if nothing is
 // loaded or there is nothing to draw, if the size makes no sense or the options were not initialised; PETRI_MEMORY.
@@ -63,13 +65,37 @@ PETRI_API void petri_picture_size(const PetriPicture *picture, int *width, int *
 PETRI_API const char *petri_picture_title(const PetriPicture *picture);
 // The number of the frame that it shows.
 PETRI_API int64_t petri_picture_frame(const PetriPicture *picture);
-// The files that `!record` nodes in its window name, with the script's folder before them; NULL beyond the last.
-// Valid as long as the picture.
-PETRI_API const char *petri_picture_record(const PetriPicture *picture, size_t index);
+// What petri_looks_back said of its frame.
+PETRI_API bool petri_picture_looks_back(const PetriPicture *picture);
 
 // A painter, which lives until petri_painter_close, or NULL if memory is used up.
 PETRI_API PetriPainter *petri_painter_open(void);
 PETRI_API void petri_painter_close(PetriPainter **painter);
+
+// Makes the pictures of all nodes of the frame, canvases and effects, unless this painter has just done so. Drawing and
+// saving do it by themselves. PETRI_OK, PETRI_MISSING without Cairo, PETRI_MEMORY.
+PETRI_API PetriStatus petri_picture_make(PetriPicture *picture, PetriPainter *painter);
+
+// What a `!record` node writes.
+typedef struct PetriRecord {
+    const char *file; // with the script's folder before it
+    bool refused; // the script may not write there, which was told (PetriOptions.write_folders); else its folders are
+                  // made
+    int width;
+    int height;
+    const uint32_t *pixels; // rows without gaps, as petri_picture_draw has them; alpha counts only with `keep_alpha`
+    bool keep_alpha;
+    const char *codec;  // of a film; "" if not told
+    const char *pixfmt; // likewise
+    double limit;       // seconds of film; nan: none
+} PetriRecord;
+
+// The number `index` of the records of the picture that the painter has made last (petri_picture_make). False beyond
+// the last. Valid until the painter makes another picture.
+PETRI_API bool petri_picture_record(PetriPicture *picture, PetriPainter *painter, size_t index, PetriRecord *record);
+// Writes its file, a picture: .png, .jpg, .svg or .pdf. PETRI_OK and failures as petri_picture_save has them;
+// PETRI_INVALID, too, beyond the last and for one that is refused.
+PETRI_API PetriStatus petri_record_save(PetriPicture *picture, PetriPainter *painter, size_t index);
 
 // Draws into width x height pixels, rows `stride` bytes apart (a multiple of 4): 32 bits each, alpha in the highest
 // byte, then red, green, blue, multiplied by alpha. The picture is scaled to fit and centred. A window's pixels are
@@ -101,9 +127,6 @@ PETRI_API bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the
 // same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
 PETRI_API PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
-// The same for the file of a `!record` node, by number: only where the script may write (PetriOptions.write_folders).
-// PETRI_INVALID, too, beyond the last and for one that may not be written, of which petri_picture told.
-PETRI_API PetriStatus petri_picture_save_record(PetriPicture *picture, PetriPainter *painter, size_t index);
 // Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
 // called by the thread that uses the session, when no other uses the picture.
 PETRI_API void petri_picture_tell(PetriSession *session, PetriPicture *picture);

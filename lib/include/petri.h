@@ -70,6 +70,21 @@ typedef struct PetriDiagnostic {
 // When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
+// Processes that run the same script together, each with a session of its own that is given the same calls: they come to
+// the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions, in
+// order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+typedef struct PetriRanks {
+    int rank; // of this process, from 0
+    int count;
+    uint64_t least; // pairs of particles that are worth sharing; 0 (the default): as many as are found to be
+    void *host;
+    // Takes the numbers along and returns without waiting for the other.
+    void (*send)(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride);
+    void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    // The numbers of one rank become those of all.
+    void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+} PetriRanks;
+
 typedef struct PetriOptions {
     size_t size; // of the struct that the host was compiled with: petri_default_options sets it
     double fps;  // target frame rate; a script's `%pragma fps` wins. Default 60
@@ -107,6 +122,9 @@ typedef struct PetriOptions {
     // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
     // once when the library is loaded, is the upper limit. Results never depend on it.
     const char *cpu;
+    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included, and none may be
+    // interrupted.
+    const PetriRanks *ranks;
     // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
     // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
     // name of the script or, for what a script names, that of its folder before it, without dots. A script may then
@@ -426,7 +444,7 @@ PETRI_API bool petri_drawable(PetriSession *session);
 // beyond the last. Texts live as long as the library.
 typedef struct PetriNodeKind {
     const char *name; // without the `!`
-    const char *area; // "physics" or "canvas"; `group` is a kind of both
+    const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
     const char *help;
 } PetriNodeKind;
 
@@ -473,7 +491,7 @@ typedef enum PetriInput {
     PETRI_INPUT_BLOCK, // indented lines must follow
     PETRI_INPUT_PART,  // it cannot end here
 } PetriInput;
-// Whether more lines are needed.
+// Whether more lines are needed. A text for which memory does not suffice counts as whole, with a diagnostic.
 PETRI_API PetriInput petri_input(PetriSession *session, const char *text, size_t length);
 
 // What became of the statements of a text.

@@ -1,11 +1,11 @@
-// composite_list.h: the ways in which colours combine: COMPOSITE(ID, Cairo's operator, "word"). NONE stands for the
-// ways that Cairo has no operator for; word_list.h has further words.
+// composite_list.h: the ways in which colours combine: COMPOSITE(ID, Cairo's operator, "word"). Cairo has
+// none for modulate: its operator is the nearest. word_list.h has further words.
 // clang-format off
 #ifndef COMPOSITE
 #define COMPOSITE(id, operator, text)
 #endif
 
-COMPOSITE(NONE, CAIRO_OPERATOR_OVER, "modulate")
+COMPOSITE(MODULATE, CAIRO_OPERATOR_MULTIPLY, "modulate")
 COMPOSITE(CLEAR, CAIRO_OPERATOR_CLEAR, "clear")
 COMPOSITE(SRC, CAIRO_OPERATOR_SOURCE, "src")
 COMPOSITE(DST, CAIRO_OPERATOR_DEST, "dst")

@@ -5,6 +5,7 @@
 #include "schema/reader.h"
 
 #include "value/format.h"
+#include "value/seed.h"
 
 #include <math.h>
 #include <string.h>
@@ -45,6 +46,13 @@ NodeKind schema_window_kind(const Schema *schema, const Node *node) {
     while (kind < KIND_COUNT && schema->kinds[kind] != node->kind)
         kind++;
     return (NodeKind)kind;
+}
+
+NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children) {
+    for (int kind = schema->first_in_window; kind < KIND_COUNT; kind++)
+        if (schema->kinds[kind] == node->kind && schema_may_stand((NodeKind)kind, children))
+            return (NodeKind)kind;
+    return KIND_COUNT;
 }
 
 // "name=value" of an attribute by which a node is known: a system by its state, anything else by its id.
@@ -97,7 +105,7 @@ static void report_unknown(const Reader *reader, const Symbol *name) {
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
     StrNearest nearest = nearest_to(kind);
     for (int i = 0; i < KIND_COUNT; i++)
-        if (schema_kinds[i].place == place || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
+        if (schema_may_stand((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));
     if (nearest.found.len)
         text_add_format(out, ", did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
@@ -293,7 +301,9 @@ static bool is_measure(double x) {
 }
 
 static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue *attr) {
-    if (!value_is_numeric(v) || v.len > most || (type->shape == SHAPE_COLOR && v.len == 2))
+    bool all = type->shape == SHAPE_TRIPLE || type->shape == SHAPE_QUAD;
+    if (!value_is_numeric(v) || v.len > most || (type->shape == SHAPE_COLOR && v.len == 2) ||
+        (all && v.len > 1 && v.len < most))
         return false;
     const double *numbers = value_numbers(&v);
     double *out = attr->as.numbers;
@@ -305,14 +315,16 @@ static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue
     if (v.len == 1)
         out[1] = out[2] = out[0];
     if (v.len < 4)
-        out[3] = 1;
+        out[3] = all ? out[0] : 1;
     attr->count = v.len;
     return true;
 }
 
-static bool read_points(const Reader *reader, Value v, AttrValue *attr) {
+static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *attr) {
     const double *numbers = value_numbers(&v);
-    if (!value_is_numeric(v) || v.len % 2)
+    if (even && v.len % 2) // without its partner a number is no point
+        v.len--;
+    if (!value_is_numeric(v))
         return false;
     for (uint32_t i = 0; i < v.len; i++)
         if (!is_measure(numbers[i]))
@@ -366,6 +378,10 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
         return read_measures(v, type, 1, attr);
     case SHAPE_PAIR:
         return read_measures(v, type, 2, attr);
+    case SHAPE_TRIPLE:
+        return read_measures(v, type, 3, attr);
+    case SHAPE_QUAD:
+        return read_measures(v, type, 4, attr);
     case SHAPE_COLOR:
         if (!read_measures(v, type, 4, attr))
             return false;
@@ -373,7 +389,12 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
             lint_colour(reader, row, v);
         return true;
     case SHAPE_POINTS:
-        return read_points(reader, v, attr);
+        return read_numbers(reader, v, true, attr);
+    case SHAPE_LIST:
+        return read_numbers(reader, v, false, attr);
+    case SHAPE_SEED:
+        attr->as.numbers[0] = (double)(int64_t)value_exact_hash(reader->arena, v) / 281474976710656.0;
+        return true;
     case SHAPE_FLAG:
         attr->as.flag = value_true(v);
         return true;
@@ -399,19 +420,26 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
         const Value v = node->attrs[i].value;
         const SchemaSlot *slot = slot_of(first, end, guess, node->attrs[i].name);
         guess = slot < end ? slot + 1 : first;
+        AttrValue *attr = &attrs[*count];
         if (slot == end) {
-            report_unknown(reader, node->attrs[i].name);
+            *attr = (AttrValue){.name = ATTR_NONE};
+            if (reader->kind != KIND_SHADER)
+                report_unknown(reader, node->attrs[i].name);
+            else if (read_numbers(reader, v, false, attr)) { // its program may ask for any name
+                attr->own = str_to_c(reader->arena, node->attrs[i].name->name);
+                ++*count;
+            }
             continue;
         }
         const SchemaRow *found = &schema_rows[slot - slots];
-        AttrValue *attr = &attrs[*count];
         *attr = (AttrValue){.name = found->alias ? found->alias : found->name, .row = (uint16_t)(slot - slots)};
         if (!read_drawn(reader, found, v, attr)) {
             report_shape(reader, found, v);
             good &= !schema_types[found->type].vital;
-        } else if (found->type == TYPE_COMPOSITE && attr->as.word == COMPOSITE_NONE) {
-            reader_report_attr(reader, "bad-attribute", ATTR_COMPOSITE,
-                               STR("composite=:modulate cannot be drawn here, :multiply comes near to it; ignored"));
+            if (found->type == TYPE_MIX) { // such a node shows nothing, which is not what the default means
+                attr->as.word = MIX_UNKNOWN;
+                ++*count;
+            }
         } else {
             ++*count;
         }
@@ -431,6 +459,9 @@ void schema_store(const AttrValue *attr, void *record) {
         break;
     case SHAPE_COLOR:
         memcpy(field, attr->as.numbers, sizeof attr->as.numbers);
+        break;
+    case SHAPE_TRIPLE:
+        memcpy(field, attr->as.numbers, 3 * sizeof(double));
         break;
     case SHAPE_FLAG:
         *(bool *)field = attr->as.flag;
@@ -458,13 +489,16 @@ static void store_default(const SchemaRow *row, char *record) {
     else if (shape <= SHAPE_CLOCK)
         *(double *)field = x;
     else
-        schema_store(&(AttrValue){.row = (uint16_t)(row - schema_rows),
-                                  .as = shape == SHAPE_TEXT    ? (union AttrData){.text = str_from(fallback->string)}
-                                        : shape == SHAPE_WORD  ? (union AttrData){.word = (int)x}
-                                        : shape == SHAPE_FLAG  ? (union AttrData){.flag = x != 0}
-                                        : shape == SHAPE_COLOR ? (union AttrData){.numbers = {x, x, x, 1}}
-                                                               : (union AttrData){.numbers = {x}}},
-                     record);
+        schema_store(
+            &(AttrValue){.row = (uint16_t)(row - schema_rows),
+                         .as = shape == SHAPE_TEXT
+                                   ? (union AttrData){.text = str_from(fallback->string ? fallback->string : "")}
+                               : shape == SHAPE_WORD   ? (union AttrData){.word = (int)x}
+                               : shape == SHAPE_FLAG   ? (union AttrData){.flag = x != 0}
+                               : shape == SHAPE_COLOR  ? (union AttrData){.numbers = {x, x, x, 1}}
+                               : shape == SHAPE_TRIPLE ? (union AttrData){.numbers = {x, x, x}}
+                                                       : (union AttrData){.numbers = {x}}},
+            record);
 }
 
 void schema_defaults(NodeKind kind, void *record) {

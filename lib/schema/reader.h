@@ -53,6 +53,8 @@ static inline NodeKind schema_kind(const Schema *schema, const Node *node) {
     return KIND_COUNT;
 }
 NodeKind schema_window_kind(const Schema *schema, const Node *node);
+// The kind of a node where `children` may stand; KIND_COUNT if this one may not.
+NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children);
 
 // What is being read.
 typedef struct Reader {
@@ -81,11 +83,12 @@ void reader_fill(const Reader *reader, void *record);
 
 // An attribute that was read.
 typedef struct AttrValue {
-    uint8_t name;   // AttrName
-    uint16_t row;   // of its kind
-    uint32_t count; // of numbers
+    uint16_t name;   // AttrName
+    uint16_t row;    // of its kind
+    uint32_t count;  // of numbers
+    const char *own; // the name of an ATTR_NONE: what a program may ask for, in `list`
     union AttrData {
-        double numbers[4]; // of points, sizes, colours (always four), a weight
+        double numbers[4]; // of points, sizes, colours (always four), a weight, up to four amounts
         const double *list;
         Str text; // NUL-terminated
         int word;

@@ -46,20 +46,58 @@ typedef struct InputAttrs {
     Value name;
 } InputAttrs;
 
-// The part of the graphics state that Cairo does not keep: how things look. It is inherited down the tree.
+// How things look in a canvas: inherited down the tree.
 typedef struct Look {
     double color[4];
-    const struct DrawNode *source; // a gradient in place of the colour, or NULL
     double stroke_width;
     double font_size;
     double weight;
     const char *family;
+    int width; // of letters
+    int slant;
     int join;
     int cap;
     int composite;
-    int fill_type;
-    int slant;
     bool antialias;
+    // What nodes among those that draw have set: numbers in the list that is built.
+    uint32_t source; // in place of the colour
+    uint32_t filter;
+    uint32_t dashes;
+    uint32_t dash_count;
+    double dash_offset;
 } Look;
+
+// Of three dimensions (canvas3d_list.h): a material, a render group and a camera, whatever a node has of these.
+typedef struct Look3D {
+    double color[3];
+    double emissive[3];
+    double roughness;
+    double metal;
+    double ior;
+    double ao;
+    double transparency;
+    double translucency;
+    const char *ids[6]; // of pictures: color, metal, roughness, ao, emissive, transparency; NULL or empty: none
+    double max_lights;
+    bool depth_sort;
+    bool depth_test;
+    bool face_cull;
+    int cull_face;
+    int composite;
+    double fov;
+    int fov_ref;
+    double near;
+    double far; // nan: the width of the picture
+    bool orthographic;
+    double width; // likewise
+    double samples;
+    double colorbits;
+    double fog_min;
+    double fog_max;
+    double fog_color[3];
+    double fog_curve;
+    bool monochrome;
+    double tint[3];
+} Look3D;
 
 #endif

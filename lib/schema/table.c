@@ -1,6 +1,7 @@
 // table.c: see table.h.
 #include "schema/table.h"
 
+#include "maths/random.h"
 #include "schema/records.h"
 
 #include <math.h>
@@ -27,6 +28,7 @@ const TypeRow schema_types[TYPE_COUNT] = {
 #define TO_COUNTER(field) offsetof(CounterAttrs, field)
 #define TO_INPUT(field) offsetof(InputAttrs, field)
 #define TO_LOOK(field) offsetof(Look, field)
+#define TO_LOOK3D(field) offsetof(Look3D, field)
 #define NOWHERE FIELD_NOWHERE
 #define IS(x)                                                                                                          \
     { x, #x, false, NULL }
@@ -41,9 +43,9 @@ const TypeRow schema_types[TYPE_COUNT] = {
 
 const SchemaRow schema_rows[ROW_COUNT] = {
 #define ATTR(kind, name, type, field, fallback, unit, help)                                                            \
-    {KIND_##kind, ATTR_##name, TYPE_##type, ATTR_NONE, field, fallback, unit, help},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_NONE, field, fallback, unit, help},
 #define ALIAS(kind, name, of, of_text, type, field, unit)                                                              \
-    {KIND_##kind, ATTR_##name, TYPE_##type, ATTR_##of, field, NONE, unit, "the same as " of_text ", which wins"},
+    {KIND_##kind, TYPE_##type, ATTR_##name, ATTR_##of, field, NONE, unit, "the same as " of_text ", which wins"},
 #include "schema/schema_list.h"
 };
 
@@ -60,6 +62,20 @@ const SchemaRow *schema_row(NodeKind kind, AttrName name) {
 #include "schema/schema_list.h"
     };
     return numbers[kind][name] ? &schema_rows[numbers[kind][name] - 1] : NULL;
+}
+
+bool schema_may_stand(NodeKind kind, PlaceKind children) {
+    PlaceKind place = schema_kinds[kind].place;
+    switch (children) {
+    case PLACE_WINDOW:
+        return place == PLACE_HAND || place == PLACE_PICTURE || place == PLACE_TOP;
+    case PLACE_PICTURES:
+        return place == PLACE_PICTURE || place == PLACE_TOP;
+    case PLACE_DRAWING:
+        return place == PLACE_DRAWING || place == PLACE_SOURCE || place == PLACE_FILTER;
+    default:
+        return place == children;
+    }
 }
 
 PhysForceKind schema_force(NodeKind kind) {
@@ -81,7 +97,6 @@ NodeKind schema_kind_of_force(PhysForceKind force) {
 }
 
 bool schema_is_undrawn(Str name) {
-    static const char undrawn[] = "canvas3d reference video shader adjust blur bloom edges chromakey feedback vignette "
-                                  "noise flare kaleid";
+    static const char undrawn[] = "video";
     return str_word_number(name, undrawn) >= 0;
 }

@@ -40,11 +40,16 @@ typedef enum PlaceKind {
     PLACE_NOTHING,
     PLACE_SCENE, // at the top; does something
     PLACE_PHYSICS,
-    PLACE_TOP, // at the top; shows something. This and what follows are places of windows
-    PLACE_WINDOW,
+    PLACE_TOP,      // at the top or where pictures may stand; shows something. From here on: in windows
+    PLACE_WINDOW,   // as CHILDREN: pictures and hands
+    PLACE_PICTURES, // as CHILDREN: pictures, those of the top included
+    PLACE_PICTURE,
+    PLACE_HAND,    // pointer and keys
     PLACE_DRAWING, // sources, too, may stand where one draws
     PLACE_SOURCE,
+    PLACE_FILTER, // likewise
     PLACE_STOP,
+    PLACE_SCENE3D,
 } PlaceKind;
 
 // What a value becomes.
@@ -58,6 +63,10 @@ typedef enum AttrShape {
     SHAPE_NORMAL,  // likewise, of length 1; NULL if it has no direction
     SHAPE_MEASURE, // double, finite
     SHAPE_PAIR,    // double[2]; one number stands for both
+    SHAPE_TRIPLE,  // double[3]; likewise
+    SHAPE_QUAD,    // double[4]; likewise
+    SHAPE_LIST,    // any doubles
+    SHAPE_SEED,    // double: the seed hash of any value, / 2^48
     SHAPE_POINTS,  // an even number of doubles
     SHAPE_COLOR,   // double[4]
     SHAPE_FLAG,    // bool
@@ -70,8 +79,19 @@ typedef enum AttrShape {
 // The meanings of words.
 enum { JOIN_MITER, JOIN_ROUND, JOIN_BEVEL };
 enum { CAP_BUTT, CAP_ROUND, CAP_SQUARE };
-enum { FILL_WINDING, FILL_EVEN_ODD };
+enum { FILL_WINDING, FILL_EVEN_ODD, FILL_INVERSE_WINDING, FILL_INVERSE_EVEN_ODD };
 enum { SLANT_UPRIGHT, SLANT_OBLIQUE, SLANT_ITALIC };
+enum { TONEMAP_NONE, TONEMAP_REINHARD, TONEMAP_ACES, TONEMAP_AGX, TONEMAP_AGX_PUNCHY };
+enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };
+enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
+enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
+// How pictures combine, in linear light. UNKNOWN: another word was given.
+enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };
+enum { FACE_BACK, FACE_FRONT };
+enum { MIX3D_OVER, MIX3D_SOURCE, MIX3D_DEST, MIX3D_DEST_OVER, MIX3D_ADD, MIX3D_SUBTRACT, MIX3D_LIGHTEN, MIX3D_DARKEN };
+enum { FOV_HORIZONTAL, FOV_VERTICAL, FOV_DIAGONAL, FOV_WIDE, FOV_NARROW };
+enum { UV_STANDARD, UV_REPEAT };
+enum { REMAP_NONE, REMAP_SPHERE, REMAP_PLANE, REMAP_BOOK };
 typedef enum CompositeMode {
 #define COMPOSITE(id, operator, text) COMPOSITE_##id,
 #include "schema/composite_list.h"
@@ -110,9 +130,9 @@ enum { FIELD_NOWHERE = UINT16_MAX };
 
 typedef struct SchemaRow {
     uint8_t kind;   // NodeKind
-    uint8_t name;   // AttrName
     uint8_t type;   // AttrType
-    uint8_t alias;  // AttrName of the attribute that this one is another name of
+    uint16_t name;  // AttrName
+    uint16_t alias; // AttrName of the attribute that this one is another name of
     uint16_t field; // offset in the record of its kind, or FIELD_NOWHERE
     Fallback fallback;
     const char *unit; // "" for none, or where the help tells
@@ -137,6 +157,8 @@ const SchemaRow *schema_row(NodeKind kind, AttrName name);
 PhysForceKind schema_force(NodeKind kind);
 // The kind that stands for a force.
 NodeKind schema_kind_of_force(PhysForceKind force);
+// May a node of this kind stand where these may?
+bool schema_may_stand(NodeKind kind, PlaceKind children);
 // Is it one of the nodes that Flitter shows and petri does not?
 bool schema_is_undrawn(Str name);
 

@@ -5,7 +5,8 @@ bool petri_node_kind(size_t number, PetriNodeKind *out) {
     if (!out || number >= KIND_COUNT)
         return false;
     const KindRow *kind = &schema_kinds[number];
-    *out = (PetriNodeKind){kind->name, kind->place < PLACE_TOP ? "physics" : "canvas", kind->help};
+    bool solid = number == KIND_CANVAS3D || kind->place == PLACE_SCENE3D;
+    *out = (PetriNodeKind){kind->name, kind->place < PLACE_TOP ? "physics" : solid ? "canvas3d" : "canvas", kind->help};
     return true;
 }
 

@@ -78,6 +78,10 @@ static PhysOptions physics_options(const PetriOptions *options) {
                            .neighbours = (PhysNeighbours)options->neighbours,
                            .keep_forces = options->keep_forces};
     cpu_choose(options->cpu, &physics.cpu);
+    const PetriRanks *ranks = options->ranks;
+    if (ranks)
+        physics.ranks = (PhysRanks){ranks->rank, ranks->count,   ranks->least, ranks->host,
+                                    ranks->send, ranks->receive, ranks->spread};
     return physics;
 }
 
@@ -193,6 +197,7 @@ static void open_parts(PetriSession *session, void *context) {
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
     session->options.cpu = NULL; // it is the host's
+    session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);
 }
 

@@ -16,6 +16,38 @@ Shown session_shown(PetriSession *session) {
                    .meter = &session->meter};
 }
 
+uint32_t session_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[], uint32_t room) {
+    static const char *const all[] = {
+#define ENGINE_NAME(id, text, is_static) text,
+#include "program/engine_names.h"
+#undef ENGINE_NAME
+    };
+    uint32_t count = 0;
+    for (uint32_t i = 0; i < sizeof all / sizeof *all && count < room; i++) {
+        Value v = session->vm.globals[i];
+        if (v.kind != VALUE_NUMBERS || v.len != 1)
+            continue;
+        names[count] = all[i];
+        numbers[count++] = v.as.number;
+    }
+    for (uint32_t i = session->config.define_count; i-- > 0 && count < room;) { // the last of one name comes first
+        const Define *define = &session->config.defines[i];
+        if (define->value.kind != VALUE_NUMBERS || define->value.len != 1)
+            continue;
+        names[count] = str_to_c(arena, define->name->name);
+        numbers[count++] = define->value.as.number;
+    }
+    return count;
+}
+
+bool session_has(const PetriSession *session, const Diag *fault) {
+    const Unit *program = session->config.program;
+    for (const Unit *unit = program; unit; unit = unit == program ? session->loader.modules : unit->next)
+        if (unit->source == fault->source && fault->source)
+            return fault->span.end <= fault->source->text.len;
+    return false;
+}
+
 bool petri_drawable(PetriSession *session) {
     if (!session)
         return false;

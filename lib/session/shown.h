@@ -23,6 +23,13 @@ typedef struct Shown {
 
 Shown session_shown(PetriSession *session);
 
+// The names of the frame that are numbers, `beat` and the like and what was defined; at most `room`, the names in the
+// arena. Returns how many there are.
+uint32_t session_numbers(PetriSession *session, Arena *arena, const char *names[], double numbers[], uint32_t room);
+
+// Whether the source in which the fault lies is still there: a script may have been reloaded since.
+bool session_has(const PetriSession *session, const Diag *fault);
+
 // Memory that stays with the session, always of the same size, for the room that draws; zeros before frame 0. Within a
 // protected call.
 void *session_drawing(PetriSession *session, size_t size);

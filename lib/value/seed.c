@@ -69,13 +69,21 @@ static uint64_t hash_vector(Hashing *hashing, Value v, bool floored) {
     return hash;
 }
 
-uint64_t value_seed_hash(Arena *arena, Value seed) {
+static uint64_t hash_all(Arena *arena, Value seed, bool floored) {
     Hashing hashing = {arena, {0}};
     ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
-    uint64_t hash = hash_vector(&hashing, seed, true);
+    uint64_t hash = hash_vector(&hashing, seed, floored);
     if (hashing.walk.facts)
         arena_rewind(arena, mark);
     return hash;
+}
+
+uint64_t value_exact_hash(Arena *arena, Value seed) {
+    return hash_all(arena, seed, false);
+}
+
+uint64_t value_seed_hash(Arena *arena, Value seed) {
+    return hash_all(arena, seed, true);
 }
 
 double value_stream_item(Value stream, uint64_t i) {

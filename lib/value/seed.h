@@ -6,6 +6,8 @@
 
 // The 64-bit key of a seed. A stream counts as null. The arena is as for value_equal.
 uint64_t value_seed_hash(Arena *arena, Value seed);
+// The same hash without rounding numbers down (spec pictures.md 7.9).
+uint64_t value_exact_hash(Arena *arena, Value seed);
 // Item i of a stream value, as `stream[i]` gives it.
 double value_stream_item(Value stream, uint64_t i);
 // Position in a stream of an index x: floored, as a signed 64-bit integer, as unsigned (B9.3).

@@ -12,6 +12,7 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
+#include "render/recording.h"
 #include "render/video.h"
 #include "run/frames.h"
 
@@ -23,6 +24,7 @@ struct Job {
     Job *next;
     PetriPicture *picture;
     bool for_film;
+    bool looks_back;
     char *file; // owned, or NULL
 };
 
@@ -34,6 +36,7 @@ struct Painting {
     int waiting_count;
     Job *running[MOST_WORKERS]; // in any order; NULL: none
     Job *done;
+    bool begun;  // there is a first worker
     bool ending; // no more will be added
     bool failed;
     int left; // that were given up in their midst
@@ -42,6 +45,7 @@ struct Painting {
     double fps;
     Video video;
     uint32_t *pixels; // of the film's frames
+    Recording recording;
     pthread_t workers[MOST_WORKERS];
     int worker_count;
     char trouble[600];
@@ -97,18 +101,13 @@ static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
     if (job->file != NULL) {
         good = good && saved(painting, petri_picture_save(job->picture, painter, job->file));
     }
-    for (size_t i = 0; good && petri_picture_record(job->picture, i) != NULL; i++) {
-        good = saved(painting, petri_picture_save_record(job->picture, painter, i));
+    if (good && job->looks_back) {
+        good = recording_add(&painting->recording, job->picture, painter);
+        if (!good && painting->recording.trouble != NULL) {
+            set_trouble(painting, painting->recording.trouble);
+        }
     }
     return good;
-}
-
-// The files that a job writes, by number; NULL beyond the last.
-static const char *written_file(const Job *job, size_t index) {
-    if (job->file != NULL && index == 0) {
-        return job->file;
-    }
-    return petri_picture_record(job->picture, job->file != NULL ? index - 1 : index);
 }
 
 static const char *last_part(const char *file) {
@@ -117,15 +116,7 @@ static const char *last_part(const char *file) {
 
 // Whether two jobs may write the same file. Paths may differ and lead to the same: names count.
 static bool share_file(const Job *a, const Job *b) {
-    const char *one, *two;
-    for (size_t i = 0; (one = written_file(a, i)) != NULL; i++) {
-        for (size_t k = 0; (two = written_file(b, k)) != NULL; k++) {
-            if (strcmp(last_part(one), last_part(two)) == 0) {
-                return true;
-            }
-        }
-    }
-    return false;
+    return a->file != NULL && b->file != NULL && strcmp(last_part(a->file), last_part(b->file)) == 0;
 }
 
 static Job **find_running(Painting *painting, const Job *job) {
@@ -136,8 +127,12 @@ static Job **find_running(Painting *painting, const Job *job) {
     return &painting->running[i];
 }
 
-// Frames that write the same file do so one after the other, so that the last one's picture stays.
-static bool may_run(const Painting *painting, const Job *job) {
+// Frames that write the same file do so one after the other, so that the last one's picture stays. Those that look back
+// are all made by the first worker.
+static bool may_run(const Painting *painting, const Job *job, bool first) {
+    if (job->looks_back && !first) {
+        return false;
+    }
     for (int i = 0; i < MOST_WORKERS; i++) {
         if (painting->running[i] != NULL && share_file(painting->running[i], job)) {
             return false;
@@ -147,8 +142,8 @@ static bool may_run(const Painting *painting, const Job *job) {
 }
 
 // The next job, or NULL if there will be none.
-static Job *take_job(Painting *painting) {
-    while (painting->waiting != NULL ? !may_run(painting, painting->waiting) : !painting->ending) {
+static Job *take_job(Painting *painting, bool first) {
+    while (painting->waiting != NULL ? !may_run(painting, painting->waiting, first) : !painting->ending) {
         pthread_cond_wait(&painting->changed, &painting->lock);
     }
     Job *job = painting->waiting;
@@ -171,7 +166,9 @@ static void *work(void *context) {
         set_trouble(painting, "out of memory");
     }
     pthread_mutex_lock(&painting->lock);
-    for (Job *job = take_job(painting); job != NULL; job = take_job(painting)) {
+    bool first = !painting->begun;
+    painting->begun = true;
+    for (Job *job = take_job(painting, first); job != NULL; job = take_job(painting, first)) {
         bool good = painter != NULL && !painting->failed;
         pthread_mutex_unlock(&painting->lock);
         double start = clock_seconds();
@@ -190,7 +187,7 @@ static void *work(void *context) {
     return NULL;
 }
 
-Painting *painting_start(const char *film, double fps) {
+Painting *painting_start(const char *film, double film_fps, double fps) {
     Painting *painting = memory_zeroed(sizeof *painting);
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     int wanted = film != NULL || processors < 1 ? 1 : processors > MOST_WORKERS ? MOST_WORKERS : (int)processors;
@@ -198,7 +195,8 @@ Painting *painting_start(const char *film, double fps) {
     pthread_cond_init(&painting->changed, NULL);
     painting->last = &painting->waiting;
     painting->film = film;
-    painting->fps = fps;
+    painting->fps = film_fps;
+    painting->recording.fps = fps;
     painting->video = (Video){.frames = -1, .errors = -1, .unfinished = -1};
     sigset_t all, before; // signals are for the thread that makes the frames
     sigfillset(&all);
@@ -229,7 +227,7 @@ static void wait_a_moment(Painting *painting) {
 
 bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file) {
     Job *job = memory_zeroed(sizeof *job);
-    *job = (Job){.picture = picture, .for_film = for_film};
+    *job = (Job){.picture = picture, .for_film = for_film, .looks_back = petri_picture_looks_back(picture)};
     job->file = file == NULL ? NULL : memory_text(file);
     pthread_mutex_lock(&painting->lock);
     while (painting->waiting_count >= QUEUE && !painting->failed && frames_signal() == 0) {
@@ -303,6 +301,10 @@ bool painting_finish(Painting *painting, PetriSession *session, bool abandon, co
         }
         painting->seconds += clock_seconds() - start;
     }
+    if (!recording_end(&painting->recording, abandon)) {
+        painting->failed = true;
+        set_trouble(painting, painting->recording.trouble != NULL ? painting->recording.trouble : "out of memory");
+    }
     *trouble = painting->trouble[0] == '\0' ? NULL : painting->trouble;
     return !painting->failed;
 }
@@ -321,6 +323,7 @@ void painting_free(Painting *painting) {
     }
     pthread_mutex_destroy(&painting->lock);
     pthread_cond_destroy(&painting->changed);
+    recording_free(&painting->recording);
     free(painting->pixels);
     free(painting);
 }

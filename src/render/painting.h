@@ -11,10 +11,12 @@
 
 typedef struct Painting Painting;
 
-// A film of this name and speed (NULL: none) is made of the pictures that are added for it. NULL after a message.
-Painting *painting_start(const char *film, double fps);
+// A film of this name and speed (NULL: none) is made of the pictures that are added for it; those that `!record` nodes
+// name are `fps` fast. NULL after a message.
+Painting *painting_start(const char *film, double film_fps, double fps);
 // Takes over a picture: for the film, for a file (whose name is copied) or NULL, and for the files that its own
-// `!record` nodes name. Waits while many are waiting, until a signal came. False if something has failed before.
+// `!record` nodes name. Pictures that look back are to be added of each frame. Waits while many are waiting, until a
+// signal came. False if something has failed before.
 bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, const char *file);
 // Gives what was wrong with pictures that are done to the session's diagnostic callback, and frees them.
 void painting_tell(Painting *painting, PetriSession *session);

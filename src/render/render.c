@@ -125,7 +125,7 @@ static void output_frame(Render *render) {
     } else if (wanted && render->kind == OUTPUT_SERIES) {
         SCOPED_TEXT name = series_name(options->output, number);
         draw_frame(render, false, name);
-    } else if (petri_records(render->frames.session)) {
+    } else if (petri_looks_back(render->frames.session)) {
         draw_frame(render, false, NULL);
     }
 }
@@ -208,8 +208,9 @@ static int end_render(Render *render, bool going) {
 static int render_frames(Render *render) {
     Frames *frames = &render->frames;
     const Options *options = frames->options;
-    double fps = frames_fps(frames) / (double)options->every;
-    render->painting = painting_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps);
+    double fps = frames_fps(frames);
+    render->painting =
+        painting_start(render->kind == OUTPUT_FILM ? options->output : NULL, fps / (double)options->every, fps);
     if (render->painting == NULL) {
         return STATUS_FAILED;
     }

@@ -108,6 +108,11 @@ int world_open(World *world, const Host *host, const Options *options) {
 }
 
 void world_close(World *world) {
+    if (!recording_end(&world->recording, false)) {
+        message("%s", world->recording.trouble);
+        world->failed = true;
+    }
+    recording_free(&world->recording);
     petri_picture_free(&world->picture);
     petri_painter_close(&world->painter);
     petri_close(&world->session);
@@ -119,8 +124,8 @@ void world_close(World *world) {
 
 // Files that the script's `!record` nodes name.
 static void record(World *world) {
-    for (size_t i = 0; petri_picture_record(world->picture, i) != NULL; i++) {
-        world->failed = petri_picture_save_record(world->picture, world->painter, i) != PETRI_OK || world->failed;
+    if (petri_picture_looks_back(world->picture) && !recording_add(&world->recording, world->picture, world->painter)) {
+        world->failed = true;
     }
 }
 
@@ -137,6 +142,7 @@ static void take_picture(World *world) {
     PetriStatus status = petri_picture(world->session, &options, &world->picture);
     world->failed = world->failed || status == PETRI_MEMORY;
     if (status == PETRI_OK && !world->early) {
+        world->recording.fps = petri_frame(world->session).fps;
         record(world);
         petri_picture_tell(world->session, world->picture);
     }

@@ -10,6 +10,7 @@
 #include "cli/state_file.h"
 #include "cli/watch.h"
 #include "petri-draw.h"
+#include "render/recording.h"
 
 // What was told about a script that runs all the same, for a view to list.
 typedef struct Warnings {
@@ -22,6 +23,7 @@ typedef struct World {
     PetriSession *session;
     PetriPainter *painter;
     PetriPicture *picture; // of the last frame; NULL: there is nothing to draw
+    Recording recording;
     Watch *watch;
     int64_t frames; // made since the view was opened, without early ones
     bool early;     // the last frame could not show particles where they are (petri_picture_ready)

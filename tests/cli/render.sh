@@ -76,11 +76,11 @@ else
     petri render nothing.fl -o none.png --frames 1
     check "a script that draws nothing is an error" one_error
     check "… without a file" [ ! -e none.png ]
-    printf '!window size=60;40\n    !canvas3d\n        !sphere\n!physics state=:w dimensions=3\n    !particle id=1\n' >solid.fl
+    printf '!window size=60;40\n    !video\n!physics state=:w dimensions=3\n    !particle id=1\n' >solid.fl
     petri render solid.fl -o solid.png --frames 2
     check "a window that petri cannot draw shows the particles" status_is 0
     check "… in its size" sized solid.png 60x40
-    check "… and what is left out is told once" count_is err "'!canvas3d' is not drawn" 1
+    check "… and what is left out is told once" count_is err "'!video' is not drawn" 1
     printf '!physics state=:w dimensions=2\n    !particle id=1 radius=1\n' >bare.fl
     petri render bare.fl -o bare.png --frames 2
     check "physics alone has a picture too" sized bare.png 1080x1080
@@ -90,20 +90,22 @@ else
     # record
     cat >record.fl <<'END'
 !window size=20;20
-    !canvas
-        !rect size=10 fill=true
     !record filename=("frame";frame;".png") if frame%2 else null
+        !canvas
+            !rect size=10 fill=true
 END
     petri render record.fl -o last.png --frames 4
     check "!record writes pictures of the frames that it is in" [ "$(echo frame*.png)" = "frame1.png frame3.png" ]
     check "… as the output would be" cmp -s frame3.png last.png
-    printf '!window size=300;300\n    !canvas\n        !ellipse point=10+frame;50 radius=40 fill=true\n    !record filename="same.png"\n' >record.fl
+    printf '!window size=300;300\n    !record filename="deep/er/same.png"\n        !canvas\n            !ellipse point=10+frame;50 radius=40 fill=true\n' >record.fl
+    petri render record.fl -o first.png --frames 1
+    rm -r deep
     petri render record.fl -o last.png --frames 60
-    check "!record may write the same file in each frame" status_is 0
-    check "… in their order: the last stays" cmp -s same.png last.png
+    check "!record may name the same file in each frame" status_is 0
+    check "… it is written once, and its folders are made" cmp -s deep/er/same.png first.png
     petri run record.fl --frames 4
     check "run leaves !record alone" status_is 0
-    printf '!window size=20;20\n    !canvas\n    !record filename="x.txt"\n' >record.fl
+    printf '!window size=20;20\n    !record filename="x.txt"\n        !canvas\n' >record.fl
     petri render record.fl -o last.png --frames 4
     check "!record to another kind of file is an error" one_error
 
@@ -112,9 +114,9 @@ END
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
 !window size=20;20
-    !canvas
-        !rect size=20 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
     !record filename=concat("early-";frame;".png")
+        !canvas
+            !rect size=20 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
 END
     printf '!window size=20;20\n    !canvas\n        !rect size=20 fill=true color=0;1;0\n' >green.fl
     petri render green.fl -o green.png --frames 1
@@ -170,7 +172,7 @@ let nan=0/0
             !rect size=40 fill=true
         !font size=nan
         !text text="x" point=nan
-        !paint color=1;2 stroke_width=-1 stroke_join=:rond composite=:modulate colour=3
+        !paint color=1;2 stroke_width=-1 stroke_join=:rond composite=:modulat colour=3
         !elipse radius=5
         !stop color=1
         !image filename="absent.png"
@@ -183,7 +185,7 @@ END
     for text in "!group: translate should be x;y, not nan;0" "!ellipse: point should be x;y, not inf;0" \
         "!ellipse: radius should be" "!line: points should be" "!rect: size should be" "!font: size should be" \
         "!text: point should be" "!paint: color should be grey" "!paint: stroke_width should be number, 0 or more" \
-        "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "composite=:modulate cannot be drawn" \
+        "!paint: stroke_join should be :miter, :round or :bevel, not :rond" "!paint: composite should be a word such as :over" \
         "unknown attribute 'colour', did you mean 'color'?" "'!elipse' is not drawn; it is left out, did you mean '!ellipse'?" \
         "'!stop' has no effect here" "cannot read 'absent.png': No such file" "cannot read 'disc.fl': it is neither PNG nor JPEG" \
         "there is no font 'No Such Font'"; do
@@ -231,7 +233,7 @@ END
     petri render nest.fl -o nest.png --frames 1
     check "10,000 clips in each other are drawn" status_is 0
     check "… as if they were not there" cmp -s nest.png blue.png
-    sed 's/!group/!layer/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
+    sed 's/!group/!layer size=1000/; /!path/d; /!ellipse/d; /!clip/d' nest.fl >layers.fl
     petri render layers.fl -o layers.png --frames 1
     check "of 10,000 layers the innermost are drawn without" count_is err "layers are too many" 1
     check "… and nothing is lost" cmp -s layers.png blue.png

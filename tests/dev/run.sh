@@ -22,15 +22,16 @@ stand_in() {
 
 # machine: a new one, with the project and nothing else; root without a terminal, who has a network.
 machine() {
-    rm -rf "$work/bin" "$work/later" "$work/project" "$work/fonts" "$work/lists"
-    mkdir -p "$work/bin" "$work/later" "$work/project/.ci" "$work/fonts/truetype/dejavu"
-    for tool in awk cat chmod cp cut dirname echo env fold grep head ln mkdir mktemp mv nproc rm sed sh sleep stty tail tee touch \
+    rm -rf "$work/bin" "$work/later" "$work/project" "$work/fonts" "$work/lists" "$work/mesa"
+    mkdir -p "$work/bin" "$work/later" "$work/project/.ci" "$work/fonts/truetype/dejavu" "$work/mesa/dri"
+    for tool in awk cat chmod cp cut dirname echo env fold grep head ln ls mkdir mktemp mv nproc rm sed sh sleep stty tail tee touch \
         tr true wc xargs; do
         ln -s "$(PATH=/usr/bin:/bin env which $tool)" "$work/bin/$tool"
     done
     cp "$root/dev" "$work/project"
     cp "$root"/.ci/* "$work/project/.ci"
-    sed -i "s|/usr/share/fonts|$work/fonts|; s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$work/project/dev" "$work/project/.ci"/*
+    sed -i "s|/usr/share/fonts|$work/fonts|; s|/usr/lib/\*|$work/mesa|;
+            s|:/usr/sbin:/sbin||; s|/usr/bin/python3|$work/bin/python3|" "$work/project/dev" "$work/project/.ci"/*
     : >"$work/calls"
     uid=0 network=yes breaks=
     stand_in bin/id <<'END'
@@ -64,10 +65,12 @@ case " $* " in
         xvfb) package=Xvfb ;;
         x11-utils) package=xprop ;;
         imagemagick) package=compare ;;
+        libgl1-mesa-dri) touch "$WORK/mesa/dri/swrast_dri.so" ;;
         desktop-file-utils) package=desktop-file-validate ;;
         python3-dev) package=python3-config ;;
         python3-*) package=python3 ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
+        fonts-liberation) mkdir -p "$WORK/fonts/truetype/liberation" ;;
         fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;
         esac
         case $package in
@@ -86,10 +89,14 @@ case $2 in
 cairo) test -e "$WORK/later/libcairo2-dev" ;;
 pangocairo) test -e "$WORK/later/libpango1.0-dev" ;;
 libjpeg) test -e "$WORK/later/libjpeg-dev" ;;
+libpng) test -e "$WORK/later/libpng-dev" ;;
+epoxy) test -e "$WORK/later/libepoxy-dev" && test -e "$WORK/later/libegl-dev" ;;
+mpfr) test -e "$WORK/later/libmpfr-dev" ;;
 chafa) test -e "$WORK/later/libchafa-dev" ;;
 libedit) test -e "$WORK/later/libedit-dev" ;;
 sdl2) test -e "$WORK/later/libsdl2-dev" ;;
 yaml-0.1) test -e "$WORK/later/libyaml-dev" ;;
+ompi-c) test -e "$WORK/later/libopenmpi-dev" ;;
 cmocka) test -e "$WORK/later/libcmocka-dev" ;;
 x11) test -e "$WORK/later/libx11-dev" ;;
 esac

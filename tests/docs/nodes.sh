@@ -4,7 +4,7 @@
 #
 # A node has a heading of its own, "## `!kind`" of any level; two may share one. Below it stand
 #   | `attribute` | default | …     one row for each attribute, or for several of the same default; "–" for no default
-#   Also: [text](#heading), …       all attributes of the tables under those headings of the same document
+#   Also: [text](#heading), …       all attributes of the tables under those headings, and of what these have also
 # Rows under other headings count for nodes that name them only.
 set -u
 LC_ALL=C.UTF-8
@@ -47,7 +47,7 @@ slug='
     }'
 
 # The same from a document.
-read_document() { # FILE
+read_document() { # FILES, as if they were one
     awk "$slug"'
         /^```/ { code = !code }
         code { next }
@@ -58,7 +58,7 @@ read_document() { # FILE
             order[headings] = heading
             kinds[headings] = ""
             text = $0
-            while (match(text, /`![a-z_]+`/)) {
+            while (match(text, /`![a-z_0-9]+`/)) {
                 kinds[headings] = kinds[headings] " " substr(text, RSTART + 1, RLENGTH - 2)
                 text = substr(text, RSTART + RLENGTH)
             }
@@ -76,8 +76,8 @@ read_document() { # FILE
         }
         /^Also: / {
             text = $0
-            while (match(text, /\(#[^)]+\)/)) {
-                also[heading] = also[heading] " " substr(text, RSTART + 2, RLENGTH - 3)
+            while (match(text, /#[^)]+\)/)) {
+                also[heading] = also[heading] " " substr(text, RSTART + 1, RLENGTH - 2)
                 text = substr(text, RSTART + RLENGTH)
             }
         }
@@ -88,21 +88,25 @@ read_document() { # FILE
                     print kind[k]
                     all = rows[order[h]]
                     others = split(also[order[h]], other, " ")
-                    for (o = 1; o <= others; o++)
+                    for (o = 1; o <= others; o++) {
                         all = all rows[other[o]]
+                        further = split(also[other[o]], next_one, " ")
+                        for (k2 = 1; k2 <= further; k2++)
+                            all = all rows[next_one[k2]]
+                    }
                     lines = split(all, line, "\n")
                     for (l = 1; l < lines; l++)
                         print kind[k], line[l]
                 }
             }
-        }' "$1"
+        }' "$@"
 }
 
 failed=0
 checked=0
-compare() { # AREA DOCUMENT
+compare() { # AREA ROOT DOCUMENT [ANOTHER]
     sort "$work/$1.help" >"$work/help"
-    read_document "$2/$3" | sort >"$work/told"
+    read_document "$2/$3" ${4:+"$2/$4"} | sort >"$work/told"
     checked=$((checked + $(wc -l <"$work/help")))
     comm -23 "$work/help" "$work/told" >"$work/missing"
     comm -13 "$work/help" "$work/told" >"$work/surplus"
@@ -111,13 +115,14 @@ compare() { # AREA DOCUMENT
     failed=$((failed + $(cat "$work/missing" "$work/surplus" | wc -l)))
 }
 compare physics "$2" lib/physics/README.md
-compare canvas "$2" lib/canvas/README.md
+compare canvas "$2" lib/canvas/README.md lib/gl/README.md
+compare canvas3d "$2" lib/gl/SCENE.md
 
 # Excerpts "```flitter NAME.png" of the scripts of pictures: their lines follow each other in tests/pictures/NAME.fl.
 awk -v work="$work" '
     /^```flitter [a-z_]+\.png$/ { name = $2; sub(/\.png$/, "", name); file = work "/" ++count "." name ".excerpt"; next }
     /^```$/ { file = "" }
-    file != "" { sub(/^ +/, ""); print > file }' "$2/lib/canvas/README.md"
+    file != "" { sub(/^ +/, ""); print > file }' "$2/lib/canvas/README.md" "$2/lib/gl/README.md"
 for excerpt in "$work"/*.excerpt; do
     name=$(basename "$excerpt" .excerpt)
     name=${name#*.}
@@ -134,13 +139,13 @@ for excerpt in "$work"/*.excerpt; do
             }
             exit 1
         }' "$excerpt" - || {
-        echo "lib/canvas/README.md: the excerpt of $name.fl is not in that script"
+        echo "the excerpt of $name.fl is not in that script"
         failed=$((failed + 1))
     }
 done
 
 # What the references link to beside them must be there.
-for document in lib/physics/README.md lib/canvas/README.md; do
+for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
     folder=$2/$(dirname "$document")
     for target in $(grep -o '](\([^)#]*\)' "$2/$document" | sed 's/^](//' | sort -u); do
         checked=$((checked + 1))
@@ -151,7 +156,7 @@ for document in lib/physics/README.md lib/canvas/README.md; do
     done
 done
 # … and so must headings that they name.
-for document in lib/physics/README.md lib/canvas/README.md; do
+for document in lib/physics/README.md lib/canvas/README.md lib/gl/README.md lib/gl/SCENE.md; do
     awk -v document="$document" "$slug"'
         /^```/ { code = !code }
         !code && /^#+ / { sub(/^#+ /, ""); there[slug($0)] = 1 }

@@ -13,11 +13,9 @@ static void draw(PetriSession *session, PetriPainter *painter, PetriAutomatic au
         return;
     petri_picture_draw(picture, painter, pixels, SIDE, SIDE, SIDE * sizeof *pixels);
     petri_picture_tell(session, picture);
-    const char *record = NULL;
-    for (size_t i = 0; i == 0 || record; i++) {
-        record = petri_picture_record(picture, i);
-        fuzz_sink(NULL, record ? record : "", record != NULL);
-    }
+    PetriRecord record;
+    for (size_t i = 0; petri_picture_record(picture, painter, i, &record); i++)
+        fuzz_sink(NULL, record.file, 1);
     petri_picture_free(&picture);
 }
 

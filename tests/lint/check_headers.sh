@@ -17,6 +17,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;
+    lib/gl/internal.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
     esac
     # Included from a file, so that nothing is taken for a main file with unused definitions.
     printf '#include "%s"\n' "$PWD/$header" >"$scratch/alone.c"

@@ -370,9 +370,9 @@ check "and quits" ended 0
 cat >film.fl <<'END'
 !window size=400;400 title='film'
     !record filename='film/'; frame; '.png'
-    !canvas
-        for i in ..200
-            !ellipse point=400*uniform(:x;frame)[i];400*uniform(:y;frame)[i] radius=9 color=hsv(i/200;1;1) fill=true
+        !canvas
+            for i in ..200
+                !ellipse point=400*uniform(:x;frame)[i];400*uniform(:y;frame)[i] radius=9 color=hsv(i/200;1;1) fill=true
 END
 sed -i "s/'film\/'; frame; '.png'/concat('film\/';frame;'.png')/" film.fl
 mkdir film
@@ -391,9 +391,9 @@ cat >early.fl <<'END'
 !physics state=:w dimensions=2
     !particle id=1 position=20;20 velocity=1;0
 !window size=300;200 title='early'
-    !canvas
-        !rect size=300;200 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
     !record filename=concat('early/';frame;'.png')
+        !canvas
+            !rect size=300;200 fill=true color=(0;1;0) if $(:w;1) else (1;0;0)
 END
 mkdir early
 view early early.fl --frames 120

@@ -36,12 +36,16 @@ static void test_types(void **state) {
     assert_true(draw_attr(node, ATTR_COLOR)->as.numbers[2] == 0.3 && draw_attr(node, ATTR_COLOR)->as.numbers[3] == 1);
     node = read_one(&f, "line", "points", NUMBERS(&f, 1, 2, 3, 4));
     assert_int_equal(draw_attr(node, ATTR_POINTS)->count, 4);
+    node = read_one(&f, "line", "points", NUMBERS(&f, 1, 2, 3));
+    assert_int_equal(draw_attr(node, ATTR_POINTS)->count, 2);
+    node = read_one(&f, "rect", "size", NUMBERS(&f, -3, 4));
+    assert_true(draw_pair(node, ATTR_SIZE, pair) && pair[0] == -3 && pair[1] == 4);
     node = read_one(&f, "paint", "composite", value_number(symbol_number(STR("lighter"))));
     assert_int_equal(draw_attr(node, ATTR_COMPOSITE)->as.word, COMPOSITE_ADD);
     node = read_one(&f, "paint", "stroke_cap", value_string(&f.arena, STR("square")));
     assert_int_equal(draw_attr(node, ATTR_STROKE_CAP)->as.word, CAP_SQUARE);
     node = read_one(&f, "font", "weight", value_number(symbol_number(STR("bold"))));
-    assert_true(draw_number(node, ATTR_WEIGHT) == 700);
+    assert_true(draw_number(node, ATTR_FONT_WEIGHT) == 700);
     node = read_one(&f, "text", "text", NUMBERS(&f, 1, 2.5));
     assert_string_equal(draw_attr(node, ATTR_TEXT)->as.text.bytes, "12.5");
     assert_string_equal(f.told, "");
@@ -59,20 +63,20 @@ static void test_reports(void **state) {
         bool kept; // the node
         const char *told;
     } rows[] = {
-        {"rect", "size", 1, {-1}, false, "!rect size should be one number or two, 0 or more, not -1 [bad-attribute]\n"},
-        {"rect",
-         "size",
-         3,
-         {1, 2, 3},
+        {"ellipse",
+         "radius",
+         1,
+         {-1},
          false,
-         "!rect size should be one number or two, 0 or more, not 1;2;3 [bad-attribute]\n"},
+         "!ellipse radius should be one number or two, 0 or more, not -1 [bad-attribute]\n"},
+        {"rect", "size", 3, {1, 2, 3}, false, "!rect size should be one number or two, not 1;2;3 [bad-attribute]\n"},
         {"paint",
          "color",
          2,
          {1, 1},
          true,
          "!paint color should be grey, r;g;b or r;g;b;a, each from 0 to 1, not 1;1 [bad-attribute]\n"},
-        {"line", "points", 3, {1, 2, 3}, false, "!line points should be x;y;x;y…, not 1;2;3 [bad-attribute]\n"},
+        {"line", "points", 2, {1, INFINITY}, false, "!line points should be x;y;x;y…, not 1;inf [bad-attribute]\n"},
         {"group", "rotate", 1, {INFINITY}, false, "!group rotate should be number, not inf [bad-attribute]\n"},
         {"group",
          "rotat",
@@ -94,7 +98,7 @@ static void test_reports(void **state) {
          1,
          {5000},
          true,
-         "!font weight should be 100 to 1000, or a word such as :bold, not 5000 [bad-attribute]\n"},
+         "!font weight should be 0 to 1000, or a word such as :bold, not 5000 [bad-attribute]\n"},
     };
     for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
         const DrawNode *node = read_one(&f, rows[i].kind, rows[i].attribute, numbers(&f, rows[i].count, rows[i].x));
@@ -129,8 +133,8 @@ static void test_undrawn(void **state) {
     (void)state;
     Fixture f;
     begin(&f);
-    assert_null(read_one(&f, "canvas3d", "size", value_number(1)));
-    assert_string_equal(f.told, "!canvas '!canvas3d' is not drawn; it is left out [undrawn-node]\n");
+    assert_null(read_one(&f, "video", "size", value_number(1)));
+    assert_string_equal(f.told, "!canvas '!video' is not drawn; it is left out [undrawn-node]\n");
     assert_null(read_one(&f, "canvaz", "size", value_number(1)));
     assert_string_equal(f.told,
                         "!canvas '!canvaz' is not drawn; it is left out, did you mean '!canvas'? [unknown-node]\n");

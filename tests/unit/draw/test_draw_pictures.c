@@ -38,18 +38,26 @@ static void test_independent(void **state) {
     int width, height;
     player_run(player, DISC, 2);
     PetriPicture *second = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_true(petri_records(player->session));
+    assert_true(petri_looks_back(player->session));
     player_step(player, 3);
     PetriPicture *fifth = take(player, petri_default_picture_options(), PETRI_OK);
-    assert_false(petri_records(player->session));
+    assert_false(petri_looks_back(player->session));
     assert_int_equal(petri_load_text(player->session, "t.fl", "!x", PETRI_Z), PETRI_OK);
     PetriOptions options = player_options(player);
     player_reopen(player, &options); // closes the first session
     assert_string_equal(petri_picture_title(second), "disc 1");
     assert_int_equal(petri_picture_frame(fifth), 4);
-    assert_string_equal(petri_picture_record(second, 0), "a.png");
-    assert_null(petri_picture_record(second, 1));
-    assert_null(petri_picture_record(fifth, 0));
+    PetriPainter *painter = petri_painter_open();
+    PetriRecord record;
+    assert_true(petri_picture_looks_back(second));
+    assert_false(petri_picture_looks_back(fifth));
+    if (petri_picture_make(second, painter) != PETRI_MISSING) {
+        assert_true(petri_picture_record(second, painter, 0, &record));
+        assert_string_equal(record.file, "a.png");
+        assert_false(petri_picture_record(second, painter, 1, &record));
+        assert_false(petri_picture_record(fifth, painter, 0, &record)); // another was made last
+    }
+    petri_painter_close(&painter);
     petri_picture_size(second, &width, &height);
     assert_int_equal(width, 8);
     assert_int_equal(height, 4);
@@ -93,9 +101,9 @@ static void test_sizes(void **state) {
     options.size++; // of a later petri-draw.h
     take(player, options, PETRI_INVALID);
     player_run(player, "!window\n    !canvas\n", 1);
-    check_size(player, petri_default_picture_options(), 1920, 1080);
+    check_size(player, petri_default_picture_options(), 512, 512);
     player_run(player, "!window\n    !canvas size=30;20\n", 1);
-    check_size(player, petri_default_picture_options(), 30, 20);
+    check_size(player, petri_default_picture_options(), 512, 512);
 }
 
 // Which of several things is drawn.
@@ -106,7 +114,7 @@ static void test_choice(void **state) {
     player_run(player, "!x\n", 1);
     assert_false(petri_drawable(player->session));
     take(player, options, PETRI_INVALID);
-    player_run(player, "!window size=3;3\n    !canvas3d\n!offscreen size=4;4\n    !canvas\n", 1);
+    player_run(player, "!window size=3;3\n    !video\n!offscreen size=4;4\n    !canvas\n", 1);
     assert_true(petri_drawable(player->session));
     check_size(player, options, 4, 4);
     options.window = 0;

@@ -340,7 +340,7 @@ static void test_nodes(void **state) {
             rects += strcmp(kind.name, "rect") == 0 && strcmp(attribute.name, "radius") == 0;
         }
     }
-    assert_int_equal(groups, 2); // of physics and of the canvas
+    assert_int_equal(groups, 3); // of physics, of the canvas and of three dimensions
     assert_int_equal(rects, 1);
     assert_false(petri_node_kind(kinds + 1000, &kind));
     assert_false(petri_node_attribute(kinds, 0, &attribute));

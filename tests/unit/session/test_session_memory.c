@@ -250,7 +250,11 @@ static PetriStatus act_dump(Stage *stage) {
 }
 
 static PetriStatus act_input(Stage *stage) {
-    return petri_input(stage->player.session, "if x:", PETRI_Z) <= PETRI_INPUT_PART ? PETRI_OK : PETRI_INVALID;
+    uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
+    if (petri_input(stage->player.session, "area(1;", PETRI_Z) == PETRI_INPUT_PART)
+        return PETRI_OK;
+    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // it is said
+    return PETRI_MEMORY;
 }
 
 static PetriStatus prompt(Stage *stage, const char *text) {
@@ -300,7 +304,7 @@ static PetriStatus act_simple(Stage *stage) {
     petri_set_fps(stage->player.session, 30);
     petri_hold(stage->player.session);
     petri_drawable(stage->player.session);
-    petri_records(stage->player.session);
+    petri_looks_back(stage->player.session);
     return petri_key(stage->player.session, "a", true);
 }
 
@@ -323,11 +327,15 @@ static PetriStatus act_profile(Stage *stage) {
 static PetriStatus act_records(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
-    bool ready = petri_picture_ready(stage->player.session, &options), records = petri_records(stage->player.session);
+    bool ready = petri_picture_ready(stage->player.session, &options),
+         records = petri_looks_back(stage->player.session);
     PetriStatus status = petri_picture(stage->player.session, &options, &picture);
     if (status == PETRI_OK) {
         assert_true(ready && !records);
-        assert_null(petri_picture_record(picture, 0));
+        PetriPainter *painter = petri_painter_open();
+        PetriRecord record;
+        assert_false(painter && petri_picture_record(picture, painter, 0, &record)); // it has not been made
+        petri_painter_close(&painter);
         petri_picture_tell(stage->player.session, picture);
     }
     petri_picture_free(&picture);

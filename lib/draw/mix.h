@@ -1,0 +1,22 @@
+// mix.h: pictures laid over each other, without a program of the GPU (spec pictures.md 3.5, 3.6).
+#ifndef PETRI_DRAW_MIX_H
+#define PETRI_DRAW_MIX_H
+
+#include "draw/texture.h"
+
+typedef struct Mix {
+    Texture *const *inputs;
+    uint32_t count;
+    int width; // of the result
+    int height;
+    int how; // MIX_OVER …
+    float alpha;
+    Sampler sampler;
+    int bits;  // 8, 16, 32
+    bool srgb; // of 8 bits, encoded
+} Mix;
+
+// A new picture, or another reference to the only input if that is what would come out. NULL if memory is used up.
+Texture *mix_pictures(const Mix *mix);
+
+#endif

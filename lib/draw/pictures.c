@@ -1,0 +1,448 @@
+// pictures.c: see pictures.h.
+#include "draw/pictures.h"
+
+#include "draw/draw.h"
+#include "draw/mix.h"
+#include "gl/effect.h"
+#include "gl/scene.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+enum { DEEPEST = 100, USUAL_SIZE = 512 };
+
+// What is kept of a node until the next frame. A node continues the first one of the same parent that is like it and
+// that no other has continued.
+typedef struct Made Made;
+struct Made {
+    uint8_t kind;
+    bool taken;
+    Str id;
+    Str file;
+    Texture *picture; // or NULL
+    Made *children;   // as many as the node has
+    uint32_t count;
+};
+
+// A picture that is known by its id.
+typedef struct Known {
+    Str id;
+    Texture *picture;
+} Known;
+
+typedef struct Frame {
+    Arena arena; // of all that follows
+    Made top;    // its children are the windows
+    Known *known;
+    uint32_t known_count;
+    uint32_t known_room;
+    Recorded *records;
+    uint32_t record_count;
+} Frame;
+
+struct Pictures {
+    Frame frames[2];
+    double beat; // of the frame that was made last
+    int now;     // the number of the frame that is or was made last
+};
+
+typedef struct Walk {
+    PetriPainter *painter;
+    const CanvasPicture *picture;
+    DiagSink *faults;
+    Frame *frame;
+    const Frame *before;
+    int bits;    // of the window
+    int depth;   // of the node
+    bool gpu;    // is current
+    double beat; // of the frame before
+    Texture *shown;
+} Walk;
+
+Pictures *pictures_new(void) {
+    Pictures *pictures = calloc(1, sizeof *pictures);
+    for (int i = 0; pictures && i < 2; i++)
+        arena_init(&pictures->frames[i].arena, "pictures", SIZE_MAX);
+    return pictures;
+}
+
+static void forget_made(Made *made) {
+    texture_free(made->picture);
+    for (uint32_t i = 0; i < made->count; i++)
+        forget_made(&made->children[i]);
+}
+
+static void forget(Frame *frame) {
+    forget_made(&frame->top);
+    Arena arena = frame->arena;
+    arena_reset(&arena);
+    *frame = (Frame){.arena = arena};
+}
+
+void pictures_forget(PetriPainter *painter) {
+    const char *problem;
+    bool gpu = painter->gl && gl_enter(painter->gl, &problem);
+    for (int i = 0; painter->pictures && i < 2; i++)
+        forget(&painter->pictures->frames[i]);
+    if (gpu)
+        gl_leave(painter->gl);
+}
+
+void pictures_free(PetriPainter *painter) {
+    pictures_forget(painter);
+    for (int i = 0; painter->pictures && i < 2; i++)
+        arena_free(&painter->pictures->frames[i].arena);
+    free(painter->pictures);
+    painter->pictures = NULL;
+}
+
+const Recorded *pictures_records(const Pictures *pictures, uint32_t *count) {
+    const Frame *frame = &pictures->frames[pictures->now];
+    *count = frame->record_count;
+    return frame->records;
+}
+
+static Texture *find_known(const Frame *frame, Str id) {
+    for (uint32_t i = frame->known_count; i-- > 0;)
+        if (str_equal(frame->known[i].id, id))
+            return frame->known[i].picture;
+    return NULL;
+}
+
+Texture *pictures_find(const Pictures *pictures, Str id) {
+    Texture *found = find_known(&pictures->frames[pictures->now], id);
+    return found ? found : find_known(&pictures->frames[!pictures->now], id);
+}
+
+static void know(Walk *walk, Str id, Texture *picture) {
+    Frame *frame = walk->frame;
+    if (frame->known_count == frame->known_room) {
+        uint32_t room = frame->known_room ? 2 * frame->known_room : 8;
+        frame->known = arena_grow(&frame->arena, frame->known, frame->known_room * sizeof *frame->known,
+                                  room * sizeof *frame->known);
+        frame->known_room = room;
+    }
+    frame->known[frame->known_count++] = (Known){id, picture};
+}
+
+static Str text_of(Arena *arena, const DrawNode *node, AttrName name) {
+    const AttrValue *attr = schema_row((NodeKind)node->kind, name) ? draw_attr(node, name) : NULL;
+    return attr ? str_copy(arena, attr->as.text) : (Str){0};
+}
+
+// What the node continues, or NULL.
+static const Made *find_past(const Made *past, const Made *made) {
+    for (uint32_t i = 0; past && i < past->count; i++) {
+        Made *other = &past->children[i];
+        if (!other->taken && other->kind == made->kind && str_equal(other->id, made->id) &&
+            (made->kind != KIND_PICTURE_IMAGE || str_equal(other->file, made->file))) {
+            other->taken = true;
+            return other;
+        }
+    }
+    return NULL;
+}
+
+static Sampler sampler_of(const DrawNode *node) {
+    const AttrValue *border = draw_attr(node, ATTR_BORDER), *repeat = draw_attr(node, ATTR_REPEAT);
+    Sampler sampler = {.nearest = draw_flag(node, ATTR_NEAREST)};
+    for (int k = 0; border && k < 4; k++)
+        sampler.border[k] = (float)border->as.numbers[k];
+    for (int k = 0; repeat && !border && k < 2; k++)
+        sampler.repeat[k] = repeat->as.numbers[k] != 0;
+    return sampler;
+}
+
+static int bits_of(const DrawNode *node, int bits) {
+    double x = draw_number(node, ATTR_COLORBITS);
+    return x == 8 || x == 16 || x == 32 ? (int)x : bits;
+}
+
+// Memory for pixels is used up.
+_Noreturn static void give_up(Walk *walk) {
+    arena_exhausted(&walk->frame->arena);
+}
+
+static Texture *make_canvas(Walk *walk, const DrawNode *node, int width, int height) {
+    Texture *texture = texture_new(width, height, false);
+    if (!texture)
+        give_up(walk);
+    if (draw_canvas(walk->painter, walk->picture, node, texture, walk->faults) == PETRI_MEMORY) {
+        texture_free(texture);
+        give_up(walk);
+    }
+    if (!draw_flag(node, ATTR_LINEAR))
+        return texture;
+    Texture *linear = texture_of_linear(texture);
+    texture_free(texture);
+    if (!linear)
+        give_up(walk);
+    return linear;
+}
+
+static Texture *mix_plainly(Walk *walk, const DrawNode *node, Texture *const *inputs, uint32_t count, int width,
+                            int height) {
+    Mix mix = {.inputs = inputs,
+               .count = count,
+               .width = width,
+               .height = height,
+               .how = draw_word(node, ATTR_COMPOSITE),
+               .alpha = (float)draw_number(node, ATTR_ALPHA),
+               .sampler = sampler_of(node),
+               .bits = bits_of(node, walk->bits),
+               .srgb = node->kind == KIND_RECORD};
+    if (mix.how == MIX_UNKNOWN && count > 1)
+        return NULL;
+    Texture *texture = mix_pictures(&mix);
+    if (!texture)
+        give_up(walk);
+    return texture;
+}
+
+// The GPU, current; NULL, after a report, if there is none.
+static Gl *need_gpu(Walk *walk) {
+    PetriPainter *painter = walk->painter;
+    const char *problem = painter->gl_problem;
+    if (!painter->gl && !problem)
+        painter->gl = gl_open(&problem);
+    if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
+        walk->gpu = true;
+        return painter->gl;
+    }
+    painter->gl_problem = problem;
+    draw_report(walk->faults, DIAG_WARNING, "needs-gpu", "effects and three dimensions are left out: %s", problem);
+    return NULL;
+}
+
+static bool needs_gpu(const DrawNode *node, Texture *const *inputs, uint32_t count) {
+    for (uint32_t i = 0; i < count; i++)
+        if (!inputs[i]->bytes && !inputs[i]->linear)
+            return true;
+    return !pictures_plain(node);
+}
+
+// Runs a program on the GPU. Without one, what is inside is seen as it is.
+static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, Texture *const *inputs, uint32_t count,
+                            int width, int height) {
+    Gl *gl = need_gpu(walk);
+    if (!gl)
+        return mix_plainly(walk, node, inputs, count, width, height);
+    GlImage *images = arena_alloc_array(&walk->frame->arena, count, sizeof *images);
+    for (uint32_t i = 0; i < count; i++) {
+        if (!texture_send(gl, inputs[i]))
+            give_up(walk);
+        images[i] = inputs[i]->image;
+    }
+    bool again = past && past->picture && past->picture->gl == gl;
+    const CanvasPicture *picture = walk->picture;
+    GlFrame frame = {.beats = past ? picture->beat - walk->beat : 0,
+                     .names = picture->names,
+                     .numbers = picture->numbers,
+                     .name_count = picture->name_count};
+    GlEffect effect = {.node = node,
+                       .inputs = images,
+                       .count = count,
+                       .last = again ? past->picture->image : (GlImage){0},
+                       .width = width,
+                       .height = height,
+                       .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
+                       .frame = &frame};
+    GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
+    Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
+    if (image.texture && !texture)
+        give_up(walk);
+    return texture;
+}
+
+static bool is_good_size(Walk *walk, NodeKind kind, Origin place, int width, int height) {
+    if (width >= 1 && height >= 1 && width <= PETRI_MOST_PIXELS && height <= PETRI_MOST_PIXELS)
+        return true;
+    Str text = str_format(walk->faults->arena, "!%s: a picture can have 1 to %d pixels in width and height",
+                          schema_kinds[kind].name, PETRI_MOST_PIXELS);
+    diag_report(
+        walk->faults,
+        &(Diag){.level = DIAG_WARNING, .source = place.source, .span = place.span, .text = text, .code = "bad-size"});
+    return false;
+}
+
+static GlImage find_texture(void *host, Str id) {
+    Walk *walk = host;
+    Texture *found = find_known(walk->frame, id);
+    found = found ? found : find_known(walk->before, id);
+    if (found && !texture_send(walk->painter->gl, found))
+        give_up(walk);
+    return found ? found->image : (GlImage){0};
+}
+
+// Makes room for a node's children.
+static void prepare(Walk *walk, Made *made, uint32_t count) {
+    made->children = arena_alloc_array(&walk->frame->arena, count, sizeof *made->children);
+    memset(made->children, 0, count * sizeof *made->children);
+    made->count = count;
+}
+
+// What a camera of a scene sees; NULL, after a report, if that cannot be.
+static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
+    Gl *gl = walk->painter->gl;
+    if (!is_good_size(walk, KIND_CAMERA, (Origin){0}, camera->width, camera->height))
+        return NULL;
+    GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
+    Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
+    if (image.texture && !texture)
+        give_up(walk);
+    return texture;
+}
+
+// The picture of a scene, and those of its other cameras, which are kept as if they were nodes inside it.
+static Texture *make_scene(Walk *walk, const DrawNode *node, Made *made, int width, int height) {
+    if (!need_gpu(walk))
+        return NULL;
+    const Scene *scene =
+        scene_read(&walk->frame->arena, node, width, height, walk->bits, &walk->picture->reach, walk->faults);
+    Texture *texture = make_view(walk, scene, &scene->cameras[scene->shown]);
+    if (made->id.len > 0 && texture)
+        know(walk, made->id, texture);
+    if (scene->cameras[scene->shown].id.len > 0 && texture)
+        know(walk, str_copy(&walk->frame->arena, scene->cameras[scene->shown].id), texture);
+    prepare(walk, made, scene->camera_count);
+    for (uint32_t i = 1; i < scene->camera_count; i++) {
+        const SceneCamera *camera = &scene->cameras[i];
+        if (!camera->secondary || i == scene->shown)
+            continue;
+        made->children[i].picture = make_view(walk, scene, camera);
+        if (made->children[i].picture)
+            know(walk, str_copy(&walk->frame->arena, camera->id), made->children[i].picture);
+    }
+    return texture;
+}
+
+static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
+    Frame *frame = walk->frame;
+    if (!texture_fetch(walk->painter->gl, texture))
+        give_up(walk);
+    frame->records = arena_grow(&frame->arena, frame->records, frame->record_count * sizeof *frame->records,
+                                (frame->record_count + 1) * sizeof *frame->records);
+    frame->records[frame->record_count++] =
+        (Recorded){node, pictures_direct(node, texture->width, texture->height), texture};
+}
+
+static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Made *past, int width, int height);
+
+// The pictures inside that the node sees; `inputs` has room for all.
+static uint32_t make_inputs(Walk *walk, const DrawNode *node, Made *made, const Made *past, int width, int height,
+                            Texture **inputs) {
+    uint32_t count = 0;
+    prepare(walk, made, node->child_count);
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        const DrawNode *child = node->children[i];
+        Texture *texture = make_node(walk, child, &made->children[i], past, width, height);
+        bool hidden = schema_row((NodeKind)child->kind, ATTR_HIDDEN) && draw_flag(child, ATTR_HIDDEN);
+        if (texture && !hidden)
+            inputs[count++] = texture;
+    }
+    return count;
+}
+
+static Texture *make_program(Walk *walk, const DrawNode *node, Made *made, const Made *past, int width, int height) {
+    Texture **inputs = arena_alloc_array(&walk->frame->arena, node->child_count, sizeof *inputs);
+    uint32_t count = make_inputs(walk, node, made, past, width, height, inputs);
+    if (node->kind == KIND_OFFSCREEN && node != walk->picture->window && made->id.len == 0)
+        return NULL; // nobody would see it
+    Texture *texture = needs_gpu(node, inputs, count) ? run_program(walk, node, past, inputs, count, width, height)
+                                                      : mix_plainly(walk, node, inputs, count, width, height);
+    const AttrValue *file = node->kind == KIND_RECORD ? draw_attr(node, ATTR_FILENAME) : NULL;
+    if (texture && file && file->as.text.len > 0)
+        add_record(walk, node, texture);
+    return texture;
+}
+
+static Texture *find_reference(Walk *walk, Str id) {
+    Texture *found = find_known(walk->frame, id);
+    found = found ? found : find_known(walk->before, id);
+    return found ? texture_keep(found) : NULL;
+}
+
+// Makes a node's picture in one that is width x height large; NULL if there is none. Borrowed from `made`.
+static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Made *parent, int width, int height) {
+    Arena *arena = &walk->frame->arena;
+    *made =
+        (Made){.kind = node->kind, .id = text_of(arena, node, ATTR_ID), .file = text_of(arena, node, ATTR_FILENAME)};
+    const Made *past = find_past(parent, made);
+    if (walk->depth >= DEEPEST) {
+        draw_report(walk->faults, DIAG_WARNING, "too-deep",
+                    "pictures are nested more than %d deep; the innermost are "
+                    "left out",
+                    DEEPEST);
+        return NULL;
+    }
+    walk->depth++;
+    switch ((NodeKind)node->kind) {
+    case KIND_POINTER:
+    case KIND_KEY:
+        break;
+    case KIND_REFERENCE:
+        made->picture = find_reference(walk, made->id);
+        made->id = (Str){0};
+        break;
+    case KIND_PICTURE_IMAGE:
+        made->picture = draw_picture_image(walk->painter, walk->picture, node, walk->faults);
+        break;
+    default:
+        pictures_size(node, &width, &height);
+        if (!is_good_size(walk, (NodeKind)node->kind, node->place, width, height))
+            break;
+        made->picture = node->kind == KIND_CANVAS     ? make_canvas(walk, node, width, height)
+                        : node->kind == KIND_CANVAS3D ? make_scene(walk, node, made, width, height)
+                                                      : make_program(walk, node, made, past, width, height);
+    }
+    walk->depth--;
+    if (made->id.len > 0 && made->picture)
+        know(walk, made->id, made->picture);
+    return made->picture;
+}
+
+static void make_tops(void *context) {
+    Walk *walk = context;
+    const CanvasPicture *picture = walk->picture;
+    Made *top = &walk->frame->top;
+    prepare(walk, top, picture->top_count);
+    for (uint32_t i = 0; i < picture->top_count; i++) {
+        enum { USUAL_BITS = 16 };
+        walk->bits = bits_of(picture->tops[i], USUAL_BITS);
+        Texture *texture =
+            make_node(walk, picture->tops[i], &top->children[i], &walk->before->top, USUAL_SIZE, USUAL_SIZE);
+        if (picture->tops[i] == picture->window)
+            walk->shown = texture;
+        if (texture && texture == walk->shown && !texture_fetch(walk->painter->gl, texture))
+            give_up(walk);
+    }
+}
+
+// Images of the GPU can only be given back while it is current.
+static void forget_old(Walk *walk) {
+    const char *problem;
+    if (walk->painter->gl)
+        walk->gpu = gl_enter(walk->painter->gl, &problem);
+    forget(walk->frame);
+}
+
+PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown) {
+    Pictures *pictures = painter->pictures;
+    Frame *before = &pictures->frames[pictures->now];
+    pictures->now = !pictures->now;
+    Walk walk = {.painter = painter,
+                 .picture = picture,
+                 .faults = faults,
+                 .frame = &pictures->frames[pictures->now],
+                 .before = before,
+                 .beat = pictures->beat};
+    pictures->beat = picture->beat;
+    forget_old(&walk);
+    Arena *arenas[] = {&walk.frame->arena, &painter->arena, faults->arena};
+    ArenaEnd end = arena_protect(arenas, 3, make_tops, &walk);
+    if (walk.gpu)
+        gl_leave(painter->gl);
+    *shown = end == ARENA_DONE ? walk.shown : NULL;
+    return end == ARENA_DONE ? PETRI_OK : PETRI_MEMORY;
+}

@@ -1,0 +1,207 @@
+// texture.c: see texture.h.
+#include "draw/texture.h"
+
+#include "maths/maths.h"
+
+#include <math.h>
+#include <pthread.h>
+#include <stdlib.h>
+
+Texture *texture_new(int width, int height, bool linear) {
+    size_t count = (size_t)width * (size_t)height;
+    Texture *texture = calloc(1, sizeof *texture);
+    if (!texture)
+        return NULL;
+    *texture = (Texture){.references = 1, .width = width, .height = height};
+    if (linear)
+        texture->linear = calloc(count, 4 * sizeof(float));
+    else
+        texture->bytes = calloc(count, sizeof(uint32_t));
+    if (texture->linear || texture->bytes)
+        return texture;
+    free(texture);
+    return NULL;
+}
+
+Texture *texture_of_image(Gl *gl, GlImage image) {
+    Texture *texture = calloc(1, sizeof *texture);
+    if (!texture)
+        gl_image_free(gl, image);
+    else
+        *texture = (Texture){.references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl};
+    return texture;
+}
+
+bool texture_send(Gl *gl, Texture *texture) {
+    if (texture->gl)
+        return true;
+    GlFormat format = texture->bytes ? GL_FORMAT_SRGB8 : gl_format(gl, 16);
+    texture->image = gl_image_new(gl, texture->width, texture->height, format);
+    if (!texture->image.texture)
+        return false;
+    texture->gl = gl;
+    if (texture->bytes)
+        gl_upload_bytes(gl, texture->image, texture->bytes);
+    else
+        gl_upload_linear(gl, texture->image, texture->linear);
+    return true;
+}
+
+bool texture_fetch(Gl *gl, Texture *texture) {
+    size_t count = (size_t)texture->width * (size_t)texture->height;
+    if (texture->bytes || texture->linear)
+        return true;
+    if (texture->image.format == GL_FORMAT_SRGB8) {
+        texture->bytes = malloc(count * sizeof *texture->bytes);
+        return texture->bytes && gl_read_bytes(gl, texture->image, texture->bytes);
+    }
+    texture->linear = malloc(count * 4 * sizeof *texture->linear);
+    return texture->linear && gl_read_linear(gl, texture->image, texture->linear);
+}
+
+Texture *texture_keep(Texture *texture) {
+    texture->references++;
+    return texture;
+}
+
+void texture_free(Texture *texture) {
+    if (!texture || --texture->references > 0)
+        return;
+    if (texture->gl)
+        gl_image_free(texture->gl, texture->image);
+    free(texture->bytes);
+    free(texture->linear);
+    free(texture);
+}
+
+// The sRGB curve at its 256 bytes, and half way between them.
+static float decoded[256], thresholds[256];
+
+static double curve(double e) {
+    return e <= 0.04045 ? e / 12.92 : maths_pow((e + 0.055) / 1.055, 2.4);
+}
+
+static void make_tables(void) {
+    for (int i = 0; i < 256; i++) {
+        decoded[i] = (float)curve(i / 255.0);
+        thresholds[i] = (float)curve((i + 0.5) / 255.0);
+    }
+}
+
+static void need_tables(void) {
+    static pthread_once_t once = PTHREAD_ONCE_INIT;
+    pthread_once(&once, make_tables);
+}
+
+float texture_decode(unsigned byte) {
+    need_tables();
+    return decoded[byte & 255];
+}
+
+unsigned texture_encode(float c) {
+    need_tables();
+    unsigned low = 0;
+    for (unsigned step = 128; step > 0; step /= 2) // the number of thresholds that are not above c
+        low += c >= thresholds[low + step - 1] ? step : 0;
+    return low;
+}
+
+static uint32_t encode_pixel(const float color[4], bool opaque) {
+    float alpha = opaque || !(color[3] < 1) ? 1 : color[3] > 0 ? color[3] : 0;
+    uint32_t pixel = (uint32_t)lrintf(255 * alpha) << 24;
+    for (unsigned k = 0; k < 3 && alpha > 0; k++)
+        pixel |= (uint32_t)lrintf((float)texture_encode(color[k] / alpha) * alpha) << (16 - 8 * k);
+    return pixel;
+}
+
+void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row) {
+    size_t start = (size_t)y * (size_t)texture->width;
+    for (size_t x = 0; x < (size_t)texture->width; x++)
+        row[x] = texture->linear ? encode_pixel(texture->linear + 4 * (start + x), opaque)
+                                 : texture->bytes[start + x] | (opaque ? 0xff000000u : 0);
+}
+
+static void fetch(const Texture *texture, int x, int y, float color[4]) {
+    size_t at = (size_t)y * (size_t)texture->width + (size_t)x;
+    if (texture->linear) {
+        for (int k = 0; k < 4; k++)
+            color[k] = texture->linear[4 * at + (size_t)k];
+        return;
+    }
+    uint32_t pixel = texture->bytes[at];
+    for (unsigned k = 0; k < 3; k++)
+        color[k] = decoded[pixel >> (16 - 8 * k) & 255];
+    color[3] = (float)(pixel >> 24) / 255.0f;
+}
+
+// Moves a coordinate into the picture; false where the border is.
+static bool place(int *at, int size, bool repeat, bool clamped) {
+    if (repeat)
+        *at = (*at % size + size) % size;
+    else if (clamped)
+        *at = *at < 0 ? 0 : *at >= size ? size - 1 : *at;
+    return *at >= 0 && *at < size;
+}
+
+static void texel(const Texture *texture, const Sampler *sampler, int x, int y, float color[4]) {
+    bool any = sampler->repeat[0] || sampler->repeat[1];
+    if (place(&x, texture->width, sampler->repeat[0], any || sampler->clamped) &&
+        place(&y, texture->height, sampler->repeat[1], any || sampler->clamped)) {
+        fetch(texture, x, y, color);
+        return;
+    }
+    for (int k = 0; k < 4; k++)
+        color[k] = sampler->border[k];
+}
+
+void texture_sample(const Texture *texture, const Sampler *sampler, double u, double v, float color[4]) {
+    need_tables();
+    double x = u * texture->width, y = v * texture->height;
+    if (sampler->nearest) {
+        texel(texture, sampler, (int)floor(x), (int)floor(y), color);
+        return;
+    }
+    double left = floor(x - 0.5), top = floor(y - 0.5);
+    float right = (float)(x - 0.5 - left), low = (float)(y - 0.5 - top);
+    for (int k = 0; k < 4; k++)
+        color[k] = 0;
+    for (int corner = 0; corner < 4; corner++) {
+        float share = (corner & 1 ? right : 1 - right) * (corner & 2 ? low : 1 - low), part[4];
+        if (share == 0)
+            continue;
+        texel(texture, sampler, (int)left + (corner & 1), (int)top + (corner >> 1), part);
+        for (int k = 0; k < 4; k++)
+            color[k] += share * part[k];
+    }
+}
+
+uint32_t texture_linear_pixel(uint32_t pixel) {
+    uint32_t alpha = pixel >> 24, out = alpha << 24;
+    for (unsigned k = 0; k < 24 && alpha > 0; k += 8) {
+        uint32_t c = ((pixel >> k & 255) * 255 + alpha / 2) / alpha;
+        out |= (uint32_t)lrintf(texture_decode(c > 255 ? 255 : c) * (float)alpha) << k;
+    }
+    return out;
+}
+
+void texture_linear_row(const Texture *texture, int y, uint32_t *row) {
+    size_t start = (size_t)y * (size_t)texture->width;
+    for (size_t x = 0; x < (size_t)texture->width; x++) {
+        const float *color = texture->linear ? texture->linear + 4 * (start + x) : NULL;
+        row[x] = 0;
+        for (unsigned k = 0; k < 4; k++) {
+            unsigned shift = k < 3 ? 16 - 8 * k : 24, byte = color ? 0 : texture->bytes[start + x] >> shift & 255;
+            float c = color ? color[k] : k < 3 ? texture_decode(byte) : (float)byte / 255;
+            row[x] |= (uint32_t)lrintf(255 * (c > 0 ? c < 1 ? c : 1 : 0)) << shift;
+        }
+    }
+}
+
+Texture *texture_of_linear(const Texture *bytes) {
+    Texture *texture = texture_new(bytes->width, bytes->height, true);
+    size_t count = texture ? (size_t)bytes->width * (size_t)bytes->height : 0;
+    for (size_t i = 0; i < count; i++)
+        for (unsigned k = 0; k < 4; k++)
+            texture->linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+    return texture;
+}

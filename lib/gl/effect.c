@@ -1,0 +1,158 @@
+// effect.c: see effect.h. An effect is a file of shaders/: what its passes have in common, then a `main` for each pass,
+// behind a line that tells the pass's size.
+#include "gl/effect.h"
+
+#include "gl/internal.h"
+#include "gl/merge.h"
+#include "gl/shader.h"
+#include "gl/texts.h"
+#include "gl/uniforms.h"
+
+enum { MOST_PASSES = 8 };
+
+typedef struct Effect {
+    const char *text;
+    GlEdge edge;
+    bool merges; // several pictures are merged before the first pass
+} Effect;
+
+static Effect find_effect(NodeKind kind) {
+    switch (kind) {
+    case KIND_ADJUST:
+        return (Effect){gl_text_adjust, GL_EDGE_BORDER, false};
+    case KIND_BLUR:
+        return (Effect){gl_text_blur, GL_EDGE_CLAMP, true};
+    case KIND_BLOOM:
+        return (Effect){gl_text_bloom, GL_EDGE_CLAMP, true};
+    case KIND_EDGES:
+        return (Effect){gl_text_edges, GL_EDGE_CLAMP, true};
+    case KIND_CHROMAKEY:
+        return (Effect){gl_text_chromakey, GL_EDGE_CLAMP, true};
+    case KIND_FEEDBACK:
+        return (Effect){gl_text_feedback, GL_EDGE_CLAMP, false};
+    case KIND_PICTURE_TRANSFORM:
+        return (Effect){gl_text_transform, GL_EDGE_BORDER, false};
+    case KIND_VIGNETTE:
+        return (Effect){gl_text_vignette, GL_EDGE_BORDER, false};
+    case KIND_NOISE:
+        return (Effect){gl_text_noise, GL_EDGE_BORDER, false};
+    case KIND_FLARE:
+        return (Effect){gl_text_flare, GL_EDGE_BORDER, true};
+    case KIND_KALEID:
+        return (Effect){gl_text_kaleid, GL_EDGE_BORDER, false};
+    default:
+        return (Effect){gl_text_plain, GL_EDGE_BORDER, false};
+    }
+}
+
+// One pass of a program.
+typedef struct Pass {
+    Str text; // of main
+    bool reduced;
+} Pass;
+
+// Splits a file at the lines "//: full" and "//: reduced"; *common is what comes before.
+static uint32_t split(const char *text, Str *common, Pass passes[MOST_PASSES]) {
+    static const char mark[] = "//: ";
+    uint32_t count = 0;
+    const char *at = strstr(text, mark);
+    *common = (Str){text, (size_t)(at - text)};
+    while (at && count < MOST_PASSES) {
+        const char *body = strchr(at, '\n') + 1, *next = strstr(body, mark);
+        passes[count++] = (Pass){{body, next ? (size_t)(next - body) : strlen(body)}, at[sizeof mark - 1] == 'r'};
+        at = next;
+    }
+    return count;
+}
+
+void gl_report(DiagSink *faults, const DrawNode *node, const char *code, Str problem) {
+    Text text = text_new(faults->arena);
+    size_t line = 0; // compilers say much after it that follows from it
+    while (line < problem.len && problem.bytes[line] != '\n')
+        line++;
+    text_add_format(&text, "!%s: %.*s", schema_kinds[node->kind].name, (int)line, problem.bytes);
+    diag_report(faults, &(Diag){.level = DIAG_WARNING,
+                                .source = node->place.source,
+                                .span = node->place.span,
+                                .text = text_str(&text),
+                                .code = code});
+}
+
+int gl_downsample(const DrawNode *node) {
+    double x = draw_number(node, ATTR_DOWNSAMPLE);
+    return x >= 2 ? x < 64 ? (int)x : 64 : 1;
+}
+
+bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_t count, GlImage *out) {
+    GlImage first = {0}, last = effect->last;
+    int reduction = gl_downsample(effect->node);
+    bool good = true;
+    for (uint32_t i = 0; i < count && good; i++) {
+        int down = passes[i].reduced ? reduction : 1;
+        int width = effect->width / down > 0 ? effect->width / down : 1;
+        int height = effect->height / down > 0 ? effect->height / down : 1;
+        GlImage target = gl_image_new(gl, width, height, effect->format);
+        good = target.texture != 0;
+        if (good) {
+            GlState state = {effect, first, last, target, (int)i, (int)count, down};
+            gl_target(gl, target);
+            gl_set_uniforms(gl, passes[i].program, &state);
+            gl_draw_quad(gl, passes[i].program);
+        }
+        if (i > 0 && last.texture != first.texture)
+            gl_image_free(gl, last);
+        last = target;
+        first = i == 0 ? target : first;
+    }
+    if (count > 1)
+        gl_image_free(gl, first);
+    *out = last;
+    return good;
+}
+
+// The program of a pass: 0, after a report, if it cannot be.
+static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Str body,
+                      DiagSink *faults) {
+    Text text = text_new(arena);
+    Str problem;
+    bool merged = kind->merges && effect->count > 1;
+    if (!gl_add_merge(&text, effect->node, effect->count, gl_edge(effect->node, kind->edge)))
+        return 0;
+    text_add_format(&text, "vec4 source(vec2 uv) { return %s; }\n",
+                    merged              ? "take(first, uv)"
+                    : effect->count > 0 ? "take(texture0, uv)"
+                                        : "vec4(0.0)");
+    text_add_c(&text, "vec4 previous(vec2 uv) { return take(last, uv); }\n");
+    text_add_c(&text, gl_text_common);
+    text_add(&text, common);
+    text_add(&text, body);
+    unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &problem);
+    if (!program)
+        gl_report(faults, effect->node, "bad-shader", problem);
+    return program;
+}
+
+GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
+    NodeKind node = (NodeKind)effect->node->kind;
+    const GlImage none = {0};
+    if (draw_attr(effect->node, ATTR_FRAGMENT) || draw_attr(effect->node, ATTR_VERTEX))
+        return gl_shader(gl, arena, effect, faults);
+    Effect kind = find_effect(node);
+    Str common;
+    Pass passes[MOST_PASSES];
+    GlPass programs[MOST_PASSES + 1];
+    uint32_t count = split(kind.text, &common, passes), first = 0;
+    if (effect->count == 0 && node != KIND_NOISE)
+        kind = find_effect(KIND_WINDOW), count = split(kind.text, &common, passes); // transparent
+    if (kind.merges && effect->count > 1)
+        programs[first++] = (GlPass){
+            build(gl, arena, effect, &kind, common, STR("void main() { color = merged(coord); }\n"), faults), false};
+    for (uint32_t i = 0; i < count; i++)
+        programs[first + i] =
+            (GlPass){build(gl, arena, effect, &kind, common, passes[i].text, faults), passes[i].reduced};
+    for (uint32_t i = 0; i < first + count; i++)
+        if (!programs[i].program)
+            return none;
+    GlImage out;
+    return gl_run_passes(gl, effect, programs, first + count, &out) ? out : none;
+}

@@ -1,0 +1,59 @@
+// gl.h: OpenGL ES 3 without a window: a context, pictures on the GPU, programs.
+//
+// A Gl belongs to one painter; between gl_enter and gl_leave it is current in the calling thread, and the other
+// functions may be called. Files that need more include <epoxy/gl.h> and call OpenGL themselves. What Mesa's llvmpipe
+// does here serves machines without a GPU. Shaders are written so that WebGL 2 takes them, too.
+#ifndef PETRI_GL_GL_H
+#define PETRI_GL_GL_H
+
+#include "base/diag.h"
+
+#include <stdbool.h>
+#include <stdint.h>
+
+typedef struct Gl Gl;
+
+// NULL, with the reason, if there is no OpenGL ES 3 here or memory is used up.
+Gl *gl_open(const char **problem);
+void gl_close(Gl *gl); // NULL is fine; not between enter and leave
+// False, with the reason, if the context was lost.
+bool gl_enter(Gl *gl, const char **problem);
+void gl_leave(Gl *gl);
+
+typedef enum GlFormat { GL_FORMAT_SRGB8, GL_FORMAT_RGBA8, GL_FORMAT_RGBA16F, GL_FORMAT_RGBA32F } GlFormat;
+
+// A picture on the GPU: four channels multiplied by alpha, rows from the bottom. Reading it gives linear light,
+// whatever the format, and writing to it takes linear light.
+typedef struct GlImage {
+    unsigned texture; // 0: none
+    int width;
+    int height;
+    GlFormat format;
+} GlImage;
+
+// The format of a picture with so many bits for each channel; 8 bits where the GPU cannot draw to more.
+GlFormat gl_format(const Gl *gl, int bits);
+int gl_largest(const Gl *gl); // width and height of a picture
+// Images that are given back are used again for others of their size and format: warm frames create none. What is in a
+// new one is undefined. `texture` 0 if the GPU's memory is used up.
+GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format);
+void gl_image_free(Gl *gl, GlImage image);
+// From rows that begin at the top: ARGB32 of an sRGB picture, or r, g, b, a in linear light.
+void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels);
+void gl_upload_linear(Gl *gl, GlImage image, const float *pixels);
+// To rows that begin at the top: ARGB32, encoded; over black if `opaque`, else as Texture rows are (draw/texture.h).
+bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels);
+bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
+
+// What is drawn next goes to this image; the viewport is all of it. It is not cleared.
+void gl_target(Gl *gl, GlImage image);
+
+// A program of two shaders; kept by its text, so that asking again costs a look-up. 0, with what the compiler said (in
+// the arena), if it does not compile; that is kept, too. Texts begin with the version line.
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, Str *problem);
+extern const char gl_header[]; // version and precision lines: what ${HEADER} stands for
+extern const char gl_quad[];   // vertex shader of a strip over the whole target: out vec2 coord, 0 to 1, v up
+// Runs a program that has gl_quad's inputs over the whole target.
+void gl_draw_quad(Gl *gl, unsigned program);
+
+#endif

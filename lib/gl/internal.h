@@ -1,0 +1,35 @@
+// internal.h: what the files of this room share.
+#ifndef PETRI_GL_INTERNAL_H
+#define PETRI_GL_INTERNAL_H
+
+#include "gl/gl.h"
+
+#include <epoxy/gl.h>
+
+typedef struct GlProgram GlProgram;
+typedef struct GlStore GlStore; // of scenes
+
+enum { GL_SPARE_IMAGES = 32 };
+
+struct Gl {
+    void *display; // EGLDisplay
+    void *context; // EGLContext
+    int largest;
+    bool floats; // can be drawn to
+    bool halves;
+    bool float_filter; // floats can be read between pixels
+    GLuint framebuffer;
+    GLuint strip; // vertex array of four corners: attribute 0
+    GLuint corners;
+    GLuint nothing; // a texture of one transparent pixel
+    GlImage spare[GL_SPARE_IMAGES];
+    int spare_count;
+    GlProgram *programs;
+    GlStore *store; // made by the first scene
+};
+
+void gl_images_close(Gl *gl);
+void gl_programs_close(Gl *gl);
+void gl_store_close(Gl *gl);
+
+#endif

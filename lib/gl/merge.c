@@ -1,0 +1,79 @@
+// merge.c: see merge.h.
+#include "gl/merge.h"
+
+#include "gl/internal.h"
+
+GlEdge gl_edge(const DrawNode *node, GlEdge usual) {
+    const AttrValue *repeat = draw_attr(node, ATTR_REPEAT);
+    if (draw_attr(node, ATTR_BORDER))
+        return GL_EDGE_BORDER;
+    return repeat && (repeat->as.numbers[0] != 0 || repeat->as.numbers[1] != 0) ? GL_EDGE_REPEAT : usual;
+}
+
+// There are no border colours in OpenGL ES: the four texels are mixed by hand.
+static const char border_taking[] =
+    "vec4 texel(sampler2D t, ivec2 p) {\n"
+    "    ivec2 s = textureSize(t, 0);\n"
+    "    return all(greaterThanEqual(p, ivec2(0))) && all(lessThan(p, s)) ? texelFetch(t, p, 0) : border;\n"
+    "}\n";
+static const char repeat_taking[] =
+    "vec4 texel(sampler2D t, ivec2 p) {\n"
+    "    ivec2 s = textureSize(t, 0), far = 1024 * s, c = clamp(p, ivec2(0), s - 1);\n"
+    "    ivec2 r = (clamp(p, -far, far) + far) % s;\n" // not of negative numbers
+    "    return texelFetch(t, ivec2(repeated.x ? r.x : c.x, repeated.y ? r.y : c.y), 0);\n"
+    "}\n";
+static const char clamped_taking[] = "vec4 texel(sampler2D t, ivec2 p) {\n"
+                                     "    return texelFetch(t, clamp(p, ivec2(0), textureSize(t, 0) - 1), 0);\n"
+                                     "}\n";
+static const char smooth_taking[] = "vec4 take(sampler2D t, vec2 uv) {\n"
+                                    "    vec2 p = uv * vec2(textureSize(t, 0)) - 0.5;\n"
+                                    "    vec2 f = fract(p);\n"
+                                    "    ivec2 i = ivec2(floor(p));\n"
+                                    "    vec4 low = mix(texel(t, i), texel(t, i + ivec2(1, 0)), f.x);\n"
+                                    "    vec4 high = mix(texel(t, i + ivec2(0, 1)), texel(t, i + ivec2(1, 1)), f.x);\n"
+                                    "    return mix(low, high, f.y);\n"
+                                    "}\n";
+static const char nearest_taking[] = "vec4 take(sampler2D t, vec2 uv) {\n"
+                                     "    return texel(t, ivec2(floor(uv * vec2(textureSize(t, 0)))));\n"
+                                     "}\n";
+static const char filtered_taking[] = "vec4 take(sampler2D t, vec2 uv) { return texture(t, uv); }\n";
+
+static const char *const combining[] = {
+    [MIX_OVER] = "s + d * (1.0 - s.a)",
+    [MIX_DEST_OVER] = "s * (1.0 - d.a) + d",
+    [MIX_LIGHTEN] = "max(s, d)",
+    [MIX_DARKEN] = "min(s, d)",
+    [MIX_ADD] = "vec4(s.rgb + d.rgb, min(s.a + d.a, 1.0))",
+    [MIX_DIFFERENCE] = "vec4(abs(d.rgb - s.rgb), max(s.a, d.a))",
+    [MIX_MULTIPLY] = "s * d",
+    [MIX_UNKNOWN] = "d",
+};
+
+static void add_taking(Text *out, const DrawNode *node, GlEdge edge) {
+    bool nearest = draw_flag(node, ATTR_NEAREST);
+    if (edge == GL_EDGE_CLAMP && !nearest) { // what the sampler does by itself
+        text_add_c(out, filtered_taking);
+        return;
+    }
+    text_add_c(out, edge == GL_EDGE_BORDER ? border_taking : edge == GL_EDGE_REPEAT ? repeat_taking : clamped_taking);
+    text_add_c(out, nearest ? nearest_taking : smooth_taking);
+}
+
+bool gl_add_merge(Text *out, const DrawNode *node, uint32_t inputs, GlEdge edge) {
+    int how = draw_word(node, ATTR_COMPOSITE);
+    if (how == MIX_UNKNOWN && inputs > 1)
+        return false;
+    text_add_c(out, gl_header);
+    text_add_c(out, "in vec2 coord;\nout vec4 color;\nuniform sampler2D first, last;\nuniform vec4 border;\n"
+                    "uniform bvec2 repeated;\nuniform vec2 size;\nuniform int pass;\nuniform float alpha;\n");
+    for (uint32_t i = 0; i < inputs; i++)
+        text_add_format(out, "uniform sampler2D texture%u;\n", i);
+    add_taking(out, node, edge);
+    text_add_format(out, "vec4 combined(vec4 s, vec4 d) { return %s; }\n", combining[how]);
+    text_add_c(out, "vec4 merged(vec2 uv) {\n    vec4 m = vec4(0.0);\n");
+    for (uint32_t i = 0; i < inputs; i++)
+        text_add_format(out, i == 0 ? "    m = take(texture%u, uv);\n" : "    m = combined(take(texture%u, uv), m);\n",
+                        i);
+    text_add_c(out, "    return m;\n}\n");
+    return true;
+}

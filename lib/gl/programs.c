@@ -1,0 +1,121 @@
+// programs.c: shaders, compiled once for each text.
+#include "gl/internal.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+const char gl_quad[] = "#version 300 es\n"
+                       "in vec2 position;\n"
+                       "out vec2 coord;\n"
+                       "void main() {\n"
+                       "    coord = 0.5 * position + 0.5;\n"
+                       "    gl_Position = vec4(position, 0.0, 1.0);\n"
+                       "}\n";
+
+struct GlProgram {
+    GlProgram *next;
+    char *vertex;
+    char *fragment;
+    char *problem; // or NULL
+    GLuint program;
+};
+
+static char *copy(Str text) {
+    char *out = malloc(text.len + 1);
+    if (out) {
+        memcpy(out, text.bytes, text.len);
+        out[text.len] = 0;
+    }
+    return out;
+}
+
+static void free_program(GlProgram *program) {
+    glDeleteProgram(program->program);
+    free(program->vertex);
+    free(program->fragment);
+    free(program->problem);
+    free(program);
+}
+
+void gl_programs_close(Gl *gl) {
+    for (GlProgram *program = gl->programs, *next; program; program = next) {
+        next = program->next;
+        free_program(program);
+    }
+    gl->programs = NULL;
+}
+
+// Adds a shader; false with the compiler's words.
+static bool attach(GLuint program, GLenum kind, const char *text, char **problem) {
+    GLuint shader = glCreateShader(kind);
+    GLint good = 0, length = 0;
+    glShaderSource(shader, 1, &text, NULL);
+    glCompileShader(shader);
+    glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
+    glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
+    if (!good && (*problem = calloc((size_t)length + 1, 1)) != NULL)
+        glGetShaderInfoLog(shader, length, NULL, *problem);
+    glAttachShader(program, shader);
+    glDeleteShader(shader); // lives on with the program
+    return good;
+}
+
+static void build(GlProgram *program) {
+    GLint good = 0, length = 0;
+    program->program = glCreateProgram();
+    if (attach(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem) &&
+        attach(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
+        glBindAttribLocation(program->program, 0, "position");
+        glLinkProgram(program->program);
+        glGetProgramiv(program->program, GL_LINK_STATUS, &good);
+        glGetProgramiv(program->program, GL_INFO_LOG_LENGTH, &length);
+        if (!good && (program->problem = calloc((size_t)length + 1, 1)) != NULL)
+            glGetProgramInfoLog(program->program, length, NULL, program->problem);
+    }
+    if (!good) {
+        glDeleteProgram(program->program);
+        program->program = 0;
+    }
+}
+
+static GlProgram *find(Gl *gl, Str vertex, Str fragment) {
+    for (GlProgram *program = gl->programs; program; program = program->next)
+        if (str_equal(str_from(program->fragment), fragment) && str_equal(str_from(program->vertex), vertex))
+            return program;
+    return NULL;
+}
+
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, Str *problem) {
+    enum { MOST_PROGRAMS = 200 }; // a script may write another text in each frame
+    GlProgram *program = find(gl, vertex, fragment);
+    if (!program) {
+        int count = 0;
+        for (GlProgram *other = gl->programs; other; other = other->next)
+            count++;
+        if (count >= MOST_PROGRAMS)
+            gl_programs_close(gl);
+        program = calloc(1, sizeof *program);
+        if (!program)
+            arena_exhausted(arena);
+        program->vertex = copy(vertex);
+        program->fragment = copy(fragment);
+        program->next = gl->programs;
+        if (!program->vertex || !program->fragment) {
+            free_program(program);
+            arena_exhausted(arena);
+        }
+        gl->programs = program;
+        build(program);
+    }
+    *problem = program->program ? (Str){0} : str_copy(arena, str_from(program->problem ? program->problem : "?"));
+    return program->program;
+}
+
+void gl_draw_quad(Gl *gl, unsigned program) {
+    glUseProgram(program);
+    glBindVertexArray(gl->strip);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_BLEND);
+    glDisable(GL_CULL_FACE);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+}

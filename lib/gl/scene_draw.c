@@ -1,0 +1,323 @@
+// scene_draw.c: a scene as a camera sees it; see scene.h.
+#include "gl/scene_store.h"
+
+#include "gl/texts.h"
+
+#include <math.h>
+#include <string.h>
+
+enum { BLOCK_LIGHTS = 255 }; // fit into what each GPU has for a block of uniforms
+
+// The drawing of a camera's picture.
+typedef struct Drawing {
+    Gl *gl;
+    GlStore *store;
+    const Scene *scene;
+    const SceneCamera *camera;
+    const ScenePictures *pictures;
+    Eye eye;
+    Matrix view;
+    Matrix projection;
+    SceneOrder order;
+    bool many;                   // lights of the group are in a texture
+    double ambient[3];           // of its lights
+    GLint ends[LIGHT_KINDS - 1]; // where those of other kinds end
+} Drawing;
+
+static void send_records(const Drawing *drawing) {
+    const SceneOrder *order = &drawing->order;
+    SceneRecord *records = arena_alloc_array(drawing->scene->arena, order->count, sizeof *records);
+    for (uint32_t i = 0; i < order->count; i++) {
+        const SceneInstance *instance = order->instances[i];
+        double cofactors[9];
+        matrix_cofactors(&instance->matrix, cofactors);
+        // Their length means nothing; as floats they must not overflow.
+        double most = 1e-300;
+        for (int k = 0; k < 9; k++)
+            most = fmax(most, fabs(cofactors[k]));
+        for (int k = 0; k < 9; k++)
+            records[i].cofactors[k] = (float)(cofactors[k] / most);
+        for (int k = 0; k < 16; k++)
+            records[i].matrix[k] = (float)instance->matrix.m[k];
+        records[i].surface = instance->material->surface;
+    }
+    glBindBuffer(GL_ARRAY_BUFFER, drawing->store->instances);
+    glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(order->count * sizeof *records), records, GL_STREAM_DRAW);
+}
+
+static void set_vector(GLuint program, const char *name, const double x[3]) {
+    glUniform3f(glGetUniformLocation(program, name), (float)x[0], (float)x[1], (float)x[2]);
+}
+
+static void set_number(GLuint program, const char *name, double x) {
+    glUniform1f(glGetUniformLocation(program, name), (float)x);
+}
+
+static void set_whole(GLuint program, const char *name, int x) {
+    glUniform1i(glGetUniformLocation(program, name), x);
+}
+
+static void set_matrix(GLuint program, const char *name, const Matrix *matrix) {
+    float m[16];
+    for (int i = 0; i < 16; i++)
+        m[i] = (float)matrix->m[i];
+    glUniformMatrix4fv(glGetUniformLocation(program, name), 1, GL_FALSE, m);
+}
+
+static void set_camera(const Drawing *drawing, GLuint program) {
+    const Look3D *look = &drawing->camera->look;
+    const Eye *eye = &drawing->eye;
+    double ahead[3];
+    for (int k = 0; k < 3; k++)
+        ahead[k] = eye->position[k] - eye->focus[k];
+    vector_unit(ahead);
+    set_matrix(program, "view", &drawing->view);
+    set_matrix(program, "projection", &drawing->projection);
+    set_vector(program, "eye", eye->position);
+    set_vector(program, "ahead", ahead);
+    set_whole(program, "orthographic", look->orthographic);
+    set_whole(program, "monochrome", look->monochrome);
+    set_number(program, "fog_min", look->fog_min);
+    set_number(program, "fog_max", look->fog_max);
+    set_number(program, "fog_curve", look->fog_curve);
+    set_vector(program, "fog_color", look->fog_color);
+    set_vector(program, "tint", look->tint);
+}
+
+static void send_light_texture(const Drawing *drawing, const SceneLight *lights, uint32_t count) {
+    enum { ROW = 256 };
+    GLsizei rows = (GLsizei)((count + ROW - 1) / ROW);
+    glActiveTexture(GL_TEXTURE0 + SCENE_TEXTURES);
+    glBindTexture(GL_TEXTURE_2D, drawing->store->light_texture);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_RGBA32F, 4 * ROW, rows, 0, GL_RGBA, GL_FLOAT, NULL);
+    for (GLsizei row = 0; row < rows; row++) {
+        uint32_t here = count - (uint32_t)row * ROW < ROW ? count - (uint32_t)row * ROW : ROW;
+        glTexSubImage2D(GL_TEXTURE_2D, 0, 0, row, (GLsizei)(4 * here), 1, GL_RGBA, GL_FLOAT, lights + row * ROW);
+    }
+    glActiveTexture(GL_TEXTURE0);
+}
+
+// Ambient lights are added up, the others put in the order of their kinds.
+static uint32_t sort_lights(Drawing *drawing, const SceneLight *all, uint32_t count, SceneLight *sorted) {
+    uint32_t made = 0;
+    memset(drawing->ambient, 0, sizeof drawing->ambient);
+    for (int kind = LIGHT_AMBIENT; kind < LIGHT_KINDS; kind++) {
+        for (uint32_t i = 0; i < count; i++) {
+            if (all[i].kind != (float)kind)
+                continue;
+            if (kind > LIGHT_AMBIENT)
+                sorted[made++] = all[i];
+            for (int k = 0; kind == LIGHT_AMBIENT && k < 3; k++)
+                drawing->ambient[k] += all[i].color[k];
+        }
+        if (kind > LIGHT_AMBIENT)
+            drawing->ends[kind - 1] = (GLint)made;
+    }
+    return made;
+}
+
+static void send_lights(Drawing *drawing, const SceneGroup *group) {
+    SceneLight *all = arena_alloc_array(drawing->scene->arena, SCENE_MOST_LIGHTS, sizeof *all);
+    SceneLight *lights = arena_alloc_array(drawing->scene->arena, SCENE_MOST_LIGHTS, sizeof *lights);
+    uint32_t count = sort_lights(drawing, all, scene_lights(group, all, SCENE_MOST_LIGHTS), lights);
+    drawing->many = count > BLOCK_LIGHTS;
+    if (drawing->many) {
+        send_light_texture(drawing, lights, count);
+        return;
+    }
+    glBindBuffer(GL_UNIFORM_BUFFER, drawing->store->light_block);
+    glBufferData(GL_UNIFORM_BUFFER, BLOCK_LIGHTS * sizeof *lights, NULL, GL_STREAM_DRAW);
+    glBufferSubData(GL_UNIFORM_BUFFER, 0, (GLsizeiptr)(count * sizeof *lights), lights);
+    glBindBufferBase(GL_UNIFORM_BUFFER, 0, drawing->store->light_block);
+}
+
+// The program, set up; 0, after a report, if it does not compile.
+static GLuint use_program(const Drawing *drawing, bool textured) {
+    const Scene *scene = drawing->scene;
+    Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
+    Str problem;
+    text_add_c(&vertex, gl_header);
+    text_add_c(&vertex, gl_text_scene_vertex);
+    text_add_c(&fragment, gl_header);
+    text_add_format(&fragment, "#define MOST_LIGHTS %d\n", BLOCK_LIGHTS);
+    text_add_c(&fragment, textured ? "#define TEXTURED\n" : "");
+    text_add_c(&fragment, drawing->many ? "#define MANY_LIGHTS\n" : "");
+    text_add_c(&fragment, gl_text_scene_light);
+    text_add_c(&fragment, textured ? gl_text_scene_texture : "");
+    text_add_c(&fragment, gl_text_scene);
+    GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &problem);
+    if (!program) {
+        scene_report(scene, "bad-shader", KIND_CANVAS3D, str_to_c(scene->arena, problem));
+        return 0;
+    }
+    glUseProgram(program);
+    set_camera(drawing, program);
+    set_vector(program, "ambient", drawing->ambient);
+    glUniform1iv(glGetUniformLocation(program, "ends"), LIGHT_KINDS - 1, drawing->ends);
+    if (drawing->many)
+        set_whole(program, "lights", SCENE_TEXTURES);
+    else
+        glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Lights"), 0);
+    return program;
+}
+
+static void set_textures(const Drawing *drawing, GLuint program, const SceneTextures *textures) {
+    static const char *const names[SCENE_TEXTURES] = {"color_texture", "metal_texture",    "roughness_texture",
+                                                      "ao_texture",    "emissive_texture", "transparency_texture"};
+    int bits = 0;
+    for (int i = 0; i < SCENE_TEXTURES; i++) {
+        GlImage image = {0};
+        if (textures->ids[i].len > 0)
+            image = drawing->pictures->find(drawing->pictures->host, textures->ids[i]);
+        bits |= image.texture ? 1 << i : 0;
+        glActiveTexture(GL_TEXTURE0 + (GLenum)i);
+        glBindTexture(GL_TEXTURE_2D, image.texture ? image.texture : drawing->gl->nothing);
+        set_whole(program, names[i], i);
+    }
+    glActiveTexture(GL_TEXTURE0);
+    set_whole(program, "textured", bits);
+    set_whole(program, "bordered", textures->border);
+    glUniform2i(glGetUniformLocation(program, "repeated"), textures->repeat[0], textures->repeat[1]);
+    glUniform4fv(glGetUniformLocation(program, "border"), 1, textures->border_color);
+}
+
+static void set_blending(const Look3D *look, bool transparent) {
+    static const struct {
+        GLenum equation;
+        GLenum source;
+        GLenum target;
+    } modes[] = {
+        [MIX3D_OVER] = {GL_FUNC_ADD, GL_ONE, GL_ONE_MINUS_SRC_ALPHA},
+        [MIX3D_SOURCE] = {GL_FUNC_ADD, GL_ONE, GL_ZERO},
+        [MIX3D_DEST] = {GL_FUNC_ADD, GL_ZERO, GL_ONE},
+        [MIX3D_DEST_OVER] = {GL_FUNC_ADD, GL_ONE_MINUS_DST_ALPHA, GL_ONE},
+        [MIX3D_ADD] = {GL_FUNC_ADD, GL_ONE, GL_ONE},
+        [MIX3D_SUBTRACT] = {GL_FUNC_SUBTRACT, GL_ONE, GL_ONE},
+        [MIX3D_LIGHTEN] = {GL_MAX, GL_ONE, GL_ONE},
+        [MIX3D_DARKEN] = {GL_MIN, GL_ONE, GL_ONE},
+    };
+    bool sorts = look->depth_sort && look->depth_test;
+    // What is opaque covers what is there: nothing to mix.
+    (sorts && !transparent && look->composite == MIX3D_OVER ? glDisable : glEnable)(GL_BLEND);
+    glBlendEquation(modes[look->composite].equation);
+    glBlendFunc(modes[look->composite].source, modes[look->composite].target);
+    (look->depth_test ? glEnable : glDisable)(GL_DEPTH_TEST);
+    glDepthMask(look->depth_test && !transparent);
+    (look->face_cull ? glEnable : glDisable)(GL_CULL_FACE);
+    glCullFace(look->cull_face == FACE_FRONT ? GL_FRONT : GL_BACK);
+}
+
+static void clear(const SceneCamera *camera) {
+    const Look3D *look = &camera->look;
+    float color[4] = {0, 0, 0, 0};
+    if (look->fog_max > look->fog_min) {
+        const double *fog = look->fog_color;
+        double grey = 0.299 * fog[0] + 0.587 * fog[1] + 0.114 * fog[2];
+        for (int k = 0; k < 3; k++)
+            color[k] = (float)((look->monochrome ? grey : fog[k]) * look->tint[k]);
+        color[3] = 1;
+    }
+    glDepthMask(GL_TRUE);
+    glDisable(GL_SCISSOR_TEST);
+    glClearColor(color[0], color[1], color[2], color[3]);
+    glClearDepthf(1);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+}
+
+static void draw_all(Drawing *drawing) {
+    const Scene *scene = drawing->scene;
+    uint32_t group = UINT32_MAX;
+    GLuint program = 0;
+    int textured = -1;
+    for (uint32_t i = 0; i < drawing->order.draw_count; i++) {
+        const SceneDraw *draw = &drawing->order.draws[i];
+        SceneModel model = scene->models[draw->model];
+        model.segments = draw->segments;
+        const SceneShape *shape = gl_store_shape(drawing->store, scene, &model);
+        if (draw->group != group) {
+            group = draw->group;
+            ArenaMark mark = arena_mark(scene->arena);
+            send_lights(drawing, scene->groups[group]);
+            arena_rewind(scene->arena, mark);
+            textured = -1;
+        }
+        if ((draw->textures > 0) != textured) {
+            textured = draw->textures > 0;
+            program = use_program(drawing, textured);
+        }
+        if (!program)
+            return;
+        if (draw->textures > 0)
+            set_textures(drawing, program, &scene->textures[draw->textures]);
+        set_blending(&scene->groups[group]->look, draw->transparent);
+        gl_store_point(drawing->store, shape, draw->first);
+        glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
+    }
+}
+
+static void leave_state(void) {
+    glDisable(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    glDepthMask(GL_TRUE);
+}
+
+static bool draw_to(Drawing *drawing, GlImage image) {
+    Gl *gl = drawing->gl;
+    const SceneCamera *camera = drawing->camera;
+    double samples = fmin(camera->look.samples, 64);
+    SceneTarget *target =
+        gl_store_target(drawing->store, image.width, image.height, samples >= 2 ? (int)samples : 0, image.format);
+    if (!target)
+        return false;
+    glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
+    if (!target->color)
+        glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.texture, 0);
+    if (glCheckFramebufferStatus(GL_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
+        return false;
+    glViewport(0, 0, image.width, image.height);
+    clear(camera);
+    draw_all(drawing);
+    leave_state();
+    if (target->color) {
+        gl_target(gl, image);
+        glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
+        glBlitFramebuffer(0, 0, image.width, image.height, 0, 0, image.width, image.height, GL_COLOR_BUFFER_BIT,
+                          GL_NEAREST);
+        glBindFramebuffer(GL_FRAMEBUFFER, gl->framebuffer);
+    }
+    return glGetError() == GL_NO_ERROR;
+}
+
+static int bits_of(const Scene *scene, const SceneCamera *camera) {
+    double bits = camera->look.colorbits;
+    return bits == 8 || bits == 16 || bits == 32 ? (int)bits : scene->bits;
+}
+
+GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const ScenePictures *pictures) {
+    GlImage none = {0};
+    Drawing drawing = {.gl = gl, .store = gl_store(gl), .scene = scene, .camera = camera, .pictures = pictures};
+    if (!drawing.store)
+        arena_exhausted(scene->arena);
+    drawing.store->now++;
+    drawing.eye = scene_eye(scene, camera);
+    drawing.view = matrix_view(&drawing.eye);
+    drawing.projection = matrix_projection(&drawing.eye);
+    SceneBox *boxes = arena_alloc_array(scene->arena, scene->model_count, sizeof *boxes);
+    for (uint32_t i = 0; i < scene->model_count; i++)
+        boxes[i] = gl_store_shape(drawing.store, scene, &scene->models[i])->box;
+    drawing.order = scene_order(scene, &drawing.view, &drawing.projection, camera->width, boxes);
+    if (drawing.order.cut)
+        scene_report(scene, "too-many-triangles", KIND_CANVAS3D,
+                     "a picture can show 50 million triangles; the others are left out");
+    while (glGetError() != GL_NO_ERROR)
+        ;
+    send_records(&drawing);
+    GlImage image = gl_image_new(gl, camera->width, camera->height, gl_format(gl, bits_of(scene, camera)));
+    if (image.texture && draw_to(&drawing, image))
+        return image;
+    scene_report(scene, "bad-size", KIND_CANVAS3D, "the GPU has no room for a picture of this size");
+    gl_image_free(gl, image);
+    return none;
+}

@@ -1,0 +1,330 @@
+// scene_file.c: triangles from files and from numbers (spec canvas3d.md 8); see scene_mesh.h.
+//
+// What a file says of sizes is never believed: it is compared with how long the file is.
+#include "gl/scene_mesh.h"
+
+#include "base/number.h"
+#include "base/table.h"
+#include "gl/scene_matrix.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
+                     uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem) {
+    uint32_t count = vertex_numbers / 3;
+    *problem = "vertices and faces are three numbers each, uv is two for each vertex";
+    if (vertex_numbers % 3 || face_numbers % 3 || count == 0 || face_numbers == 0 ||
+        (uv_numbers && uv_numbers != 2 * count))
+        return false;
+    *mesh = (Mesh){arena_alloc_array(arena, count, sizeof(MeshVertex)),
+                   arena_alloc_array(arena, face_numbers, sizeof(uint32_t)), count, face_numbers};
+    double(*normals)[3] = arena_alloc_array(arena, count, sizeof *normals);
+    memset(normals, 0, count * sizeof *normals);
+    *problem = "faces has a number that is none of a vertex";
+    for (uint32_t i = 0; i < face_numbers; i++) {
+        double number = floor(faces[i]);
+        if (!(number >= 0 && number < count))
+            return false;
+        mesh->indices[i] = (uint32_t)number;
+    }
+    for (uint32_t i = 0; i < face_numbers; i += 3) {
+        const double *a = vertices + 3 * (size_t)mesh->indices[i], *b = vertices + 3 * (size_t)mesh->indices[i + 1],
+                     *c = vertices + 3 * (size_t)mesh->indices[i + 2];
+        double one[3] = {b[0] - a[0], b[1] - a[1], b[2] - a[2]}, two[3] = {c[0] - a[0], c[1] - a[1], c[2] - a[2]};
+        vector_cross(one, two, one); // twice the area long
+        for (uint32_t k = 0; k < 9; k++)
+            normals[mesh->indices[i + k / 3]][k % 3] += one[k % 3];
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        MeshVertex *vertex = &mesh->vertices[i];
+        *vertex = (MeshVertex){.uv = {0}};
+        vector_unit(normals[i]);
+        for (int k = 0; k < 3; k++) {
+            vertex->position[k] = (float)vertices[3 * (size_t)i + (size_t)k];
+            vertex->normal[k] = (float)normals[i][k];
+        }
+        for (int k = 0; uv_numbers && k < 2; k++)
+            vertex->uv[k] = (float)uv[2 * (size_t)i + (size_t)k];
+    }
+    return true;
+}
+
+static bool is_blank(char c) {
+    return c == ' ' || c == '\t' || c == '\r';
+}
+
+// The next word of a text; empty at the end of its line.
+static Str next_word(Str *line) {
+    while (line->len > 0 && is_blank(*line->bytes))
+        *line = (Str){line->bytes + 1, line->len - 1};
+    size_t len = 0;
+    while (len < line->len && !is_blank(line->bytes[len]))
+        len++;
+    Str word = {line->bytes, len};
+    *line = (Str){line->bytes + len, line->len - len};
+    return word;
+}
+
+static Str next_line(Str *text) {
+    const char *end = memchr(text->bytes, '\n', text->len);
+    size_t len = end ? (size_t)(end - text->bytes) : text->len;
+    Str line = {text->bytes, len};
+    *text = (Str){text->bytes + len + (end != NULL), text->len - len - (end != NULL)};
+    return line;
+}
+
+static size_t skip_digits(Str word, size_t at) {
+    while (at < word.len && word.bytes[at] >= '0' && word.bytes[at] <= '9')
+        at++;
+    return at;
+}
+
+static size_t skip_one_of(Str word, size_t at, const char *which) {
+    return at < word.len && strchr(which, word.bytes[at]) ? at + 1 : at;
+}
+
+// A decimal number, with or without sign, point and exponent.
+static bool read_float(Str word, float *out) {
+    size_t start = skip_one_of(word, 0, "+-"), whole = skip_digits(word, start), point = skip_one_of(word, whole, ".");
+    size_t end = skip_digits(word, point), mark = skip_one_of(word, end, "eE");
+    if ((whole == start && end == point) || word.len > 60)
+        return false;
+    if (mark > end) {
+        size_t sign = skip_one_of(word, mark, "+-");
+        if ((end = skip_digits(word, sign)) == sign)
+            return false;
+    }
+    *out = (float)number_parse(word);
+    return end == word.len && fabsf(*out) < 1e30f;
+}
+
+static bool read_floats(Str line, int least, int most, float *out) {
+    for (int k = 0; k < most; k++) {
+        Str word = next_word(&line);
+        if (word.len == 0)
+            return k >= least;
+        if (!read_float(word, &out[k]))
+            return false;
+    }
+    return true;
+}
+
+// A list of vectors of `size` floats.
+typedef struct Floats {
+    float *items;
+    uint32_t count;
+    uint32_t room;
+} Floats;
+
+static float *add_floats(Arena *arena, Floats *list, uint32_t size) {
+    list->items = arena_room(arena, list->items, list->count, &list->room, size * sizeof(float));
+    float *out = list->items + (size_t)size * list->count++;
+    memset(out, 0, size * sizeof *out);
+    return out;
+}
+
+typedef struct Corner {
+    uint32_t parts[3]; // numbers of position, place in the texture, normal, from 1; 0: none
+} Corner;
+
+typedef struct Obj {
+    Arena *arena;
+    Floats lists[3]; // v, vt, vn
+    Corner *corners; // three for each triangle
+    uint32_t count;
+    uint32_t room;
+    bool normals; // all corners have them
+} Obj;
+
+// "a", "a/b", "a//c" or "a/b/c"; numbers below 0 count from the end.
+static bool read_corner(const Obj *obj, Str word, Corner *out) {
+    size_t at = 0;
+    *out = (Corner){{0}};
+    for (int part = 0; part < 3 && at <= word.len; part++) {
+        bool minus = at < word.len && word.bytes[at] == '-';
+        size_t start = at += minus;
+        int64_t number = 0;
+        for (; at < word.len && word.bytes[at] >= '0' && word.bytes[at] <= '9' && number < UINT32_MAX; at++)
+            number = 10 * number + (word.bytes[at] - '0');
+        int64_t count = obj->lists[part].count;
+        number = minus ? count + 1 - number : number;
+        if (at > start && (number < 1 || number > count))
+            return false;
+        if (at == start && (minus || part == 0))
+            return false;
+        out->parts[part] = at > start ? (uint32_t)number : 0;
+        if (at < word.len && word.bytes[at] != '/')
+            return false;
+        at++;
+    }
+    return at >= word.len;
+}
+
+static void add_corner(Obj *obj, Corner corner) {
+    obj->corners = arena_room(obj->arena, obj->corners, obj->count, &obj->room, sizeof corner);
+    obj->corners[obj->count++] = corner;
+    obj->normals &= corner.parts[2] != 0;
+}
+
+static bool read_face(Obj *obj, Str line) {
+    Corner first = {{0}}, before = {{0}}, corner;
+    int count = 0;
+    for (Str word; (word = next_word(&line)).len > 0; count++) {
+        if (!read_corner(obj, word, &corner) || obj->count > MESH_MOST_CORNERS)
+            return false;
+        if (count == 0)
+            first = corner;
+        if (count >= 2) {
+            add_corner(obj, first);
+            add_corner(obj, before);
+            add_corner(obj, corner);
+        }
+        before = corner;
+    }
+    return count >= 3;
+}
+
+static bool read_obj_line(Obj *obj, Str line) {
+    static const struct {
+        const char *name;
+        int least;
+        int size;
+    } lists[] = {{"v", 3, 3}, {"vt", 1, 2}, {"vn", 3, 3}};
+    Str word = next_word(&line);
+    for (int i = 0; i < 3; i++)
+        if (str_equal(word, str_from(lists[i].name)))
+            return obj->lists[i].count < MESH_MOST_CORNERS &&
+                   read_floats(line, lists[i].least, lists[i].size,
+                               add_floats(obj->arena, &obj->lists[i], (uint32_t)lists[i].size));
+    return !str_equal(word, STR("f")) || read_face(obj, line);
+}
+
+static bool is_corner(const void *owner, uint32_t entry, const void *key) {
+    return memcmp(&((const Corner *)owner)[entry], key, sizeof(Corner)) == 0;
+}
+
+static void set_vertex(const Obj *obj, const Corner *corner, MeshVertex *vertex) {
+    *vertex = (MeshVertex){.uv = {0}};
+    memcpy(vertex->position, obj->lists[0].items + 3 * (size_t)(corner->parts[0] - 1), sizeof vertex->position);
+    if (corner->parts[1])
+        memcpy(vertex->uv, obj->lists[1].items + 2 * (size_t)(corner->parts[1] - 1), sizeof vertex->uv);
+    if (corner->parts[2])
+        memcpy(vertex->normal, obj->lists[2].items + 3 * (size_t)(corner->parts[2] - 1), sizeof vertex->normal);
+}
+
+bool mesh_from_obj(Arena *arena, Str bytes, Mesh *mesh, const char **problem) {
+    Obj obj = {.arena = arena, .normals = true};
+    *problem = "a line of the OBJ file is malformed, or it is too large";
+    while (bytes.len > 0)
+        if (!read_obj_line(&obj, next_line(&bytes)))
+            return false;
+    *problem = "it has no triangles";
+    if (obj.count == 0)
+        return false;
+    // A vertex for each different corner.
+    Corner *different = arena_alloc_array(arena, obj.count, sizeof *different);
+    *mesh = (Mesh){.vertices = arena_alloc_array(arena, obj.count, sizeof(MeshVertex)),
+                   .indices = arena_alloc_array(arena, obj.count, sizeof(uint32_t)),
+                   .index_count = obj.count};
+    Index index = {0};
+    for (uint32_t i = 0; i < obj.count; i++) {
+        uint64_t hash = hash_bytes(0, &obj.corners[i], sizeof(Corner));
+        uint32_t found = index_find(&index, hash, is_corner, different, &obj.corners[i]);
+        if (found == INDEX_NONE) {
+            found = mesh->vertex_count++;
+            different[found] = obj.corners[i];
+            set_vertex(&obj, &obj.corners[i], &mesh->vertices[found]);
+            if (!index_add(&index, hash, found)) {
+                index_free(&index);
+                arena_exhausted(arena);
+            }
+        }
+        mesh->indices[i] = found;
+    }
+    index_free(&index);
+    if (!obj.normals)
+        mesh_snap(arena, mesh, 0.5);
+    return true;
+}
+
+// Three corners in a row; the normals in the file are not used.
+static bool add_stl_triangle(Arena *arena, Floats *list, const float corners[9]) {
+    for (int k = 0; k < 9; k++)
+        if (!(fabsf(corners[k]) < 1e30f))
+            return false;
+    if (list->count >= MESH_MOST_CORNERS)
+        return false;
+    for (int i = 0; i < 3; i++)
+        memcpy(add_floats(arena, list, 3), corners + 3 * i, 3 * sizeof *corners);
+    return true;
+}
+
+static bool read_stl_text(Arena *arena, Str bytes, Floats *list) {
+    float corners[9];
+    int count = 0;
+    while (bytes.len > 0) {
+        Str line = next_line(&bytes), word = next_word(&line);
+        if (str_equal(word, STR("vertex"))) {
+            if (count == 3 || !read_floats(line, 3, 3, corners + 3 * count))
+                return false;
+            count++;
+        } else if (str_equal(word, STR("endloop"))) {
+            if (count != 3 || !add_stl_triangle(arena, list, corners))
+                return false;
+            count = 0;
+        }
+    }
+    return count == 0;
+}
+
+static uint32_t little_endian(const char *bytes) {
+    const unsigned char *b = (const unsigned char *)bytes;
+    return (uint32_t)b[3] << 24 | (uint32_t)b[2] << 16 | (uint32_t)b[1] << 8 | b[0];
+}
+
+enum { STL_HEAD = 84, STL_TRIANGLE = 50 };
+
+static bool is_binary_stl(Str bytes) {
+    return bytes.len >= STL_HEAD &&
+           (bytes.len - STL_HEAD) / STL_TRIANGLE == little_endian(bytes.bytes + STL_HEAD - 4) &&
+           (bytes.len - STL_HEAD) % STL_TRIANGLE == 0;
+}
+
+static bool read_stl_binary(Arena *arena, Str bytes, Floats *list) {
+    for (size_t at = STL_HEAD; at < bytes.len; at += STL_TRIANGLE) {
+        float corners[9];
+        for (size_t k = 0; k < 9; k++) {
+            uint32_t bits = little_endian(bytes.bytes + at + 12 + 4 * k);
+            memcpy(&corners[k], &bits, sizeof bits);
+        }
+        if (!add_stl_triangle(arena, list, corners))
+            return false;
+    }
+    return true;
+}
+
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, const char **problem) {
+    Floats list = {0};
+    bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
+    if (!binary && !text)
+        return mesh_from_obj(arena, bytes, mesh, problem);
+    *problem = "the STL file is damaged, or too large";
+    if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list))
+        return false;
+    *problem = "it has no triangles";
+    if (list.count == 0)
+        return false;
+    *mesh = (Mesh){.vertices = arena_alloc_array(arena, list.count, sizeof(MeshVertex)),
+                   .indices = arena_alloc_array(arena, list.count, sizeof(uint32_t)),
+                   .vertex_count = list.count,
+                   .index_count = list.count};
+    for (uint32_t i = 0; i < list.count; i++) {
+        mesh->vertices[i] = (MeshVertex){.uv = {0}};
+        memcpy(mesh->vertices[i].position, list.items + 3 * (size_t)i, sizeof mesh->vertices[i].position);
+        mesh->indices[i] = i;
+    }
+    mesh_snap(arena, mesh, 0.5);
+    return true;
+}

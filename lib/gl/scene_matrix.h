@@ -1,0 +1,42 @@
+// scene_matrix.h: places in space (spec canvas3d.md 1.4, 6.1). Vectors are columns; matrices are kept by columns.
+#ifndef PETRI_GL_SCENE_MATRIX_H
+#define PETRI_GL_SCENE_MATRIX_H
+
+#include "canvas/drawing.h"
+
+typedef struct Matrix {
+    double m[16];
+} Matrix;
+
+extern const Matrix matrix_one;
+
+Matrix matrix_product(const Matrix *a, const Matrix *b); // applies b first
+bool matrix_is_finite(const Matrix *a);
+void matrix_point(const Matrix *a, const double p[3], double out[3]);
+// The cofactors of the upper 3 x 3, by columns: they carry normals and directions.
+void matrix_cofactors(const Matrix *a, double out[9]);
+void matrix_direction(const Matrix *a, const double d[3], double out[3]); // of length 1, or 0;0;0
+
+// a · the node's transform attributes, in the order written.
+Matrix matrix_transformed(Matrix a, const DrawNode *node);
+// a · where the attributes of a model place it.
+Matrix matrix_placed(Matrix a, const DrawNode *node);
+// View and projection of a camera (spec 3.2, 3.3).
+typedef struct Eye {
+    double position[3];
+    double focus[3];
+    double up[3];
+    const Look3D *look;
+    double near;
+    double far;
+    double width; // of the view, without perspective
+    double aspect;
+} Eye;
+Matrix matrix_view(const Eye *eye);
+Matrix matrix_projection(const Eye *eye);
+
+double vector_dot(const double a[3], const double b[3]);
+void vector_cross(const double a[3], const double b[3], double out[3]);
+bool vector_unit(double a[3]); // false, and as it was, if it has no direction
+
+#endif

@@ -1,0 +1,160 @@
+// scene_order.c: what a camera sees of a scene, and in which order it is drawn (spec canvas3d.md 2.6).
+#include "gl/scene_order.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+typedef struct Sorted {
+    double depth;
+    uint32_t segments;
+    uint32_t instance;
+    uint32_t rank; // of its model and textures; UINT32_MAX: transparent, in a group that sorts
+} Sorted;
+
+// Opaque instances by model, nearest first; then transparent ones, farthest first.
+static int compare_sorted(const void *a, const void *b) {
+    const Sorted *one = a, *two = b;
+    if (one->rank != two->rank)
+        return one->rank < two->rank ? -1 : 1;
+    if (one->depth < two->depth || one->depth > two->depth)
+        return (one->depth < two->depth) == (one->rank != UINT32_MAX) ? -1 : 1;
+    return one->instance < two->instance ? -1 : one->instance > two->instance;
+}
+
+// The least and the most that a·x + b·y + c·z + d is within a box.
+static void range_of(const double f[4], const SceneBox *box, double *least, double *most) {
+    double middle = f[3], extent = 0;
+    for (int k = 0; k < 3; k++) {
+        middle += f[k] * (box->low[k] + box->high[k]) / 2;
+        extent += fabs(f[k] * (box->high[k] - box->low[k]) / 2);
+    }
+    *least = middle - extent;
+    *most = middle + extent;
+}
+
+static void row_of(const Matrix *a, int row, double out[4]) {
+    for (int column = 0; column < 4; column++)
+        out[column] = a->m[4 * column + row];
+}
+
+// Whether some of the box may be in the picture.
+static bool is_seen(const Matrix *clip, const SceneBox *box) {
+    double w[4], row[4], plane[4], least, most;
+    row_of(clip, 3, w);
+    for (int side = 0; side < 6; side++) {
+        row_of(clip, side / 2, row);
+        for (int k = 0; k < 4; k++)
+            plane[k] = side % 2 ? w[k] - row[k] : w[k] + row[k];
+        range_of(plane, box, &least, &most);
+        if (most < 0)
+            return false;
+    }
+    return true;
+}
+
+typedef struct Ranks {
+    uint64_t *ranks; // of model and textures: the number of the group + 1 in the upper half
+    uint32_t count;  // in this group
+} Ranks;
+
+static uint32_t rank_of(Ranks *ranks, size_t pair, uint32_t group) {
+    uint64_t stamp = (uint64_t)(group + 1) << 32;
+    if ((ranks->ranks[pair] & ~(uint64_t)UINT32_MAX) != stamp)
+        ranks->ranks[pair] = stamp | ranks->count++;
+    return (uint32_t)ranks->ranks[pair];
+}
+
+static bool is_transparent(const Scene *scene, const SceneInstance *instance) {
+    return instance->material->surface.transparency > 0 ||
+           scene->textures[instance->material->textures].ids[SCENE_TEXTURES - 1].len > 0;
+}
+
+static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count) {
+    enum { MOST_SPLIT = 2000 }; // a draw takes time, too
+    const SceneGroup *group = scene->groups[number];
+    for (uint32_t i = 0; i < count; i++) {
+        const SceneInstance *instance = &group->instances[sorted[i].instance];
+        bool last = sorted[i].rank == UINT32_MAX;
+        SceneDraw *draw = order->draw_count ? &order->draws[order->draw_count - 1] : NULL;
+        if (!draw || draw->group != number || draw->model != instance->model ||
+            draw->textures != instance->material->textures || draw->transparent != last ||
+            (draw->segments != sorted[i].segments && order->draw_count < MOST_SPLIT)) {
+            order->draws = arena_room(scene->arena, order->draws, order->draw_count, &order->draw_room, sizeof *draw);
+            draw = &order->draws[order->draw_count++];
+            *draw = (SceneDraw){.group = number,
+                                .model = instance->model,
+                                .textures = instance->material->textures,
+                                .transparent = last,
+                                .first = order->count};
+        }
+        draw->count++;
+        draw->segments = draw->segments > sorted[i].segments ? draw->segments : sorted[i].segments;
+        order->instances[order->count++] = instance;
+    }
+}
+
+// How many pixels an edge of 1 of a model has where it is nearest, `scale` being that at a distance of 1.
+static double pixels_of(const Matrix *placed, double depth, bool perspective, double scale) {
+    double most = 0;
+    for (int column = 0; column < 3; column++)
+        most = fmax(most, vector_dot(placed->m + 4 * column, placed->m + 4 * column));
+    return perspective ? scale * sqrt(most) / fmax(depth, 1e-9) : scale * sqrt(most);
+}
+
+// Segments of a sphere that is so large: as few as leave no point off by more than a twentieth of a pixel; what shines
+// sharply shows more.
+static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
+    const SceneModel *model = &scene->models[instance->model];
+    const double OFF = 4.93; // of radius / segments²: the arc beyond its chord
+    double roughness = instance->material->surface.roughness, most = 0.05 * roughness * roughness;
+    bool plain = model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
+    uint32_t segments = model->segments;
+    while (plain && segments >= 32 && segments % 8 == 0 && pixels * OFF < most * (segments / 2.0) * (segments / 2.0))
+        segments /= 2;
+    return segments;
+}
+
+SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, int width,
+                       const SceneBox *boxes) {
+    SceneOrder order = {.instances = arena_alloc_array(scene->arena, scene->instance_count, sizeof *order.instances)};
+    Sorted *sorted = arena_alloc_array(scene->arena, scene->instance_count, sizeof *sorted);
+    size_t pairs = (size_t)scene->model_count * scene->texture_count;
+    Ranks ranks = {arena_alloc_array(scene->arena, pairs, sizeof *ranks.ranks), 0};
+    memset(ranks.ranks, 0, pairs * sizeof *ranks.ranks);
+    Matrix both = matrix_product(projection, view);
+    for (uint32_t number = 0; number < scene->group_count; number++) {
+        const SceneGroup *group = scene->groups[number];
+        bool sorts = group->look.depth_sort && group->look.depth_test;
+        uint32_t count = 0;
+        ranks.count = 0;
+        for (uint32_t i = 0; i < group->instance_count; i++) {
+            const SceneInstance *instance = &group->instances[i];
+            const SceneBox *box = &boxes[instance->model];
+            Matrix clip = matrix_product(&both, &instance->matrix), placed = matrix_product(view, &instance->matrix);
+            double z[4], least, most = 0;
+            row_of(&placed, 2, z);
+            range_of(z, box, &least, &most);
+            size_t pair = (size_t)instance->model * scene->texture_count + instance->material->textures;
+            uint32_t rank = rank_of(&ranks, pair, number);
+            if (box->triangles == 0 || !is_seen(&clip, box))
+                continue;
+            double pixels = pixels_of(&placed, -most, projection->m[11] != 0, fabs(projection->m[0]) * width / 2);
+            uint32_t segments = segments_of(scene, instance, pixels);
+            double part = segments ? (double)segments / scene->models[instance->model].segments : 1;
+            uint64_t triangles = (uint64_t)(part * part * box->triangles);
+            if (order.triangles + triangles > SCENE_MOST_TRIANGLES) {
+                order.cut = true;
+                continue;
+            }
+            order.triangles += triangles;
+            sorted[count++] = (Sorted){.depth = sorts ? -most : 0,
+                                       .segments = segments,
+                                       .instance = i,
+                                       .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
+        }
+        qsort(sorted, count, sizeof *sorted, compare_sorted);
+        add_draws(scene, &order, number, sorted, count);
+    }
+    return order;
+}

@@ -1,0 +1,433 @@
+// scene_read.c: the nodes of a scene; see scene.h.
+#include "gl/scene.h"
+
+#include "base/file.h"
+#include "base/source.h"
+#include "gl/effect.h"
+#include "gl/scene_mesh.h"
+#include "maths/maths.h"
+
+#include <math.h>
+#include <string.h>
+
+// What holds at a place of the scene.
+typedef struct Place {
+    Matrix matrix;
+    Look3D look;
+    SceneTextures textures;
+    const SceneMaterial *material;
+    SceneGroup *group;
+} Place;
+
+void scene_report(const Scene *scene, const char *code, NodeKind kind, const char *problem) {
+    Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[kind].name, problem);
+    diag_report(scene->faults, &(Diag){.level = DIAG_WARNING, .text = text, .code = code});
+}
+
+static double clamp(double x, double low, double high) {
+    return x > low ? x < high ? x : high : low;
+}
+
+static double *triple(const DrawNode *node, AttrName name, double out[3]) {
+    const AttrValue *attr = draw_attr(node, name);
+    if (!attr)
+        return NULL;
+    memcpy(out, attr->as.numbers, 3 * sizeof *out);
+    return out;
+}
+
+static void take_sampling(SceneTextures *textures, const DrawNode *node) {
+    const AttrValue *border = draw_attr(node, ATTR_BORDER), *repeat = draw_attr(node, ATTR_REPEAT);
+    if (border && (border->count == 1 || border->count == 3 || border->count == 4)) {
+        textures->border = true;
+        for (uint32_t k = 0; k < 4; k++)
+            textures->border_color[k] = (float)(border->count == 1  ? border->as.list[0]
+                                                : k < border->count ? border->as.list[k]
+                                                                    : 1);
+    }
+    for (int k = 0; repeat && k < 2; k++)
+        textures->repeat[k] = repeat->as.numbers[k] != 0;
+}
+
+static bool same_textures(const SceneTextures *a, const SceneTextures *b) {
+    for (int i = 0; i < SCENE_TEXTURES; i++)
+        if (!str_equal(a->ids[i], b->ids[i]))
+            return false;
+    return a->border == b->border && a->repeat[0] == b->repeat[0] && a->repeat[1] == b->repeat[1] &&
+           memcmp(a->border_color, b->border_color, sizeof a->border_color) == 0;
+}
+
+static uint32_t number_textures(Scene *scene, const Place *place) {
+    enum { MOST = 1000 };
+    SceneTextures wanted = place->textures;
+    bool any = false;
+    for (int i = 0; i < SCENE_TEXTURES; i++) {
+        wanted.ids[i] = place->look.ids[i] ? str_from(place->look.ids[i]) : (Str){0};
+        any |= wanted.ids[i].len > 0;
+    }
+    for (uint32_t i = scene->texture_count; i-- > 1 && any;)
+        if (same_textures(&scene->textures[i], &wanted))
+            return i;
+    if (!any || scene->texture_count > MOST)
+        return 0;
+    scene->textures =
+        arena_room(scene->arena, scene->textures, scene->texture_count, &scene->texture_room, sizeof *scene->textures);
+    scene->textures[scene->texture_count] = wanted;
+    return scene->texture_count++;
+}
+
+static void make_material(Scene *scene, Place *place) {
+    SceneMaterial *material = arena_alloc(scene->arena, sizeof *material);
+    const Look3D *look = &place->look;
+    *material = (SceneMaterial){.surface = {.transparency = (float)clamp(look->transparency, 0, 1),
+                                            .translucency = (float)clamp(look->translucency, 0, 1e30),
+                                            .ior = (float)clamp(look->ior, 1, 1e30),
+                                            .metal = (float)clamp(look->metal, 0, 1),
+                                            .roughness = (float)look->roughness,
+                                            .ao = (float)clamp(look->ao, 0, 1)},
+                                .textures = number_textures(scene, place)};
+    for (int k = 0; k < 3; k++) {
+        material->surface.albedo[k] = (float)clamp(look->color[k], -1e30, 1e30);
+        material->surface.emissive[k] = (float)clamp(look->emissive[k], -1e30, 1e30);
+    }
+    place->material = material;
+}
+
+// Takes the attributes of all that is inherited.
+static void take_look(Scene *scene, Place *place, const DrawNode *node) {
+    double roughness = place->look.roughness, given = 1;
+    bool any = false;
+    for (uint32_t i = 0; i < node->attr_count; i++) {
+        schema_store(&node->attrs[i], &place->look);
+        any |= schema_rows[node->attrs[i].row].field != FIELD_NOWHERE || node->attrs[i].name == ATTR_BORDER ||
+               node->attrs[i].name == ATTR_REPEAT;
+        if (node->attrs[i].name == ATTR_ROUGHNESS)
+            given = node->attrs[i].as.numbers[0];
+    }
+    if (!any)
+        return;
+    place->look.roughness = fmin(roughness, fmax(1e-6, given));
+    take_sampling(&place->textures, node);
+    make_material(scene, place);
+}
+
+static SceneGroup *add_group(Scene *scene, const SceneGroup *parent, const Look3D *look) {
+    SceneGroup *group = arena_alloc(scene->arena, sizeof *group);
+    *group = (SceneGroup){.parent = parent, .look = *look};
+    scene->groups =
+        arena_room(scene->arena, scene->groups, scene->group_count, &scene->group_room, sizeof *scene->groups);
+    scene->groups[scene->group_count++] = group;
+    return group;
+}
+
+static void set_floats(float *out, const double *x, int count) {
+    for (int k = 0; k < count; k++)
+        out[k] = (float)clamp(x[k], -1e18, 1e18);
+}
+
+static bool read_spot(const Matrix *matrix, const DrawNode *node, const double *direction, const double position[3],
+                      SceneLight *light) {
+    double focus[3], towards[3];
+    if (direction)
+        memcpy(towards, direction, sizeof towards);
+    else if (triple(node, ATTR_FOCUS, focus))
+        for (int k = 0; k < 3; k++)
+            towards[k] = focus[k] - position[k];
+    else
+        return false;
+    if (vector_dot(towards, towards) == 0)
+        return false;
+    matrix_direction(matrix, towards, towards);
+    set_floats(light->direction, towards, 3);
+    double outer = clamp(draw_number(node, ATTR_OUTER), 0, 1);
+    double inner = clamp(draw_number(node, ATTR_INNER), 0, outer);
+    light->kind = LIGHT_SPOT;
+    light->radius = (float)maths_cos(3.141592653589793 * outer);
+    light->length = (float)maths_cos(3.141592653589793 * inner);
+    return true;
+}
+
+static void read_kind(const Matrix *matrix, const DrawNode *node, SceneLight *light) {
+    double start[3], end[3], position[3], direction[3];
+    const double *towards = triple(node, ATTR_DIRECTION, direction);
+    if (towards && vector_dot(towards, towards) == 0)
+        towards = NULL;
+    if (triple(node, ATTR_START, start) && triple(node, ATTR_END, end)) {
+        matrix_point(matrix, start, start);
+        matrix_point(matrix, end, end);
+        set_floats(light->position, start, 3);
+        for (int k = 0; k < 3; k++)
+            end[k] -= start[k];
+        light->kind = LIGHT_LINE;
+        light->length = (float)fmin(sqrt(vector_dot(end, end)), 1e18);
+        light->radius = (float)clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
+        if (!vector_unit(end))
+            memcpy(end, (double[3]){1, 0, 0}, sizeof end);
+        set_floats(light->direction, end, 3);
+    } else if (triple(node, ATTR_POSITION, position)) {
+        double world[3];
+        matrix_point(matrix, position, world);
+        set_floats(light->position, world, 3);
+        if (!read_spot(matrix, node, towards, position, light)) {
+            light->radius = (float)clamp(draw_number(node, ATTR_RADIUS), 0, 1e18);
+            light->kind = light->radius > 0 ? LIGHT_BALL : LIGHT_POINT;
+        }
+    } else if (towards) {
+        light->kind = LIGHT_DIRECTIONAL;
+        matrix_direction(matrix, towards, direction);
+        set_floats(light->direction, direction, 3);
+    }
+}
+
+static void read_light(Scene *scene, const Place *place, const DrawNode *node) {
+    double color[3];
+    if (!triple(node, ATTR_COLOR, color) || vector_dot(color, color) == 0)
+        return;
+    if (scene->light_count >= SCENE_MOST_LIGHTS) {
+        scene_report(scene, "too-many-lights", KIND_LIGHT, "a scene can have 4000 lights; the others are left out");
+        return;
+    }
+    SceneLight light = {.falloff = {0, 0, 1, 0}};
+    const AttrValue *falloff = draw_attr(node, ATTR_FALLOFF);
+    set_floats(light.color, color, 3);
+    if (falloff)
+        set_floats(light.falloff, falloff->as.numbers, 4);
+    read_kind(&place->matrix, node, &light);
+    SceneGroup *group = place->group;
+    group->lights =
+        arena_room(scene->arena, group->lights, group->light_count, &group->light_room, sizeof *group->lights);
+    group->lights[group->light_count++] = light;
+    scene->light_count++;
+}
+
+static void take_points(SceneCamera *camera, const Matrix *matrix, const DrawNode *node) {
+    double point[3];
+    if (triple(node, ATTR_POSITION, point))
+        matrix_point(matrix, point, camera->position);
+    if (triple(node, ATTR_FOCUS, point))
+        matrix_point(matrix, point, camera->focus);
+    if (triple(node, ATTR_UP, point))
+        matrix_direction(matrix, point, camera->up);
+}
+
+static SceneCamera *add_camera(Scene *scene) {
+    scene->cameras =
+        arena_room(scene->arena, scene->cameras, scene->camera_count, &scene->camera_room, sizeof *scene->cameras);
+    return &scene->cameras[scene->camera_count++];
+}
+
+static void read_camera(Scene *scene, const Place *place, const DrawNode *node) {
+    enum { MOST = 100 };
+    const AttrValue *id = draw_attr(node, ATTR_ID);
+    double size[2];
+    if (!id || id->as.text.len == 0)
+        return;
+    if (scene->camera_count >= MOST) {
+        scene_report(scene, "too-many-cameras", KIND_CAMERA, "a scene can have 100 cameras; the others are left out");
+        return;
+    }
+    SceneCamera *camera = add_camera(scene);
+    *camera = scene->cameras[0];
+    camera->id = id->as.text;
+    camera->secondary = draw_flag(node, ATTR_SECONDARY);
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        schema_store(&node->attrs[i], &camera->look);
+    take_points(camera, &place->matrix, node);
+    if (draw_pair(node, ATTR_SIZE, size)) {
+        camera->width = (int)clamp(size[0], 0, 1e6);
+        camera->height = (int)clamp(size[1], 0, 1e6);
+    }
+}
+
+static uint64_t hash_list(uint64_t seed, const DrawNode *node, AttrName name) {
+    const AttrValue *attr = draw_attr(node, name);
+    return attr ? hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list) : seed + 1;
+}
+
+static const char *path_of(const Scene *scene, Str name) {
+    return str_to_c(scene->arena, path_join(scene->arena, scene->reach->directory, name));
+}
+
+static uint64_t source_of(const Scene *scene, const DrawNode *node) {
+    const AttrValue *name = draw_attr(node, ATTR_FILENAME);
+    Str version = {0};
+    if (!name || name->as.text.len == 0)
+        return hash_list(hash_list(hash_list(1, node, ATTR_VERTICES), node, ATTR_FACES), node, ATTR_UV) | 1;
+    file_version(scene->arena, scene->reach, path_of(scene, name->as.text), &version);
+    uint64_t seed = hash_bytes(2, name->as.text.bytes, name->as.text.len);
+    return hash_bytes(seed, version.bytes, version.len) | 1;
+}
+
+bool scene_same_model(const SceneModel *a, const SceneModel *b) {
+    return a->kind == b->kind && a->segments == b->segments && a->source == b->source && a->flat == b->flat &&
+           a->invert == b->invert && a->remap == b->remap && a->uv_map == b->uv_map && a->snap == b->snap;
+}
+
+// UINT32_MAX, after a report, if there are too many.
+static uint32_t number_model(Scene *scene, const DrawNode *node) {
+    NodeKind kind = (NodeKind)node->kind;
+    SceneModel model = {.kind = node->kind,
+                        .node = node,
+                        .snap = clamp(draw_number(node, ATTR_SNAP_EDGES), 0, 0.5),
+                        .flat = draw_flag(node, ATTR_FLAT),
+                        .invert = draw_flag(node, ATTR_INVERT),
+                        .remap = (uint8_t)draw_word(node, ATTR_UV_REMAP)};
+    if (kind == KIND_BOX) {
+        model.uv_map = (uint8_t)draw_word(node, ATTR_UV_MAP);
+    } else if (kind == KIND_MODEL) {
+        model.source = source_of(scene, node);
+    } else {
+        double segments = draw_number(node, ATTR_SEGMENTS);
+        if (segments > MESH_MOST_SEGMENTS)
+            scene_report(scene, "too-many-segments", kind, "more than 1024 segments count as 1024");
+        model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MOST_SEGMENTS);
+    }
+    for (uint32_t i = scene->model_count; i-- > 0;)
+        if (scene_same_model(&scene->models[i], &model))
+            return i;
+    if (scene->model_count >= SCENE_MOST_MODELS) {
+        scene_report(scene, "too-many-models", kind, "a scene can have 2000 different models; the others are left out");
+        return UINT32_MAX;
+    }
+    scene->models = arena_room(scene->arena, scene->models, scene->model_count, &scene->model_room, sizeof model);
+    scene->models[scene->model_count] = model;
+    return scene->model_count++;
+}
+
+static void read_model(Scene *scene, const Place *outside, const DrawNode *node) {
+    Place place = *outside;
+    if (scene->instance_count >= SCENE_MOST_INSTANCES) {
+        scene_report(scene, "too-many-models", (NodeKind)node->kind,
+                     "a scene can have 200000 models; the others are left out");
+        return;
+    }
+    take_look(scene, &place, node);
+    SceneInstance instance = {matrix_placed(place.matrix, node), place.material, number_model(scene, node)};
+    if (instance.model == UINT32_MAX || !matrix_is_finite(&instance.matrix))
+        return;
+    SceneGroup *group = place.group;
+    group->instances = arena_room(scene->arena, group->instances, group->instance_count, &group->instance_room,
+                                  sizeof *group->instances);
+    group->instances[group->instance_count++] = instance;
+    scene->instance_count++;
+}
+
+// The depth is limited by that of nodes.
+static void read_inside(Scene *scene, const Place *outside, const DrawNode *node) {
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        const DrawNode *child = node->children[i];
+        Place place;
+        switch ((NodeKind)child->kind) {
+        case KIND_LIGHT:
+            read_light(scene, outside, child);
+            break;
+        case KIND_CAMERA:
+            read_camera(scene, outside, child);
+            break;
+        case KIND_TRANSFORM3D:
+        case KIND_MATERIAL:
+        case KIND_GROUP3D:
+            place = *outside;
+            place.matrix = matrix_transformed(place.matrix, child);
+            take_look(scene, &place, child);
+            if (child->kind == KIND_GROUP3D)
+                place.group = add_group(scene, outside->group, &place.look);
+            read_inside(scene, &place, child);
+            break;
+        default:
+            read_model(scene, outside, child);
+        }
+    }
+}
+
+Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const Reach *reach,
+                  DiagSink *faults) {
+    Scene *scene = arena_alloc(arena, sizeof *scene);
+    *scene = (Scene){.arena = arena, .reach = reach, .faults = faults, .width = width, .bits = bits};
+    scene->textures = arena_room(arena, NULL, 0, &scene->texture_room, sizeof *scene->textures);
+    scene->textures[scene->texture_count++] = (SceneTextures){.border = false};
+    Place place = {.matrix = matrix_one};
+    schema_defaults(KIND_CANVAS3D, &place.look);
+    make_material(scene, &place);
+    take_look(scene, &place, node);
+    SceneCamera *camera = add_camera(scene);
+    *camera = (SceneCamera){
+        .look = place.look, .position = {0, 0, width / 2.0}, .up = {0, 1, 0}, .width = width, .height = height};
+    take_points(camera, &matrix_one, node);
+    place.matrix = matrix_transformed(place.matrix, node);
+    place.group = add_group(scene, NULL, &place.look);
+    read_inside(scene, &place, node);
+    const AttrValue *id = draw_attr(node, ATTR_CAMERA_ID);
+    for (uint32_t i = 1; id && i < scene->camera_count; i++)
+        if (str_equal(scene->cameras[i].id, id->as.text))
+            scene->shown = i;
+    return scene;
+}
+
+Eye scene_eye(const Scene *scene, const SceneCamera *camera) {
+    const Look3D *look = &camera->look;
+    Eye eye = {.look = look, .aspect = (double)camera->width / camera->height};
+    memcpy(eye.position, camera->position, sizeof eye.position);
+    memcpy(eye.focus, camera->focus, sizeof eye.focus);
+    memcpy(eye.up, camera->up, sizeof eye.up);
+    eye.near = fmax(look->near, 1e-9);
+    eye.far = fmax(isnan(look->far) ? scene->width : look->far, eye.near + 1e-9);
+    eye.width = isnan(look->width) ? scene->width : look->width;
+    return eye;
+}
+
+uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most) {
+    uint32_t count = 0, wanted = (uint32_t)clamp(group->look.max_lights, 1, most);
+    for (; group; group = group->parent)
+        for (uint32_t i = 0; i < group->light_count && count < wanted; i++)
+            lights[count++] = group->lights[i];
+    return count;
+}
+
+static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh) {
+    const AttrValue *name = draw_attr(node, ATTR_FILENAME), *vertices = draw_attr(node, ATTR_VERTICES),
+                    *faces = draw_attr(node, ATTR_FACES), *uv = draw_attr(node, ATTR_UV);
+    const char *problem = NULL;
+    enum { MOST_BYTES = 256 << 20 };
+    if (name && name->as.text.len > 0) {
+        Str bytes;
+        if (file_read(arena, scene->reach, path_of(scene, name->as.text), true, MOST_BYTES, &bytes, NULL, &problem) &&
+            mesh_from_file(arena, bytes, mesh, &problem))
+            return true;
+        Str text = str_format(scene->faults->arena, "cannot read '%s': %s", name->as.text.bytes, problem);
+        scene_report(scene, "cannot-read", KIND_MODEL, str_to_c(scene->faults->arena, text));
+        return false;
+    }
+    if (!vertices || !faces) {
+        if (vertices)
+            scene_report(scene, "bad-model", KIND_MODEL, "vertices need faces: numbers of three vertices each");
+        return false;
+    }
+    if (mesh_from_lists(arena, vertices->as.list, vertices->count, faces->as.list, faces->count,
+                        uv ? uv->as.list : NULL, uv ? uv->count : 0, mesh, &problem))
+        return true;
+    scene_report(scene, "bad-model", KIND_MODEL, problem);
+    return false;
+}
+
+bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
+    *mesh = (Mesh){.vertices = NULL};
+    if (model->kind == KIND_MODEL && !read_triangles(scene, model->node, arena, mesh))
+        return false;
+    if (model->kind != KIND_MODEL)
+        *mesh = model->kind == KIND_BOX        ? mesh_box(arena, model->uv_map == UV_REPEAT)
+                : model->kind == KIND_SPHERE   ? mesh_sphere(arena, model->segments)
+                : model->kind == KIND_CYLINDER ? mesh_cylinder(arena, model->segments)
+                                               : mesh_cone(arena, model->segments);
+    if (mesh->index_count == 0)
+        return false;
+    if (model->flat || model->snap == 0)
+        mesh_flat(arena, mesh);
+    else if (model->snap < 0.5)
+        mesh_snap(arena, mesh, model->snap);
+    if (model->invert)
+        mesh_invert(mesh);
+    if (model->remap != REMAP_NONE)
+        mesh_remap(arena, mesh, model->remap);
+    return true;
+}

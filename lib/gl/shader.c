@@ -1,0 +1,73 @@
+// shader.c: see shader.h.
+#include "gl/shader.h"
+
+#include "gl/internal.h"
+#include "gl/merge.h"
+
+enum { MOST_PASSES = 64 };
+
+// A text with the host's lines in place of ${HEADER}; what the compiler says counts lines as the text does. False if
+// there are other templates.
+static bool expand(Text *out, Str text) {
+    static const Str header = {"${HEADER}", 9}, version = {"#version 330", 12};
+    size_t line_number = 1, i = 0;
+    for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
+        line_number += text.bytes[i] == '\n'; // the version is the first line
+    for (; i < text.len; i++) {
+        Str rest = {text.bytes + i, text.len - i};
+        bool line = i == 0 || text.bytes[i - 1] == '\n';
+        line_number += text.bytes[i] == '\n';
+        bool own = line && str_starts_with(rest, version);
+        if (own || str_starts_with(rest, header)) {
+            text_add_format(out, "%s#line %zu\n", gl_header, line_number);
+            i += header.len - 1;
+            while (own && i + 1 < text.len && text.bytes[i + 1] != '\n')
+                i++;
+        } else if (str_starts_with(rest, STR("${")) || (line && text.bytes[i] == '%')) {
+            return false;
+        } else {
+            text_add(out, (Str){text.bytes + i, 1});
+        }
+    }
+    return true;
+}
+
+// Whether a pass is one of `downsample_passes`.
+static bool is_reduced(const DrawNode *node, uint32_t pass) {
+    const AttrValue *list = draw_attr(node, ATTR_DOWNSAMPLE_PASSES);
+    for (uint32_t i = 0; list && i < list->count; i++)
+        if (list->as.list[i] >= pass && list->as.list[i] < pass + 1)
+            return true;
+    return false;
+}
+
+GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
+    const DrawNode *node = effect->node;
+    const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
+    Text texts[2] = {text_new(arena), text_new(arena)};
+    Str problem;
+    bool good = expand(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
+    if (fragment) {
+        good = good && expand(&texts[1], fragment->as.text);
+    } else if (!gl_add_merge(&texts[1], node, effect->count, gl_edge(node, GL_EDGE_BORDER))) {
+        return (GlImage){0};
+    } else {
+        text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");
+    }
+    if (!good) {
+        gl_report(faults, node, "bad-shader", STR("of templates only ${HEADER} can be used"));
+        return (GlImage){0};
+    }
+    unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &problem);
+    if (!program) {
+        gl_report(faults, node, "bad-shader", problem);
+        return (GlImage){0};
+    }
+    double wanted = draw_number(node, ATTR_PASSES);
+    uint32_t count = wanted >= 2 ? wanted < MOST_PASSES ? (uint32_t)wanted : MOST_PASSES : 1;
+    GlPass passes[MOST_PASSES];
+    for (uint32_t i = 0; i < count; i++)
+        passes[i] = (GlPass){program, is_reduced(node, i)};
+    GlImage out;
+    return gl_run_passes(gl, effect, passes, count, &out) ? out : (GlImage){0};
+}

@@ -1,0 +1,21 @@
+// bloom.glsl (spec pictures.md 7.3)
+uniform vec2 radius, sigma;
+uniform float exposure, contrast, brightness, shadows, highlights, downsample;
+
+//: reduced
+void main() {
+    vec4 t = source(coord);
+    color = vec4(adjusted(unpremultiplied(t), exposure, contrast, brightness, shadows, highlights) * t.a, t.a);
+}
+//: reduced
+void main() {
+    float r = floor(floor(radius.x) / downsample);
+    color = blurred(coord, r, r * sigma.x, vec2(1.0, 0.0));
+}
+//: reduced
+void main() {
+    float r = floor(floor(radius.y) / downsample);
+    color = blurred(coord, r, r * sigma.y, vec2(0.0, 1.0));
+}
+//: full
+void main() { color = max(source(coord), previous(coord)) * alpha; }

@@ -1,0 +1,39 @@
+// common.glsl: what effects share (spec pictures.md 6). It follows what merge.c writes: take, merged, source, previous.
+float lum(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+vec3 unpremultiplied(vec4 c) { return c.a > 0.0 ? c.rgb / c.a : vec3(0.0); }
+
+vec3 adjusted(vec3 c, float exposure, float contrast, float brightness, float shadows, float highlights) {
+    c = c * exp2(exposure) * contrast + brightness + (1.0 - contrast) / 2.0;
+    float l = lum(c);
+    return c * exp2(shadows * clamp(4.0 * (0.25 - l), 0.0, 1.0)) * exp2(highlights * clamp(2.0 * (l - 0.5), 0.0, 1.0));
+}
+
+vec3 hsv_of(vec3 c) {
+    float v = max(c.r, max(c.g, c.b)), x = v - min(c.r, min(c.g, c.b)), h = 0.0;
+    if (x > 0.0)
+        h = v == c.r ? (c.g - c.b) / x : v == c.g ? 2.0 + (c.b - c.r) / x : 4.0 + (c.r - c.g) / x;
+    return vec3(fract(h / 6.0 + 1.0), x / (v + 1e-10), v);
+}
+
+vec3 rgb_of(vec3 hsv) {
+    vec3 k = clamp(abs(6.0 * fract(hsv.x + vec3(1.0, 2.0 / 3.0, 1.0 / 3.0)) - 3.0) - 1.0, 0.0, 1.0);
+    return hsv.z * (1.0 - hsv.y + hsv.y * k);
+}
+
+// A Gaussian of 2r+1 pixels of the target of this pass along an axis.
+#define BLUR(NAME, FETCH) \
+vec4 NAME(vec2 uv, float r, float sigma, vec2 axis) { \
+    if (r < 1.0 || sigma <= 0.0) \
+        return FETCH(uv); \
+    vec4 sum = vec4(0.0); \
+    float total = 0.0; \
+    for (float i = -r; i <= r; i++) { \
+        float w = exp(-i * i / (2.0 * sigma * sigma)); \
+        sum += w * FETCH(uv + i * axis / size); \
+        total += w; \
+    } \
+    return sum / total; \
+}
+BLUR(blurred_source, source)
+BLUR(blurred, previous)

@@ -1,0 +1,3 @@
+// plain.glsl (spec pictures.md 3.6)
+//: full
+void main() { color = merged(coord) * alpha; }

@@ -1,0 +1,81 @@
+// scene_light.glsl: what lights do to a point of a surface (spec canvas3d.md 5.3, 5.4).
+in vec3 world, outwards;
+in vec2 coord;
+flat in vec4 albedo_transparency, emissive_translucency, surface;
+out vec4 color;
+
+uniform vec3 eye, ahead; // where the camera is; from what it looks at to it
+uniform bool orthographic, monochrome;
+uniform float fog_min, fog_max, fog_curve;
+uniform vec3 fog_color, tint;
+uniform vec3 ambient;
+uniform int ends[5]; // where the lights of each kind end: from directions, spots, points, balls, lines
+
+#ifdef MANY_LIGHTS
+uniform highp sampler2D lights;
+#define LIGHT(i, k) texelFetch(lights, ivec2(4 * ((i) & 255) + (k), (i) >> 8), 0)
+#else
+layout(std140) uniform Lights { vec4 lights[MOST_LIGHTS * 4]; };
+#define LIGHT(i, k) lights[4 * (i) + (k)]
+#endif
+
+float lum(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
+
+vec3 N, V, albedo, F0, diffuse_share, diffuse, specular;
+float alpha2, k, NV, GV;
+
+// One light, or one step of it, from a direction at a distance.
+void shine(vec3 c, vec4 falloff, vec3 L, float d, float b, bool first, bool last) {
+    float NL = clamp(dot(N, L), 0.0, 1.0);
+    vec3 I = c * (b * NL / (falloff.x + d * (falloff.y + d * (falloff.z + d * falloff.w))));
+    float most = max(max(abs(I.r), abs(I.g)), abs(I.b));
+    if (NL == 0.0 || most < (last ? 1e-3 * alpha2 : 1e-3))
+        return;
+    if (first)
+        diffuse += I * diffuse_share;
+    if (last) {
+        vec3 H = normalize(V + L);
+        float HV = clamp(dot(H, V), 0.0, 1.0), NH = clamp(dot(N, H), 0.0, 1.0), rest = 1.0 - HV;
+        float rest2 = rest * rest;
+        vec3 F = F0 + (1.0 - F0) * (rest2 * rest2 * rest);
+        float denominator = NH * NH * (alpha2 - 1.0) + 1.0;
+        float D = alpha2 / (denominator * denominator);
+        float G = GV * NL / (NL * (1.0 - k) + k);
+        specular += I * F * (D * G / (4.0 * NV * NL + 1e-6));
+    }
+}
+
+void shine_ball(vec3 c, vec4 falloff, vec3 Q, float r) {
+    float away = length(Q);
+    float b = clamp(1.0 - r / away, 0.005, 1.0);
+    shine(c, falloff, Q / away, away - min(r, 0.99 * away), b, true, false);
+    vec3 R = V - 2.0 * dot(V, N) * N;
+    vec3 l = dot(Q, R) * R - Q;
+    vec3 near = Q + l * min(0.99, r / length(l));
+    away = length(near);
+    shine(c, falloff, near / away, away, b, false, true);
+}
+
+void shine_line(vec3 c, vec4 falloff, vec3 Q, vec3 a, float len, float r) {
+    float qn = dot(Q, N), an = dot(a, N);
+    float cp = clamp(-dot(Q, a), 0.0, len), ip = clamp(-qn / an, 0.0, len), middle = len / 2.0;
+    if (qn < 0.0) {
+        middle = (ip + len) / 2.0;
+        cp = max(cp, ip);
+    } else if (qn + len * an < 0.0) {
+        middle = ip / 2.0;
+        cp = min(cp, ip);
+    }
+    vec3 near = Q + a * ((3.0 * cp + middle) / 4.0);
+    float away = length(near);
+    shine(c, falloff, near / away, away - min(r, 0.99 * away), clamp(1.0 - r / away, 0.0, 1.0), true, false);
+    vec3 R = V - 2.0 * dot(V, N) * N;
+    float s = dot(R, a), beta = (dot(Q, a) - s * dot(Q, R)) / (1.0 - s * s);
+    near = Q + clamp(-beta, 0.0, len) * a;
+    vec3 l = dot(near, R) * R - near;
+    away = length(near);
+    float b = clamp(1.0 - r / away, 0.0, 1.0);
+    near += l * min(0.99, r / away);
+    away = length(near);
+    shine(c, falloff, near / away, away, b, false, true);
+}

@@ -1,0 +1,241 @@
+// uniforms.c: see uniforms.h.
+#include "gl/uniforms.h"
+
+#include "gl/internal.h"
+#include "maths/maths.h"
+
+#include <math.h>
+#include <stdlib.h>
+#include <string.h>
+
+// The numbers of a uniform.
+typedef struct Numbers {
+    const double *list;
+    uint32_t count;
+    double own[9];
+} Numbers;
+
+static void give(Numbers *out, const double *list, uint32_t count) {
+    out->list = list;
+    out->count = count;
+}
+
+static void give_one(Numbers *out, double x) {
+    out->own[0] = x;
+    give(out, out->own, 1);
+}
+
+// a = a · b, matrices of 3 x 3 by columns.
+static void multiply(double a[9], const double b[9]) {
+    double out[9] = {0};
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++)
+            for (int k = 0; k < 3; k++)
+                out[3 * column + row] += a[3 * k + row] * b[3 * column + k];
+    memcpy(a, out, sizeof out);
+}
+
+static bool invert(double m[9]) {
+    double out[9], determinant;
+    for (int column = 0; column < 3; column++)
+        for (int row = 0; row < 3; row++) {
+            int a = (row + 1) % 3, b = (row + 2) % 3, c = (column + 1) % 3, d = (column + 2) % 3;
+            out[3 * column + row] = m[3 * a + c] * m[3 * b + d] - m[3 * b + c] * m[3 * a + d];
+        }
+    determinant = m[0] * out[0] + m[3] * out[1] + m[6] * out[2];
+    for (int i = 0; i < 9; i++)
+        m[i] = out[i] / determinant;
+    return determinant != 0 && isfinite(determinant);
+}
+
+static const double unit_matrix[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};
+static const double TURN = 6.283185307179586;
+
+// That of `!transform` (spec pictures.md 7.7), inverse; zeros if there is none.
+static void find_matrix(const GlEffect *effect, double m[9]) {
+    memcpy(m, unit_matrix, sizeof unit_matrix);
+    for (uint32_t i = 0; i < effect->node->attr_count; i++) {
+        const AttrValue *attr = &effect->node->attrs[i];
+        const double *x = attr->as.numbers;
+        double a[9];
+        memcpy(a, unit_matrix, sizeof unit_matrix);
+        if (attr->name == ATTR_SCALE) {
+            a[0] = x[0], a[4] = x[1];
+        } else if (attr->name == ATTR_ROTATE) {
+            double cosine = maths_cos(TURN * x[0]), sine = maths_sin(TURN * x[0]);
+            a[0] = cosine, a[1] = sine, a[3] = -sine, a[4] = cosine;
+        } else if (attr->name == ATTR_TRANSLATE) {
+            a[6] = x[0], a[7] = x[1];
+        } else if (attr->name == ATTR_KEYSTONE) {
+            a[2] = x[0] / effect->width, a[5] = x[1] / effect->height;
+        } else {
+            continue;
+        }
+        multiply(m, a);
+    }
+    if (!invert(m))
+        memset(m, 0, 9 * sizeof *m);
+}
+
+// An attribute of the node, or its default.
+static bool find_attribute(const DrawNode *node, const char *name, Numbers *out) {
+    if (strcmp(name, "other") == 0)
+        name = "default"; // a word of the language of shaders
+    for (uint32_t i = 0; i < node->attr_count; i++)
+        if (node->attrs[i].name == ATTR_NONE && strcmp(node->attrs[i].own, name) == 0) {
+            give(out, node->attrs[i].as.list, node->attrs[i].count);
+            return true;
+        }
+    for (int i = 1; i < ATTR_COUNT; i++) {
+        const SchemaRow *row =
+            strcmp(schema_names[i], name) == 0 ? schema_row((NodeKind)node->kind, (AttrName)i) : NULL;
+        const AttrValue *attr = row ? draw_attr(node, (AttrName)i) : NULL;
+        AttrShape shape = row ? schema_types[row->type].shape : SHAPE_OTHER;
+        if (!row)
+            continue;
+        if (!attr && shape == SHAPE_LIST) // color_matrix
+            give(out, unit_matrix, 9);
+        else if (shape == SHAPE_WORD || shape == SHAPE_FLAG)
+            give_one(out, !attr ? row->fallback.value : shape == SHAPE_WORD ? attr->as.word : attr->as.flag);
+        else if (!attr)
+            give_one(out, row->fallback.value);
+        else if (shape == SHAPE_LIST)
+            give(out, attr->as.list, attr->count);
+        else
+            give(out, attr->as.numbers,
+                 shape == SHAPE_QUAD     ? 4
+                 : shape == SHAPE_TRIPLE ? 3
+                 : shape == SHAPE_PAIR   ? 2
+                                         : 1);
+        return true;
+    }
+    return false;
+}
+
+static bool find_own(const GlState *state, const char *name, Numbers *out) {
+    const GlEffect *effect = state->effect;
+    out->own[0] = state->target.width;
+    out->own[1] = state->target.height;
+    if (strcmp(name, "size") == 0)
+        give(out, out->own, 2);
+    else if (strcmp(name, "pass") == 0)
+        give_one(out, state->pass);
+    else if (strcmp(name, "passes") == 0)
+        give_one(out, state->passes);
+    else if (strcmp(name, "downsample") == 0)
+        give_one(out, state->downsample);
+    else if (strcmp(name, "beats") == 0)
+        give_one(out, effect->frame->beats);
+    else if (strcmp(name, "past") == 0)
+        give_one(out, state->last.texture != 0);
+    else if (strcmp(name, "inverse_matrix") == 0)
+        find_matrix(effect, out->own), give(out, out->own, 9);
+    else if (strcmp(name, "repeated") == 0)
+        return find_attribute(effect->node, "repeat", out);
+    else
+        return false;
+    return true;
+}
+
+static void find_numbers(const GlState *state, const char *name, Numbers *out) {
+    const GlEffect *effect = state->effect;
+    if (!find_own(state, name, out) && !find_attribute(effect->node, name, out)) {
+        give_one(out, 0);
+        for (uint32_t i = effect->frame->name_count; i-- > 0;) // of several the first counts
+            if (strcmp(effect->frame->names[i], name) == 0)
+                give_one(out, effect->frame->numbers[i]);
+    }
+}
+
+// How many numbers a type takes; 0: it is none of those that are set. `whole`: they are rounded down.
+static uint32_t size_of(GLenum type, bool *whole) {
+    static const struct {
+        GLenum type;
+        uint8_t size;
+        bool whole;
+    } types[] = {
+        {GL_FLOAT, 1, false},      {GL_FLOAT_VEC2, 2, false}, {GL_FLOAT_VEC3, 3, false},  {GL_FLOAT_VEC4, 4, false},
+        {GL_INT, 1, true},         {GL_INT_VEC2, 2, true},    {GL_INT_VEC3, 3, true},     {GL_INT_VEC4, 4, true},
+        {GL_BOOL, 1, true},        {GL_BOOL_VEC2, 2, true},   {GL_BOOL_VEC3, 3, true},    {GL_BOOL_VEC4, 4, true},
+        {GL_FLOAT_MAT2, 4, false}, {GL_FLOAT_MAT3, 9, false}, {GL_FLOAT_MAT4, 16, false},
+    };
+    for (size_t i = 0; i < sizeof types / sizeof types[0]; i++)
+        if (types[i].type == type) {
+            *whole = types[i].whole;
+            return types[i].size;
+        }
+    return 0;
+}
+
+static void send(GLint at, GLenum type, uint32_t size, GLsizei count, bool whole, const float *x, const GLint *n) {
+    if (type == GL_FLOAT_MAT2)
+        glUniformMatrix2fv(at, count, GL_FALSE, x);
+    else if (type == GL_FLOAT_MAT3)
+        glUniformMatrix3fv(at, count, GL_FALSE, x);
+    else if (type == GL_FLOAT_MAT4)
+        glUniformMatrix4fv(at, count, GL_FALSE, x);
+    else if (size == 1)
+        whole ? glUniform1iv(at, count, n) : glUniform1fv(at, count, x);
+    else if (size == 2)
+        whole ? glUniform2iv(at, count, n) : glUniform2fv(at, count, x);
+    else if (size == 3)
+        whole ? glUniform3iv(at, count, n) : glUniform3fv(at, count, x);
+    else
+        whole ? glUniform4iv(at, count, n) : glUniform4fv(at, count, x);
+}
+
+// Numbers that fit are taken as they are, one stands for all, a vector for each of an array; others count as 0.
+static void set_numbers(GLint at, GLenum type, GLsizei count, const Numbers *numbers) {
+    enum { MOST = 256 };
+    bool whole;
+    uint32_t size = size_of(type, &whole), all = size * (uint32_t)count;
+    float x[MOST];
+    GLint n[MOST];
+    bool fits = numbers->count == all || numbers->count == 1 || numbers->count == size;
+    if (size == 0 || all > MOST)
+        return;
+    for (uint32_t i = 0; i < all; i++) {
+        double number = fits ? numbers->list[i % numbers->count] : 0;
+        x[i] = (float)number;
+        n[i] = fabs(number) < 1e9 ? (GLint)floor(number) : 0;
+    }
+    send(at, type, size, count, whole, x, n);
+}
+
+static void set_picture(const Gl *gl, GLint at, const GlState *state, const char *name, GLint unit) {
+    const GlEffect *effect = state->effect;
+    GlImage image = {0};
+    char *end;
+    unsigned long input = strncmp(name, "texture", 7) == 0 ? strtoul(name + 7, &end, 10) : effect->count;
+    if (strcmp(name, "first") == 0)
+        image = state->first;
+    else if (strcmp(name, "last") == 0)
+        image = state->last;
+    else if (input < effect->count)
+        image = effect->inputs[input];
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(GL_TEXTURE_2D, image.texture ? image.texture : gl->nothing);
+    glUniform1i(at, unit);
+}
+
+void gl_set_uniforms(const Gl *gl, unsigned program, const GlState *state) {
+    GLint count = 0, unit = 0;
+    glUseProgram(program);
+    glGetProgramiv(program, GL_ACTIVE_UNIFORMS, &count);
+    for (GLint i = 0; i < count; i++) {
+        char name[64];
+        GLint size = 0;
+        GLenum type = 0;
+        Numbers numbers = {.list = NULL};
+        glGetActiveUniform(program, (GLuint)i, sizeof name, NULL, &size, &type, name);
+        GLint at = glGetUniformLocation(program, name);
+        name[strcspn(name, "[")] = 0; // of arrays
+        if (type == GL_SAMPLER_2D) {
+            set_picture(gl, at, state, name, unit++);
+        } else {
+            find_numbers(state, name, &numbers);
+            set_numbers(at, type, size, &numbers);
+        }
+    }
+    glActiveTexture(GL_TEXTURE0);
+}

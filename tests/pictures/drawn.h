@@ -1,0 +1,79 @@
+// drawn.h: scripts as texts, drawn frame after frame by one painter, with what was told of them.
+#ifndef PETRI_TESTS_DRAWN_H
+#define PETRI_TESTS_DRAWN_H
+
+#include "check.h"
+
+#include <stdlib.h>
+
+#include "petri-draw.h"
+
+enum { MOST_DRAWN = 600 * 600, TOLD = 20000 };
+
+typedef struct Drawn {
+    PetriSession *session;
+    PetriPainter *painter;
+    int width;
+    int height;
+    uint32_t *pixels; // of the frame that was drawn last: rows from the top
+    char told[TOLD];  // diagnostics, a line each: LINE [CODE] TEXT
+} Drawn;
+
+static inline void drawn_tell(void *host, const PetriDiagnostic *diagnostic) {
+    Drawn *drawn = host;
+    size_t at = strlen(drawn->told);
+    snprintf(drawn->told + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
+}
+
+static inline void drawn_next(Drawn *drawn) {
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    assert_int_equal(petri_step(drawn->session), PETRI_OK);
+    assert_int_equal(petri_picture(drawn->session, &options, &picture), PETRI_OK);
+    petri_picture_size(picture, &drawn->width, &drawn->height);
+    assert_true(drawn->width * drawn->height <= MOST_DRAWN);
+    assert_int_equal(petri_picture_draw(picture, drawn->painter, drawn->pixels, drawn->width, drawn->height,
+                                        (size_t)drawn->width * sizeof *drawn->pixels),
+                     PETRI_OK);
+    petri_picture_tell(drawn->session, picture);
+    petri_picture_free(&picture);
+}
+
+static inline void drawn_close(Drawn *drawn) {
+    petri_painter_close(&drawn->painter);
+    petri_close(&drawn->session);
+    free(drawn->pixels);
+    *drawn = (Drawn){0};
+}
+
+// Draws so many frames; the last one is seen.
+static inline void drawn_open(Drawn *drawn, const char *script, int frames) {
+    PetriOptions options = petri_default_options();
+    *drawn = (Drawn){.pixels = malloc(MOST_DRAWN * sizeof(uint32_t))};
+    options.diagnostic = drawn_tell;
+    options.host = drawn;
+    drawn->session = petri_open(&options);
+    drawn->painter = petri_painter_open();
+    assert_true(drawn->session && drawn->painter && drawn->pixels);
+    assert_int_equal(petri_load_text(drawn->session, "t.fl", script, strlen(script)), PETRI_OK);
+    for (int i = 0; i < frames; i++)
+        drawn_next(drawn);
+}
+
+// One channel: 0 red, 1 green, 2 blue, 3 alpha.
+static inline int drawn_byte(const Drawn *drawn, int x, int y, int channel) {
+    return drawn->pixels[y * drawn->width + x] >> (channel == 3 ? 24 : 16 - 8 * channel) & 255;
+}
+
+// Whether programs can be run here; says why not.
+static inline bool drawn_can_run(void) {
+    Drawn drawn;
+    drawn_open(&drawn, "!window size=2;2\n    !vignette\n        !canvas\n", 1);
+    bool can = strstr(drawn.told, "needs-gpu") == NULL;
+    if (!can)
+        printf("skipped: %s", drawn.told);
+    drawn_close(&drawn);
+    return can;
+}
+
+#endif

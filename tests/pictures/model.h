@@ -1,0 +1,62 @@
+// model.h: an independent model of lib/spec/pictures.md, sections 1, 3, 6 and 7, written from the page's text: pixel by
+// pixel, in doubles. The pictures of petri's programs are compared with it.
+#ifndef PETRI_TESTS_MODEL_H
+#define PETRI_TESTS_MODEL_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+
+enum { MOST_SIDE = 48, MOST_INPUTS = 3 };
+
+typedef struct Px {
+    double c[4]; // r, g, b multiplied by a
+} Px;
+
+typedef struct Pic {
+    int w;
+    int h;
+    Px at[MOST_SIDE * MOST_SIDE]; // rows from the bottom
+} Pic;
+
+// What is beyond the edges: a colour, or the picture again, or its last pixel.
+typedef struct Edges {
+    double border[4];
+    bool repeat[2];
+    bool clamped;
+    bool nearest;
+} Edges;
+
+// A node whose picture is to be made.
+typedef struct Work {
+    const char *kind;
+    const char *attrs; // as in the script
+    Pic in[MOST_INPUTS];
+    int n;
+    int w;
+    int h;
+    Pic last;     // the node's picture of the frame before
+    bool past;    // … there was one
+    double beats; // since then
+} Work;
+
+// Attributes: number k of one, which is repeated if it is alone; whether it is there; whether it is this word.
+double model_number(const char *attrs, const char *name, int k, double fallback);
+bool model_has(const char *attrs, const char *name);
+bool model_word(const char *attrs, const char *name, const char *word);
+
+// 1: colours and samples.
+double model_lin(double e);
+double model_enc(double c);
+double model_lum(const double c[3]);
+Px model_sample(const Pic *pic, const Edges *edges, double u, double v);
+// 3: the sampler of a node, the inputs combined, a pass's target.
+Edges model_edges(const char *attrs, bool clamped);
+Px model_merge(const Work *work, const Edges *edges, double u, double v);
+void model_target(Pic *pic, int w, int h);
+// 7: the picture of the node.
+void model_effect(const Work *work, Pic *out);
+// 7.9
+void model_noise(const Work *work, Pic *out);
+
+#endif

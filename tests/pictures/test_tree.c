@@ -1,0 +1,230 @@
+// test_tree.c: the tree of pictures: what knows what, what a program is told, and what happens where something is wrong
+// (spec pictures.md 2, 3, 8).
+#include "drawn.h"
+
+#define SIZE "!window size=4;4\n"
+// A program without inputs whose `main` is this.
+#define PROGRAM(attrs, more, main)                                                                                     \
+    "!shader " attrs " fragment=\"\"\"${HEADER}\nin vec2 coord;\nout vec4 color;\n" more "void main() { " main         \
+    " }\n\"\"\"\n"
+#define RED "!canvas\n            !rect size=9;9 fill=true color=1;0;0\n"
+#define GREEN "!canvas\n            !rect size=9;9 fill=true color=0;1;0\n"
+
+static int at(const Drawn *drawn, int channel) {
+    return drawn_byte(drawn, 1, 1, channel);
+}
+
+// Draws so many frames: this colour, nothing told.
+static void check_color(const char *row, const char *script, int frames, int red, int green, int blue) {
+    Drawn drawn;
+    drawn_open(&drawn, script, frames);
+    if (abs(at(&drawn, 0) - red) > 1 || abs(at(&drawn, 1) - green) > 1 || abs(at(&drawn, 2) - blue) > 1)
+        print_error("%d %d %d\n", at(&drawn, 0), at(&drawn, 1), at(&drawn, 2));
+    assert_text(row, drawn.told, "");
+    assert_claim(row, abs(at(&drawn, 0) - red) <= 1);
+    assert_claim(row, abs(at(&drawn, 1) - green) <= 1);
+    assert_claim(row, abs(at(&drawn, 2) - blue) <= 1);
+    drawn_close(&drawn);
+}
+
+// Draws two frames: each thing is told once, and this colour is seen.
+static void check_told(const char *row, const char *script, const char *told, int red, int green, int blue) {
+    Drawn drawn;
+    drawn_open(&drawn, script, 2);
+    assert_text(row, drawn.told, told);
+    assert_int_equal(at(&drawn, 0), red);
+    assert_int_equal(at(&drawn, 1), green);
+    assert_int_equal(at(&drawn, 2), blue);
+    drawn_close(&drawn);
+}
+
+static void test_known(void **state) {
+    (void)state;
+    check_color("hidden",
+                SIZE "    !vignette inset=0 hidden=true\n        " RED "    !vignette inset=0\n        " GREEN
+                     "    !vignette inset=0 hidden=true\n        " RED,
+                1, 0, 255, 0);
+    check_color("earlier", SIZE "    !vignette inset=0 hidden=true id=:a;1\n        " RED "    !reference id='a1'\n", 1,
+                255, 0, 0);
+    static const char later[] = SIZE "    !reference id='a'\n    " PROGRAM(
+        "id='a' hidden=true", "uniform float frame;\n", "color = vec4(frame == 0.0, frame == 1.0, frame == 2.0, 1.0);");
+    check_color("later: nothing in the first frame", later, 1, 0, 0, 0);
+    check_color("later: that of the frame before", later, 2, 255, 0, 0);
+    check_color("later: and so on", later, 3, 0, 255, 0);
+    check_color("of two with one id the later",
+                SIZE "    !vignette inset=0 hidden=true id=:a\n        " RED
+                     "    !vignette inset=0 hidden=true id=:a\n        " GREEN "    !reference id=:a\n",
+                1, 0, 255, 0);
+    check_color("of an earlier offscreen",
+                "!offscreen size=2;2 id=:o\n    !vignette inset=0\n        " RED SIZE "    !reference id=:o\n", 1, 255,
+                0, 0);
+    check_color("of itself: grows by each frame",
+                SIZE "    !shader composite=:add id=:self\n        !reference id=:self\n        " PROGRAM(
+                    "", "", "color = vec4(0.2, 0.0, 0.0, 0.2);"),
+                3, 203, 0, 0); // enc(0.6)
+    check_color("nobody", SIZE "    !reference id=:nobody\n    !vignette inset=0\n        " RED, 2, 255, 0, 0);
+}
+
+// Adds its colour in each frame.
+#define ADDING(attrs, color)                                                                                           \
+    PROGRAM(attrs, "uniform sampler2D last;\n", "color = texture(last, coord) + vec4(" color ", 0.1);")
+
+static void test_identity(void **state) {
+    (void)state;
+    check_color("goes on", SIZE "    " ADDING("", "0.2, 0.0, 0.0"), 3, 203, 0, 0);
+    // Two of the same kind take turns in their place: their ids tell them apart.
+    check_color("with an id",
+                SIZE "    !shader composite=:add\n"
+                     "        for i in ((0;1) if frame % 2 else (1;0))\n"
+                     "            " PROGRAM("id=i tint=i", "uniform sampler2D last;\nuniform float tint;\n",
+                                            "color = texture(last, coord) + 0.1 * vec4(1.0 - tint, 2.0 * tint, 0.0, "
+                                            "1.0);"),
+                3, 149, 203, 0); // enc(0.3), enc(0.6)
+    // One that was away for a frame begins anew.
+    check_color("away", SIZE "    if frame != 2\n        " ADDING("", "0.2, 0.0, 0.0") "    !canvas\n", 4, 124, 0, 0);
+    // One of another kind before it does not matter.
+    check_color("another kind before",
+                SIZE "    if frame % 2\n        !vignette\n            !canvas\n    " ADDING("", "0.2, 0.0, 0.0"), 3,
+                203, 0, 0);
+}
+
+static void test_passes(void **state) {
+    (void)state;
+    check_color("last, first, pass, passes",
+                SIZE "    " PROGRAM("passes=3", "uniform sampler2D last, first;\nuniform int pass, passes;\n",
+                                    "color = pass == 0 ? vec4(0.2, 0.0, passes, 1.0) : texture(last, coord) + "
+                                    "texture(first, coord);\n"
+                                    "if (pass == 2) color.b = color.b == 9.0 ? 1.0 : 0.0;"),
+                1, 203, 0, 255); // enc(0.6), 3 passes of 3
+    check_color("first is nothing in pass 0; last is of the frame before",
+                SIZE "    " PROGRAM("", "uniform sampler2D last, first;\n",
+                                    "color = vec4(texture(first, coord).a, texture(last, coord).g + 0.2, 0.0, 1.0);"),
+                3, 0, 203, 0);
+    check_color("downsample_passes",
+                "!window size=12;8\n    " PROGRAM("passes=2 downsample=3 downsample_passes=0",
+                                                  "uniform sampler2D last;\nuniform int pass, downsample;\n"
+                                                  "uniform vec2 size;\n",
+                                                  "color = pass == 0 ? vec4(size / 10.0, float(downsample) / 10.0, 1.0)"
+                                                  " : texture(last, coord) * float(downsample);"),
+                1, 170, 124, 149); // 4 / 10, 2 / 10, 3 / 10
+    check_color("the usual program in several passes", SIZE "    !shader alpha=0.5 downsample_passes=0;1\n        " RED,
+                1, 188, 0, 0);
+}
+
+static void test_uniforms(void **state) {
+    (void)state;
+    check_color("numbers",
+                SIZE
+                "    " PROGRAM("tint=0.2;0.4;0.6 one=0.5 whole=2.7", "uniform vec3 tint, one;\nuniform int whole;\n",
+                               "color = vec4(tint * one * float(whole), 1.0);"),
+                1, 124, 170, 203);
+    check_color("arrays",
+                SIZE "    " PROGRAM("list=0.2;0;0;0;0.4;0 same=0;0.2;0.6", "uniform vec3 list[2], same[2];\n",
+                                    "color = vec4(list[0] + list[1] + same[1], 1.0);"),
+                1, 124, 203, 203);
+    check_color("what does not fit, what nobody knows, alpha",
+                SIZE "    " PROGRAM("alpha=0.2 two=1;1", "uniform vec3 two;\nuniform float nobody, alpha;\n",
+                                    "color = vec4(two.x, nobody, alpha, 1.0);"),
+                1, 0, 0, 124);
+    check_color("the frame",
+                "%pragma tempo 60\n%pragma fps 10\n" SIZE "    " PROGRAM(
+                    "", "uniform float time, beat, tempo, fps, delta;\n",
+                    "color = vec4(time, beat, tempo == 60.0 && fps == 10.0 && abs(delta - 0.1) < 1e-6, 1.0);"),
+                3, 124, 124, 255);
+    Drawn drawn;
+    drawn_open(&drawn, SIZE "    !canvas\n", 0);
+    assert_int_equal(petri_define(drawn.session, "mine=0.2"), PETRI_OK);
+    static const char script[] =
+        SIZE "    " PROGRAM("own=mine", "uniform float mine, own;\n", "color = vec4(mine, own, 0.0, 1.0);");
+    assert_int_equal(petri_load_text(drawn.session, "t.fl", script, strlen(script)), PETRI_OK);
+    drawn_next(&drawn);
+    assert_int_equal(at(&drawn, 0), 124);
+    assert_int_equal(at(&drawn, 1), 124);
+    drawn_close(&drawn);
+}
+
+static void test_bad_programs(void **state) {
+    (void)state;
+    check_color("#version 330",
+                SIZE "    !shader fragment=\"\"\"\n#version 330\nout vec4 color;\nvoid main() { color = vec4(0.2, 0.0, "
+                     "0.0, 1.0); }\n\"\"\"\n",
+                1, 124, 0, 0);
+    check_told("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
+               "2 [bad-shader] !shader: of templates only ${HEADER} can be used\n", 255, 0, 0);
+    // The compiler's words come from the driver; the line is that of the text.
+    Drawn drawn;
+    drawn_open(&drawn,
+               SIZE "    !canvas\n        !rect size=9;9 fill=true color=1;0;0\n"
+                    "    !shader alpha=1 fragment=\"\"\"${HEADER}\nout vec4 color;\n\nvoid main(( { }\n\"\"\"\n",
+               2);
+    assert_int_equal(at(&drawn, 0), 255);
+    assert_memory_equal(drawn.told, "4 [bad-shader] !shader: ", 23);
+    assert_claim(drawn.told, strstr(drawn.told, ":4") != NULL);
+    assert_claim(drawn.told, strchr(drawn.told, '\n') == drawn.told + strlen(drawn.told) - 1);
+    drawn_close(&drawn);
+}
+
+static void test_bad_input(void **state) {
+    (void)state;
+    static char deep[20000];
+    check_told("beyond all sizes", SIZE "    !blur size=100000;4\n        " RED "    !vignette inset=0\n        " RED,
+               "2 [bad-size] !blur: a picture can have 1 to 16384 pixels in width and height\n", 255, 0, 0);
+    check_told("nan",
+               SIZE "    !blur radius=0/0 sigma=1/0\n        !transform rotate=0/0 scale=1e300\n            !canvas\n"
+                    "    !vignette inset=0/0\n        " RED,
+               "2 [bad-attribute] !blur: radius should be one number or two, not nan\n"
+               "2 [bad-attribute] !blur: sigma should be one number or two, not inf\n"
+               "3 [bad-attribute] !transform: rotate should be number, not nan\n"
+               "5 [bad-attribute] !vignette: inset should be number, not nan\n",
+               255, 0, 0);
+    check_told("unknown word to combine",
+               SIZE "    !blur composite=:nonsense\n        " RED "        " RED
+                    "    !vignette inset=0\n        " GREEN,
+               "2 [bad-attribute] !blur: composite should be :over, :dest_over, :lighten, :darken, :add, :difference "
+               "or :multiply, not :nonsense\n",
+               0, 255, 0);
+    check_told("ids in a circle",
+               SIZE "    !blur id=:a\n        !reference id=:b\n    !blur id=:b\n        !reference id=:a\n"
+                    "        " RED,
+               "", 255, 0, 0);
+    int end = snprintf(deep, sizeof deep, SIZE);
+    for (int i = 0; i < 98; i++)
+        end += snprintf(deep + end, sizeof deep - (size_t)end, "%*s!vignette inset=0\n", i + 1, "");
+    snprintf(deep + end, sizeof deep - (size_t)end, "%*s!canvas\n%*s!rect size=9;9 fill=true color=1;0;0\n", 99, "",
+             100, "");
+    check_told("98 deep", deep, "", 255, 0, 0);
+    end = snprintf(deep, sizeof deep, SIZE " !canvas\n  !rect size=9;9 fill=true color=0;1;0\n");
+    for (int i = 0; i < 100; i++)
+        end += snprintf(deep + end, sizeof deep - (size_t)end, "%*s!vignette inset=0\n", i + 1, "");
+    snprintf(deep + end, sizeof deep - (size_t)end, "%*s!canvas\n%*s!rect size=9;9 fill=true color=1;0;0\n", 101, "",
+             102, "");
+    check_told("100 deep", deep, "0 [too-deep] pictures are nested more than 100 deep; the innermost are left out\n", 0,
+               255, 0);
+}
+
+// Where no OpenGL starts, what is inside of programs is seen as it is. The last test: nothing starts after it.
+static void test_without(void **state) {
+    (void)state;
+    setenv("__EGL_VENDOR_LIBRARY_FILENAMES", "/dev/null", 1);
+    setenv("EGL_PLATFORM", "nonsense", 1);
+    Drawn drawn;
+    drawn_open(&drawn, SIZE "    !adjust exposure=-9\n        " RED "    !blur radius=3 alpha=0\n        " GREEN, 2);
+    assert_int_equal(at(&drawn, 0), 255);
+    assert_int_equal(at(&drawn, 1), 0);
+    assert_claim(drawn.told, strstr(drawn.told, "[needs-gpu] effects and three dimensions are left out: ") != NULL);
+    assert_claim(drawn.told, strchr(drawn.told, '\n') == drawn.told + strlen(drawn.told) - 1);
+    drawn_close(&drawn);
+}
+
+int main(int argc, char **argv) {
+    (void)argv;
+    static const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_known),    cmocka_unit_test(test_identity),     cmocka_unit_test(test_passes),
+        cmocka_unit_test(test_uniforms), cmocka_unit_test(test_bad_programs), cmocka_unit_test(test_bad_input),
+    };
+    static const struct CMUnitTest without[] = {cmocka_unit_test(test_without)};
+    enum { SKIP = 77 };
+    if (argc > 1)
+        return cmocka_run_group_tests(without, NULL, NULL);
+    return drawn_can_run() ? cmocka_run_group_tests(tests, NULL, NULL) : SKIP;
+}

@@ -1,0 +1,448 @@
+// test_gl_light.c: pixels of scenes against a model of spec canvas3d.md 5 that is written from the page alone.
+//
+// The surface is a wall at z = 0, or the nearest point of a sphere; its script and its model come from one record.
+#include "check.h"
+
+#include <stdlib.h>
+
+#include "petri-draw.h"
+#include "petri.h"
+
+enum { SIZE = 32, TOLERANCE = 2, MOST_LIGHTS = 3 };
+
+typedef struct Light {
+    enum { NONE, AMBIENT, DIRECTIONAL, SPOT, POINT, LINE } kind;
+    double color[3];
+    double position[3];  // of a line: start
+    double direction[3]; // of a line: end; of a spot: focus
+    double radius;
+    double outer;
+    double inner;
+    double falloff[4];
+} Light;
+
+typedef struct Case {
+    const char *name;
+    double color[3];
+    double emissive[3];
+    double roughness;
+    double metal;
+    double ior;
+    double ao;
+    double transparency;
+    bool orthographic;
+    bool monochrome;
+    double tint[3];
+    double fog_min;
+    double fog_max;
+    double fog_curve;
+    Light lights[MOST_LIGHTS];
+} Case;
+
+static double dot(const double a[3], const double b[3]) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+static double size_of(const double a[3]) {
+    return sqrt(dot(a, a));
+}
+
+static double norm(double a[3]) {
+    double length = size_of(a);
+    for (int k = 0; k < 3; k++)
+        a[k] /= length;
+    return length;
+}
+
+static void add(double out[3], const double a[3], double x, const double b[3]) {
+    for (int k = 0; k < 3; k++)
+        out[k] = a[k] + x * b[k];
+}
+
+static double clamp(double x, double low, double high) {
+    return fmin(fmax(x, low), high);
+}
+
+static double lum(const double c[3]) {
+    return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
+}
+
+typedef struct Point {
+    const Case *c;
+    double p[3], N[3], V[3], F0[3], NV, GV, alpha2, k, D;
+    double diffuse[3], specular[3];
+} Point;
+
+static void step(Point *at, const Light *light, const double L[3], double d, double b, bool first, bool last) {
+    const double *f = light->falloff;
+    double NL = clamp(dot(at->N, L), 0, 1), I[3], most = 0;
+    if (NL == 0)
+        return;
+    for (int k = 0; k < 3; k++) {
+        I[k] = light->color[k] * b * NL / (f[0] + f[1] * d + f[2] * d * d + f[3] * d * d * d);
+        most = fmax(most, fabs(I[k]));
+    }
+    if (most < 1e-3 * (last ? at->alpha2 : 1))
+        return;
+    double H[3];
+    add(H, at->V, 1, L);
+    norm(H);
+    double HV = clamp(dot(H, at->V), 0, 1), NH = clamp(dot(at->N, H), 0, 1);
+    double Dn = at->alpha2 / pow(NH * NH * (at->alpha2 - 1) + 1, 2), G = at->GV * NL / (NL * (1 - at->k) + at->k);
+    for (int k = 0; k < 3; k++) {
+        double F = at->F0[k] + (1 - at->F0[k]) * pow(1 - HV, 5);
+        at->diffuse[k] += first ? I[k] * (1 - at->F0[k]) * (1 - at->c->metal) * at->c->color[k] : 0;
+        at->specular[k] += last ? I[k] * Dn * G * F / (4 * at->NV * NL + 1e-6) : 0;
+    }
+}
+
+static void point_light(Point *at, const Light *light, double Q[3]) {
+    double r = light->radius, L[3], R[3], l[3], zero[3] = {0};
+    add(L, Q, 0, zero);
+    double d = norm(L);
+    if (r == 0) {
+        step(at, light, L, d, 1, true, true);
+        return;
+    }
+    double b = clamp(1 - r / d, 0.005, 1);
+    step(at, light, L, d - fmin(r, 0.99 * d), b, true, false);
+    add(R, at->V, -2 * dot(at->V, at->N), at->N);
+    add(l, zero, dot(Q, R), R);
+    add(l, l, -1, Q);
+    add(L, Q, fmin(0.99, r / size_of(l)), l);
+    d = norm(L);
+    step(at, light, L, d, b, false, true);
+}
+
+static void line_light(Point *at, const Light *light, const double Q[3]) {
+    double a[3], near[3], R[3], l[3], zero[3] = {0}, r = light->radius;
+    add(a, light->direction, -1, light->position);
+    double len = norm(a), cp = clamp(-dot(Q, a), 0, len), ip = clamp(-dot(Q, at->N) / dot(a, at->N), 0, len);
+    double mu = len / 2;
+    if (dot(Q, at->N) < 0) {
+        mu = (ip + len) / 2;
+        cp = fmax(cp, ip);
+    } else if (dot(Q, at->N) + len * dot(a, at->N) < 0) {
+        mu = ip / 2;
+        cp = fmin(cp, ip);
+    }
+    add(near, Q, (3 * cp + mu) / 4, a);
+    double d = norm(near);
+    step(at, light, near, d - fmin(r, 0.99 * d), clamp(1 - r / d, 0, 1), true, false);
+    add(R, at->V, -2 * dot(at->V, at->N), at->N);
+    double s = dot(R, a), beta = (dot(Q, a) - s * dot(Q, R)) / (1 - s * s);
+    add(near, Q, clamp(-beta, 0, len), a);
+    add(l, zero, dot(near, R), R);
+    add(l, l, -1, near);
+    double D0 = size_of(near), b = clamp(1 - r / D0, 0, 1);
+    add(near, near, fmin(0.99, r / D0), l);
+    d = norm(near);
+    step(at, light, near, d, b, false, true);
+}
+
+static void shine(Point *at, const Light *light) {
+    double Q[3], L[3], zero[3] = {0}, towards[3];
+    add(Q, light->position, -1, at->p);
+    if (light->kind == AMBIENT) {
+        for (int k = 0; k < 3; k++)
+            at->diffuse[k] += (1 - at->F0[k]) * (1 - at->c->metal) * at->c->color[k] * light->color[k] * at->c->ao;
+    } else if (light->kind == DIRECTIONAL) {
+        add(L, zero, -1, light->direction);
+        norm(L);
+        step(at, light, L, 1, 1, true, true);
+    } else if (light->kind == SPOT) {
+        const double pi = 3.141592653589793;
+        add(towards, light->direction, -1, light->position);
+        norm(towards);
+        double d = norm(Q), x = -dot(Q, towards), i = cos(pi * light->inner), o = cos(pi * light->outer);
+        step(at, light, Q, d, 1 - clamp((i - x) / (i - o), 0, 1), true, true);
+    } else if (light->kind == POINT) {
+        point_light(at, light, Q);
+    } else if (light->kind == LINE) {
+        line_light(at, light, Q);
+    }
+}
+
+// The colour that point p of a surface with a normal shows to a camera at 0;0;4 that looks along -z.
+static void model(const Case *c, const double p[3], const double N[3], double out[3]) {
+    double eye[3] = {0, 0, 4};
+    Point at = {.c = c, .p = {p[0], p[1], p[2]}, .N = {N[0], N[1], N[2]}, .V = {0, 0, 1}, .D = 4 - p[2]};
+    if (!c->orthographic) {
+        add(at.V, eye, -1, p);
+        at.D = norm(at.V);
+    }
+    double R = c->roughness, l = lum(c->emissive), f0 = pow((c->ior - 1) / (c->ior + 1), 2);
+    at.alpha2 = R * R * R * R;
+    at.k = (R + 1) * (R + 1) / 8;
+    at.NV = clamp(dot(at.N, at.V), 0, 1);
+    at.GV = at.NV / (at.NV * (1 - at.k) + at.k);
+    for (int k = 0; k < 3; k++) {
+        double e = c->emissive[k];
+        at.F0[k] = f0 * (1 - c->metal) + c->color[k] * c->metal;
+        at.specular[k] = l <= 1 ? e : e / l + (e - e / l) * dot(at.N, at.V);
+    }
+    for (int i = 0; i < MOST_LIGHTS; i++)
+        shine(&at, &c->lights[i]);
+    double fog = 0, sky[3] = {0.1, 0.2, 0.3};
+    if (c->fog_max > c->fog_min && c->fog_curve > 0)
+        fog = pow(clamp((at.D - c->fog_min) / (c->fog_max - c->fog_min), 0, 1), 1 / c->fog_curve);
+    for (int k = 0; k < 3; k++)
+        out[k] = (at.diffuse[k] * (1 - fog) + sky[k] * fog) * (1 - c->transparency) + at.specular[k] * (1 - fog);
+    double grey = lum(out);
+    for (int k = 0; k < 3; k++)
+        out[k] = (c->monochrome ? grey : out[k]) * c->tint[k];
+    if (!isfinite(out[0] + out[1] + out[2]))
+        out[0] = out[1] = out[2] = 0;
+}
+
+static int byte_of(double c) {
+    c = clamp(c, 0, 1);
+    return (int)lrint(255 * (c <= 0.0031308 ? 12.92 * c : 1.055 * pow(c, 1 / 2.4) - 0.055));
+}
+
+static int add_three(char *out, const char *name, const double x[3]) {
+    return sprintf(out, " %s=%g;%g;%g", name, x[0], x[1], x[2]);
+}
+
+static void write_light(char *out, const Light *light) {
+    out += sprintf(out, "        !light");
+    out += add_three(out, "color", light->color);
+    if (light->kind == DIRECTIONAL)
+        out += add_three(out, "direction", light->direction);
+    if (light->kind == SPOT || light->kind == POINT)
+        out += add_three(out, "position", light->position);
+    if (light->kind == SPOT) {
+        out += add_three(out, "focus", light->direction);
+        out += sprintf(out, " outer=%g inner=%g", light->outer, light->inner);
+    }
+    if (light->kind == LINE) {
+        out += add_three(out, "start", light->position);
+        out += add_three(out, "end", light->direction);
+    }
+    if (light->radius > 0)
+        out += sprintf(out, " radius=%g", light->radius);
+    const double *f = light->falloff;
+    sprintf(out, " falloff=%g;%g;%g;%g\n", f[0], f[1], f[2], f[3]);
+}
+
+static void write_script(char *out, const Case *c, const char *surface) {
+    out += sprintf(out, "!window size=%d;%d\n    !canvas3d viewpoint=0;0;4 near=0.5 far=20 width=4", SIZE, SIZE);
+    out +=
+        sprintf(out, " fog_min=%g fog_max=%g fog_curve=%g fog_color=0.1;0.2;0.3", c->fog_min, c->fog_max, c->fog_curve);
+    out += sprintf(out, " orthographic=%s monochrome=%s", c->orthographic ? "true" : "false",
+                   c->monochrome ? "true" : "false");
+    out += add_three(out, "tint", c->tint);
+    out += sprintf(out, "\n");
+    for (int i = 0; i < MOST_LIGHTS && c->lights[i].kind; i++) {
+        write_light(out, &c->lights[i]);
+        out += strlen(out);
+    }
+    out += sprintf(out, "        %s", surface);
+    out += add_three(out, "color", c->color);
+    out += add_three(out, "emissive", c->emissive);
+    sprintf(out, " roughness=%g metal=%g ior=%g ao=%g transparency=%g\n", c->roughness, c->metal, c->ior, c->ao,
+            c->transparency);
+}
+
+static bool missing; // OpenGL
+
+static void hear(void *host, const PetriDiagnostic *diagnostic) {
+    (void)host;
+    missing |= diagnostic->code && strcmp(diagnostic->code, "needs-gpu") == 0;
+    if (!missing)
+        printf("%s", diagnostic->rendered);
+}
+
+// False if there is no OpenGL.
+static bool draw(const char *script, uint32_t pixels[SIZE * SIZE]) {
+    PetriOptions options = petri_default_options();
+    options.diagnostic = hear;
+    PetriSession *session = petri_open(&options);
+    PetriPainter *painter = petri_painter_open();
+    PetriPictureOptions picture_options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    assert_int_equal(petri_load_text(session, "light.fl", script, strlen(script)), PETRI_OK);
+    assert_int_equal(petri_step(session), PETRI_OK);
+    assert_int_equal(petri_picture(session, &picture_options, &picture), PETRI_OK);
+    assert_int_equal(petri_picture_draw(picture, painter, pixels, SIZE, SIZE, SIZE * 4), PETRI_OK);
+    petri_picture_tell(session, picture);
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+    petri_close(&session);
+    return !missing;
+}
+
+#define WHITE                                                                                                          \
+    { 1, 1, 1 }
+#define SQUARE                                                                                                         \
+    { 0, 0, 1, 0 }
+#define USUAL .roughness = 1, .ior = 1.5, .ao = 1, .tint = WHITE, .fog_curve = 1
+static const Case cases[] = {
+    {.name = "one of the page",
+     .color = WHITE,
+     USUAL,
+     .orthographic = true,
+     .lights = {{DIRECTIONAL, WHITE, .direction = {0, 0, -1}, .falloff = SQUARE}}},
+    {.name = "ambient", .color = {1, 0.5, 0.1}, USUAL, .lights = {{AMBIENT, {0.5, 0.6, 0.7}, .falloff = SQUARE}}},
+    {.name = "directional, negative too",
+     .color = {0.9, 0.5, 0.3},
+     .roughness = 0.4,
+     .ior = 1.8,
+     .ao = 0.5,
+     .tint = WHITE,
+     .lights = {{AMBIENT, {0.3, 0.3, 0.3}, .falloff = SQUARE},
+                {DIRECTIONAL, {1, 0.9, 2}, .direction = {1, -1, -2}, .falloff = SQUARE},
+                {DIRECTIONAL, {-0.1, 0, -0.1}, .direction = {-1, 0, -1}, .falloff = SQUARE}}},
+    {.name = "metal",
+     .color = {0.9, 0.6, 0.2},
+     .roughness = 0.3,
+     .metal = 0.8,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = WHITE,
+     .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
+    {.name = "point",
+     .color = {0.2, 0.6, 0.9},
+     .roughness = 0.6,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = {1, 0.5, 0.8},
+     .lights = {{POINT, {4, 2, 1}, .position = {-1, 0.2, 1}, .falloff = {0.1, 0.2, 0.5, 0.1}}}},
+    {.name = "ball",
+     .color = {0.7, 0.6, 0.5},
+     .roughness = 0.2,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = WHITE,
+     .lights = {{POINT, {2, 2, 1}, .position = {0.3, 0.2, 1.5}, .radius = 0.4, .falloff = SQUARE}}},
+    {.name = "spot",
+     .color = {0.7, 0.6, 0.5},
+     .roughness = 0.5,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = WHITE,
+     .lights = {{SPOT,
+                 {5, 5, 8},
+                 .position = {1, 1, 2},
+                 .direction = {0.2, 0, 0},
+                 .outer = 0.3,
+                 .inner = 0.1,
+                 .falloff = SQUARE}}},
+    {.name = "line",
+     .color = {0.7, 0.6, 0.5},
+     .roughness = 0.3,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = WHITE,
+     .lights =
+         {{LINE, {2, 1, 2}, .position = {-1, -0.5, 0.6}, .direction = {1, 0.7, 1}, .radius = 0.1, .falloff = SQUARE}}},
+    {.name = "fog",
+     .color = {0.7, 0.6, 0.5},
+     .roughness = 0.3,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = WHITE,
+     .fog_min = 2,
+     .fog_max = 6,
+     .fog_curve = 2,
+     .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
+    {.name = "emission, monochrome", .color = {0.7, 0.6, 0.5}, .emissive = {3, 2, 1}, USUAL, .monochrome = true},
+    {.name = "emission beyond 1", .emissive = {0.9, 3, 0.1}, USUAL},
+    {.name = "transparency",
+     .color = {0.7, 0.6, 0.5},
+     .roughness = 0.3,
+     .ior = 1.5,
+     .ao = 1,
+     .tint = WHITE,
+     .transparency = 0.6,
+     .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
+};
+
+static int worst_of(const double wanted[3], uint32_t pixel, int worst) {
+    for (int k = 0; k < 3; k++) {
+        int off = abs(byte_of(wanted[k]) - (int)(pixel >> (16 - 8 * k) & 255));
+        worst = off > worst ? off : worst;
+    }
+    return worst;
+}
+
+// The wall: each pixel.
+static void check_wall(const Case *c) {
+    static uint32_t pixels[SIZE * SIZE];
+    char script[4000];
+    int worst = 0;
+    write_script(script, c, "!box size=40;40;1 position=0;0;-0.5");
+    if (!draw(script, pixels))
+        return;
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            double reach = c->orthographic ? 2 : 4, wanted[3], N[3] = {0, 0, 1};
+            double p[3] = {((x + 0.5) / SIZE * 2 - 1) * reach, (1 - (y + 0.5) / SIZE * 2) * reach, 0};
+            model(c, p, N, wanted);
+            worst = worst_of(wanted, pixels[y * SIZE + x], worst);
+        }
+    if (worst > TOLERANCE)
+        fail_msg("%s: a pixel of the wall is off by %d", c->name, worst);
+}
+
+// A sphere of many segments, without perspective: where the point is on it is known.
+// 516 segments are drawn as they are, 512 with as few as look the same.
+static void check_sphere(const Case *c, int segments, int tolerance) {
+    static uint32_t pixels[SIZE * SIZE];
+    char script[4000];
+    Case flat = *c;
+    flat.orthographic = true;
+    int worst = 0;
+    char sphere[100];
+    snprintf(sphere, sizeof sphere, "!sphere segments=%d size=2", segments);
+    write_script(script, &flat, sphere);
+    if (!draw(script, pixels))
+        return;
+    for (int y = 0; y < SIZE; y++)
+        for (int x = 0; x < SIZE; x++) {
+            double X = ((x + 0.5) / SIZE * 2 - 1) * 2, Y = (1 - (y + 0.5) / SIZE * 2) * 2, Z = 4 - X * X - Y * Y;
+            if (Z < 1)
+                continue;
+            double p[3] = {X, Y, sqrt(Z)}, N[3] = {X / 2, Y / 2, sqrt(Z) / 2}, wanted[3];
+            model(&flat, p, N, wanted);
+            worst = worst_of(wanted, pixels[y * SIZE + x], worst);
+        }
+    if (worst > tolerance)
+        fail_msg("%s: a pixel of the sphere is off by %d", c->name, worst);
+}
+
+static void test_walls(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases && !missing; i++)
+        check_wall(&cases[i]);
+    if (missing)
+        skip();
+}
+
+static void test_spheres(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof cases / sizeof *cases && !missing; i++)
+        check_sphere(&cases[i], i % 2 ? 512 : 516, i % 2 ? TOLERANCE + 1 : TOLERANCE);
+    if (missing)
+        skip();
+}
+
+// Canvas3d.md 10.5: 0.97 of linear light, byte 252.
+static void test_number(void **state) {
+    (void)state;
+    double N[3] = {0, 0, 1}, p[3] = {0}, wanted[3];
+    model(&cases[0], p, N, wanted);
+    assert_int_equal(byte_of(wanted[0]), 252);
+    uint32_t pixels[SIZE * SIZE];
+    char script[4000];
+    write_script(script, &cases[0], "!box size=40;40;1 position=0;0;-0.5");
+    if (!draw(script, pixels))
+        skip();
+    assert_int_equal(pixels[SIZE * SIZE / 2 + SIZE / 2] & 0xffffff, 0xfcfcfc);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_walls), cmocka_unit_test(test_spheres),
+                                       cmocka_unit_test(test_number)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

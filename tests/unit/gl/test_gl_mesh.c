@@ -1,0 +1,274 @@
+// test_gl_mesh.c: the triangles of models (spec canvas3d.md 6 to 8), without OpenGL.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "gl/scene_mesh.h"
+
+static int begin(void **state) {
+    static Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    *state = &arena;
+    return 0;
+}
+
+static int end(void **state) {
+    arena_free(*state);
+    return 0;
+}
+
+static const MeshVertex *corner(const Mesh *mesh, uint32_t index) {
+    assert_in_range(mesh->indices[index], 0, mesh->vertex_count - 1);
+    return &mesh->vertices[mesh->indices[index]];
+}
+
+// Six times the volume between the origin and a triangle: above 0 if it is seen from outside of a convex body.
+static double volume(const Mesh *mesh, uint32_t triangle) {
+    const float *a = corner(mesh, 3 * triangle)->position, *b = corner(mesh, 3 * triangle + 1)->position,
+                *c = corner(mesh, 3 * triangle + 2)->position;
+    return a[0] * ((double)b[1] * c[2] - (double)b[2] * c[1]) + a[1] * ((double)b[2] * c[0] - (double)b[0] * c[2]) +
+           a[2] * ((double)b[0] * c[1] - (double)b[1] * c[0]);
+}
+
+// Closed bodies around the origin: every triangle is turned outwards (`sign` 1), and normals are of length 1 and
+// outward.
+static double check_body(const Mesh *mesh, double sign) {
+    double sum = 0;
+    assert_int_equal(mesh->index_count % 3, 0);
+    for (uint32_t i = 0; i < mesh->index_count / 3; i++) {
+        assert_true(sign * volume(mesh, i) > 0);
+        sum += volume(mesh, i) / 6;
+    }
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const float *n = mesh->vertices[i].normal, *p = mesh->vertices[i].position;
+        assert_true(fabs(n[0] * n[0] + n[1] * n[1] + n[2] * n[2] - 1) < 1e-5);
+        assert_true(sign * (n[0] * p[0] + n[1] * p[1] + n[2] * p[2]) > 0);
+    }
+    return sum;
+}
+
+// Where the body has a vertex at this place with this normal and place in the texture.
+static bool has_vertex(const Mesh *mesh, const float wanted[8]) {
+    for (uint32_t i = 0; i < mesh->vertex_count; i++) {
+        const float *v = mesh->vertices[i].position; // position, normal, uv follow each other
+        bool same = true;
+        for (int k = 0; k < 8; k++)
+            same &= fabsf(v[k] - wanted[k]) < 1e-6f;
+        if (same)
+            return true;
+    }
+    return false;
+}
+
+static void test_box(void **state) {
+    Mesh mesh = mesh_box(*state, false);
+    assert_int_equal(mesh.vertex_count, 24);
+    assert_int_equal(mesh.index_count, 36);
+    assert_true(fabs(check_body(&mesh, 1) - 1) < 1e-6);
+    static const float standard[][8] = {
+        {.5f, -.5f, .5f, 1, 0, 0, 0, 0},        {.5f, -.5f, -.5f, 1, 0, 0, 1 / 6.f, 0},
+        {.5f, .5f, .5f, 1, 0, 0, 0, 1},         {-.5f, -.5f, -.5f, -1, 0, 0, 1 / 6.f, 0},
+        {-.5f, .5f, -.5f, 0, 1, 0, 2 / 6.f, 1}, {.5f, -.5f, -.5f, 0, -1, 0, 4 / 6.f, 0},
+        {.5f, .5f, .5f, 0, 0, 1, 5 / 6.f, 1},   {.5f, -.5f, -.5f, 0, 0, -1, 5 / 6.f, 0},
+        {-.5f, -.5f, -.5f, 0, 0, -1, 1, 0},
+    };
+    for (size_t i = 0; i < sizeof standard / sizeof *standard; i++)
+        assert_true(has_vertex(&mesh, standard[i]));
+    mesh = mesh_box(*state, true);
+    assert_true(has_vertex(&mesh, (const float[]){.5f, .5f, -.5f, 0, 0, -1, 0, 1}));
+    float low[3], high[3];
+    mesh_box_of(&mesh, low, high);
+    for (int k = 0; k < 3; k++)
+        assert_true(low[k] == -0.5f && high[k] == 0.5f);
+}
+
+static void test_sphere(void **state) {
+    static const uint32_t segments[][2] = {{4, 1}, {5, 2}, {64, 16}, {1, 1}};
+    for (size_t i = 0; i < 4; i++) {
+        uint32_t n = segments[i][1];
+        Mesh mesh = mesh_sphere(*state, segments[i][0]);
+        assert_int_equal(mesh.index_count, 3 * 8 * n * n);
+        assert_int_equal(mesh.vertex_count, 8 * (n + 1) * (n + 2) / 2);
+        double size = check_body(&mesh, 1);
+        assert_true(size < 4.18880 && (n < 16 || size > 4.15));
+        for (uint32_t k = 0; k < mesh.vertex_count; k++)
+            assert_memory_equal(mesh.vertices[k].position, mesh.vertices[k].normal, 12);
+        // The pole of the second side, and the equator's end of the third.
+        assert_true(has_vertex(&mesh, (const float[]){0, 0, 1, 0, 0, 1, 1.5f / 4, 1}));
+        assert_true(has_vertex(&mesh, (const float[]){0, -1, 0, 0, -1, 0, 0.75f, 0.5f}));
+    }
+    Mesh mesh = mesh_sphere(*state, 8);
+    float h = sqrtf(0.5f); // row 1 of 2, middle between columns 0 and 1 of side 0
+    assert_true(has_vertex(&mesh, (const float[]){h, 0, h, h, 0, h, 0, 0.75f}));
+    assert_true(has_vertex(&mesh, (const float[]){0, h, -h, 0, h, -h, 0.25f, 0.25f}));
+}
+
+static void test_round(void **state) {
+    double pi = 3.14159265358979;
+    for (uint32_t n = 3; n < 100; n += 13) {
+        double area = n / 2.0 * sin(2 * pi / n);
+        Mesh cylinder = mesh_cylinder(*state, n);
+        assert_int_equal(cylinder.index_count, 3 * 4 * n);
+        assert_true(fabs(check_body(&cylinder, 1) - area) < 1e-5);
+        assert_true(has_vertex(&cylinder, (const float[]){1, 0, .5f, 1, 0, 0, 1, .75f}));
+        assert_true(has_vertex(&cylinder, (const float[]){1, 0, -.5f, 0, 0, -1, 0, .25f}));
+        assert_true(has_vertex(&cylinder, (const float[]){0, 0, .5f, 0, 0, 1, 0.5f / (float)n, 1}));
+        Mesh cone = mesh_cone(*state, n);
+        assert_int_equal(cone.index_count, 3 * 2 * n);
+        assert_true(fabs(check_body(&cone, 1) - area / 3) < 1e-5);
+        float h = sqrtf(0.5f);
+        assert_true(has_vertex(&cone, (const float[]){1, 0, -.5f, h, 0, h, 0, .25f}));
+        assert_true(has_vertex(&cone, (const float[]){0, 0, -.5f, 0, 0, -1, 0.5f / (float)n, 0}));
+    }
+    assert_int_equal(mesh_cylinder(*state, 0).index_count, 24);
+}
+
+static void test_flat_and_invert(void **state) {
+    Mesh mesh = mesh_sphere(*state, 8);
+    mesh_flat(*state, &mesh);
+    assert_int_equal(mesh.vertex_count, mesh.index_count);
+    check_body(&mesh, 1);
+    for (uint32_t i = 0; i < mesh.index_count; i += 3) // one normal a triangle
+        assert_memory_equal(corner(&mesh, i)->normal, corner(&mesh, i + 2)->normal, 12);
+    mesh_invert(&mesh);
+    check_body(&mesh, -1);
+}
+
+static void test_snap(void **state) {
+    // Right angles: joined at more than a quarter, corners then point along the diagonals.
+    Mesh mesh = mesh_box(*state, false);
+    mesh_snap(*state, &mesh, 0.26);
+    float d = 1 / sqrtf(3);
+    for (uint32_t i = 0; i < mesh.vertex_count; i++)
+        for (int k = 0; k < 3; k++)
+            assert_true(fabsf(mesh.vertices[i].normal[k] - 2 * d * mesh.vertices[i].position[k]) < 1e-5f);
+    check_body(&mesh, 1);
+    mesh = mesh_box(*state, false);
+    mesh_snap(*state, &mesh, 0.24);
+    assert_true(has_vertex(&mesh, (const float[]){.5f, .5f, .5f, 0, 0, 1, 5 / 6.f, 1}));
+    check_body(&mesh, 1);
+    // The rim of a cylinder of 64 is split from its caps, its side is not.
+    mesh = mesh_cylinder(*state, 64);
+    mesh_snap(*state, &mesh, 0.05);
+    assert_true(has_vertex(&mesh, (const float[]){0, 1, .5f, 0, 1, 0, .25f, .75f}));
+    assert_true(has_vertex(&mesh, (const float[]){0, 1, .5f, 0, 0, 1, .25f, .75f}));
+}
+
+static void test_remap(void **state) {
+    Mesh mesh = mesh_box(*state, false);
+    mesh_remap(*state, &mesh, REMAP_PLANE);
+    assert_true(has_vertex(&mesh, (const float[]){.5f, -.5f, .5f, 1, 0, 0, 1, 0}));
+    mesh = mesh_box(*state, false);
+    mesh_remap(*state, &mesh, REMAP_BOOK);
+    assert_true(has_vertex(&mesh, (const float[]){.5f, -.5f, .5f, 0, 0, 1, 1, 0}));
+    assert_true(has_vertex(&mesh, (const float[]){.5f, -.5f, -.5f, 0, 0, -1, 0, 0}));
+    mesh = mesh_sphere(*state, 16);
+    mesh_remap(*state, &mesh, REMAP_SPHERE);
+    for (uint32_t i = 0; i < mesh.index_count; i += 3) {
+        float low = 2, high = 0;
+        for (uint32_t k = 0; k < 3; k++) {
+            low = fminf(low, corner(&mesh, i + k)->uv[0]);
+            high = fmaxf(high, corner(&mesh, i + k)->uv[0]);
+        }
+        assert_true(fabsf(corner(&mesh, i)->position[2]) > 0.9f || high - low <= 0.26f); // no triangle across the seam
+    }
+}
+
+static bool from_file(Arena *arena, const char *text, Mesh *mesh) {
+    const char *problem = NULL;
+    bool good = mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &problem);
+    assert_true(good || problem);
+    return good;
+}
+
+static void test_obj(void **state) {
+    Mesh mesh;
+    assert_true(from_file(*state,
+                          "# a square\nmtllib none.mtl\nv 0 0 0\nv 1 0 0\r\nv 1.0e0 +1 0\nv 0 1 0 1\n"
+                          "vt 0 0\nvt 1 0\nvt 1 1\nvt 0 1\nvn 0 0 1\ng one\nf 1/1/1 2/2/1 3/3/1 4/4/1\n",
+                          &mesh));
+    assert_int_equal(mesh.index_count, 6);
+    assert_int_equal(mesh.vertex_count, 4);
+    assert_true(has_vertex(&mesh, (const float[]){1, 1, 0, 0, 0, 1, 1, 1}));
+    // Numbers from the end, no normals, no texture.
+    assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n", &mesh));
+    assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
+    assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//-1", &mesh));
+    assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 1, 0, 0, 0, 0}));
+    static const char *const bad[] = {
+        "",
+        "v 0 0 0\n",
+        "v 0 0\n",
+        "v 0 0 x\n",
+        "v nan 0 0\nf 1 1 1\n",
+        "v 1e300 0 0\nf 1 1 1\n",
+        "f 1 2 3\n",
+        "v 0 0 0\nf 1 1\n",
+        "v 0 0 0\nf 1 1 2\n",
+        "v 0 0 0\nf 1 1 0\n",
+        "v 0 0 0\nf 1 1 -2\n",
+        "v 0 0 0\nf 1/1 1/1 1/1\n",
+        "v 0 0 0\nf 1 1 99999999999999999999\n",
+        "v 0 0 0\nf 1 1 1/1/1/1\n",
+        "v 0 0 0\nf a b c\n",
+        "\x89PNG\r\n\x1a\n",
+    };
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(from_file(*state, bad[i], &mesh));
+}
+
+static void test_stl(void **state) {
+    Mesh mesh;
+    assert_true(from_file(*state,
+                          "solid x\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\n"
+                          "endloop\nendfacet\nendsolid x\n",
+                          &mesh));
+    assert_int_equal(mesh.index_count, 3);
+    assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
+    static const char *const bad[] = {"solid x\nendsolid x\n", "solid x\nvertex 0 0 0\nendloop\n",
+                                      "solid x\nvertex 0 0 0\n", "solid\nvertex 0 0 inf\nendloop\n"};
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
+        assert_false(from_file(*state, bad[i], &mesh));
+    char binary[84 + 50] = "binary";
+    binary[80] = 1;
+    float corners[9] = {0, 0, 0, 0, 2, 0, 0, 0, 2};
+    memcpy(binary + 84 + 12, corners, sizeof corners);
+    const char *problem;
+    assert_true(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
+    assert_true(has_vertex(&mesh, (const float[]){0, 2, 0, 1, 0, 0, 0, 0}));
+    for (size_t cut = 1; cut < sizeof binary; cut++) // any part of it is no model, and does no harm
+        assert_false(mesh_from_file(*state, (Str){binary, sizeof binary - cut}, &mesh, &problem));
+    binary[80] = (char)0xff, binary[83] = (char)0xff;
+    assert_false(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
+}
+
+static void test_lists(void **state) {
+    static const double vertices[] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, uv[] = {0, 0, 1, 0, 0, 1};
+    static const double faces[] = {0, 1, 2}, wrong[][3] = {{0, 1, 3}, {0, 1, -1}, {0, 1, 1e300}};
+    Mesh mesh;
+    const char *problem;
+    assert_true(mesh_from_lists(*state, vertices, 9, faces, 3, uv, 6, &mesh, &problem));
+    assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 1, 0}));
+    assert_true(mesh_from_lists(*state, vertices, 9, faces, 3, NULL, 0, &mesh, &problem));
+    for (size_t i = 0; i < 3; i++)
+        assert_false(mesh_from_lists(*state, vertices, 9, wrong[i], 3, NULL, 0, &mesh, &problem));
+    assert_false(mesh_from_lists(*state, vertices, 8, faces, 3, NULL, 0, &mesh, &problem));
+    assert_false(mesh_from_lists(*state, vertices, 9, faces, 2, NULL, 0, &mesh, &problem));
+    assert_false(mesh_from_lists(*state, vertices, 9, faces, 3, uv, 5, &mesh, &problem));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_setup_teardown(test_box, begin, end),
+        cmocka_unit_test_setup_teardown(test_sphere, begin, end),
+        cmocka_unit_test_setup_teardown(test_round, begin, end),
+        cmocka_unit_test_setup_teardown(test_flat_and_invert, begin, end),
+        cmocka_unit_test_setup_teardown(test_snap, begin, end),
+        cmocka_unit_test_setup_teardown(test_remap, begin, end),
+        cmocka_unit_test_setup_teardown(test_obj, begin, end),
+        cmocka_unit_test_setup_teardown(test_stl, begin, end),
+        cmocka_unit_test_setup_teardown(test_lists, begin, end),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
