@@ -483,7 +483,7 @@ typedef enum PetriInput {
     PETRI_INPUT_BLOCK, // indented lines must follow
     PETRI_INPUT_PART,  // it cannot end here
 } PetriInput;
-// Whether more lines are needed.
+// Whether more lines are needed. A text for which memory does not suffice counts as whole, with a diagnostic.
 PETRI_API PetriInput petri_input(PetriSession *session, const char *text, size_t length);
 
 // What became of the statements of a text.

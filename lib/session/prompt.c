@@ -111,6 +111,7 @@ PetriInput petri_input(PetriSession *session, const char *text, size_t length) {
     arena_reset(&session->prompt.arena);
     PetriStatus status = session_protect(session, NULL, probe, &job);
     arena_reset(&session->prompt.arena);
+    status = session_tell_end(session, status, "the text");
     return status == PETRI_OK ? (PetriInput)job.value.as.number : PETRI_INPUT_WHOLE;
 }
 

@@ -14,6 +14,9 @@
 #ifdef PETRI_RANKS
 #include "ranks/ranks.h"
 #endif
+#ifdef PETRI_PICTURES
+#include "sweep/extras.h"
+#endif
 
 // A script's name has a dot or a slash in it, or is the name of something that exists.
 static bool looks_like_file(const char *word) {
@@ -151,6 +154,9 @@ int main(int argc, char **argv) {
                .status = STATUS_FAILED};
 #ifdef PETRI_RANKS
     ranks_begin(&job.host);
+#endif
+#ifdef PETRI_PICTURES
+    job.host.sweep = &SWEEP_EXTRAS;
 #endif
     if (!run_on_large_stack(&job)) {
         message("cannot start a thread");

@@ -111,12 +111,18 @@ void ranks_begin(Host *host) {
     }
 }
 
+// A process that ends without MPI_Finalize makes mpirun end all, with its status: those that wait for it, too. What fails
+// here mostly fails everywhere, and then rank 0 is to say so first; its end interrupts the sleep.
 void ranks_end(int status) {
+    enum { SECONDS = 5 };
+    if (status != STATUS_DONE) {
+        if (ranks.as_options.rank > 0) {
+            sleep(SECONDS);
+        }
+        _exit(status);
+    }
     wait_for_sendings();
     free(ranks.sendings);
     free(ranks.numbers);
-    if (status != STATUS_DONE) {
-        MPI_Abort(MPI_COMM_WORLD, status);
-    }
     MPI_Finalize();
 }

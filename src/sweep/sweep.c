@@ -11,10 +11,11 @@
 #include "base/file.h"
 #include "cli/args.h"
 #include "cli/mpirun.h"
-#include "cli/output.h"
+#include "cli/pass_on.h"
 #include "cli/script.h"
-#include "petri-draw.h"
+#include "petri.h"
 #include "sweep/crew.h"
+#include "sweep/extras.h"
 #include "sweep/measure.h"
 #include "sweep/table.h"
 
@@ -134,7 +135,7 @@ static bool take_shared(Sweep *sweep, const Command *command) {
 
 static bool take_plot(const Sweep *sweep) {
     const char *plot = sweep->options->plot;
-    if (plot == NULL || petri_picture_format(plot)) {
+    if (plot == NULL || sweep->host->sweep->plot_fits(plot)) {
         return true;
     }
     message("option '--plot' expects a file name that ends in .svg, .png or .pdf, not '%s'", plot);
@@ -216,7 +217,7 @@ static bool write_all(const Sweep *sweep) {
         summary_make(sweep, &summary);
         good = write_file(sweep->options->summary, &summary);
     }
-    good = (sweep->options->plot == NULL || matrix_draw(sweep, sweep->options->plot)) && good;
+    good = (sweep->options->plot == NULL || sweep->host->sweep->matrix_draw(sweep, sweep->options->plot)) && good;
     return write_table(sweep) && good;
 }
 
@@ -321,7 +322,7 @@ static void free_sweep(Sweep *sweep) {
 static int run_plan(const Host *host, const Options *options) {
     TextList words = {0};
     int status = STATUS_USAGE;
-    if (plan_read(options->plan, &words)) {
+    if (host->sweep->plan_read(options->plan, &words)) {
         for (int i = 0; i < options->argc; i++) {
             bool is_plan = strcmp(options->argv[i], "--plan") == 0;
             if (!is_plan && strncmp(options->argv[i], "--plan=", 7) != 0) {
@@ -335,7 +336,23 @@ static int run_plan(const Host *host, const Options *options) {
     return status;
 }
 
+// Becomes petri-pictures, with the same words.
+static int run_elsewhere(const Host *host, const Options *options) {
+    TextList words = {0};
+    texts_add(&words, host->called);
+    texts_add(&words, SWEEP_COMMAND.name);
+    for (int i = 0; i < options->argc; i++) {
+        texts_add(&words, options->argv[i]);
+    }
+    int status = pass_on(words.items);
+    texts_free(&words);
+    return status;
+}
+
 static int sweep_run(const Host *host, Options *options) {
+    if (host->sweep == NULL && (options->plan != NULL || options->plot != NULL)) {
+        return run_elsewhere(host, options);
+    }
     if (options->plan != NULL) {
         return run_plan(host, options);
     }

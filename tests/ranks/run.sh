@@ -55,6 +55,15 @@ check "and is told once" count_is err 'error:' 1
 ranks 2 run stars.fl --frames 5 --work 20K
 check "a limit ends all" status_is 1
 check "and is told once, too" count_is err 'stopped in frame' 1
+if command -v pgrep >/dev/null; then
+    mpirun -n 2 "$petri" run stars.fl --frames 100000 --trace >out 2>err </dev/null &
+    job=$!
+    while kill -0 $job && [ "$(grep -c "petri: frame" err)" -lt 3 ]; do :; done # both are at work
+    kill -9 "$(pgrep -P $job | tail -n 1)"
+    wait $job
+    status=$?
+    check "a rank that dies ends all" [ $status -ne 0 ]
+fi
 ranks 2 run - --frames 1
 check "no script on standard input" has err 'under mpirun petri takes no script'
 ranks 2 run stars.fl --realtime --frames 1

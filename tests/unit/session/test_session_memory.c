@@ -250,7 +250,11 @@ static PetriStatus act_dump(Stage *stage) {
 }
 
 static PetriStatus act_input(Stage *stage) {
-    return petri_input(stage->player.session, "if x:", PETRI_Z) <= PETRI_INPUT_PART ? PETRI_OK : PETRI_INVALID;
+    uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
+    if (petri_input(stage->player.session, "area(1;", PETRI_Z) == PETRI_INPUT_PART)
+        return PETRI_OK;
+    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // it is said
+    return PETRI_MEMORY;
 }
 
 static PetriStatus prompt(Stage *stage, const char *text) {
