@@ -9,7 +9,7 @@
 
 #include <jpeglib.h>
 
-bool encoded_add(Encoded *out, const void *bytes, size_t length) {
+bool encode_add(Encoded *out, const void *bytes, size_t length) {
     if (length > out->room - out->length) {
         size_t room = out->length + length > 2 * out->room ? out->length + length : 2 * out->room;
         unsigned char *grown = realloc(out->bytes, room);
@@ -47,7 +47,7 @@ bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int heig
     png_alloc_size_t room = PNG_IMAGE_PNG_SIZE_MAX(image);
     void *file = bytes ? malloc(room) : NULL;
     bool good =
-        file && png_image_write_to_memory(&image, file, &room, 0, bytes, 0, NULL) && encoded_add(out, file, room);
+        file && png_image_write_to_memory(&image, file, &room, 0, bytes, 0, NULL) && encode_add(out, file, room);
     free(file);
     free(bytes);
     return good;
@@ -103,7 +103,7 @@ bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int hei
     unsigned char *rows = spread(pixels, width, height, false);
     bool good = rows && compress(&file, rows, width, height, quality < 1 ? 1 : quality > 100 ? 100 : quality);
     jpeg_destroy_compress(&file.jpeg);
-    good = good && encoded_add(out, file.bytes, file.length);
+    good = good && encode_add(out, file.bytes, file.length);
     free(file.bytes);
     free(rows);
     return good;

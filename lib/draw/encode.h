@@ -14,7 +14,7 @@ typedef struct Encoded {
 } Encoded;
 
 // False if memory is used up; then nothing has changed.
-bool encoded_add(Encoded *out, const void *bytes, size_t length);
+bool encode_add(Encoded *out, const void *bytes, size_t length);
 
 // Adds the bytes of a PNG or JPEG file. Colours are written as they are, so multiplied by alpha; without `alpha` that
 // is the picture over black. False if memory is used up or the library refuses.

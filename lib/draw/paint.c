@@ -255,7 +255,7 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
 }
 
 static cairo_status_t collect(void *closure, const unsigned char *bytes, unsigned length) {
-    return encoded_add(closure, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
+    return encode_add(closure, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
 static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Encoded *out,
