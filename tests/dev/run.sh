@@ -264,7 +264,7 @@ check "with what makes them" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-
 check "and what they are made of" has calls libsdl2-dev
 check "it says where they are" has err "what was made is in $work/project/build/package"
 dev package --dynamic
-check "other packages there are not" has err "package knows --test and --static only, not '--dynamic'"
+check "other packages there are not" has err "package knows --test, --wheel and --static only, not '--dynamic'"
 
 machine
 dev install "$work/some where"
