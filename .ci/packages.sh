@@ -47,6 +47,7 @@ command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
 command -v cmake          : cmake make
+command -v c++            : g++
 command -v mandoc         : mandoc
 command -v zsh            : zsh
 command -v fish           : fish

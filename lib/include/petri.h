@@ -125,6 +125,14 @@ typedef struct PetriOptions {
     // NULL (the default): this process alone. All ranks must have the same options, `cpu` included, and none may be
     // interrupted.
     const PetriRanks *ranks;
+    // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
+    // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
+    // name of the script or, for what a script names, that of its folder before it, without dots. A script may then
+    // read whatever this gives and nothing else, and `glob` finds nothing. The same address and length stand for the
+    // same bytes, which must stay until the session is closed. It may be called in each frame, and by the thread that
+    // draws a picture; nothing of the session may be called by it.
+    const char *(*read)(void *read_host, const char *name, size_t *length);
+    void *read_host;
 } PetriOptions;
 
 // Writes the defaults of the first `size` bytes of options.

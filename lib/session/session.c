@@ -184,6 +184,8 @@ static void open_parts(PetriSession *session, void *context) {
     session->vm.builtins.files = session->files;
     session->vm.builtins.reach = session->schema.reach = &session->reach;
     session->reach.nothing = options->no_files;
+    session->reach.read = options->read;
+    session->reach.read_host = options->read_host;
     reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
     reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
     reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
