@@ -25,8 +25,18 @@ pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
 "
+# For the module for Python:
+PYTHON_NEEDS="
+/usr/bin/python3 -I -c 'import build'      : python3-build
+/usr/bin/python3 -I -c 'import cffi'       : python3-cffi
+/usr/bin/python3 -I -c 'import numpy'      : python3-numpy
+/usr/bin/python3 -I -c 'import setuptools' : python3-setuptools
+/usr/bin/python3 -I -c 'import wheel'      : python3-wheel
+command -v python3-config : python3-dev
+"
 # For the tests; those that lack a tool are skipped:
 TEST_NEEDS="$BUILD_NEEDS
+$PYTHON_NEEDS
 pkg-config --exists cmocka: libcmocka-dev
 command -v tmux           : tmux
 command -v pgrep          : procps
@@ -36,18 +46,14 @@ command -v xdotool        : xdotool
 command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
-/usr/bin/python3 -I -c 'import build'      : python3-build
-/usr/bin/python3 -I -c 'import cffi'       : python3-cffi
-/usr/bin/python3 -I -c 'import numpy'      : python3-numpy
-/usr/bin/python3 -I -c 'import setuptools' : python3-setuptools
-/usr/bin/python3 -I -c 'import wheel'      : python3-wheel
-command -v python3-config : python3-dev
 command -v cmake          : cmake make
+command -v c++            : g++
 command -v mandoc         : mandoc
 command -v zsh            : zsh
 command -v fish           : fish
 command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
+pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
@@ -65,9 +71,19 @@ PEER_NEEDS='
 command -v lmp   : lammps
 command -v mpirun: openmpi-bin
 '
+PACKAGE_NEEDS='
+command -v dpkg-buildpackage: dpkg-dev
+command -v dh               : debhelper
+command -v dh_python3       : dh-python
+command -v xz               : xz-utils
+'
+STATIC_NEEDS='command -v musl-gcc: musl-tools'
+# Options of a build that takes the C library alone.
+WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
+    -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -96,6 +96,7 @@ static Value call_matched(BuiltinContext *context, const Builtin *builtin, const
 
 Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                    const Symbol *const *names, const Value *named, uint32_t named_count) {
+    context->called = builtin;
     if (count > builtin->fixed && !builtin->variadic)
         return bad_count(context, builtin, count);
     if (count >= builtin->fixed && named_count == 0)

@@ -15,6 +15,7 @@ typedef struct NoiseCache NoiseCache; // builtin/noise.h
 
 // What a call may use. Everything is borrowed for the call.
 typedef struct BuiltinContext {
+    const struct Builtin *called;        // whose call it is
     Arena *arena;                        // results and temporaries
     const SymbolTable *symbols;          // for texts
     FileCache *files;                    // NULL: file functions find no file

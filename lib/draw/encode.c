@@ -5,8 +5,24 @@
 #include <setjmp.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <jpeglib.h>
+
+bool encode_add(Encoded *out, const void *bytes, size_t length) {
+    if (length > out->room - out->length) {
+        size_t room = out->length + length > 2 * out->room ? out->length + length : 2 * out->room;
+        unsigned char *grown = realloc(out->bytes, room);
+        if (!grown)
+            return false;
+        out->bytes = grown;
+        out->room = room;
+    }
+    if (length > 0)
+        memcpy(out->bytes + out->length, bytes, length);
+    out->length += length;
+    return true;
+}
 
 // r, g, b and perhaps a as bytes; to be freed.
 static unsigned char *spread(const uint32_t *pixels, int width, int height, bool alpha) {
@@ -22,7 +38,7 @@ static unsigned char *spread(const uint32_t *pixels, int width, int height, bool
     return bytes;
 }
 
-bool encode_png_pixels(Text *out, const uint32_t *pixels, int width, int height, bool alpha) {
+bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int height, bool alpha) {
     png_image image = {.version = PNG_IMAGE_VERSION,
                        .width = (png_uint_32)width,
                        .height = (png_uint_32)height,
@@ -30,9 +46,8 @@ bool encode_png_pixels(Text *out, const uint32_t *pixels, int width, int height,
     unsigned char *bytes = spread(pixels, width, height, alpha);
     png_alloc_size_t room = PNG_IMAGE_PNG_SIZE_MAX(image);
     void *file = bytes ? malloc(room) : NULL;
-    bool good = file && png_image_write_to_memory(&image, file, &room, 0, bytes, 0, NULL);
-    if (good)
-        text_add(out, (Str){file, room});
+    bool good =
+        file && png_image_write_to_memory(&image, file, &room, 0, bytes, 0, NULL) && encode_add(out, file, room);
     free(file);
     free(bytes);
     return good;
@@ -83,13 +98,12 @@ static bool compress(JpegFile *file, unsigned char *rows, int width, int height,
     return true;
 }
 
-bool encode_jpeg_pixels(Text *out, const uint32_t *pixels, int width, int height, int quality) {
+bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int height, int quality) {
     JpegFile file = {.bytes = NULL};
     unsigned char *rows = spread(pixels, width, height, false);
     bool good = rows && compress(&file, rows, width, height, quality < 1 ? 1 : quality > 100 ? 100 : quality);
     jpeg_destroy_compress(&file.jpeg);
-    if (good)
-        text_add(out, (Str){(const char *)file.bytes, file.length});
+    good = good && encode_add(out, file.bytes, file.length);
     free(file.bytes);
     free(rows);
     return good;

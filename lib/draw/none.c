@@ -36,9 +36,8 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
 }
 
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
-                        Arena *arena, Str *bytes, DiagSink *faults) {
-    (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)arena;
-    *bytes = STR("");
+                        Encoded *out, DiagSink *faults) {
+    (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)out;
     return missing(faults);
 }
 
@@ -54,9 +53,8 @@ const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *p
 }
 
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
-                               CanvasFormat format, Arena *arena, Str *bytes, DiagSink *faults) {
-    (void)painter, (void)picture, (void)record, (void)format, (void)arena;
-    *bytes = STR("");
+                               CanvasFormat format, Encoded *out, DiagSink *faults) {
+    (void)painter, (void)picture, (void)record, (void)format, (void)out;
     return missing(faults);
 }
 

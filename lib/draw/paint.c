@@ -255,11 +255,10 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
 }
 
 static cairo_status_t collect(void *closure, const unsigned char *bytes, unsigned length) {
-    text_add(closure, (Str){(const char *)bytes, length});
-    return CAIRO_STATUS_SUCCESS;
+    return encode_add(closure, bytes, length) ? CAIRO_STATUS_SUCCESS : CAIRO_STATUS_NO_MEMORY;
 }
 
-static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Text *out,
+static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *picture, int width, int height, Encoded *out,
                               DiagSink *faults) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
     PetriStatus result = result_of(cairo_surface_status(surface));
@@ -277,8 +276,8 @@ static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *pictur
     return result;
 }
 
-static PetriStatus encode_vector(PetriPainter *painter, const Sheet *sheet, bool pdf, int width, int height, Text *out,
-                                 DiagSink *faults) {
+static PetriStatus encode_vector(PetriPainter *painter, const Sheet *sheet, bool pdf, int width, int height,
+                                 Encoded *out, DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(collect, out, width, height)
                                    : cairo_svg_surface_create_for_stream(collect, out, width, height);
     if (pdf) // the same bytes each time
@@ -294,17 +293,15 @@ static PetriStatus encode_vector(PetriPainter *painter, const Sheet *sheet, bool
 }
 
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
-                        Arena *arena, Str *bytes, DiagSink *faults) {
-    Text out = text_new(arena);
+                        Encoded *out, DiagSink *faults) {
     PetriStatus result = draw_make(painter, picture, faults);
     if (result == PETRI_OK && format == CANVAS_PNG) {
-        result = encode_png(painter, picture, width, height, &out, faults);
+        result = encode_png(painter, picture, width, height, out, faults);
     } else if (result == PETRI_OK) {
         Sheet sheet = sheet_of(painter, picture, true);
-        result = encode_vector(painter, &sheet, format == CANVAS_PDF, width, height, &out, faults);
+        result = encode_vector(painter, &sheet, format == CANVAS_PDF, width, height, out, faults);
         cairo_surface_destroy(sheet.pixels);
     }
-    *bytes = text_str(&out);
     return result;
 }
 
@@ -314,16 +311,15 @@ const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *p
 }
 
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
-                               CanvasFormat format, Arena *arena, Str *bytes, DiagSink *faults) {
+                               CanvasFormat format, Encoded *out, DiagSink *faults) {
     const DrawNode *node = record->node;
     const Texture *texture = record->texture;
     bool alpha = draw_flag(node, ATTR_KEEP_ALPHA), good = true;
-    Text out = text_new(arena);
     PetriStatus result = PETRI_OK;
     if (format == CANVAS_PNG) {
-        good = encode_png_pixels(&out, texture->bytes, texture->width, texture->height, alpha);
+        good = encode_png_pixels(out, texture->bytes, texture->width, texture->height, alpha);
     } else if (format == CANVAS_JPEG) {
-        good = encode_jpeg_pixels(&out, texture->bytes, texture->width, texture->height,
+        good = encode_jpeg_pixels(out, texture->bytes, texture->width, texture->height,
                                   (int)draw_number(node, ATTR_QUALITY));
     } else {
         Sheet sheet = {.picture = picture,
@@ -332,9 +328,8 @@ PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *pictu
                        .width = texture->width,
                        .height = texture->height,
                        .black = !alpha};
-        result = encode_vector(painter, &sheet, format == CANVAS_PDF, texture->width, texture->height, &out, faults);
+        result = encode_vector(painter, &sheet, format == CANVAS_PDF, texture->width, texture->height, out, faults);
         cairo_surface_destroy(sheet.pixels);
     }
-    *bytes = text_str(&out);
     return good ? result : PETRI_MEMORY;
 }

@@ -11,6 +11,7 @@
 #include "base/reach.h"
 #include "canvas/drawing.h"
 #include "draw/automatic.h"
+#include "draw/encode.h"
 #include "draw/texture.h"
 
 enum { PICTURE_NAMES = 64 };
@@ -49,13 +50,13 @@ PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagS
 // is an error.
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults);
-// The bytes of a file that shows the picture, width x height pixels large, in the arena.
+// The bytes of a file that shows the picture, width x height pixels large.
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
-                        Arena *arena, Str *bytes, DiagSink *faults);
+                        Encoded *out, DiagSink *faults);
 // The records of the picture that was made last; none if it was another one.
 const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count);
 // The bytes of the file of one of them.
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
-                               CanvasFormat format, Arena *arena, Str *bytes, DiagSink *faults);
+                               CanvasFormat format, Encoded *out, DiagSink *faults);
 
 #endif

@@ -5,6 +5,7 @@
 #include "draw/pictures.h"
 
 #include <errno.h>
+#include <stdlib.h>
 #include <string.h>
 
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
@@ -52,26 +53,26 @@ typedef struct Saving {
     const char *file;
     const Recorded *record; // NULL: the picture itself
     const Reach *reach;     // NULL: any file
-    Arena arena;            // the file's bytes, apart from the picture's data and its faults
+    Encoded bytes;
     PetriStatus status;
 } Saving;
 
 static void save(void *context) {
     Saving *saving = context;
     PetriPicture *picture = saving->picture;
-    Str bytes;
     if (saving->record)
         saving->status = draw_encode_record(saving->painter, &picture->picture, saving->record, saving->format,
-                                            &saving->arena, &bytes, &picture->faults);
+                                            &saving->bytes, &picture->faults);
     else
         saving->status = draw_encode(saving->painter, &picture->picture, saving->format, picture->width,
-                                     picture->height, &saving->arena, &bytes, &picture->faults);
+                                     picture->height, &saving->bytes, &picture->faults);
     if (saving->status != PETRI_OK)
         return;
     Replacement file;
     bool begun = reach_replace(saving->reach, saving->file, &file);
     bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
-    const char *problem = begun ? file_finish(&file, bytes) : strerror(errno);
+    const char *problem =
+        begun ? file_finish(&file, (Str){(const char *)saving->bytes.bytes, saving->bytes.length}) : strerror(errno);
     if (refused) {
         saving->status = PETRI_INVALID;
     } else if (problem) {
@@ -90,11 +91,10 @@ static void report_name(void *context) {
 static PetriStatus save_picture(Saving *saving) {
     if (!saving->picture || !saving->painter || !saving->file)
         return PETRI_INVALID;
-    Arena *arenas[] = {&saving->arena, &saving->picture->arena};
-    arena_init(&saving->arena, "file", SIZE_MAX);
+    Arena *arenas[] = {&saving->picture->arena};
     bool known = find_format(saving->file, saving->record != NULL, &saving->format);
-    ArenaEnd end = arena_protect(arenas, 2, known ? save : report_name, saving);
-    arena_free(&saving->arena);
+    ArenaEnd end = arena_protect(arenas, 1, known ? save : report_name, saving);
+    free(saving->bytes.bytes);
     return end == ARENA_DONE ? saving->status : PETRI_MEMORY;
 }
 

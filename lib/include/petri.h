@@ -70,6 +70,21 @@ typedef struct PetriDiagnostic {
 // When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
+// Processes that run the same script together, each with a session of its own that is given the same calls: they come to
+// the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions, in
+// order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+typedef struct PetriRanks {
+    int rank; // of this process, from 0
+    int count;
+    uint64_t least; // pairs of particles that are worth sharing; 0 (the default): as many as are found to be
+    void *host;
+    // Takes the numbers along and returns without waiting for the other.
+    void (*send)(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride);
+    void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    // The numbers of one rank become those of all.
+    void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+} PetriRanks;
+
 typedef struct PetriOptions {
     size_t size; // of the struct that the host was compiled with: petri_default_options sets it
     double fps;  // target frame rate; a script's `%pragma fps` wins. Default 60
@@ -107,6 +122,17 @@ typedef struct PetriOptions {
     // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
     // once when the library is loaded, is the upper limit. Results never depend on it.
     const char *cpu;
+    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included, and none may be
+    // interrupted.
+    const PetriRanks *ranks;
+    // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
+    // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
+    // name of the script or, for what a script names, that of its folder before it, without dots. A script may then
+    // read whatever this gives and nothing else, and `glob` finds nothing. The same address and length stand for the
+    // same bytes, which must stay until the session is closed. It may be called in each frame, and by the thread that
+    // draws a picture; nothing of the session may be called by it.
+    const char *(*read)(void *read_host, const char *name, size_t *length);
+    void *read_host;
 } PetriOptions;
 
 // Writes the defaults of the first `size` bytes of options.
@@ -151,6 +177,10 @@ PETRI_API PetriStatus petri_check_text(PetriSession *session, const char *name, 
 // systems are updated changes nothing with PetriOptions.interruptible; without, the frame counts, and each system has
 // made it or stays as it was.
 PETRI_API PetriStatus petri_step(PetriSession *session);
+// The same at a time in seconds and a beat of the host's own, from which petri_step would go on; it never waits.
+// Systems rest in a frame whose time is not later than that of the one before. PETRI_INVALID, too, if they are not
+// finite.
+PETRI_API PetriStatus petri_step_at(PetriSession *session, double time, double beat);
 
 // In real time: seconds until the next frame is due, for a host that has other things to do than to wait in petri_step;
 // 0 if it is due, and in lockstep.
@@ -331,6 +361,33 @@ PETRI_API const PetriNode *petri_tree_child(const PetriNode *node, uint32_t numb
 // The attribute of this name, or null. Valid as long as the node.
 PETRI_API PetriValue petri_tree_get(const PetriNode *node, const char *name);
 
+// A built-in function of the host's own. While it runs, nothing of its session may be called but petri_symbol_name and
+// what takes a PetriCall, and it must return: no longjmp, no exception.
+typedef struct PetriCall PetriCall;
+// The arguments are those by position, then null for each parameter that has none; a `...` may bring more. All is valid
+// during the call. The result is copied, unless it is made of petri_call_numbers; null for what is no value.
+typedef PetriValue PetriFunctionCall(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count);
+typedef struct PetriFunction {
+    size_t size; // sizeof(PetriFunction)
+    const char *name;
+    const char
+        *parameters;  // such as "x, y=0, ...": those with a default may be left out; eight at the most before `...`
+    const char *help; // a line; may be NULL
+    bool pure; // the same arguments always give the same result, so that a call may be made once, when a script is
+               // loaded
+    PetriFunctionCall *call;
+    void *host; // for `call`
+} PetriFunction;
+// Adds a function for the scripts and modules loaded from now on. It stays with the session, and texts are copied.
+// PETRI_INVALID for a name that is none, is the engine's, a built-in's or another function's, for parameters that make
+// no sense, and within a callback.
+PETRI_API PetriStatus petri_add_function(PetriSession *session, const PetriFunction *function);
+// Room for the numbers of a result; NULL if memory is used up. Valid until the call returns its result.
+PETRI_API double *petri_call_numbers(PetriCall *call, uint32_t count);
+// Tells the script's author what is wrong with the arguments, as `NAME: text` at the place of the call, once; the
+// result is null then. The text is copied and may be cut after 200 bytes.
+PETRI_API void petri_call_fault(PetriCall *call, const char *text);
+
 // Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
 typedef struct PetriColumn {
     const double *data; // NULL if there are none
@@ -434,7 +491,7 @@ typedef enum PetriInput {
     PETRI_INPUT_BLOCK, // indented lines must follow
     PETRI_INPUT_PART,  // it cannot end here
 } PetriInput;
-// Whether more lines are needed.
+// Whether more lines are needed. A text for which memory does not suffice counts as whole, with a diagnostic.
 PETRI_API PetriInput petri_input(PetriSession *session, const char *text, size_t length);
 
 // What became of the statements of a text.
@@ -494,6 +551,8 @@ typedef struct PetriBuiltin {
     const char *help;
 } PetriBuiltin;
 PETRI_API bool petri_builtin(size_t index, PetriBuiltin *builtin);
+// The same for those that the host has added. Valid as long as the session.
+PETRI_API bool petri_function(const PetriSession *session, size_t number, PetriBuiltin *function);
 
 // A number as `--runtime` takes it: seconds with suffix or a time code. False if it is none.
 PETRI_API bool petri_read_number(const char *text, double *x);

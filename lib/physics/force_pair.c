@@ -40,7 +40,8 @@ static Pass prepare_pass(const PhysSystem *system, ForceRange forces) {
         .charge = columns->charge,
         .term_count = (size_t)(forces.end - forces.begin),
         .terms = system->terms.bytes,
-        .stop = phys_stop(system),
+        // What one process leaves out, others would wait for.
+        .stop = system->options.ranks.count > 1 ? NULL : phys_stop(system),
     };
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MOST_TERMS &&
         columns->count >= MIN_FOR_LANES) {
@@ -53,6 +54,11 @@ static Pass prepare_pass(const PhysSystem *system, ForceRange forces) {
 // All pairs inside one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
+    if (pass->kernel && phys_ranks_share(pass->system, count * count / 2)) {
+        PairWave wave = {pass->kernel, &pass->pairs, true, first, end, first, end};
+        phys_pair_ranks(pass->system, &wave);
+        return;
+    }
     if (pass->kernel && pass->threads > 1 && count * count / 2 >= PAIRS_FOR_THREADS) {
         PairWave wave = {pass->kernel, &pass->pairs, true, first, end, first, end};
         phys_pair_wave(pass->system, &wave);
@@ -83,7 +89,9 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
     PairWave wave = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
     if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
         wave = (PairWave){pass->kernel, &pass->pairs, false, other, other_end, first, end};
-    if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
+    if (phys_ranks_share(pass->system, rows * columns))
+        phys_pair_ranks(pass->system, &wave);
+    else if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
         phys_pair_wave(pass->system, &wave);
     else
         pass->kernel->tiles(&pass->pairs, wave.row, wave.row_end, wave.column, wave.column_end);

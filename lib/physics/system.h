@@ -77,6 +77,19 @@ typedef struct PhysThreads PhysThreads;
 PhysThreads *phys_threads_new(int count); // with the caller; 0: as many as processors
 void phys_threads_free(PhysThreads *threads);
 
+// Processes that simulate the same systems together. All of them do the same; of large passes over pairs each computes a
+// part, and numbers go between them: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+typedef struct PhysRanks {
+    int rank; // of this process, from 0
+    int count;
+    uint64_t least; // pairs of a pass that are worth it; 0: as many as are found to be
+    void *host;
+    void (*send)(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride); // never waits
+    void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    // Those of one rank become those of all.
+    void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+} PhysRanks;
+
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
@@ -85,6 +98,7 @@ typedef struct PhysOptions {
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
     Meter *meter;      // that work and memory are charged to, which outlives the system; NULL: none
     bool keep_forces;  // for PhysColumns.force; costs one store per particle and step
+    PhysRanks ranks;   // none if its count is 0
 } PhysOptions;
 
 // A new system has one thread, the detected level and lists where they pay.

@@ -102,6 +102,8 @@ const Expr *compile_name(Compiler *compiler, const Ast *ast);
 void compile_function_open(Compiler *compiler, FunctionScope *function, const Symbol *self);
 // Returns to the enclosing function.
 void compile_function_close(Compiler *compiler, FunctionScope *function);
+// The built-in of this name, or the host's, or NULL.
+const struct Builtin *compile_find_builtin(const Compiler *compiler, Str name);
 // Whether nothing but -D can give a name of the top level a value here.
 bool compile_is_free(const Compiler *compiler, const Symbol *name);
 

@@ -17,14 +17,14 @@ static void warn_hint(Compiler *compiler, Span span, const char *code, Str text,
     compile_report(compiler, span, DIAG_WARNING, code, text, hint);
 }
 
-static bool is_builtin(Str name) {
+static bool is_builtin(const Compiler *compiler, Str name) {
     Value value;
-    return builtin_find(name) || builtin_constant(name, &value);
+    return compile_find_builtin(compiler, name) || builtin_constant(name, &value);
 }
 
 void lint_bind(Compiler *compiler, const Binding *binding) {
     Str name = binding->name->name;
-    if (wanted(compiler) && is_builtin(name))
+    if (wanted(compiler) && is_builtin(compiler, name))
         compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
                        str_format(compiler->arena, "'%.*s' hides the built-in of that name", STR_ARGS(name)), (Str){0});
 }
@@ -165,7 +165,8 @@ void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
     Arena *arena = compiler->arena;
     Str name = value_text(arena, compiler->symbols, file->as.value);
     Str path = path_join(arena, compiler->source->directory, name);
-    if (name.len && !file_exists(str_to_c(arena, path)))
+    Str version;
+    if (name.len && !file_version(arena, compiler->options->files, str_to_c(arena, path), &version))
         warn(compiler, ast->span, "cannot-import",
              str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
 }

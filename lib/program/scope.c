@@ -131,9 +131,16 @@ bool engine_name_exists(Str name) {
     return false;
 }
 
+const Builtin *compile_find_builtin(const Compiler *compiler, Str name) {
+    for (uint32_t i = 0; i < compiler->options->function_count; i++)
+        if (str_equal(str_from(compiler->options->functions[i]->name), name))
+            return compiler->options->functions[i];
+    return builtin_find(name);
+}
+
 bool compile_is_free(const Compiler *compiler, const Symbol *name) {
     Value value;
-    return !compile_find_binding(compiler, name) && !builtin_find(name->name) &&
+    return !compile_find_binding(compiler, name) && !compile_find_builtin(compiler, name->name) &&
            !builtin_constant(name->name, &value) && (compiler->options->module || !engine_name_exists(name->name));
 }
 
@@ -155,7 +162,7 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
     Value value;
     if (builtin_constant(name, &value))
         return compile_constant(compiler, ast, value);
-    const Builtin *builtin = builtin_find(name);
+    const Builtin *builtin = compile_find_builtin(compiler, name);
     if (!builtin)
         return NULL;
     Function *function = arena_alloc(compiler->arena, sizeof *function);
@@ -195,6 +202,8 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
         str_try_nearest(&nearest, str_from(engine_names[i].name));
     for (uint32_t i = 0; i < builtin_table_count; i++)
         str_try_nearest(&nearest, str_from(builtin_table[i].name));
+    for (uint32_t i = 0; i < compiler->options->function_count; i++)
+        str_try_nearest(&nearest, str_from(compiler->options->functions[i]->name));
     return nearest.found.len ? str_format(compiler->arena, "did you mean '%.*s'?", STR_ARGS(nearest.found)) : (Str){0};
 }
 

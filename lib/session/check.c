@@ -113,6 +113,8 @@ static void open_scratch(PetriSession *session, Heard *heard) {
         heard->scratch->reach = session->reach; // whose lists outlive it
     if (heard->scratch)
         session_copy_given(session, heard->scratch);
+    if (heard->scratch)
+        heard->scratch->functions = session->functions;
     for (uint32_t i = 0; heard->scratch && i < session->config.define_count; i++)
         if (petri_define(heard->scratch, session->config.defines[i].text) == PETRI_MEMORY)
             petri_close(&heard->scratch);

@@ -87,6 +87,15 @@ void clock_advance(Clock *clock) {
     clock->delta = clock->number == 0 ? 0 : clock->beat - last_beat;
 }
 
+void clock_advance_to(Clock *clock, double time, double beat) {
+    clock->delta = clock->number < 0 ? 0 : beat - clock->beat;
+    clock->number++;
+    clock->time = time;
+    clock->beat = beat;
+    clock->base = (ClockBase){clock->number, time, beat};
+    clock_follow_frame(clock);
+}
+
 double clock_due(const Clock *clock) {
     return clock->wall.running ? fmax(0, clock->wall.due - wall_time(clock)) : 0;
 }

@@ -48,6 +48,8 @@ void clock_rewind(Clock *clock);
 void clock_set_rates(Clock *clock, const ClockRates *rates);
 // Goes to the next frame; in real time, waits until it is due.
 void clock_advance(Clock *clock);
+// Goes to the next frame at another's time and beat, from where the clock goes on.
+void clock_advance_to(Clock *clock, double time, double beat);
 // Goes to just after a frame at the present rates.
 void clock_resume(Clock *clock, int64_t number);
 // Real time goes on from that of the present frame, where another clock has been.

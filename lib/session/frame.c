@@ -284,8 +284,9 @@ static PetriStatus update_frame(PetriSession *session) {
     return status;
 }
 
-PetriStatus petri_step(PetriSession *session) {
-    if (!session || !session->config.program)
+// The next frame, at the host's time and beat or, if `at` is NULL, at the session's.
+static PetriStatus step(PetriSession *session, const ClockBase *at) {
+    if (!session || !session->config.program || session->calls > 0)
         return PETRI_INVALID;
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
@@ -295,7 +296,10 @@ PetriStatus petri_step(PetriSession *session) {
         return PETRI_MEMORY;
     Clock clock = session->clock;
     session_clear_frame(session);
-    clock_advance(&session->clock);
+    if (at)
+        clock_advance_to(&session->clock, at->time, at->beat);
+    else
+        clock_advance(&session->clock);
     PetriStatus status = evaluate_frame(session);
     bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
     if (status == PETRI_OK) {
@@ -305,6 +309,14 @@ PetriStatus petri_step(PetriSession *session) {
     if (!counts)
         session->clock = clock;
     return status;
+}
+
+PetriStatus petri_step(PetriSession *session) {
+    return step(session, NULL);
+}
+
+PetriStatus petri_step_at(PetriSession *session, double time, double beat) {
+    return isfinite(time) && isfinite(beat) ? step(session, &(ClockBase){.time = time, .beat = beat}) : PETRI_INVALID;
 }
 
 PetriFrame petri_frame(const PetriSession *session) {

@@ -111,6 +111,7 @@ PetriInput petri_input(PetriSession *session, const char *text, size_t length) {
     arena_reset(&session->prompt.arena);
     PetriStatus status = session_protect(session, NULL, probe, &job);
     arena_reset(&session->prompt.arena);
+    status = session_tell_end(session, status, "the text");
     return status == PETRI_OK ? (PetriInput)job.value.as.number : PETRI_INPUT_WHOLE;
 }
 
@@ -168,6 +169,8 @@ static void parse(PetriSession *session, void *context) {
 // Parses the text into a unit; the names in sight have values from then on.
 static PetriStatus begin(PetriSession *session, const char *text, size_t length, Job *job) {
     job->text = (Str){text, length == PETRI_Z ? strlen(text) : length};
+    if (session->calls > 0)
+        return PETRI_INVALID;
     if (petri_interrupted(session))
         return PETRI_INTERRUPTED;
     session->loader.begun = NULL;

@@ -78,6 +78,10 @@ static PhysOptions physics_options(const PetriOptions *options) {
                            .neighbours = (PhysNeighbours)options->neighbours,
                            .keep_forces = options->keep_forces};
     cpu_choose(options->cpu, &physics.cpu);
+    const PetriRanks *ranks = options->ranks;
+    if (ranks)
+        physics.ranks = (PhysRanks){ranks->rank, ranks->count,   ranks->least, ranks->host,
+                                    ranks->send, ranks->receive, ranks->spread};
     return physics;
 }
 
@@ -180,6 +184,8 @@ static void open_parts(PetriSession *session, void *context) {
     session->vm.builtins.files = session->files;
     session->vm.builtins.reach = session->schema.reach = &session->reach;
     session->reach.nothing = options->no_files;
+    session->reach.read = options->read;
+    session->reach.read_host = options->read_host;
     reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
     reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
     reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
@@ -191,6 +197,7 @@ static void open_parts(PetriSession *session, void *context) {
         arena_exhausted(&session->arena);
     PhysOptions physics = physics_options(options);
     session->options.cpu = NULL; // it is the host's
+    session->options.ranks = NULL;
     scene_set_physics(session->scene, &physics);
 }
 
@@ -388,6 +395,8 @@ static void adopt(PetriSession *session, const Load *load, LoadPurpose purpose) 
 }
 
 static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) {
+    if (session->calls > 0)
+        return PETRI_INVALID;
     if (!session->again)
         diagnostics_begin_load(&session->diagnostics);
     session->loader.begun = NULL;

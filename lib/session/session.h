@@ -46,6 +46,12 @@ typedef struct GivenNames {
     uint32_t count;
 } GivenNames;
 
+// The host's own built-ins, which live as long as the session. The array is replaced, never changed.
+typedef struct HostFunctions {
+    const Builtin *const *rows;
+    uint32_t count;
+} HostFunctions;
+
 struct PetriConfig {
     uint32_t references;
     uint64_t number;
@@ -82,6 +88,7 @@ struct PetriSession {
     ArenaEnd end;   // how the last one ended that was given up
 
     GivenNames given;
+    HostFunctions functions;
     Config config;
     PetriConfig *shared;    // the same, once somebody has asked for it
     uint64_t config_number; // of the present configuration

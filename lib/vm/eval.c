@@ -106,6 +106,7 @@ NOINLINE static Value call_builtin(Vm *vm, const int32_t *list, const Value *slo
     const Value *values = gather(vm, list, slots, instr, few);
     if (!vm_may_call(vm, instr->as.builtin, instr->at, values, instr->count))
         return VALUE_NULL;
+    vm->builtins.called = instr->as.builtin;
     return instr->as.builtin->call(&vm->builtins, values, instr->count);
 }
 

@@ -10,6 +10,8 @@
 
 struct Args;
 struct Options;
+struct PetriRanks;
+struct SweepExtras;
 
 enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128 }; // plus its number
 
@@ -38,9 +40,12 @@ extern const OptionSpec OPTIONS[];
 
 // What main found out about the process, for all commands.
 typedef struct Host {
-    size_t stack_bytes;  // C stack that evaluation may use
-    const char *program; // path of this program, from wherever it is started
-    const char *called;  // … as the user called it, for hints
+    size_t stack_bytes;              // C stack that evaluation may use
+    const char *program;             // path of this program, from wherever it is started
+    const char *called;              // … as the user called it, for hints
+    const char *cpu;                 // PetriOptions.cpu
+    const struct SweepExtras *sweep; // what petri sweep takes libraries for; NULL: petri-pictures has it
+    const struct PetriRanks *ranks;  // the processes that share the work, as mpirun has started them; NULL: this alone
 } Host;
 
 typedef struct Command {

@@ -320,6 +320,8 @@ int options_open(const Options *options, const Host *host,
     wanted.no_files = options->no_files;
     wanted.diagnostic = diagnostic;
     wanted.host = context;
+    wanted.cpu = host->cpu;
+    wanted.ranks = host->ranks;
     *session = petri_open(&wanted);
     if (*session == NULL) {
         message("out of memory");

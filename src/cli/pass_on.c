@@ -1,6 +1,6 @@
-// pass_on.c: starting the other program, petri-pictures, for what this one cannot do.
+// pass_on.c: starting the other programs, petri-pictures and petri-ranks, for what this one cannot do.
 //
-// It lies beside this one, as in a build folder, or where `meson install` puts what only other programs call.
+// They lie beside this one, as in a build folder, or where `meson install` puts what only other programs call.
 #include "cli/pass_on.h"
 
 #include <errno.h>
@@ -11,6 +11,7 @@
 #include <unistd.h>
 
 #include "cli/cli.h"
+#include "cli/mpirun.h"
 
 #ifdef PETRI_PICTURES
 enum { HAS_ALL = true };
@@ -19,7 +20,7 @@ enum { HAS_ALL = false };
 #endif
 
 bool pass_on_wanted(const char *first) {
-    static const char *const words[] = {"view", "render", "repl", "sweep", "help", "--help", "-h"};
+    static const char *const words[] = {"view", "render", "repl", "help", "--help", "-h"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(first, words[i]) == 0) {
             return !HAS_ALL;
@@ -38,9 +39,10 @@ static char *last_part(char *path) {
     return slash == NULL ? path : slash + 1;
 }
 
-int pass_on(char **argv) {
-    static const char *const places[] = {"petri-pictures", "../libexec/petri-pictures"};
-    char path[PATH_MAX + 64]; // of this program, and then of the other
+// Becomes a program that lies beside this one or where `meson install` puts it. Returns, if that fails, why, and in
+// `path` the folder of this one.
+static int become(const char *name, char **argv, char path[PATH_MAX + 64]) {
+    static const char *const places[] = {"", "../libexec/"};
     ssize_t length = readlink("/proc/self/exe", path, PATH_MAX - 1);
     if (length > 0) {
         path[length] = '\0';
@@ -51,15 +53,36 @@ int pass_on(char **argv) {
     int cause = 0;
     for (size_t i = 0; i < sizeof places / sizeof places[0]; i++) {
         strcpy(place, places[i]);
+        strcat(place, name);
         execvp(path, argv); // looks along PATH if there is no slash
         cause = cause == 0 || errno != ENOENT ? errno : cause;
     }
     *place = '\0';
-    int folder = (int)(place - path), above = folder - 1;
+    return cause;
+}
+
+int pass_on(char **argv) {
+    char path[PATH_MAX + 64];
+    int cause = become("petri-pictures", argv, path);
+    int folder = (int)strlen(path), above = folder - 1;
     while (above > 0 && path[above - 1] != '/') {
         above--;
     }
     message("cannot start petri-pictures, which draws and prompts: %s; it belongs in %.*s or in %.*slibexec/",
             strerror(cause), folder, path, above < 0 ? 0 : above, path);
+    return STATUS_FAILED;
+}
+
+int pass_on_ranks(char **argv) {
+    int rank = 0, count = 0;
+    if (!mpirun_rank(&rank, &count)) {
+        return -1;
+    }
+    char path[PATH_MAX + 64];
+    int cause = become("petri-ranks", argv, path);
+    if (rank == 0) {
+        message("cannot start petri-ranks, which mpirun takes: %s%s", strerror(cause),
+                cause == ENOENT ? "; this petri was built without MPI (Debian: libopenmpi-dev)" : "");
+    }
     return STATUS_FAILED;
 }

@@ -11,6 +11,12 @@
 #include "cli/cli.h"
 #include "cli/pass_on.h"
 #include "main/commands.h"
+#ifdef PETRI_RANKS
+#include "ranks/ranks.h"
+#endif
+#ifdef PETRI_PICTURES
+#include "sweep/extras.h"
+#endif
 
 // A script's name has a dot or a slash in it, or is the name of something that exists.
 static bool looks_like_file(const char *word) {
@@ -62,10 +68,17 @@ static int dispatch(const Host *host, int argc, char **argv) {
         return help_version();
     }
     const Command *command = command_find(first);
+    bool is_script = command == NULL && (first[0] == '-' || looks_like_file(first));
+#ifndef PETRI_RANKS
+    int status = command == &RUN_COMMAND || is_script ? pass_on_ranks(argv) : -1;
+    if (status >= 0) {
+        return status;
+    }
+#endif
     if (command != NULL) {
         return command_run(command, host, argc - 2, argv + 2);
     }
-    if (first[0] == '-' || looks_like_file(first)) {
+    if (is_script) {
         return command_run(&RUN_COMMAND, host, argc - 1, argv + 1);
     }
     return pass_on_all() ? pass_on(argv) : unknown_command(first);
@@ -139,9 +152,18 @@ int main(int argc, char **argv) {
                .argc = argc,
                .argv = argv,
                .status = STATUS_FAILED};
+#ifdef PETRI_RANKS
+    ranks_begin(&job.host);
+#endif
+#ifdef PETRI_PICTURES
+    job.host.sweep = &SWEEP_EXTRAS;
+#endif
     if (!run_on_large_stack(&job)) {
         message("cannot start a thread");
         return STATUS_FAILED;
     }
+#ifdef PETRI_RANKS
+    ranks_end(job.status);
+#endif
     return job.status;
 }

@@ -71,6 +71,7 @@ depth == 0 && /^\/\// {
     if (pending && behind)
         print ".sp"
     pending = 0
+    sub(/PETRI_API /, "")
     print escaped($0)
     text = $0
     sub(/\/\/.*/, "", text)

@@ -63,26 +63,39 @@ static void drop_one(ReplHistory *history) {
     }
 }
 
-static bool add_keyframe(ReplHistory *history, PetriSession *session) {
-    PetriSnapshot *snapshot = petri_snapshot(session);
-    if (snapshot == NULL) {
-        return false;
-    }
+static void push_keyframe(ReplHistory *history, PetriSession *session, PetriSnapshot *snapshot) {
     history->keyframes[history->keyframe_count++] =
         (Keyframe){petri_frame(session).number, history->epochs[history->epoch_count - 1].number, snapshot};
     history->bytes += petri_snapshot_bytes(snapshot);
     while (history->keyframe_count > HISTORY_MOST || (history->bytes > HISTORY_BYTES && history->keyframe_count > 2)) {
         drop_one(history);
     }
+}
+
+static bool add_keyframe(ReplHistory *history, PetriSession *session) {
+    PetriSnapshot *snapshot = petri_snapshot(session);
+    if (snapshot == NULL) {
+        return false;
+    }
+    push_keyframe(history, session, snapshot);
     return true;
 }
 
-// From the present frame on, the present configuration counts.
-static bool begin_epoch(ReplHistory *history, PetriSession *session) {
+// From the present frame on, the present configuration counts; `anew`: what was before is forgotten. No epoch is ever
+// without its first keyframe.
+static bool begin_epoch(ReplHistory *history, PetriSession *session, bool anew) {
+    PetriSnapshot *snapshot = petri_snapshot(session);
+    if (snapshot == NULL) {
+        return false;
+    }
+    if (anew) {
+        drop_all(history);
+    }
     history->epochs = memory_resized(history->epochs, (history->epoch_count + 1) * sizeof *history->epochs);
     history->epochs[history->epoch_count++] =
         (Epoch){++history->last_epoch, petri_frame(session).number, petri_config_number(session)};
-    return add_keyframe(history, session);
+    push_keyframe(history, session, snapshot);
+    return true;
 }
 
 bool history_start(ReplHistory *history, PetriSession *session, const char *why) {
@@ -91,7 +104,12 @@ bool history_start(ReplHistory *history, PetriSession *session, const char *why)
     history->origin = petri_snapshot(session);
     history->first = history->last = petri_frame(session).number;
     history->why = why;
-    return history->origin != NULL && begin_epoch(history, session);
+    return history->origin != NULL && begin_epoch(history, session, true);
+}
+
+// Begins it now if there was no memory when it was to begin. The session cannot have gone on since.
+static bool is_begun(ReplHistory *history, PetriSession *session) {
+    return history->keyframe_count > 0 || history_start(history, session, history->why);
 }
 
 // The epoch in which a frame beyond the first was made.
@@ -122,17 +140,13 @@ static bool prepare(ReplHistory *history, PetriSession *session, int64_t frame) 
         return true;
     }
     cut(history, frame);
-    if (frame > history->first) {
-        return begin_epoch(history, session);
-    }
-    // Nothing was made with the old configuration that could be asked for.
-    drop_all(history);
-    return begin_epoch(history, session);
+    // Up to the first frame nothing was made with the old configuration that could be asked for.
+    return begin_epoch(history, session, frame <= history->first);
 }
 
 PetriStatus history_step(ReplHistory *history, PetriSession *session) {
     int64_t before = petri_frame(session).number;
-    if (!prepare(history, session, before)) {
+    if (!is_begun(history, session) || !prepare(history, session, before)) {
         return PETRI_MEMORY;
     }
     uint64_t config = petri_config_number(session);
@@ -195,7 +209,7 @@ static PetriStatus go_back(ReplHistory *history, PetriSession *session, int64_t 
 }
 
 PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
-    PetriConfig *config = petri_config(session);
+    PetriConfig *config = is_begun(history, session) ? petri_config(session) : NULL;
     if (config == NULL) {
         return PETRI_MEMORY;
     }
@@ -239,7 +253,7 @@ PetriStatus history_remake(ReplHistory *history, PetriSession *session) {
 }
 
 PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
-    PetriConfig *config = petri_config(session);
+    PetriConfig *config = is_begun(history, session) ? petri_config(session) : NULL;
     if (config == NULL) {
         return PETRI_MEMORY;
     }

@@ -44,7 +44,8 @@ typedef struct ReplHistory {
     const char *why;       // why the timeline begins where it does, or NULL if nothing was before it
 } ReplHistory;
 
-// The timeline begins with the present frame; `why` (a literal) says what became of the one before.
+// The timeline begins with the present frame; `why` (a literal) says what became of the one before. False if memory is
+// used up: what needs the timeline then tries again.
 bool history_start(ReplHistory *history, PetriSession *session, const char *why);
 void history_free(ReplHistory *history);
 // petri_step, with the history kept.

@@ -45,9 +45,11 @@ static bool may_record(Repl *repl, const char *script) {
     if (history->epochs[0].config != petri_config_number(repl->session)) {
         return repl_fail(repl, "things were changed after these frames were made; .reset and step again");
     }
-    if (petri_resolution(repl->session) > 0 || repl->rates_changed) {
-        return repl_fail(repl, "a golden cannot repeat %s; .load the script again",
-                         repl->rates_changed ? ".tempo and .fps" : ".resolution");
+    if (repl->rates_changed) {
+        return repl_fail(repl, "a golden cannot repeat .tempo and .fps; .load the script again");
+    }
+    if (petri_resolution(repl->session) > 0) {
+        return repl_fail(repl, "a golden cannot repeat .resolution; type .resolution off, .reset and step again");
     }
     if (repl->loaded && !same_folder(repl->script, script)) {
         return repl_fail(repl, "a recording must lie in the folder of '%s', for names of files are relative to it",
@@ -107,7 +109,7 @@ static PetriStatus gather(Repl *repl, Bytes *text, int64_t last, int64_t every, 
     for (int64_t i = 0; i <= last && status == PETRI_OK; i++) {
         status = history_goto(&repl->history, repl->session, i, why);
         if (status == PETRI_OK && i % every == 0) {
-            petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, bytes_collect, text);
+            status = petri_print(repl->session, PETRI_PRINT_STATE | PETRI_PRINT_LOG, bytes_collect, text);
         }
     }
     return status;
@@ -123,7 +125,8 @@ static bool record(Repl *repl, const char *golden, const char *script, int64_t e
         bool stopped = repl_idle(repl);
         if (status != PETRI_OK) {
             history_goto(&repl->history, repl->session, last, &why);
-            good = repl_fail(repl, "%s", stopped ? "interrupted" : why.length > 0 ? why.data : "not recorded");
+            good = why.length > 0 ? repl_fail(repl, "%s", why.data)
+                                  : repl_status(repl, stopped ? PETRI_INTERRUPTED : status);
         }
     }
     const char *problem = good ? file_replace(golden, (Str){text.data, text.length}, 0) : NULL;

@@ -95,7 +95,9 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
         return; // what is typed may read it
     }
     repl->wrong_definition = repl->wrong_definition || is_wrong_definition(diagnostic);
-    repl->failed = repl->failed || (diagnostic->code != NULL && strcmp(diagnostic->code, "memory-limit") == 0);
+    if (diagnostic->code != NULL && strcmp(diagnostic->code, "memory-limit") == 0) {
+        repl->failed = repl->any_failed = true;
+    }
     output_flush(&repl->output);
     fputs(diagnostic->rendered, stderr);
 }

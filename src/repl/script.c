@@ -189,8 +189,8 @@ static bool run_reload(Repl *repl, const char *rest) {
     if (!loaded(repl, status)) {
         return false;
     }
-    if (first) {
-        history_start(&repl->history, repl->session, NULL);
+    if (first && !history_start(&repl->history, repl->session, NULL)) {
+        return repl_status(repl, PETRI_MEMORY);
     }
     repl_say(repl, "%s is loaded anew", repl->script);
     return true;

@@ -75,6 +75,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 
 int frames_open(Frames *frames, const Host *host, Options *options) {
     frames->options = options;
+    frames->ranks = host->ranks;
     return options_open(options, host, on_diagnostic, frames, &frames->session);
 }
 
@@ -103,10 +104,31 @@ static int64_t expected_frames(const Frames *frames) {
     return frames->options->frames;
 }
 
-void frames_begin(Frames *frames) {
-    if (state_file_restore(&frames->state, frames->session, frames->options->state_file)) {
+// Returns when all other ranks have come here.
+static void meet(const PetriRanks *ranks) {
+    for (int rank = 1; ranks != NULL && rank < ranks->count; rank++) {
+        double nothing = 0;
+        ranks->spread(ranks->host, rank, &nothing, 1, 1, 1);
+    }
+}
+
+// Rank 0 keeps the state for all, once the others have read what was there.
+static void take_state(Frames *frames) {
+    bool first = frames->ranks == NULL || frames->ranks->rank == 0;
+    if (first) {
+        meet(frames->ranks);
+    }
+    bool restored = state_file_restore(&frames->state, frames->session, frames->options->state_file);
+    if (!first) {
+        meet(frames->ranks);
+        frames->state.name = NULL;
+    } else if (restored) {
         save_state(frames, true); // so that a file that cannot be written is known before the work is done
     }
+}
+
+void frames_begin(Frames *frames) {
+    take_state(frames);
     catch_signals();
     bool shows_progress = frames->options->verbosity > LOG_QUIET && progress_possible();
     progress_start(&frames->progress, shows_progress, expected_frames(frames));

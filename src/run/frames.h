@@ -17,9 +17,10 @@ typedef struct Frames {
     int64_t early; // … of these, those that --frames and --runtime do not count: nothing was to be seen yet
     double start;  // seconds of the monotonic clock
     StateFile state;
-    bool given_up;         // the frame at hand was, because of a signal
-    bool shown_last;       // the last diagnostic that was no note was shown
-    bool wrong_definition; // the script cannot take a value of -D
+    const PetriRanks *ranks; // the processes that share the work; NULL: this alone
+    bool given_up;           // the frame at hand was, because of a signal
+    bool shown_last;         // the last diagnostic that was no note was shown
+    bool wrong_definition;   // the script cannot take a value of -D
 } Frames;
 
 // Opens a session. OPTIONS_READ, or the status to exit with. Frames must be zero at first, and stay where it is.

@@ -258,7 +258,25 @@ static void show(const Options *options, const Host *host) {
     free(words);
 }
 
+// What several processes cannot do together. False after a message.
+static bool fits_ranks(const PetriRanks *ranks, Options *options) {
+    if (ranks == NULL) {
+        return true;
+    }
+    if (options->realtime || script_is_stdin(options->script)) {
+        message("under mpirun petri takes %s", options->realtime
+                                                   ? "no --realtime: each rank has a clock of its own"
+                                                   : "no script on standard input: the ranks do not share it");
+        return false;
+    }
+    options->trajectory = ranks->rank == 0 ? options->trajectory : NULL;
+    return true;
+}
+
 static int run_run(const Host *host, Options *options) {
+    if (!fits_ranks(host->ranks, options)) {
+        return STATUS_USAGE;
+    }
     Run run = {.host = host, .output.fd = STDOUT_FILENO, .to_terminal = isatty(STDOUT_FILENO)};
     int status = frames_open(&run.frames, host, options);
     if (status == OPTIONS_READ && show_wanted(options)) {

@@ -5,6 +5,7 @@
 #include <stdlib.h>
 
 #include "petri-draw.h"
+#include "sweep/extras.h"
 #include "sweep/table.h"
 
 enum { WIDTH = 220, HEIGHT = 160, LEFT = 80, TOP = 20, GAP_X = 90, GAP_Y = 60, MOST_POINTS = 5000, MOST_MEANS = 400 };

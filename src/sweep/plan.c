@@ -4,7 +4,7 @@
 
 #include "base/source.h"
 #include "cli/script.h"
-#include "sweep/sweep.h"
+#include "sweep/extras.h"
 
 #ifdef HAVE_YAML
 #include <yaml.h>

@@ -10,10 +10,12 @@
 
 #include "base/file.h"
 #include "cli/args.h"
-#include "cli/output.h"
+#include "cli/mpirun.h"
+#include "cli/pass_on.h"
 #include "cli/script.h"
-#include "petri-draw.h"
+#include "petri.h"
 #include "sweep/crew.h"
+#include "sweep/extras.h"
 #include "sweep/measure.h"
 #include "sweep/table.h"
 
@@ -83,29 +85,20 @@ static bool take_metrics(Sweep *sweep) {
     return true;
 }
 
-static int64_t number_of(const char *name) {
-    const char *text = getenv(name);
-    return text == NULL ? -1 : strtoll(text, NULL, 10);
-}
-
 // `2/4`; without --shard, what mpirun says.
 static bool take_shard(Sweep *sweep) {
-    static const char *const ranks[][2] = {{"OMPI_COMM_WORLD_RANK", "OMPI_COMM_WORLD_SIZE"}, {"PMI_RANK", "PMI_SIZE"}};
     const char *text = sweep->options->shard;
-    long long shard = 1, shards = 1;
+    int shard = 1, shards = 1, rank = 0, count = 0;
     char behind = '\0';
     if (text != NULL) {
-        if (sscanf(text, "%lld/%lld%c", &shard, &shards, &behind) != 2 || shard < 1 || shard > shards) {
+        if (sscanf(text, "%d/%d%c", &shard, &shards, &behind) != 2 || shard < 1 || shard > shards) {
             message("option '--shard' expects I/N, such as 2/4 for the second of four, not '%s'", text);
             return false;
         }
     }
-    for (size_t i = 0; text == NULL && shards == 1 && i < sizeof ranks / sizeof ranks[0]; i++) {
-        int64_t rank = number_of(ranks[i][0]), size = number_of(ranks[i][1]);
-        if (rank >= 0 && rank < size) {
-            shard = rank + 1;
-            shards = size;
-        }
+    if (text == NULL && mpirun_rank(&rank, &count)) {
+        shard = rank + 1;
+        shards = count;
     }
     sweep->shard = (size_t)shard - 1;
     sweep->shards = (size_t)shards;
@@ -142,7 +135,7 @@ static bool take_shared(Sweep *sweep, const Command *command) {
 
 static bool take_plot(const Sweep *sweep) {
     const char *plot = sweep->options->plot;
-    if (plot == NULL || petri_picture_format(plot)) {
+    if (plot == NULL || sweep->host->sweep->plot_fits(plot)) {
         return true;
     }
     message("option '--plot' expects a file name that ends in .svg, .png or .pdf, not '%s'", plot);
@@ -224,7 +217,7 @@ static bool write_all(const Sweep *sweep) {
         summary_make(sweep, &summary);
         good = write_file(sweep->options->summary, &summary);
     }
-    good = (sweep->options->plot == NULL || matrix_draw(sweep, sweep->options->plot)) && good;
+    good = (sweep->options->plot == NULL || sweep->host->sweep->matrix_draw(sweep, sweep->options->plot)) && good;
     return write_table(sweep) && good;
 }
 
@@ -329,7 +322,7 @@ static void free_sweep(Sweep *sweep) {
 static int run_plan(const Host *host, const Options *options) {
     TextList words = {0};
     int status = STATUS_USAGE;
-    if (plan_read(options->plan, &words)) {
+    if (host->sweep->plan_read(options->plan, &words)) {
         for (int i = 0; i < options->argc; i++) {
             bool is_plan = strcmp(options->argv[i], "--plan") == 0;
             if (!is_plan && strncmp(options->argv[i], "--plan=", 7) != 0) {
@@ -343,7 +336,23 @@ static int run_plan(const Host *host, const Options *options) {
     return status;
 }
 
+// Becomes petri-pictures, with the same words.
+static int run_elsewhere(const Host *host, const Options *options) {
+    TextList words = {0};
+    texts_add(&words, host->called);
+    texts_add(&words, SWEEP_COMMAND.name);
+    for (int i = 0; i < options->argc; i++) {
+        texts_add(&words, options->argv[i]);
+    }
+    int status = pass_on(words.items);
+    texts_free(&words);
+    return status;
+}
+
 static int sweep_run(const Host *host, Options *options) {
+    if (host->sweep == NULL && (options->plan != NULL || options->plot != NULL)) {
+        return run_elsewhere(host, options);
+    }
     if (options->plan != NULL) {
         return run_plan(host, options);
     }

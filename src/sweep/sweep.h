@@ -67,7 +67,4 @@ bool sweep_is_failed(const Result *result);
 // Shows a diagnostic if it was not shown before and is wanted.
 void sweep_tell(Sweep *sweep, PetriLevel level, const char *rendered);
 
-// The words of a plan: options and a script, as on a command line. False after a message.
-bool plan_read(const char *path, TextList *words);
-
 #endif

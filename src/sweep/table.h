@@ -27,7 +27,5 @@ void table_make(const Sweep *sweep, Bytes *out);
 void table_commands(const Sweep *sweep, Bytes *out);
 // Mean, deviation and quantiles of each metric over the runs that differ in SEED alone.
 void summary_make(const Sweep *sweep, Bytes *out);
-// Draws a matrix of plots: metrics over what was swept. False after a message.
-bool matrix_draw(const Sweep *sweep, const char *path);
 
 #endif

@@ -5,6 +5,7 @@
 #include "measure.h"
 #include "peers.h"
 #include "report.h"
+#include "sweeps.h"
 #include "table.h"
 #include "worker.h"
 
@@ -209,7 +210,7 @@ static void warn_if_busy(const Results *results) {
 }
 
 static void run(const Bench *bench) {
-    enum { TABLES_MOST = 4 };
+    enum { TABLES_MOST = 5 };
     NamedTable tables[TABLES_MOST];
     size_t count = 0;
     Table peers = {0};
@@ -221,6 +222,8 @@ static void run(const Bench *bench) {
         tables[count++] = (NamedTable){"builds", report_builds(&results)};
     if (bench->peers)
         tables[count++] = (NamedTable){"peers", peers};
+    if (!bench->plan.only || !strcmp(bench->plan.only, "sweep"))
+        tables[count++] = (NamedTable){"sweeps", sweeps_measure(&bench->plan)};
     tables[count++] = (NamedTable){"targets", report_targets(&results, bench->plan.only == NULL)};
 
     printf("%s%s%s\n\n%s", bench->machine, bench->lammps[0] ? "; LAMMPS " : "", bench->lammps, notes);

@@ -53,6 +53,8 @@ check "figures" positive "$work/t.csv" evaluation_us physics_us frame_us output_
     threads_frame_us start_least_ms start_median_ms load_ms peak_mib bytes_per_particle
 check "builds" csv_is_whole "$work/t-builds.csv" workload physics_ratio frame_ratio
 check "ratios of builds" positive "$work/t-builds.csv" physics_ratio frame_ratio
+check "sweeps" csv_is_whole "$work/t-sweeps.csv" jobs seconds runs_per_s speed_up of_jobs
+check "their figures" positive "$work/t-sweeps.csv" jobs seconds runs_per_s speed_up of_jobs
 check "targets" csv_is_whole "$work/t-targets.csv" target petri reference ratio must aim met
 for form in text t.md; do
     check "workloads in $form" same_rows "$work/t.csv" "$work/$form"

@@ -83,11 +83,11 @@ check "mean, deviation, quartiles" [ "$(cat means.csv)" = 'A,metric,runs,mean,de
 sweep sum.fl -D A=1..2 --frames 9 --until 'frame == A' --summary means.csv -o t.csv
 check "when it ended, where nothing else is measured" has means.csv '2,frame,1,2,,2,2,2,2,2'
 if [ "$2" = draws ]; then
-    sweep sum.fl -D A=1..5 -D 'B=1;2' --frames 3 --metric x=A*B --plot plot.svg -o t.csv
-    check "a plot" grep -q '</svg>' plot.svg
+    sweep sum.fl -D A=1..5 -D 'B=1;2' --frames 3 --metric x=A*B --plot plot.png -o t.csv
+    check "a plot" [ "$(head -c 4 plot.png | tail -c 3)" = PNG ]
     check "of which nothing is amiss" [ "$(wc -l <err)" -eq 1 ]
-    sweep sum.fl -D A=1 --frames 3 --metric x=null --every 1 --plot plot.png -o t.csv
-    check "and of nothing at all" [ -s plot.png ]
+    sweep sum.fl -D A=1 --frames 3 --metric x=null --every 1 --plot empty.png -o t.csv
+    check "and of nothing at all" [ -s empty.png ]
 fi
 
 # --- the table, whatever happens on the way

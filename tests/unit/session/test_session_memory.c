@@ -210,6 +210,19 @@ static PetriStatus act_give(Stage *stage) {
     return petri_give(stage->player.session, "given", some_value);
 }
 
+static PetriValue give_nothing(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+    (void)call;
+    (void)host;
+    (void)arguments;
+    (void)count;
+    return (PetriValue){0};
+}
+
+static PetriStatus act_add_function(Stage *stage) {
+    return petri_add_function(stage->player.session, &(PetriFunction){sizeof(PetriFunction), "f", "x, y=0", "help",
+                                                                      false, give_nothing, NULL});
+}
+
 static PetriStatus act_picture(Stage *stage) {
     PetriPicture *picture;
     PetriPictureOptions options = petri_default_picture_options();
@@ -237,7 +250,11 @@ static PetriStatus act_dump(Stage *stage) {
 }
 
 static PetriStatus act_input(Stage *stage) {
-    return petri_input(stage->player.session, "if x:", PETRI_Z) <= PETRI_INPUT_PART ? PETRI_OK : PETRI_INVALID;
+    uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
+    if (petri_input(stage->player.session, "area(1;", PETRI_Z) == PETRI_INPUT_PART)
+        return PETRI_OK;
+    assert_true(petri_diagnostic_count(stage->player.session, PETRI_ERROR) > errors); // it is said
+    return PETRI_MEMORY;
 }
 
 static PetriStatus prompt(Stage *stage, const char *text) {
@@ -371,6 +388,7 @@ static const Row rows[] = {
     {"systems", act_systems, false},
     {"state", act_state, false},
     {"give", act_give, false},
+    {"add a function", act_add_function, false},
     {"picture", act_picture, false},
     {"automatic picture", act_automatic_picture, false},
     {"print", act_print, false},

@@ -209,13 +209,59 @@ static void test_wall_clock_goes_back(void **state) {
     petri_snapshot_free(second);
 }
 
+// The host's own clock; petri_step goes on from where it is.
+static void test_host_clock(void **state) {
+    Player *player = *state;
+    for (int realtime = 0; realtime < 2; realtime++) {
+        PetriOptions options = player_options(player);
+        options.realtime = realtime;
+        player_reopen(player, &options);
+        assert_int_equal(petri_step_at(player->session, 0, 0), PETRI_INVALID); // no script
+        assert_int_equal(player_load(player, "%pragma fps 4\n%pragma tempo 60\n!a x=frame;time;beat;delta\n"
+                                             "!physics state=:p dimensions=1 time=time resolution=10\n"
+                                             "    !particle id=1 velocity=1\n"),
+                         PETRI_OK);
+        assert_int_equal(petri_step_at(player->session, 100, 7), PETRI_OK);
+        assert_text("first", player_print(player, PETRI_PRINT_TREE),
+                    "!a x=0;100;7;0\n"
+                    "!physics state=:p dimensions=1 time=100 resolution=10\n    !particle id=1 velocity=1\n");
+        assert_int_equal(petri_step_at(player->session, 102.5, 8), PETRI_OK);
+        PetriFrame frame = petri_frame(player->session);
+        assert_number("number", (double)frame.number, 1);
+        assert_number("time", frame.time, 102.5);
+        assert_number("beat", frame.beat, 8);
+        PetriSystem system;
+        assert_true(petri_system(player->session, 0, &system));
+        assert_number("x", system.position.data[0], 2.5);
+        assert_int_equal(petri_step_at(player->session, 90, 3), PETRI_OK); // back, where systems rest
+        assert_true(petri_system(player->session, 0, &system));
+        assert_number("x", system.position.data[0], 2.5);
+        assert_int_equal(petri_step_at(player->session, NAN, 3), PETRI_INVALID);
+        assert_int_equal(petri_step_at(player->session, 3, INFINITY), PETRI_INVALID);
+        assert_int_equal(petri_frame(player->session).number, 2);
+        petri_step(player->session);
+        if (!realtime) {
+            assert_number("time goes on", petri_frame(player->session).time, 90.25);
+            assert_number("beat goes on", petri_frame(player->session).beat, 3.25);
+        } else {
+            assert_claim("time goes on", petri_frame(player->session).time >= 90);
+        }
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_pragmas),           PLAYER_TEST(test_pragma_warnings),
-        PLAYER_TEST(test_definitions),       PLAYER_TEST(test_precedence),
-        PLAYER_TEST(test_engine_names),      PLAYER_TEST(test_options),
-        PLAYER_TEST(test_load_starts_again), PLAYER_TEST(test_hold),
-        PLAYER_TEST(test_wall_clock_starts), PLAYER_TEST(test_wall_clock_goes_back),
+        PLAYER_TEST(test_pragmas),
+        PLAYER_TEST(test_pragma_warnings),
+        PLAYER_TEST(test_definitions),
+        PLAYER_TEST(test_precedence),
+        PLAYER_TEST(test_engine_names),
+        PLAYER_TEST(test_options),
+        PLAYER_TEST(test_load_starts_again),
+        PLAYER_TEST(test_hold),
+        PLAYER_TEST(test_host_clock),
+        PLAYER_TEST(test_wall_clock_starts),
+        PLAYER_TEST(test_wall_clock_goes_back),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

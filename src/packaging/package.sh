@@ -1,0 +1,34 @@
+#!/bin/sh
+# package.sh FOLDER: makes Debian packages of what git knows of this tree, in FOLDER: the source package, and by
+# dpkg-buildpackage the binary ones. debian/ is put together there; its files are in src/packaging/debian.
+set -eu
+root=$(cd "$(dirname "$0")/../.." && pwd)
+mkdir -p "$1"
+folder=$(cd "$1" && pwd)
+version=$(sed -n "s/^ *version: '\([0-9.]*\)',$/\1/p" "$root/meson.build")
+source=$folder/petri-$version
+rm -rf "$source" "$folder"/*petri*_"$version"* "$folder"/petri_"$version"*
+mkdir "$source"
+cd "$root"
+# The same tree gives the same packages: times are that of the last commit.
+SOURCE_DATE_EPOCH=$(git log -1 --format=%ct)
+export SOURCE_DATE_EPOCH
+git ls-files -z | tar -c --null --files-from=- | tar -x -C "$source"
+tar -c -C "$folder" --sort=name --owner=0 --group=0 --mtime="@$SOURCE_DATE_EPOCH" "petri-$version" |
+    xz -T0 >"$folder/petri_$version.orig.tar.xz"
+
+cp -r src/packaging/debian "$source"
+cd "$source/debian"
+{
+    echo "petri ($version-1) unstable; urgency=medium"
+    echo
+    echo "  * What changed: CHANGELOG.md."
+    echo
+    echo " -- The petri authors <petri@localhost>  $(LC_ALL=C date -uRd "@$SOURCE_DATE_EPOCH")"
+} >changelog
+# The licence, as this form wants it: a blank before each line, a dot in the empty ones.
+sed '1,/^Copyright/d' "$root/LICENSE" | sed '1d; s/^$/./; s/^/ /' >licence
+sed -i -e "s/@OWNER@/$(sed -n 's/^Copyright (c) //p' "$root/LICENSE")/" -e '/@LICENCE@/{r licence' -e 'd}' copyright
+rm licence
+cd ..
+dpkg-buildpackage --no-sign

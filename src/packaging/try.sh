@@ -1,0 +1,53 @@
+#!/bin/sh
+# try.sh FOLDER: installs the Debian packages in FOLDER on this machine, which is a bare one made for that (./dev package
+# --test), and uses them as people do. Ends with 0 if all went well.
+set -eu
+[ "$(id -u)" -eq 0 ] && [ -e /root/petri ] || {
+    echo "try.sh is for the bare machine of ./dev package --test" >&2
+    exit 2
+}
+folder=$(cd "$1" && pwd)
+cd /tmp
+apt-get -qq update
+install() { DEBIAN_FRONTEND=noninteractive apt-get -qqy --no-install-recommends install "$@" >install.log 2>&1 || {
+    cat install.log
+    exit 1
+}; }
+debs() { find "$folder" -name "$1_*.deb"; }
+# The static program needs nothing, and comes first, where nothing is.
+find "$folder" -name 'petri-*-static' | while read -r program; do
+    echo "!x y=frame" >x.fl
+    [ "$("$program" run x.fl --frames 2 --print tree | grep -c '!x y=')" -eq 2 ] || exit 1
+    "$program" help sin | grep -q 'Sine' || exit 1
+    echo "the static petri runs"
+done
+install "$(debs petri)"
+petri new dish
+petri run dish.fl --frames 10 --print hash --every 9
+petri render dish.fl -o dish.png --frames 1 --quiet
+head -c 8 dish.png | grep -q PNG
+petri help sin | grep -q Sine
+[ -s /usr/share/bash-completion/completions/petri ]
+echo "petri runs, draws and helps"
+# shellcheck disable=SC2046 # file names without blanks
+install $(debs libpetri0) $(debs libpetri-draw0) $(debs libpetri-dev) gcc libc6-dev pkg-config
+sed -n '/^```c where.c$/,/^```$/p' /root/petri/README.md | sed '1d;$d' >where.c
+# shellcheck disable=SC2046 # options are words
+cc where.c -o where $(pkg-config --cflags --libs petri)
+mkdir -p samples
+cp /usr/share/petri/samples/petri.fl samples
+./where | grep -q '^0 is at '
+ldd where | grep -q libpetri.so.0
+echo "a program with libpetri builds and runs"
+install "$(debs python3-petri)"
+python3 - <<'END'
+import petri
+session = petri.Session("samples/petri.fl", CELLS=20)
+session.step(10)
+assert session.systems["cells"].position.shape == (21, 2)
+assert session.picture(20, 20).pixels.shape == (20, 20, 4)
+END
+echo "python3-petri works"
+apt-get -qqy purge petri libpetri0 libpetri-draw0 >install.log 2>&1
+[ ! -e /usr/bin/petri ] && [ ! -e /usr/share/petri ]
+echo "and all of it goes again"

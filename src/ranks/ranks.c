@@ -1,0 +1,128 @@
+// ranks.c: see ranks.h. Messages between two ranks arrive in the order in which they were sent, as MPI has it.
+#include "ranks/ranks.h"
+
+#include <fcntl.h>
+#include <mpi.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/cpu.h"
+#include "cli/bytes.h"
+#include "petri.h"
+
+// A message on its way, which takes its numbers along.
+typedef struct Sending {
+    double *numbers;
+    MPI_Request request;
+} Sending;
+
+typedef struct Ranks {
+    PetriRanks as_options;
+    Sending *sendings;
+    size_t count;
+    size_t room;
+    double *numbers; // of a message that comes
+    size_t numbers_room;
+} Ranks;
+
+static Ranks ranks; // of the process, as MPI is
+
+static void pack(double *to, const double *numbers, size_t runs, size_t length, size_t stride) {
+    for (size_t k = 0; k < runs; k++) {
+        memcpy(to + k * length, numbers + k * stride, length * sizeof *to);
+    }
+}
+
+static double *make_room(size_t count) {
+    if (ranks.numbers_room < count) {
+        ranks.numbers_room = count;
+        ranks.numbers = memory_resized(ranks.numbers, count * sizeof *ranks.numbers);
+    }
+    return ranks.numbers;
+}
+
+static void unpack(double *numbers, size_t runs, size_t length, size_t stride) {
+    for (size_t k = 0; k < runs; k++) {
+        memcpy(numbers + k * stride, ranks.numbers + k * length, length * sizeof *numbers);
+    }
+}
+
+static void send_numbers(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride) {
+    (void)host;
+    if (ranks.count == ranks.room) {
+        ranks.room = 2 * ranks.room + 16;
+        ranks.sendings = memory_resized(ranks.sendings, ranks.room * sizeof *ranks.sendings);
+    }
+    Sending *sending = &ranks.sendings[ranks.count++];
+    sending->numbers = memory_resized(NULL, runs * length * sizeof *numbers);
+    pack(sending->numbers, numbers, runs, length, stride);
+    MPI_Isend(sending->numbers, (int)(runs * length), MPI_DOUBLE, to, 0, MPI_COMM_WORLD, &sending->request);
+}
+
+static void receive_numbers(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
+    (void)host;
+    MPI_Recv(make_room(runs * length), (int)(runs * length), MPI_DOUBLE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    unpack(numbers, runs, length, stride);
+}
+
+static void wait_for_sendings(void) {
+    while (ranks.count > 0) {
+        Sending *sending = &ranks.sendings[--ranks.count];
+        MPI_Wait(&sending->request, MPI_STATUS_IGNORE);
+        free(sending->numbers);
+    }
+}
+
+static void spread_numbers(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
+    (void)host;
+    wait_for_sendings();
+    double *all = make_room(runs * length);
+    if (ranks.as_options.rank == from) {
+        pack(all, numbers, runs, length, stride);
+    }
+    MPI_Bcast(all, (int)(runs * length), MPI_DOUBLE, from, MPI_COMM_WORLD);
+    if (ranks.as_options.rank != from) {
+        unpack(numbers, runs, length, stride);
+    }
+}
+
+// All do the same, so what the others would write is there already.
+static void be_quiet(void) {
+    int nothing = open("/dev/null", O_RDWR);
+    for (int fd = STDIN_FILENO; nothing >= 0 && fd <= STDERR_FILENO; fd++) {
+        dup2(nothing, fd);
+    }
+}
+
+void ranks_begin(Host *host) {
+    int given = 0, level = cpu_here.level, least = level;
+    MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &given);
+    PetriRanks *options = &ranks.as_options;
+    *options = (PetriRanks){.send = send_numbers, .receive = receive_numbers, .spread = spread_numbers};
+    MPI_Comm_rank(MPI_COMM_WORLD, &options->rank);
+    MPI_Comm_size(MPI_COMM_WORLD, &options->count);
+    // What is worth sharing depends on the processor: all go by the least one.
+    MPI_Allreduce(&level, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
+    host->cpu = cpu_name((CpuLevel)least);
+    host->ranks = options;
+    if (options->rank > 0) {
+        be_quiet();
+    }
+}
+
+// A process that ends without MPI_Finalize makes mpirun end all, with its status: those that wait for it, too. What fails
+// here mostly fails everywhere, and then rank 0 is to say so first; its end interrupts the sleep.
+void ranks_end(int status) {
+    enum { SECONDS = 5 };
+    if (status != STATUS_DONE) {
+        if (ranks.as_options.rank > 0) {
+            sleep(SECONDS);
+        }
+        _exit(status);
+    }
+    wait_for_sendings();
+    free(ranks.sendings);
+    free(ranks.numbers);
+    MPI_Finalize();
+}

@@ -1,0 +1,56 @@
+// sweeps.c: see sweeps.h. The fastest round counts: what disturbs the machine can only make it slower, and does so most
+// when all processors are to be used.
+#include "sweeps.h"
+
+#include <fcntl.h>
+#include <math.h>
+#include <stdlib.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+static double time_sweep(const Plan *plan, int jobs, int runs) {
+    char path[4096], seeds[32], processes[32];
+    snprintf(path, sizeof path, "%s/petri_n50.fl", plan->scripts);
+    snprintf(seeds, sizeof seeds, "--seeds=%d", runs);
+    snprintf(processes, sizeof processes, "--jobs=%d", jobs);
+    double begin = clock_now();
+    pid_t process = fork();
+    if (process == 0) {
+        int nothing = open("/dev/null", O_RDWR);
+        dup2(nothing, STDIN_FILENO);
+        dup2(nothing, STDOUT_FILENO);
+        execl(plan->petri, plan->petri, "sweep", path, seeds, processes, "--frames=100", "--metric=x=$(:dish;3)",
+              "--quiet", (char *)NULL);
+        _exit(127);
+    }
+    int status;
+    if (process < 0 || waitpid(process, &status, 0) != process || status != 0) {
+        fprintf(stderr, "bench: cannot run %s sweep on %s\n", plan->petri, path);
+        exit(1);
+    }
+    return clock_now() - begin;
+}
+
+Table sweeps_measure(const Plan *plan) {
+    static const Column columns[] = {{"sweep", "sweep", ""},       {"jobs", "", "jobs"},
+                                     {"seconds", "", "s"},         {"runs_per_s", "", "runs/s"},
+                                     {"speed_up", "speed-", "up"}, {"of_jobs", "of", "jobs"}};
+    Table table = table_new("1000 runs of 100 frames: a dish of 50 cells, petri sweep", columns,
+                            sizeof columns / sizeof *columns);
+    int runs = plan->tiny ? 8 : 1000;
+    double least[2] = {INFINITY, INFINITY};
+    for (int round = 0; round < plan->rounds; round++)
+        for (int k = 0; k < 2; k++)
+            least[k] = fmin(least[k], time_sweep(plan, k == 0 ? 1 : plan->threads, runs));
+    for (int k = 0; k < 2; k++) {
+        Cell *row = table_row(&table);
+        int jobs = k == 0 ? 1 : plan->threads;
+        row[0] = cell_text(k == 0 ? "one process" : "several processes");
+        row[1] = cell_number(jobs);
+        row[2] = cell_number(least[k]);
+        row[3] = cell_number(runs / least[k]);
+        row[4] = cell_number(least[0] / least[k]);
+        row[5] = cell_number(least[0] / least[k] / jobs);
+    }
+    return table;
+}

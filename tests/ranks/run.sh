@@ -1,0 +1,72 @@
+#!/bin/sh
+# run.sh: `mpirun petri run`: the bits of one process, once. usage: tests/ranks/run.sh PATH-OF-PETRI. Skipped without mpirun.
+set -u
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+command -v mpirun >/dev/null || exit 77
+scratch
+# As in a container: as root, with more ranks than processors, on this machine alone.
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_plm=isolated
+OMPI_MCA_btl_vader_single_copy_mechanism=none OMPI_MCA_mpi_yield_when_idle=1 TMPDIR=/tmp
+ASAN_OPTIONS=${ASAN_OPTIONS:-}:detect_leaks=0 # of MPI
+export ASAN_OPTIONS OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_rmaps_base_oversubscribe OMPI_MCA_plm \
+    OMPI_MCA_btl_vader_single_copy_mechanism OMPI_MCA_mpi_yield_when_idle TMPDIR
+mpirun -n 1 true 2>err || { echo "mpirun does not start a process here: $(head -n 3 err)" && exit 77; }
+same() { cmp "$1" "$2"; }
+# ranks COUNT ARGS...
+ranks() {
+    count=$1
+    shift
+    timeout 100 mpirun -n "$count" "$petri" "$@" >out 2>err </dev/null
+    status=$?
+}
+
+cat >stars.fl <<'END'
+!physics state=:stars dimensions=3 resolution=1/30
+    for i in ..700
+        !particle id=i position=100*normal(:p)[3*i..3*i+3] radius=1 mass=1+uniform(:m)[i]
+    !gravity strength=20
+    !group
+        for i in 1000..1400
+            !particle id=i position=50*normal(:p)[3*i..3*i+3] radius=2
+    !random strength=3
+    !drag strength=0.01
+debug('frame';frame)
+END
+"$petri" run stars.fl --frames 5 --print hash,log --trajectory one.csv >one 2>err
+for count in 2 3 4 7; do
+    ranks $count run stars.fl --frames 5 --print hash,log --threads $((count % 2 + 1))
+    check "$count ranks come to the bits of one, and say it once" same one out
+done
+ranks 2 stars.fl --frames 5 --print hash,log --trajectory two.csv
+check "as does a script without command" same one out
+check "one of them writes the trajectory" same one.csv two.csv
+
+ranks 3 run stars.fl --frames 3 --state world.state
+check "the state is kept" exists world.state
+ranks 2 run stars.fl --frames 2 --print hash --state world.state
+check "another number of ranks goes on from it" [ "$(tail -n 1 out)" = "$(tail -n 2 one | grep =)" ]
+
+echo 'let X=(' >wrong.fl
+ranks 2 run wrong.fl
+check "a script that is wrong ends all" status_is 1
+check "and is told once" count_is err 'error:' 1
+ranks 2 run stars.fl --frames 5 --work 20K
+check "a limit ends all" status_is 1
+check "and is told once, too" count_is err 'stopped in frame' 1
+if command -v pgrep >/dev/null; then
+    mpirun -n 2 "$petri" run stars.fl --frames 100000 --trace >out 2>err </dev/null &
+    job=$!
+    while kill -0 $job && [ "$(grep -c "petri: frame" err)" -lt 3 ]; do :; done # both are at work
+    kill -9 "$(pgrep -P $job | tail -n 1)"
+    wait $job
+    status=$?
+    check "a rank that dies ends all" [ $status -ne 0 ]
+fi
+ranks 2 run - --frames 1
+check "no script on standard input" has err 'under mpirun petri takes no script'
+ranks 2 run stars.fl --realtime --frames 1
+check "no --realtime" has err 'no --realtime'
+
+finish

@@ -1,0 +1,216 @@
+// test_session_ranks.c: several sessions that share their work come to the bits of one. Here ranks are threads, and
+// numbers go between them through queues. argv[1..]: folders of scripts to go through.
+#include "player.h"
+
+#include <ftw.h>
+#include <pthread.h>
+
+enum { FRAMES = 6, MOST_RANKS = 4 };
+
+// Numbers on their way.
+typedef struct Parcel {
+    struct Parcel *next;
+    size_t count;
+    double numbers[];
+} Parcel;
+
+typedef struct Queue {
+    Parcel *first;
+    Parcel **end;
+} Queue;
+
+typedef struct World {
+    pthread_mutex_t mutex;
+    pthread_cond_t arrived;
+    Queue queues[MOST_RANKS][MOST_RANKS]; // from, to
+    int count;
+    const char *file; // or, if NULL:
+    const char *text;
+    int frames;
+} World;
+
+typedef struct Rank {
+    World *world;
+    int number;
+    Notebook came;
+    uint64_t sent;
+} Rank;
+
+static void send(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride) {
+    Rank *rank = host;
+    Queue *queue = &rank->world->queues[rank->number][to];
+    Parcel *parcel = malloc(sizeof *parcel + runs * length * sizeof *numbers);
+    parcel->next = NULL;
+    parcel->count = runs * length;
+    for (size_t k = 0; k < runs; k++)
+        memcpy(parcel->numbers + k * length, numbers + k * stride, length * sizeof *numbers);
+    pthread_mutex_lock(&rank->world->mutex);
+    *queue->end = parcel;
+    queue->end = &parcel->next;
+    pthread_cond_broadcast(&rank->world->arrived);
+    pthread_mutex_unlock(&rank->world->mutex);
+    rank->sent++;
+}
+
+static void receive(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
+    Rank *rank = host;
+    Queue *queue = &rank->world->queues[from][rank->number];
+    pthread_mutex_lock(&rank->world->mutex);
+    while (!queue->first)
+        pthread_cond_wait(&rank->world->arrived, &rank->world->mutex);
+    Parcel *parcel = queue->first;
+    queue->first = parcel->next;
+    if (!queue->first)
+        queue->end = &queue->first;
+    pthread_mutex_unlock(&rank->world->mutex);
+    if (parcel->count != runs * length)
+        abort(); // the ranks are at different places
+    for (size_t k = 0; k < runs; k++)
+        memcpy(numbers + k * stride, parcel->numbers + k * length, length * sizeof *numbers);
+    free(parcel);
+}
+
+static void spread(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
+    Rank *rank = host;
+    if (rank->number != from)
+        receive(host, from, numbers, runs, length, stride);
+    for (int to = 0; rank->number == from && to < rank->world->count; to++)
+        if (to != from)
+            send(host, to, numbers, runs, length, stride);
+}
+
+static void *run(void *context) {
+    Rank *rank = context;
+    const World *world = rank->world;
+    Player player = {0};
+    PetriRanks ranks = {rank->number, world->count, 1, rank, send, receive, spread};
+    PetriOptions options = player_options(&player);
+    options.threads = 1;
+    options.ranks = &ranks;
+    player_open_with(&player, &options);
+    bool going = (world->file ? petri_load(player.session, world->file)
+                              : petri_load_text(player.session, "text", world->text, PETRI_Z)) == PETRI_OK;
+    note(&rank->came, "", 0);
+    for (int frame = 0; going && frame < world->frames; frame++) {
+        going = petri_step(player.session) == PETRI_OK;
+        petri_print(player.session, PETRI_PRINT_HASH, note, &rank->came);
+    }
+    player_close(&player);
+    return NULL;
+}
+
+// Runs the script on so many ranks; returns what the first came to, and in *sent how many parcels there were.
+static Notebook run_world(const char *file, const char *text, int count, int frames, uint64_t *sent) {
+    World world = {.mutex = PTHREAD_MUTEX_INITIALIZER,
+                   .arrived = PTHREAD_COND_INITIALIZER,
+                   .count = count,
+                   .file = file,
+                   .text = text,
+                   .frames = frames};
+    Rank ranks[MOST_RANKS] = {{0}};
+    pthread_t threads[MOST_RANKS];
+    for (int i = 0; i < count; i++)
+        for (int k = 0; k < count; k++)
+            world.queues[i][k].end = &world.queues[i][k].first;
+    pthread_attr_t attributes;
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, (size_t)16 << 20);
+    for (int i = 0; i < count; i++) {
+        ranks[i] = (Rank){.world = &world, .number = i};
+        assert_int_equal(pthread_create(&threads[i], &attributes, run, &ranks[i]), 0);
+    }
+    *sent = 0;
+    for (int i = 0; i < count; i++) {
+        pthread_join(threads[i], NULL);
+        *sent += ranks[i].sent;
+        assert_string_equal(ranks[i].came.text, ranks[0].came.text);
+        if (i > 0)
+            free(ranks[i].came.text);
+    }
+    pthread_attr_destroy(&attributes);
+    return ranks[0].came;
+}
+
+static int scripts;
+static uint64_t parcels;
+
+static bool same(const char *file, const char *text, int frames) {
+    uint64_t sent;
+    bool all = true;
+    Notebook alone = run_world(file, text, 1, frames, &sent);
+    assert_int_equal(sent, 0);
+    for (int count = 2; count <= MOST_RANKS; count++) {
+        Notebook together = run_world(file, text, count, frames, &sent);
+        all = all && strcmp(alone.text, together.text) == 0;
+        parcels += sent;
+        free(together.text);
+    }
+    free(alone.text);
+    return all;
+}
+
+static int differing;
+
+static int visit(const char *path, const struct stat *info, int type, struct FTW *walk) {
+    (void)info;
+    (void)walk;
+    size_t len = strlen(path);
+    if (type != FTW_F || len < 3 || strcmp(path + len - 3, ".fl") != 0)
+        return 0;
+    scripts++;
+    if (!same(path, NULL, FRAMES)) {
+        differing++;
+        print_error("%s: ranks differ\n", path);
+    }
+    return 0;
+}
+
+static int folder_count;
+static char **folders;
+
+static void test_corpus(void **state) {
+    (void)state;
+    for (int i = 0; i < folder_count; i++)
+        assert_int_equal(nftw(folders[i], visit, 16, FTW_PHYS), 0);
+    assert_true(scripts > 50);
+    assert_int_equal(differing, 0);
+    assert_true(parcels > 1000);
+}
+
+// Many blocks, a last one that is not full, one and several forces, particles without a source, in a triangle and in
+// rectangles with either side longer.
+static void test_many(void **state) {
+    (void)state;
+    static const char *const forces[] = {
+        "    !gravity strength=5k\n",
+        "    !electrostatic strength=100\n    !collision strength=50\n    !drag strength=0.01\n",
+        "    !adhesion strength=10 overlap=0.3\n    !gravity strength=9 max_distance=40\n",
+    };
+    for (size_t i = 0; i < sizeof forces / sizeof *forces; i++)
+        for (int dimensions = 1; dimensions <= 3; dimensions++) {
+            char text[800];
+            snprintf(
+                text, sizeof text,
+                "!physics state=:a dimensions=%d\n"
+                "    for i in ..123\n"
+                "        !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=normal(:c)[i]*(i%%5>0) radius=4\n"
+                "    !group\n"
+                "        for i in 200..237\n"
+                "            !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=1 radius=3 mass=i%%3\n"
+                "        !group\n"
+                "            for i in 300..501\n"
+                "                !particle id=i position=90*normal(:p)[i*%d..(i+1)*%d] charge=-1 radius=2\n"
+                "%s",
+                dimensions, dimensions, dimensions, dimensions, dimensions, dimensions, dimensions, forces[i]);
+            uint64_t before = parcels;
+            assert_true(same(NULL, text, FRAMES));
+            assert_true(parcels > before + 100);
+        }
+}
+
+int main(int argc, char **argv) {
+    folder_count = argc - 1;
+    folders = argv + 1;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_corpus), cmocka_unit_test(test_many)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
