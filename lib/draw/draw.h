@@ -102,7 +102,7 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image);
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults);
 void draw_images_close(PetriPainter *painter);
-// The pixels of a JPEG file; NULL with a reason.
+// The pixels of a JPEG file; NULL with a reason, or without one if memory is used up.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);
 
 // automatic.c

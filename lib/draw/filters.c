@@ -14,12 +14,12 @@ enum { MOST_SHEET = 1 << 26 };    // pixels
 typedef struct Sheet {
     int width;
     int height;
-    float *pixels; // to be freed; NULL: memory is used up
+    float *pixels; // to be freed; NULL: memory is used up, and so it is with what is made of it
 } Sheet;
 
 static Sheet sheet_new(const Sheet *like) {
     size_t count = (size_t)like->width * (size_t)like->height;
-    return (Sheet){like->width, like->height, calloc(count, 4 * sizeof(float))};
+    return (Sheet){like->width, like->height, like->pixels ? calloc(count, 4 * sizeof(float)) : NULL};
 }
 
 static float *pixel_of(const Sheet *sheet, int x, int y) {
@@ -52,13 +52,11 @@ static void blur_row(const float *from, float *to, int count, size_t step, const
 static Sheet blur(Sheet sheet, const double sigma[2]) {
     float weights[3 * 256 + 2];
     for (int axis = 0; axis < 2; axis++) {
-        Sheet out = sheet_new(&sheet);
-        if (!(sigma[axis] > 0.05) || !out.pixels || !sheet.pixels) {
-            free(out.pixels);
+        if (!(sigma[axis] > 0.05))
             continue;
-        }
+        Sheet out = sheet_new(&sheet);
         int reach = make_weights(fmin(sigma[axis], WIDEST), weights);
-        int rows = axis ? sheet.width : sheet.height;
+        int rows = !out.pixels ? 0 : axis ? sheet.width : sheet.height;
         for (int i = 0; i < rows; i++) {
             size_t start =
                 (size_t)(axis ? pixel_of(&sheet, i, 0) - sheet.pixels : pixel_of(&sheet, 0, i) - sheet.pixels);
@@ -77,7 +75,7 @@ static Sheet move(Sheet sheet, double dx, double dy) {
     int x0 = (int)fmin(fmax(rint(dx), -sheet.width), sheet.width);
     int y0 = (int)fmin(fmax(rint(dy), -sheet.height), sheet.height);
     int first = x0 > 0 ? x0 : 0, last = x0 > 0 ? sheet.width : sheet.width + x0;
-    for (int y = 0; out.pixels && sheet.pixels && y < sheet.height; y++)
+    for (int y = 0; out.pixels && y < sheet.height; y++)
         if (y - y0 >= 0 && y - y0 < sheet.height && last > first)
             memcpy(pixel_of(&out, first, y), pixel_of(&sheet, first - x0, y - y0),
                    (size_t)(last - first) * 4 * sizeof(float));
@@ -91,7 +89,7 @@ static double scale_in(const cairo_matrix_t *m, int axis) {
 
 static Sheet copy(const Sheet *sheet) {
     Sheet out = sheet_new(sheet);
-    if (out.pixels && sheet->pixels)
+    if (out.pixels)
         memcpy(out.pixels, sheet->pixels, (size_t)sheet->width * (size_t)sheet->height * 4 * sizeof(float));
     return out;
 }
@@ -107,7 +105,7 @@ static void shade(Sheet *sheet, const double color[4]) {
 }
 
 static void lay_over(Sheet *below, const Sheet *above) {
-    size_t count = below->pixels && above->pixels ? (size_t)below->width * (size_t)below->height : 0;
+    size_t count = below->pixels ? (size_t)below->width * (size_t)below->height : 0;
     for (size_t i = 0; i < 4 * count; i++)
         below->pixels[i] = above->pixels[i] + below->pixels[i] * (1 - above->pixels[i | 3] / 255);
 }
@@ -149,8 +147,8 @@ static double margin_of(const List *list, uint32_t number, const cairo_matrix_t 
 static Sheet take_pixels(cairo_surface_t *surface, int width, int height) {
     cairo_surface_flush(surface);
     const uint32_t *from = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
-    Sheet sheet = {width, height, malloc((size_t)width * (size_t)height * 4 * sizeof(float))};
-    for (size_t i = 0; from && sheet.pixels && i < (size_t)width * (size_t)height; i++)
+    Sheet sheet = {width, height, from ? malloc((size_t)width * (size_t)height * 4 * sizeof(float)) : NULL};
+    for (size_t i = 0; sheet.pixels && i < (size_t)width * (size_t)height; i++)
         for (unsigned k = 0; k < 4; k++)
             sheet.pixels[4 * i + k] = (float)(from[i] >> (k < 3 ? 16 - 8 * k : 24) & 255);
     return sheet;
@@ -204,6 +202,7 @@ void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *
     draw_apart(canvas, command, paint, surface, x, y);
     Sheet sheet = apply(canvas->list, paint->filter, &matrix, take_pixels(surface, (int)width, (int)height));
     put_pixels(surface, &sheet);
+    bool lost = !sheet.pixels;
     free(sheet.pixels);
     cairo_save(cr);
     cairo_identity_matrix(cr);
@@ -212,4 +211,6 @@ void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *
     cairo_paint(cr);
     cairo_restore(cr);
     cairo_surface_destroy(surface);
+    if (lost)
+        arena_exhausted(&canvas->painter->arena);
 }

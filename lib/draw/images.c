@@ -73,13 +73,15 @@ static cairo_surface_t *read_png(Str bytes, const char **problem) {
         return NULL;
     }
     cairo_surface_t *surface = cairo_image_surface_create_from_png_stream(read_bytes, &bytes);
-    if (cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS)
+    cairo_status_t status = cairo_surface_status(surface);
+    if (status == CAIRO_STATUS_SUCCESS)
         return surface;
-    *problem = "it is no PNG file, or damaged";
+    *problem = status == CAIRO_STATUS_NO_MEMORY ? NULL : "it is no PNG file, or damaged";
     cairo_surface_destroy(surface);
     return NULL;
 }
 
+// NULL without a problem if memory is used up.
 static cairo_surface_t *decode(Str bytes, const char **problem) {
     if (str_starts_with(bytes, STR("\x89PNG\r\n\x1a\n")))
         return read_png(bytes, problem);
@@ -90,21 +92,22 @@ static cairo_surface_t *decode(Str bytes, const char **problem) {
 }
 
 static Picture *load(PetriPainter *painter, const Reach *reach, const char *path, Str version) {
-    Picture *picture = calloc(1, sizeof *picture);
+    ArenaMark mark = arena_mark(&painter->arena);
+    Str bytes;
+    const char *problem = NULL;
+    bool read = file_read(&painter->arena, reach, path, true, MOST_BYTES, &bytes, NULL, &problem);
+    Picture *picture = calloc(1, sizeof *picture); // from here on nothing else escapes
     if (!picture)
         arena_exhausted(&painter->arena);
     picture->path = strdup(path);
     picture->version = strndup(version.bytes, version.len);
-    if (!picture->path || !picture->version) {
+    if (read)
+        picture->surface = decode(bytes, &problem);
+    picture->problem = problem ? strdup(problem) : NULL;
+    if (!picture->path || !picture->version || (!picture->surface && !picture->problem)) {
         picture_free(picture);
         arena_exhausted(&painter->arena);
     }
-    ArenaMark mark = arena_mark(&painter->arena);
-    Str bytes;
-    const char *problem = NULL;
-    if (file_read(&painter->arena, reach, path, true, MOST_BYTES, &bytes, NULL, &problem))
-        picture->surface = decode(bytes, &problem);
-    picture->problem = strdup(problem ? problem : "");
     arena_rewind(&painter->arena, mark);
     return picture;
 }

@@ -44,7 +44,7 @@ static void read_rows(struct jpeg_decompress_struct *jpeg, cairo_surface_t *surf
 
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
     Trouble trouble;
-    struct jpeg_decompress_struct jpeg;
+    struct jpeg_decompress_struct jpeg = {0};
     cairo_surface_t *volatile surface = NULL;
     unsigned char *volatile line = NULL;
     volatile bool done = false;
@@ -53,8 +53,8 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
     trouble.manager.error_exit = give_up;
     trouble.manager.emit_message = on_warning;
     trouble.manager.output_message = be_quiet;
-    jpeg_create_decompress(&jpeg);
     if (setjmp(trouble.escape) == 0) {
+        jpeg_create_decompress(&jpeg);
         jpeg_mem_src(&jpeg, (const unsigned char *)bytes.bytes, bytes.len);
         jpeg_read_header(&jpeg, TRUE);
         jpeg.out_color_space = JCS_RGB;
@@ -68,9 +68,13 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
             if (line && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
                 read_rows(&jpeg, surface, line);
                 done = true;
+            } else {
+                *problem = NULL;
             }
         }
     }
+    if (trouble.manager.msg_code == JERR_OUT_OF_MEMORY)
+        *problem = NULL;
     jpeg_destroy_decompress(&jpeg);
     free(line);
     if (done)

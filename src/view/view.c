@@ -227,8 +227,9 @@ static void draw(View *view) {
     }
     view->pixels = memory_resized(view->pixels, count * sizeof *view->pixels);
     if (view->world.picture != NULL && !view->world.unseen) {
-        petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
-                           (size_t)width * sizeof *view->pixels);
+        PetriStatus status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
+                                                (size_t)width * sizeof *view->pixels);
+        world_drawn(&view->world, status);
         petri_picture_tell(view->world.session, view->world.picture);
         view_update_trouble(view); // what drawing has found wrong
     } else {

@@ -122,6 +122,14 @@ void world_close(World *world) {
     warnings_forget(&world->warnings);
 }
 
+bool world_drawn(World *world, PetriStatus status) {
+    if (status == PETRI_MEMORY && !world->lacking) {
+        log_text(world, "petri: out of memory: a picture could not be drawn\n");
+        world->lacking = world->failed = true;
+    }
+    return status == PETRI_OK;
+}
+
 // Files that the script's `!record` nodes name.
 static void record(World *world) {
     if (petri_picture_looks_back(world->picture) && !recording_add(&world->recording, world->picture, world->painter)) {
@@ -140,8 +148,7 @@ static void take_picture(World *world) {
     world->unseen = world->early;
     petri_picture_free(&world->picture);
     PetriStatus status = petri_picture(world->session, &options, &world->picture);
-    world->failed = world->failed || status == PETRI_MEMORY;
-    if (status == PETRI_OK && !world->early) {
+    if (world_drawn(world, status) && !world->early) {
         world->recording.fps = petri_frame(world->session).fps;
         record(world);
         petri_picture_tell(world->session, world->picture);

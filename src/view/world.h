@@ -31,6 +31,7 @@ typedef struct World {
     bool halted;    // a frame could not be made; the next load or reset goes on
     bool broken;    // the script on disk cannot be loaded; an earlier version is running
     bool failed;    // something could not be read, written or recorded
+    bool lacking;   // there was no memory for a picture, which was told
     StateFile state;
     bool wrong_definition; // the script cannot take a value of -D
     // Messages
@@ -46,6 +47,8 @@ int world_open(World *world, const Host *host, const Options *options);
 void world_close(World *world);
 // One frame and its picture; records what the script asks for. False if it could not be made.
 bool world_step(World *world);
+// Tells, once, that there was no memory for a picture; true for PETRI_OK.
+bool world_drawn(World *world, PetriStatus status);
 // If files of the script have changed: loads it, keeping state and clock. True if there was an attempt; then
 // world->trouble tells whether it went well.
 bool world_reload(World *world);

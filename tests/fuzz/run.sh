@@ -10,7 +10,7 @@ work=$build/fuzz
 seed() {
     "$build/tests/fuzz/fuzz_seeds" "$work"
     find "$source/tests/golden" "$source/tests/conformance" "$source/tests/pictures" "$source/samples" \
-        -name '*.fl' -size -4k -exec cp -t "$work/script" {} +
+        -name '*.fl' -size -4k -exec cp {} "$work/script" \; # one at a time, for names come twice
     cp "$work"/script/*.fl "$work/simplify/"
     cp "$source"/tests/pictures/*.fl "$work/draw/"
     cp "$source"/tests/pictures/images/small.jpg "$work/image/"

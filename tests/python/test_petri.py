@@ -178,6 +178,8 @@ class Running(unittest.TestCase):
         session = petri.Session("let a=1;2;3\n")
         session.step()
         for text, value in {"a": (1, 2, 3), "sum(a)": 6, "null": None, ":word": "word", "'te;xt'": petri.Text("te;xt"),
+                            '"it\'s"': petri.Text("it's"),
+                            r"'\'\"\n\\'": petri.Text("'\"\n\\"), ":odd;'a;b'": ("odd", petri.Text("a;b")),
                             "1;:b;'c'": (1, "b", petri.Text("c")), "-1e300;inf": (-1e300, float("inf"))}.items():
             self.assertEqual(session.evaluate(text), value)
             self.assertEqual(type(session.evaluate(text)), type(value) if value != 6 else float)
