@@ -63,6 +63,7 @@ case " $* " in
         ninja-build) package=ninja ;;
         procps) package=pgrep ;;
         xvfb) package=Xvfb ;;
+        g++) package=c++ ;;
         x11-utils) package=xprop ;;
         imagemagick) package=compare ;;
         libgl1-mesa-dri) touch "$WORK/mesa/dri/swrast_dri.so" ;;
@@ -264,7 +265,7 @@ check "with what makes them" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-
 check "and what they are made of" has calls libsdl2-dev
 check "it says where they are" has err "what was made is in $work/project/build/package"
 dev package --dynamic
-check "other packages there are not" has err "package knows --test and --static only, not '--dynamic'"
+check "other packages there are not" has err "package knows --test, --wheel and --static only, not '--dynamic'"
 
 machine
 dev install "$work/some where"
