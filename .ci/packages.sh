@@ -15,12 +15,12 @@ pkg-config --exists libjpeg : libjpeg-dev
 pkg-config --exists libpng  : libpng-dev
 pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
-test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
-'
-# For windows, films, effects, three dimensions and plans of petri sweep:
-BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
+test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
+'
+# For windows, films and plans of petri sweep:
+BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev

@@ -63,6 +63,7 @@ case " $* " in
         ninja-build) package=ninja ;;
         procps) package=pgrep ;;
         xvfb) package=Xvfb ;;
+        g++) package=c++ ;;
         x11-utils) package=xprop ;;
         imagemagick) package=compare ;;
         libgl1-mesa-dri) touch "$WORK/mesa/dri/swrast_dri.so" ;;
