@@ -70,9 +70,9 @@ typedef struct PetriDiagnostic {
 // When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
-// Processes that run the same script together, each with a session of its own that is given the same calls: they come to
-// the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions, in
-// order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+// Processes that run the same script together, each with a session of its own that is given the same calls: they come
+// to the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions,
+// in order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
 typedef struct PetriRanks {
     int rank; // of this process, from 0
     int count;

@@ -103,13 +103,8 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
                                            [ARENA_WORK] = PETRI_LIMIT,
                                            [ARENA_INTERRUPTED] = PETRI_INTERRUPTED};
     SessionFrame *frame = &session->frame;
-    Arena *arenas[] = {&session->arena,
-                       &session->text_arena,
-                       &session->view_arena,
-                       &frame->arena,
-                       &frame->systems_arena,
-                       &session->prompt.arena,
-                       extra};
+    Arena *arenas[] = {&session->arena, &session->text_arena,  &session->view_arena,   &session->key_arena,
+                       &frame->arena,   &frame->systems_arena, &session->prompt.arena, extra};
     Unit *compiling = session->loader.compiling;
     bool working = frame->working;
     Call made = {session, call, context};
@@ -222,6 +217,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     session_arena(session, &session->arena, "session", SIZE_MAX);
     session_arena(session, &session->text_arena, "text", SIZE_MAX);
     session_arena(session, &session->view_arena, "view", SIZE_MAX);
+    session_arena(session, &session->key_arena, "key", SIZE_MAX);
     session_arena(session, &session->prompt.arena, "expression", options->memory_bytes);
     session_arena(session, &frame->arena, "frame", options->memory_bytes);
     session_arena(session, &frame->systems_arena, "systems", SIZE_MAX);
@@ -265,8 +261,8 @@ void petri_close(PetriSession **handle) {
     diag_sink_free(&session->frame.errors);
     diagnostics_free(&session->diagnostics);
     symbol_table_free(&session->symbols);
-    Arena *arenas[] = {&session->frame.arena, &session->frame.systems_arena, &session->text_arena,
-                       &session->view_arena,  &session->prompt.arena,        &session->arena};
+    Arena *arenas[] = {&session->frame.arena, &session->frame.systems_arena, &session->text_arena, &session->view_arena,
+                       &session->key_arena,   &session->prompt.arena,        &session->arena};
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
     free(session);

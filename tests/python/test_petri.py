@@ -174,6 +174,18 @@ class Running(unittest.TestCase):
         given.step()
         self.assertIn('!x v=1;2 w="it\'s"', given.text("tree"))
 
+    def test_given_names(self):
+        session = petri.Session("!x v=2*wind\n", given={"wind": (1, 2)})
+        session.step()
+        self.assertIn("!x v=2;4", session.text("tree"))
+        session.give("wind", numpy.float64(5))
+        session.step()
+        self.assertIn("!x v=10", session.text("tree"))
+        with self.assertRaises(KeyError):
+            session.give("rain", 1)
+        with self.assertRaises(petri.ScriptError):
+            petri.Session("!x\n", given={"time": 1})
+
     def test_evaluate(self):
         session = petri.Session("let a=1;2;3\n")
         session.step()
