@@ -15,12 +15,12 @@ pkg-config --exists libjpeg : libjpeg-dev
 pkg-config --exists libpng  : libpng-dev
 pkg-config --exists chafa : libchafa-dev
 pkg-config --exists libedit: libedit-dev
-test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
-'
-# For windows, films, effects, three dimensions and plans of petri sweep:
-BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
+test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
+'
+# For windows, films and plans of petri sweep:
+BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
@@ -47,6 +47,7 @@ command -v xprop          : x11-utils
 command -v compare        : imagemagick
 command -v openbox        : openbox
 command -v cmake          : cmake make
+command -v c++            : g++
 command -v mandoc         : mandoc
 command -v zsh            : zsh
 command -v fish           : fish
@@ -80,6 +81,7 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
     -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
+STATIC='-Dc_link_args=-static -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 ompi-c mpfr python3'

@@ -22,7 +22,19 @@ bool file_exists(const char *path) {
     return stat(path, &info) == 0;
 }
 
+// The same bytes are the same version.
+static Str version_of_bytes(Arena *arena, Str bytes) {
+    return str_format(arena, "%p %zu", (const void *)bytes.bytes, bytes.len);
+}
+
 bool file_version(Arena *arena, const Reach *reach, const char *path, Str *version) {
+    Str bytes;
+    if (reach && reach->read) {
+        bool there = reach_read(reach, path, &bytes);
+        if (there)
+            *version = version_of_bytes(arena, bytes);
+        return there;
+    }
     struct stat info;
     int file = reach ? reach_open(reach, path, O_RDONLY | O_NONBLOCK) : -1;
     bool found = reach ? file >= 0 && fstat(file, &info) == 0 : stat(path, &info) == 0;
@@ -66,8 +78,26 @@ static void read_all(void *context) {
     reading->bytes = (Str){buffer, len};
 }
 
+static bool read_from_host(Arena *arena, const Reach *reach, const char *path, size_t limit, Str *bytes, Str *version,
+                           const char **problem) {
+    Str given;
+    *problem = NULL;
+    if (!reach_read(reach, path, &given))
+        *problem = strerror(errno);
+    else if (given.len > limit)
+        *problem = "it is too large";
+    if (*problem)
+        return false;
+    if (version)
+        *version = version_of_bytes(arena, given);
+    *bytes = str_copy(arena, given);
+    return true;
+}
+
 bool file_read(Arena *arena, const Reach *reach, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
                const char **problem) {
+    if (reach && reach->read)
+        return read_from_host(arena, reach, path, limit, bytes, version, problem);
     int file = reach_open(reach, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
@@ -167,7 +197,9 @@ bool file_resolve(const char *path, char resolved[PATH_MAX]) {
     return false;
 }
 
-Str file_canonical(Arena *arena, const char *path) {
+Str file_canonical(Arena *arena, const Reach *reach, const char *path) {
     char resolved[PATH_MAX];
+    if (reach && reach->read)
+        return str_copy(arena, str_from(reach_normal(path, resolved) ? resolved : path));
     return str_copy(arena, str_from(realpath(path, resolved) ? resolved : path));
 }

@@ -21,7 +21,7 @@ bool file_write(int file, const char *bytes, size_t len);
 // Where the path leads, without links and dots, even if there is nothing yet; false with errno set if its folder is not
 // there.
 bool file_resolve(const char *path, char resolved[PATH_MAX]);
-// The path without links and dots, or as it is if it does not exist; NUL-terminated.
-Str file_canonical(Arena *arena, const char *path);
+// The path without links and dots, or as it is if it does not exist; NUL-terminated. Of a host's files it is the name.
+Str file_canonical(Arena *arena, const Reach *reach, const char *path);
 
 #endif

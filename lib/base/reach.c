@@ -72,8 +72,48 @@ static const Str *find_folder(const Reach *reach, ReachKind kind, const char *pa
     return NULL;
 }
 
+bool reach_normal(const char *path, char normal[PATH_MAX]) {
+    size_t len = 0;
+    bool absolute = path[0] == '/';
+    if (strlen(path) >= PATH_MAX) {
+        errno = ENAMETOOLONG;
+        return false;
+    }
+    if (absolute)
+        normal[len++] = '/';
+    size_t root = len; // what cannot be gone up from
+    for (size_t size; *path; path += size) {
+        size = strcspn(path, "/");
+        bool up = size == 2 && path[0] == '.' && path[1] == '.';
+        if (up && len > root) {
+            while (len > root && normal[len - 1] != '/')
+                len--;
+            len -= len > root;
+        } else if (size && !(size == 1 && path[0] == '.') && !(up && absolute)) {
+            if (len > 0 && normal[len - 1] != '/')
+                normal[len++] = '/';
+            memcpy(normal + len, path, size);
+            len += size;
+            root = up ? len : root;
+        }
+        size += path[size] == '/';
+    }
+    normal[len] = 0;
+    return true;
+}
+
+bool reach_read(const Reach *reach, const char *path, Str *bytes) {
+    char normal[PATH_MAX];
+    if (!reach_normal(path, normal))
+        return false;
+    bytes->len = 0;
+    bytes->bytes = reach->read(reach->read_host, normal, &bytes->len);
+    errno = ENOENT;
+    return bytes->bytes != NULL;
+}
+
 bool reach_has(const Reach *reach, ReachKind kind, const char *path) {
-    return !reach || find_folder(reach, kind, path);
+    return !reach || (kind == REACH_READ && reach->read) || find_folder(reach, kind, path);
 }
 
 bool reach_resolve(const Reach *reach, ReachKind kind, const char *path, char resolved[PATH_MAX]) {

@@ -16,6 +16,10 @@ typedef struct Reach {
     Str own;       // the script's, for both; empty: none
     Str directory; // what relative names start from, as the user gave it
     bool nothing;  // no file at all
+    // Where what is read comes from, whatever the folders; NULL: the disk. The bytes stay as they are as long as the
+    // same ones are given again.
+    const char *(*read)(void *host, const char *name, size_t *length);
+    void *read_host;
 } Reach;
 
 // Adds folders, by name, to those of a kind; NULL or a list that ends in NULL.
@@ -28,6 +32,11 @@ Reach reach_copy(Arena *arena, const Reach *reach);
 bool reach_has(const Reach *reach, ReachKind kind, const char *path);
 // The canonical path; false with errno set, EXDEV if it lies outside.
 bool reach_resolve(const Reach *reach, ReachKind kind, const char *path, char resolved[PATH_MAX]);
+// The bytes that `read` gives for a path, which it gets without dots and double slashes; false with errno set if there
+// are none, or the path is too long.
+bool reach_read(const Reach *reach, const char *path, Str *bytes);
+// A path without dots and double slashes, whatever there is on the disk; false with errno set if it is too long.
+bool reach_normal(const char *path, char normal[PATH_MAX]);
 // Opens a file for reading, or as `flags` say; -1 with errno set likewise.
 int reach_open(const Reach *reach, const char *path, int flags);
 // replace_begin for a regular file, or a new one, within; false with errno set likewise.

@@ -258,7 +258,8 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Str pattern = value_text(context->arena, context->symbols, args[0]);
     if (pattern.len == 0 || pattern.bytes[0] == '/')
         return builtin_fault(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
-    if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
+    bool disk = !context->reach || !context->reach->read; // a host is asked for what a script names
+    if (!context->files || !disk || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
     Glob glob = {.arena = context->arena, .reach = context->reach};
     glob_parse(&glob, pattern);

@@ -60,6 +60,13 @@ static void read_children(const Reader *reader, DrawNode *out) {
     out->children = children;
 }
 
+static Str join_tags(Arena *arena, const Node *node) {
+    Text out = text_new(arena);
+    for (uint32_t i = 0; i < node->tag_count; i++)
+        text_add_format(&out, "%.*s ", STR_ARGS(node->tags[i]->name));
+    return text_str(&out);
+}
+
 enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
 
 // NULL if the node is left out. The depth is limited by NODE_MAX_HEIGHT.
@@ -73,6 +80,8 @@ static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node,
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
     const Symbol *program = schema->slots[ROW_SHADER_FRAGMENT].name;
     *out = (DrawNode){.kind = (uint8_t)kind, .attrs = attrs, .place = node_place(node, program)};
+    if (node->tag_count > 0 && schema_kinds[kind].place <= PLACE_PICTURE)
+        out->tags = join_tags(arena, node);
     if (!reader_list(&reader, attrs, &out->attr_count) && schema_kinds[kind].place != PLACE_TOP)
         return NULL;
     if (!may_use_file(&reader, out))

@@ -18,6 +18,7 @@ typedef struct Made Made;
 struct Made {
     uint8_t kind;
     bool taken;
+    Str tags;
     Str id;
     Str file;
     Texture *picture; // or NULL
@@ -135,7 +136,8 @@ static Str text_of(Arena *arena, const DrawNode *node, AttrName name) {
 static const Made *find_past(const Made *past, const Made *made) {
     for (uint32_t i = 0; past && i < past->count; i++) {
         Made *other = &past->children[i];
-        if (!other->taken && other->kind == made->kind && str_equal(other->id, made->id) &&
+        if (!other->taken && other->kind == made->kind && str_equal(other->tags, made->tags) &&
+            str_equal(other->id, made->id) &&
             (made->kind != KIND_PICTURE_IMAGE || str_equal(other->file, made->file))) {
             other->taken = true;
             return other;
@@ -366,8 +368,10 @@ static Texture *find_reference(Walk *walk, Str id) {
 // Makes a node's picture in one that is width x height large; NULL if there is none. Borrowed from `made`.
 static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Made *parent, int width, int height) {
     Arena *arena = &walk->frame->arena;
-    *made =
-        (Made){.kind = node->kind, .id = text_of(arena, node, ATTR_ID), .file = text_of(arena, node, ATTR_FILENAME)};
+    *made = (Made){.kind = node->kind,
+                   .tags = str_copy(arena, node->tags),
+                   .id = text_of(arena, node, ATTR_ID),
+                   .file = text_of(arena, node, ATTR_FILENAME)};
     const Made *past = find_past(parent, made);
     if (walk->depth >= DEEPEST) {
         draw_report(walk->faults, DIAG_WARNING, "too-deep",

@@ -110,22 +110,35 @@ bool gl_run_passes(Gl *gl, const GlEffect *effect, const GlPass *passes, uint32_
     return good;
 }
 
+// How a pass reads what it is to change: what was merged before, or else the only input.
+static void add_source(Text *text, const GlEffect *effect, bool merged, bool reduced) {
+    const char *name = merged ? "first" : "texture0";
+    bool same = merged || (effect->count > 0 && gl_fits(effect, effect->inputs[0])), near = same && !reduced;
+    if (effect->count == 0) {
+        text_add_c(text, "vec4 source(vec2 uv) { return vec4(0.0); }\nvec4 source_at(ivec2 d) { return vec4(0.0); }\n");
+        return;
+    }
+    text_add_format(text, "vec4 source(vec2 uv) { return take(%s, uv); }\n", name);
+    if (near)
+        text_add_format(text, "vec4 source_at(ivec2 d) { return texel(%s, here() + d); }\n", name);
+    else
+        text_add_c(text, "vec4 source_at(ivec2 d) { return source(coord + vec2(d) / size); }\n");
+}
+
 // The program of a pass: 0, after a report, if it cannot be.
-static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Str body,
+static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
                       DiagSink *faults) {
     Text text = text_new(arena);
     Str problem;
     bool merged = kind->merges && effect->count > 1;
-    if (!gl_add_merge(&text, effect->node, effect->count, gl_edge(effect->node, kind->edge)))
+    if (!gl_add_merge(&text, effect, gl_edge(effect->node, kind->edge)))
         return 0;
-    text_add_format(&text, "vec4 source(vec2 uv) { return %s; }\n",
-                    merged              ? "take(first, uv)"
-                    : effect->count > 0 ? "take(texture0, uv)"
-                                        : "vec4(0.0)");
-    text_add_c(&text, "vec4 previous(vec2 uv) { return take(last, uv); }\n");
+    add_source(&text, effect, merged, pass.reduced);
+    text_add_c(&text, "vec4 previous(vec2 uv) { return take(last, uv); }\n"
+                      "vec4 previous_at(ivec2 d) { return texel(last, here() + d); }\n");
     text_add_c(&text, gl_text_common);
     text_add(&text, common);
-    text_add(&text, body);
+    text_add(&text, pass.text);
     unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &problem);
     if (!program)
         gl_report(faults, effect->node, "bad-shader", problem);
@@ -135,6 +148,7 @@ static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect
 GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults) {
     NodeKind node = (NodeKind)effect->node->kind;
     const GlImage none = {0};
+    const Pass merging = {STR("void main() { color = merged_here(); }\n"), false};
     if (draw_attr(effect->node, ATTR_FRAGMENT) || draw_attr(effect->node, ATTR_VERTEX))
         return gl_shader(gl, arena, effect, faults);
     Effect kind = find_effect(node);
@@ -145,11 +159,9 @@ GlImage gl_effect(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     if (effect->count == 0 && node != KIND_NOISE)
         kind = find_effect(KIND_WINDOW), count = split(kind.text, &common, passes); // transparent
     if (kind.merges && effect->count > 1)
-        programs[first++] = (GlPass){
-            build(gl, arena, effect, &kind, common, STR("void main() { color = merged(coord); }\n"), faults), false};
+        programs[first++] = (GlPass){build(gl, arena, effect, &kind, common, merging, faults), false};
     for (uint32_t i = 0; i < count; i++)
-        programs[first + i] =
-            (GlPass){build(gl, arena, effect, &kind, common, passes[i].text, faults), passes[i].reduced};
+        programs[first + i] = (GlPass){build(gl, arena, effect, &kind, common, passes[i], faults), passes[i].reduced};
     for (uint32_t i = 0; i < first + count; i++)
         if (!programs[i].program)
             return none;

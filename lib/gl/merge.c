@@ -51,29 +51,43 @@ static const char *const combining[] = {
 
 static void add_taking(Text *out, const DrawNode *node, GlEdge edge) {
     bool nearest = draw_flag(node, ATTR_NEAREST);
-    if (edge == GL_EDGE_CLAMP && !nearest) { // what the sampler does by itself
-        text_add_c(out, filtered_taking);
-        return;
-    }
     text_add_c(out, edge == GL_EDGE_BORDER ? border_taking : edge == GL_EDGE_REPEAT ? repeat_taking : clamped_taking);
-    text_add_c(out, nearest ? nearest_taking : smooth_taking);
+    text_add_c(out, nearest                 ? nearest_taking
+                    : edge == GL_EDGE_CLAMP ? filtered_taking // what the sampler does by itself
+                                            : smooth_taking);
 }
 
-bool gl_add_merge(Text *out, const DrawNode *node, uint32_t inputs, GlEdge edge) {
-    int how = draw_word(node, ATTR_COMPOSITE);
-    if (how == MIX_UNKNOWN && inputs > 1)
+// How one input is read at `uv`, or at this pixel.
+static void add_input(Text *out, const GlEffect *effect, uint32_t i, bool here) {
+    if (here && gl_fits(effect, effect->inputs[i]))
+        text_add_format(out, "texelFetch(texture%u, here(), 0)", i);
+    else
+        text_add_format(out, "take(texture%u, %s)", i, here ? "coord" : "uv");
+}
+
+static void add_merged(Text *out, const GlEffect *effect, bool here) {
+    text_add_format(out, "vec4 %s {\n    vec4 m = vec4(0.0);\n", here ? "merged_here()" : "merged(vec2 uv)");
+    for (uint32_t i = 0; i < effect->count; i++) {
+        text_add_c(out, i == 0 ? "    m = " : "    m = combined(");
+        add_input(out, effect, i, here);
+        text_add_c(out, i == 0 ? ";\n" : ", m);\n");
+    }
+    text_add_c(out, "    return m;\n}\n");
+}
+
+bool gl_add_merge(Text *out, const GlEffect *effect, GlEdge edge) {
+    int how = draw_word(effect->node, ATTR_COMPOSITE);
+    if (how == MIX_UNKNOWN && effect->count > 1)
         return false;
     text_add_c(out, gl_header);
     text_add_c(out, "in vec2 coord;\nout vec4 color;\nuniform sampler2D first, last;\nuniform vec4 border;\n"
-                    "uniform bvec2 repeated;\nuniform vec2 size;\nuniform int pass;\nuniform float alpha;\n");
-    for (uint32_t i = 0; i < inputs; i++)
+                    "uniform bvec2 repeated;\nuniform vec2 size;\nuniform int pass;\nuniform float alpha;\n"
+                    "ivec2 here() { return ivec2(gl_FragCoord.xy); }\n");
+    for (uint32_t i = 0; i < effect->count; i++)
         text_add_format(out, "uniform sampler2D texture%u;\n", i);
-    add_taking(out, node, edge);
+    add_taking(out, effect->node, edge);
     text_add_format(out, "vec4 combined(vec4 s, vec4 d) { return %s; }\n", combining[how]);
-    text_add_c(out, "vec4 merged(vec2 uv) {\n    vec4 m = vec4(0.0);\n");
-    for (uint32_t i = 0; i < inputs; i++)
-        text_add_format(out, i == 0 ? "    m = take(texture%u, uv);\n" : "    m = combined(take(texture%u, uv), m);\n",
-                        i);
-    text_add_c(out, "    return m;\n}\n");
+    add_merged(out, effect, false);
+    add_merged(out, effect, true);
     return true;
 }

@@ -3,8 +3,7 @@
 #ifndef PETRI_GL_MERGE_H
 #define PETRI_GL_MERGE_H
 
-#include "canvas/drawing.h"
-#include "gl/gl.h"
+#include "gl/effect.h"
 
 typedef enum GlEdge { GL_EDGE_BORDER, GL_EDGE_REPEAT, GL_EDGE_CLAMP } GlEdge;
 
@@ -12,8 +11,14 @@ typedef enum GlEdge { GL_EDGE_BORDER, GL_EDGE_REPEAT, GL_EDGE_CLAMP } GlEdge;
 GlEdge gl_edge(const DrawNode *node, GlEdge usual);
 
 // Adds to a shader: version and precision; `in vec2 coord`, `out vec4 color`; uniforms texture0, …, first, last,
-// border; vec4 take(sampler2D t, vec2 uv), which reads a picture with the node's edges; vec4 merged(vec2 uv), all
-// inputs laid over each other. False if the node's word for that is unknown and there are several.
-bool gl_add_merge(Text *out, const DrawNode *node, uint32_t inputs, GlEdge edge);
+// border; vec4 take(sampler2D t, vec2 uv) and vec4 texel(sampler2D t, ivec2 p), which read a picture with the node's
+// edges; ivec2 here(), this pixel; vec4 merged(vec2 uv), all inputs laid over each other; vec4 merged_here(), the same
+// at coord in a full pass, where a picture of the node's own size needs no mixing. False if the node's word for
+// combining is unknown and there are several.
+bool gl_add_merge(Text *out, const GlEffect *effect, GlEdge edge);
+// Has the picture the size of the node?
+static inline bool gl_fits(const GlEffect *effect, GlImage image) {
+    return image.width == effect->width && image.height == effect->height;
+}
 
 #endif

@@ -49,7 +49,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     bool good = expand(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
     if (fragment) {
         good = good && expand(&texts[1], fragment->as.text);
-    } else if (!gl_add_merge(&texts[1], node, effect->count, gl_edge(node, GL_EDGE_BORDER))) {
+    } else if (!gl_add_merge(&texts[1], effect, gl_edge(node, GL_EDGE_BORDER))) {
         return (GlImage){0};
     } else {
         text_add_c(&texts[1], "void main() { color = merged(coord) * alpha; }\n");

@@ -70,9 +70,9 @@ typedef struct PetriDiagnostic {
 // When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
 typedef enum PetriNeighbours { PETRI_NEIGHBOURS_AUTO, PETRI_NEIGHBOURS_NEVER, PETRI_NEIGHBOURS_ALWAYS } PetriNeighbours;
 
-// Processes that run the same script together, each with a session of its own that is given the same calls: they come to
-// the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions, in
-// order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+// Processes that run the same script together, each with a session of its own that is given the same calls: they come
+// to the same bits as one would alone, and share the work of large systems. Numbers go between them by these functions,
+// in order: `runs` runs of `length` doubles, `stride` doubles from one to the next.
 typedef struct PetriRanks {
     int rank; // of this process, from 0
     int count;
@@ -125,6 +125,14 @@ typedef struct PetriOptions {
     // NULL (the default): this process alone. All ranks must have the same options, `cpu` included, and none may be
     // interrupted.
     const PetriRanks *ranks;
+    // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
+    // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
+    // name of the script or, for what a script names, that of its folder before it, without dots. A script may then
+    // read whatever this gives and nothing else, and `glob` finds nothing. The same address and length stand for the
+    // same bytes, which must stay until the session is closed. It may be called in each frame, and by the thread that
+    // draws a picture; nothing of the session may be called by it.
+    const char *(*read)(void *read_host, const char *name, size_t *length);
+    void *read_host;
 } PetriOptions;
 
 // Writes the defaults of the first `size` bytes of options.

@@ -77,8 +77,8 @@ typedef struct PhysThreads PhysThreads;
 PhysThreads *phys_threads_new(int count); // with the caller; 0: as many as processors
 void phys_threads_free(PhysThreads *threads);
 
-// Processes that simulate the same systems together. All of them do the same; of large passes over pairs each computes a
-// part, and numbers go between them: `runs` runs of `length` doubles, `stride` doubles from one to the next.
+// Processes that simulate the same systems together. All of them do the same; of large passes over pairs each computes
+// a part, and numbers go between them: `runs` runs of `length` doubles, `stride` doubles from one to the next.
 typedef struct PhysRanks {
     int rank; // of this process, from 0
     int count;

@@ -165,7 +165,8 @@ void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
     Arena *arena = compiler->arena;
     Str name = value_text(arena, compiler->symbols, file->as.value);
     Str path = path_join(arena, compiler->source->directory, name);
-    if (name.len && !file_exists(str_to_c(arena, path)))
+    Str version;
+    if (name.len && !file_version(arena, compiler->options->files, str_to_c(arena, path), &version))
         warn(compiler, ast->span, "cannot-import",
              str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
 }

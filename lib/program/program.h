@@ -99,6 +99,7 @@ typedef struct CompileOptions {
     uint32_t param_count;
     const struct Builtin *const *functions; // the host's, none of which has the name of a built-in
     uint32_t function_count;
+    const struct Reach *files; // where modules come from, if it is not the disk; else NULL
     CompileHost host;
 } CompileOptions;
 

@@ -19,8 +19,9 @@ typedef struct Wanted {
 
 static void find_entry(PetriSession *session, void *context) {
     Wanted *wanted = context;
-    arena_reset(&session->view_arena);
-    wanted->slot = session_take(&session->view_arena, wanted->key, &wanted->taken)
+    if (!wanted->key.numbers)
+        arena_reset(&session->key_arena);
+    wanted->slot = session_take(&session->key_arena, wanted->key, &wanted->taken)
                        ? state_find(session->state, wanted->taken)
                        : STATE_NO_SLOT;
 }
@@ -31,7 +32,7 @@ PetriValue petri_state_get(PetriSession *session, PetriValue key) {
         return (PetriValue){0};
     if (key.numbers)
         find_entry(session, &wanted);
-    else
+    else if (session->calls == 0)
         session_protect(session, NULL, find_entry, &wanted);
     return wanted.slot == STATE_NO_SLOT ? (PetriValue){0} : session_show(state_slot_at(session->state, wanted.slot));
 }
@@ -48,7 +49,7 @@ static bool is_storable(Value v) {
 
 static void set_entry(PetriSession *session, void *context) {
     Wanted *wanted = context;
-    Arena *arena = &session->view_arena;
+    Arena *arena = &session->key_arena;
     Value value;
     arena_reset(arena);
     wanted->status = PETRI_INVALID;
@@ -127,9 +128,9 @@ static void give(PetriSession *session, void *context) {
     Giving *giving = context;
     giving->status = PETRI_INVALID;
     Value value;
-    arena_reset(&session->view_arena);
+    arena_reset(&session->key_arena);
     if (!session_is_name(giving->name) || engine_name_exists(giving->name) ||
-        !session_take(&session->view_arena, giving->value, &value))
+        !session_take(&session->key_arena, giving->value, &value))
         return;
     for (uint32_t i = 0; value.kind == VALUE_MIXED && i < value.len; i++)
         if (value.as.items[i].type > ITEM_STRING)
@@ -142,7 +143,7 @@ static void give(PetriSession *session, void *context) {
     given->next = value;
     arena_reset(fresh);
     if (arena_protect(&fresh, 1, copy_given, given) != ARENA_DONE)
-        arena_exhausted(&session->view_arena);
+        arena_exhausted(&session->key_arena);
     given->turn = !given->turn;
     given->value = given->next;
     giving->status = PETRI_OK;

@@ -63,7 +63,7 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
     PetriSession *session = host;
     Unit *unit = session->loader.compiling;
     const char *file = str_to_c(&unit->arena, path);
-    Str canonical = file_canonical(&unit->arena, file), text;
+    Str canonical = file_canonical(&unit->arena, &session->reach, file), text;
     const char *problem;
     if (str_equal(canonical, unit->path) || !take_include(unit, canonical)) {
         *why = STR("this file is included already");
@@ -137,6 +137,11 @@ static void sort_by_place(DiagSink *sink) {
     }
 }
 
+// Where the files of a host come from that gives them; else NULL.
+static const Reach *host_files(const PetriSession *session) {
+    return session->reach.read ? &session->reach : NULL;
+}
+
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params) {
     unit->sink = diag_sink_new(unit_arena(session, unit), MOST_ERRORS);
     CompileOptions options = {.module = module,
@@ -148,6 +153,7 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
                               .params = params.items,
                               .param_count = params.count,
                               .functions = session->functions.rows,
+                              .files = host_files(session),
                               .function_count = session->functions.count,
                               .host = {session, host_include, host_evaluate}};
     Unit *outer = session->loader.compiling;
@@ -210,8 +216,8 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
     }
     Str text;
     const char *problem;
-    unit->path = file_canonical(&unit->arena, file);
-    const Reach *reach = module ? &session->reach : NULL; // the script itself is the host's choice
+    unit->path = file_canonical(&unit->arena, &session->reach, file);
+    const Reach *reach = module ? &session->reach : host_files(session); // the script itself is the host's choice
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
@@ -252,11 +258,11 @@ const Program *session_module(void *host, Str path, Str *why) {
     PetriSession *session = host;
     const char *file = str_to_c(&session->frame.arena, path);
     Str version;
-    if (!file_version(&session->frame.arena, NULL, file, &version)) {
+    if (!file_version(&session->frame.arena, host_files(session), file, &version)) {
         *why = STR("there is no such file");
         return NULL;
     }
-    Str canonical = file_canonical(&session->frame.arena, file);
+    Str canonical = file_canonical(&session->frame.arena, &session->reach, file);
     if (!reach_has(&session->reach, REACH_READ, canonical.bytes)) {
         *why = str_from(reach_refusal(&session->frame.arena, &session->reach, REACH_READ, file));
         return NULL;

@@ -103,13 +103,8 @@ PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *ca
                                            [ARENA_WORK] = PETRI_LIMIT,
                                            [ARENA_INTERRUPTED] = PETRI_INTERRUPTED};
     SessionFrame *frame = &session->frame;
-    Arena *arenas[] = {&session->arena,
-                       &session->text_arena,
-                       &session->view_arena,
-                       &frame->arena,
-                       &frame->systems_arena,
-                       &session->prompt.arena,
-                       extra};
+    Arena *arenas[] = {&session->arena, &session->text_arena,  &session->view_arena,   &session->key_arena,
+                       &frame->arena,   &frame->systems_arena, &session->prompt.arena, extra};
     Unit *compiling = session->loader.compiling;
     bool working = frame->working;
     Call made = {session, call, context};
@@ -184,6 +179,8 @@ static void open_parts(PetriSession *session, void *context) {
     session->vm.builtins.files = session->files;
     session->vm.builtins.reach = session->schema.reach = &session->reach;
     session->reach.nothing = options->no_files;
+    session->reach.read = options->read;
+    session->reach.read_host = options->read_host;
     reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
     reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
     reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
@@ -220,6 +217,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     session_arena(session, &session->arena, "session", SIZE_MAX);
     session_arena(session, &session->text_arena, "text", SIZE_MAX);
     session_arena(session, &session->view_arena, "view", SIZE_MAX);
+    session_arena(session, &session->key_arena, "key", SIZE_MAX);
     session_arena(session, &session->prompt.arena, "expression", options->memory_bytes);
     session_arena(session, &frame->arena, "frame", options->memory_bytes);
     session_arena(session, &frame->systems_arena, "systems", SIZE_MAX);
@@ -263,8 +261,8 @@ void petri_close(PetriSession **handle) {
     diag_sink_free(&session->frame.errors);
     diagnostics_free(&session->diagnostics);
     symbol_table_free(&session->symbols);
-    Arena *arenas[] = {&session->frame.arena, &session->frame.systems_arena, &session->text_arena,
-                       &session->view_arena,  &session->prompt.arena,        &session->arena};
+    Arena *arenas[] = {&session->frame.arena, &session->frame.systems_arena, &session->text_arena, &session->view_arena,
+                       &session->key_arena,   &session->prompt.arena,        &session->arena};
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
     free(session);

@@ -69,6 +69,7 @@ struct PetriSession {
     Arena arena;      // session lifetime: symbols, definitions
     Arena text_arena; // texts given to the host, reset by most uses
     Arena view_arena; // … about systems: until the next petri_id, petri_force
+    Arena key_arena;  // … that is looked up or stored, which may be one that was given: during the call
     SymbolTable symbols;
     State *state;
     Scene *scene;

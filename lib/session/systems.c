@@ -119,14 +119,16 @@ static void find_by_id(PetriSession *session, void *context) {
     Search *search = request->out;
     SceneView view;
     Value id;
+    arena_reset(&session->key_arena);
     request->found = scene_view(session->scene, session->state, request->system, &view) &&
-                     session_take(&session->view_arena, search->id, &id) &&
-                     scene_view_find(session->scene, session->state, &session->view_arena, &view, id, &search->found);
+                     session_take(&session->key_arena, search->id, &id) &&
+                     scene_view_find(session->scene, session->state, &session->key_arena, &view, id, &search->found);
 }
 
 bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle) {
     Search search = {id, 0};
-    if (!session || !particle || !ask(session, find_by_id, system, 0, &search))
+    Request request = {system, 0, &search, false};
+    if (!session || !particle || session_protect(session, NULL, find_by_id, &request) != PETRI_OK || !request.found)
         return false;
     *particle = search.found;
     return true;

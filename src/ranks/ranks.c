@@ -111,8 +111,8 @@ void ranks_begin(Host *host) {
     }
 }
 
-// A process that ends without MPI_Finalize makes mpirun end all, with its status: those that wait for it, too. What fails
-// here mostly fails everywhere, and then rank 0 is to say so first; its end interrupts the sleep.
+// A process that ends without MPI_Finalize makes mpirun end all, with its status: those that wait for it, too. What
+// fails here mostly fails everywhere, and then rank 0 is to say so first; its end interrupts the sleep.
 void ranks_end(int status) {
     enum { SECONDS = 5 };
     if (status != STATUS_DONE) {

@@ -55,6 +55,25 @@ else
     check "--size sets the size" sized disc.png 80x60
     petri render disc.fl -o scaled.png --frames 9 --scale 2
     check "--scale enlarges" cmp -s disc.png scaled.png
+
+    # What is loaded: OpenGL for effects and three dimensions alone, and nothing that draws for runs.
+    cat >glowing.fl <<'END'
+!window size=8;8
+    !bloom radius=2
+        !canvas3d
+            !sphere emissive=1 size=3
+END
+    loads() { grep -qE "file=lib($1)" err; }
+    loads_no() { ! loads "$1"; }
+    LD_DEBUG=files petri run glowing.fl --frames 3 --print tree
+    check "run loads the C library" loads 'c\.so'
+    check "… and nothing that draws" loads_no 'EGL|GL|epoxy|cairo|pango'
+    LD_DEBUG=files petri render disc.fl -o loaded.png --frames 1
+    check "render loads Cairo" loads cairo
+    check "… and no OpenGL where nothing needs it" loads_no 'EGL|GLES'
+    LD_DEBUG=files petri render glowing.fl -o loaded.png --frames 1
+    check "… but for effects, where it has it" eval 'loads EGL || has err libepoxy-dev'
+
     petri render disc.fl -o disc%03d.png --frames 7 --every 3
     check "a series has a picture for each K-th frame" [ "$(echo disc0*.png)" = "disc000.png disc003.png disc006.png" ]
     check "… the first is the first frame" cmp -s disc000.png first.png

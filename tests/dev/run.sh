@@ -63,11 +63,16 @@ case " $* " in
         ninja-build) package=ninja ;;
         procps) package=pgrep ;;
         xvfb) package=Xvfb ;;
+        g++) package=c++ ;;
         x11-utils) package=xprop ;;
         imagemagick) package=compare ;;
         libgl1-mesa-dri) touch "$WORK/mesa/dri/swrast_dri.so" ;;
         desktop-file-utils) package=desktop-file-validate ;;
         python3-dev) package=python3-config ;;
+        dpkg-dev) package=dpkg-buildpackage ;;
+        debhelper) package=dh ;;
+        dh-python) package=dh_python3 ;;
+        xz-utils) package=xz ;;
         python3-*) package=python3 ;;
         fonts-dejavu-core) touch "$WORK/fonts/truetype/dejavu/DejaVuSans.ttf" ;;
         fonts-liberation) mkdir -p "$WORK/fonts/truetype/liberation" ;;
@@ -250,6 +255,17 @@ network=yes breaks=dpkg
 dev run dish.fl
 check "what goes wrong otherwise is told" has err "E: Sub-process dpkg returned an error code (1)"
 check "with the log" has err "build/packages.log"
+
+machine
+mkdir -p project/src/packaging
+stand_in project/src/packaging/package.sh </dev/null
+dev package
+check "packages are made" has calls "package.sh $work/project/build/package"
+check "with what makes them" grep -q 'apt-get .*install.* dpkg-dev debhelper dh-python' calls
+check "and what they are made of" has calls libsdl2-dev
+check "it says where they are" has err "what was made is in $work/project/build/package"
+dev package --dynamic
+check "other packages there are not" has err "package knows --test, --wheel and --static only, not '--dynamic'"
 
 machine
 dev install "$work/some where"

@@ -18,6 +18,23 @@ check "with the shared one" has out "Shared library: [libpetri.so.0]"
 cc app.c -o app_static $(pkg-config --cflags petri) -L"$LD_LIBRARY_PATH" -l:libpetri.a -lm -lpthread >out 2>&1
 check "a program with the static libpetri links" [ $? -eq 0 ]
 check "and runs alone" [ "$(env -u LD_LIBRARY_PATH ./app_static)" = "$version" ]
+# The samples, as their first lines say.
+embed="$prefix/share/petri/samples/embed"
+# shellcheck disable=SC2046 # options are words
+cc -std=c11 -Wall -Wextra -Werror "$embed/speed.c" -o speed $(pkg-config --cflags --libs petri) -lm >out 2>&1
+check "the sample in C compiles" [ $? -eq 0 ]
+./speed >out 2>&1
+check "runs" [ $? -eq 0 ]
+check "moves its particles" [ "$(grep -c -e '^  0: 1000 particles, age 0, mean speed 0.00$' \
+    -e '^120: 1000 particles, age 2, mean speed [1-9][0-9]*\.[0-9][0-9]$' out)" -eq 2 ]
+if command -v c++ >/dev/null; then
+    # shellcheck disable=SC2046 # options are words
+    c++ -std=c++17 -Wall -Wextra -Werror "$embed/steer.cpp" -o steer $(pkg-config --cflags --libs petri) >out 2>&1
+    check "the sample in C++ compiles" [ $? -eq 0 ]
+    check "and steers" [ "$(./steer 2>&1 | tail -n 1)" = "240:  -0.333  25.463" ]
+else
+    echo "skipped: the sample in C++, for which there is no compiler"
+fi
 pkg-config --libs petri >out
 check "without what draws" [ "$(grep -c -e pango -e cairo -e jpeg -e draw out)" -eq 0 ]
 cat >draws.c <<'EOF'

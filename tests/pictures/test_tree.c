@@ -69,17 +69,25 @@ static void test_known(void **state) {
 #define ADDING(attrs, color)                                                                                           \
     PROGRAM(attrs, "uniform sampler2D last;\n", "color = texture(last, coord) + vec4(" color ", 0.1);")
 
+#define FIRST ADDING("#one", "0.1, 0.0, 0.0")
+#define SECOND ADDING("#two", "0.0, 0.2, 0.0")
+
 static void test_identity(void **state) {
     (void)state;
     check_color("goes on", SIZE "    " ADDING("", "0.2, 0.0, 0.0"), 3, 203, 0, 0);
-    // Two of the same kind take turns in their place: their ids tell them apart.
+    // Two of the same kind take turns in their place: their ids or tags tell them apart, and the larger of
+    // both sums shows whether each went on.
     check_color("with an id",
-                SIZE "    !shader composite=:add\n"
+                SIZE "    !shader composite=:lighten\n"
                      "        for i in ((0;1) if frame % 2 else (1;0))\n"
                      "            " PROGRAM("id=i tint=i", "uniform sampler2D last;\nuniform float tint;\n",
                                             "color = texture(last, coord) + 0.1 * vec4(1.0 - tint, 2.0 * tint, 0.0, "
                                             "1.0);"),
                 3, 149, 203, 0); // enc(0.3), enc(0.6)
+    check_color("with a tag",
+                SIZE "    !shader composite=:lighten\n        if frame % 2\n            " FIRST "            " SECOND
+                     "        else\n            " SECOND "            " FIRST,
+                3, 149, 203, 0);
     // One that was away for a frame begins anew.
     check_color("away", SIZE "    if frame != 2\n        " ADDING("", "0.2, 0.0, 0.0") "    !canvas\n", 4, 124, 0, 0);
     // One of another kind before it does not matter.

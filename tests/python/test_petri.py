@@ -174,10 +174,24 @@ class Running(unittest.TestCase):
         given.step()
         self.assertIn('!x v=1;2 w="it\'s"', given.text("tree"))
 
+    def test_given_names(self):
+        session = petri.Session("!x v=2*wind\n", given={"wind": (1, 2)})
+        session.step()
+        self.assertIn("!x v=2;4", session.text("tree"))
+        session.give("wind", numpy.float64(5))
+        session.step()
+        self.assertIn("!x v=10", session.text("tree"))
+        with self.assertRaises(KeyError):
+            session.give("rain", 1)
+        with self.assertRaises(petri.ScriptError):
+            petri.Session("!x\n", given={"time": 1})
+
     def test_evaluate(self):
         session = petri.Session("let a=1;2;3\n")
         session.step()
         for text, value in {"a": (1, 2, 3), "sum(a)": 6, "null": None, ":word": "word", "'te;xt'": petri.Text("te;xt"),
+                            '"it\'s"': petri.Text("it's"),
+                            r"'\'\"\n\\'": petri.Text("'\"\n\\"), ":odd;'a;b'": ("odd", petri.Text("a;b")),
                             "1;:b;'c'": (1, "b", petri.Text("c")), "-1e300;inf": (-1e300, float("inf"))}.items():
             self.assertEqual(session.evaluate(text), value)
             self.assertEqual(type(session.evaluate(text)), type(value) if value != 6 else float)

@@ -31,7 +31,7 @@ vec3 toned(vec3 c) {
 
 //: full
 void main() {
-    vec4 m = merged(coord);
+    vec4 m = merged_here();
     vec3 hsv = hsv_of(color_matrix * unpremultiplied(m));
     vec3 c = rgb_of(vec3(hsv.x + hue, hsv.y * saturation, hsv.z));
     c = max(adjusted(c, exposure, contrast, brightness, shadows, highlights), 0.0);

@@ -10,12 +10,12 @@ void main() {
 //: reduced
 void main() {
     float r = floor(floor(radius.x) / downsample);
-    color = blurred(coord, r, r * sigma.x, vec2(1.0, 0.0));
+    color = blurred(r, r * sigma.x, ivec2(1, 0));
 }
 //: reduced
 void main() {
     float r = floor(floor(radius.y) / downsample);
-    color = blurred(coord, r, r * sigma.y, vec2(0.0, 1.0));
+    color = blurred(r, r * sigma.y, ivec2(0, 1));
 }
 //: full
-void main() { color = max(source(coord), previous(coord)) * alpha; }
+void main() { color = max(source_at(ivec2(0)), previous(coord)) * alpha; }

@@ -4,10 +4,10 @@ uniform vec2 radius, sigma;
 //: full
 void main() {
     float r = floor(radius.x);
-    color = blurred_source(coord, r, r * sigma.x, vec2(1.0, 0.0));
+    color = blurred_source(r, r * sigma.x, ivec2(1, 0));
 }
 //: full
 void main() {
     float r = floor(radius.y);
-    color = blurred(coord, r, r * sigma.y, vec2(0.0, 1.0)) * alpha;
+    color = blurred(r, r * sigma.y, ivec2(0, 1)) * alpha;
 }

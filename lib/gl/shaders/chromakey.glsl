@@ -11,12 +11,12 @@ void main() {
 //: reduced
 void main() {
     float r = floor(floor(radius.x) / downsample);
-    color = blurred(coord, r, r * sigma.x, vec2(1.0, 0.0));
+    color = blurred(r, r * sigma.x, ivec2(1, 0));
 }
 //: reduced
 void main() {
     float r = floor(floor(radius.y) / downsample);
-    color = blurred(coord, r, r * sigma.y, vec2(0.0, 1.0));
+    color = blurred(r, r * sigma.y, ivec2(0, 1));
 }
 //: full
-void main() { color = source(coord) * pow(previous(coord), vec4(hard)) * alpha; }
+void main() { color = source_at(ivec2(0)) * pow(previous(coord), vec4(hard)) * alpha; }

@@ -21,19 +21,21 @@ vec3 rgb_of(vec3 hsv) {
     return hsv.z * (1.0 - hsv.y + hsv.y * k);
 }
 
-// A Gaussian of 2r+1 pixels of the target of this pass along an axis.
-#define BLUR(NAME, FETCH) \
-vec4 NAME(vec2 uv, float r, float sigma, vec2 axis) { \
+// A Gaussian of 2r+1 pixels of the target of this pass along an axis: weights exp(-i^2/2sigma^2), each from the last.
+// previous_at needs a pass before of the same size.
+#define BLUR(NAME, AT) \
+vec4 NAME(float r, float sigma, ivec2 axis) { \
+    vec4 sum = AT(ivec2(0)); \
     if (r < 1.0 || sigma <= 0.0) \
-        return FETCH(uv); \
-    vec4 sum = vec4(0.0); \
-    float total = 0.0; \
-    for (float i = -r; i <= r; i++) { \
-        float w = exp(-i * i / (2.0 * sigma * sigma)); \
-        sum += w * FETCH(uv + i * axis / size); \
-        total += w; \
+        return sum; \
+    float w = 1.0, total = 1.0, ratio = exp(-0.5 / (sigma * sigma)), change = ratio * ratio; \
+    for (int i = 1; i <= int(r); i++) { \
+        w *= ratio; \
+        ratio *= change; \
+        sum += w * (AT(i * axis) + AT(-i * axis)); \
+        total += 2.0 * w; \
     } \
     return sum / total; \
 }
-BLUR(blurred_source, source)
-BLUR(blurred, previous)
+BLUR(blurred_source, source_at)
+BLUR(blurred, previous_at)

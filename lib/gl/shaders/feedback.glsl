@@ -10,5 +10,5 @@ void main() {
     q = vec2(q.x * cos(angle) - q.y * sin(angle), q.x * sin(angle) + q.y * cos(angle)) + vec2(-translate.x, translate.y) * t;
     float k = mixer > 0.0 ? pow(mixer, t) : 0.0;
     vec4 before = past ? previous(q / size + 0.5) : vec4(0.0);
-    color = ((1.0 - k) * merged(coord) * (1.0 + glow) + k * before) * alpha;
+    color = ((1.0 - k) * merged_here() * (1.0 + glow) + k * before) * alpha;
 }

@@ -61,16 +61,16 @@ void main() {
 //: reduced
 void main() {
     float r = floor(0.05 * min(size.x, size.y));
-    color = blurred(coord, r, 0.3 * r, vec2(1.0, 0.0));
+    color = blurred(r, 0.3 * r, ivec2(1, 0));
 }
 //: reduced
 void main() {
     float r = floor(0.05 * min(size.x, size.y));
-    color = blurred(coord, r, 0.3 * r, vec2(0.0, 1.0));
+    color = blurred(r, 0.3 * r, ivec2(0, 1));
     color.rgb += streaks();
 }
 //: full
 void main() {
-    vec4 t = source(coord), f = previous(coord);
+    vec4 t = source_at(ivec2(0)), f = previous(coord);
     color = vec4(t.rgb + f.rgb, min(t.a + f.a, 1.0)) * alpha;
 }

@@ -55,7 +55,7 @@ vec3 point() {
 
 //: full
 void main() {
-    vec3 p = (point() + vec3(origin, z) + merged(coord).rgb * tscale) * scale;
+    vec3 p = (point() + vec3(origin, z) + merged_here().rgb * tscale) * scale;
     float h = seed;
     color = other;
     for (int j = 0; j < 4 && float(j) < components; j++) {

@@ -1,3 +1,3 @@
 // plain.glsl (spec pictures.md 3.6)
 //: full
-void main() { color = merged(coord) * alpha; }
+void main() { color = merged_here() * alpha; }

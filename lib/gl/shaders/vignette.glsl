@@ -12,4 +12,4 @@ float eased(float x) {
 float share(float x) { return inset <= 0.0 ? 1.0 : x < inset ? x / inset : x > 1.0 - inset ? (1.0 - x) / inset : 1.0; }
 
 //: full
-void main() { color = merged(coord) * eased(share(coord.x)) * eased(share(coord.y)) * alpha; }
+void main() { color = merged_here() * eased(share(coord.x)) * eased(share(coord.y)) * alpha; }

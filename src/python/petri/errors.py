@@ -22,7 +22,7 @@ class Diagnostic(NamedTuple):
     rendered: str
 
 
-class _Told:
+class _Told(Exception):
     """The file, line, column and code of the first diagnostic, and all of them."""
 
     def __init__(self, message: str, diagnostics: tuple[Diagnostic, ...] = ()):
@@ -33,7 +33,7 @@ class _Told:
         self.code, self.text = first.code, first.text
 
 
-class PetriError(_Told, Exception):
+class PetriError(_Told):
     """What failed. `diagnostics` tell why; `file`, `line`, `column`, `code` and `text` are those of the first."""
 
 

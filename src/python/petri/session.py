@@ -6,7 +6,7 @@ import os
 import threading
 from dataclasses import dataclass
 from itertools import count
-from typing import Any, Iterator, List, NamedTuple, Optional, Sequence, Union
+from typing import Any, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 from . import values
 from ._petri import ffi, lib
@@ -75,10 +75,12 @@ class Session:
 
     `source` is the script's file, or its text if there is a line end in it. Further keywords define names for the
     script: `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised
-    (ScriptError, …), what is hardly meant is a PetriWarning. Several threads may use a session, one after the other.
+    (ScriptError, …), what is hardly meant is a PetriWarning. `given` has names that the script reads like its own, and
+    whose values may be others in each frame (give). Several threads may use a session, one after the other.
     """
 
-    def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None, **defines: Any):
+    def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
+                 given: Optional[Mapping[str, Any]] = None, **defines: Any):
         self._lock = threading.Lock()
         self._told: List[Diagnostic] = []
         self._painter: Any = None
@@ -88,6 +90,9 @@ class Session:
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
             self._call(lib.petri_define, f"{name}={text}".encode(), message=f"{name} is no name that can be defined")
+        self._given: set[str] = set(given or ())
+        for name, value in (given or {}).items():
+            self.give(name, value)
         if isinstance(source, str) and "\n" in source:
             data = source.encode()
             self._call(lib.petri_load_text, b"<string>", data, len(data))
@@ -116,11 +121,12 @@ class Session:
         return ffi.gc(pointer, lambda p, handle=handle: lib.petri_python_close(p))
 
     def _printed(self, value: Any) -> str:
-        encoded, keep = values.encode(self._c, value)
-        text = lib.petri_text(self._c, encoded)
-        if not text:
-            raise ValueError(f"{value!r} is no value of the language")
-        return ffi.string(text).decode()
+        with self._lock:
+            encoded, keep = values.encode(self._c, value)
+            text = lib.petri_text(self._c, encoded)
+            if not text:
+                raise ValueError(f"{value!r} is no value of the language")
+            return ffi.string(text).decode()
 
     def _call(self, function: Any, *arguments: Any, message: Optional[str] = None) -> None:
         with self._lock:
@@ -156,7 +162,8 @@ class Session:
     @property
     def frame(self) -> Frame:
         """The frame that was made last; its number is -1 before the first."""
-        frame = lib.petri_frame(self._c)
+        with self._lock:
+            frame = lib.petri_frame(self._c)
         return Frame(*(getattr(frame, name) for name in Frame._fields))
 
     def evaluate(self, text: str) -> values.Value:
@@ -193,6 +200,14 @@ class Session:
         """Gives a parameter (`let SIZE=SIZE or 20`) another value from the next frame on; None: its default."""
         text = ffi.NULL if value is None else (value if isinstance(value, str) else self._printed(value)).encode()
         self._call(lib.petri_set_parameter, name.encode(), text, message=f"the script has no parameter {name}")
+
+    def give(self, name: str, value: Any) -> None:
+        """Gives a name that was `given` at first another value, from the next frame on."""
+        if name not in self._given:
+            raise KeyError(f"{name!r} was not given when the session began: petri.Session(..., given={{{name!r}: ...}})")
+        with self._lock:
+            encoded, keep = values.encode(self._c, value)
+        self._call(lib.petri_give, name.encode(), encoded, message=f"{name!r} cannot be given as {value!r}")
 
     def text(self, *sections: str) -> str:
         """What `petri run --print` writes of the frame: any of "tree", "state", "log", "error", "hash"."""

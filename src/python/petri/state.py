@@ -41,9 +41,9 @@ class State(MutableMapping):
                 plain = False
             length = value.length
             if plain and length > 1:
-                result = tuple(ffi.unpack(value.numbers, length))
-                if min(result) > -8e307:  # no symbol among them
-                    return result
+                numbers = tuple(ffi.unpack(value.numbers, length))
+                if min(numbers) > -8e307:  # no symbol among them
+                    return numbers
             result = values.decode(self._session, value)
         if result is None:
             raise KeyError(key)

@@ -171,7 +171,8 @@ class Systems(Mapping):
         self._known: dict[str, System] = {}
 
     def _names(self) -> List[bytes]:
-        struct, names = ffi.new("PetriSystem *"), []
+        names: List[bytes] = []
+        struct = ffi.new("PetriSystem *")
         with self._session._lock:
             while lib.petri_python_system(self._session._c, len(names), ffi.NULL, struct) >= 0:
                 names.append(ffi.string(struct.name))

@@ -6,8 +6,9 @@ str, and strings are Text, which is a str, too: they are told apart because `$:c
 
 from __future__ import annotations
 
+import ast
 import re
-from typing import Any, Iterable, Optional, Tuple, Union
+from typing import Any, Iterable, List, Tuple, Union
 
 from ._petri import ffi, lib
 
@@ -109,24 +110,26 @@ def whole(value: Value) -> Value:
     return int(value) if isinstance(value, float) and value.is_integer() else value
 
 
-_TOKEN = re.compile(r"\s*(?::(?P<symbol>\w+)|'(?P<text>(?:[^'\\]|\\.)*)'|(?P<number>[^;'\s]+))\s*(?:;|$)")
+_TOKEN = re.compile(
+    r"""\s*(?::(?P<symbol>\w+)|(?P<text>'(?:[^'\\]|\\.)*'|"(?:[^"\\]|\\.)*")|(?P<number>[^;'"\s]+))\s*(?:;|$)""")
 
 
-def parse(printed: str) -> Optional[Value]:
+def parse(printed: str) -> Value:
     """The value of a printed form; where it is none of numbers, symbols and strings, the form itself as Text."""
-    if printed in ("", "null"):
-        return None
-    parts, at = [], 0
-    while at < len(printed):
+    parts: List[Element] = []
+    at = 0
+    while at < len(printed) and printed != "null":
         match = _TOKEN.match(printed, at)
-        try:
-            if match["symbol"]:
-                parts.append(match["symbol"])
-            elif match["number"]:
-                parts.append(float(match["number"]))
-            else:
-                parts.append(Text(re.sub(r"\\(.)", lambda m: {"n": "\n", "t": "\t"}.get(m[1], m[1]), match["text"])))
-        except (TypeError, ValueError):
+        if match is None:
             return Text(printed)
+        if match["symbol"]:
+            parts.append(match["symbol"])
+        elif match["text"]:
+            parts.append(Text(ast.literal_eval(match["text"])))  # it is written as Python would
+        else:
+            try:
+                parts.append(float(match["number"]))
+            except ValueError:
+                return Text(printed)
         at = match.end()
-    return parts[0] if len(parts) == 1 else tuple(parts)
+    return None if not parts else parts[0] if len(parts) == 1 else tuple(parts)

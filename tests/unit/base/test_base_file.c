@@ -49,11 +49,32 @@ static void test_canonical(void **state) {
     char plain[600], dotted[800];
     snprintf(plain, sizeof plain, "%s", folder_file(&folder, "a"));
     snprintf(dotted, sizeof dotted, "%s/./../%s/a", folder.path, strrchr(folder.path, '/') + 1);
-    Str straight = file_canonical(&arena, plain);
-    assert_true(str_equal(file_canonical(&arena, dotted), straight));
+    Str straight = file_canonical(&arena, NULL, plain);
+    assert_true(str_equal(file_canonical(&arena, NULL, dotted), straight));
     assert_int_equal(symlink(plain, folder_file(&folder, "link")), 0);
-    assert_true(str_equal(file_canonical(&arena, folder_file(&folder, "link")), straight));
-    assert_true(str_equal(file_canonical(&arena, "no/such/file"), STR("no/such/file")));
+    assert_true(str_equal(file_canonical(&arena, NULL, folder_file(&folder, "link")), straight));
+    assert_true(str_equal(file_canonical(&arena, NULL, "no/such/file"), STR("no/such/file")));
+}
+
+static void test_normal(void **state) {
+    (void)state;
+    static const char *const rows[][2] = {
+        {"a.fl", "a.fl"},   {"./a//b/", "a/b"}, {"a/../b", "b"},          {"a/b/../../c", "c"},  {"/a/./../b", "/b"},
+        {"/../../a", "/a"}, {"../a", "../a"},   {"../../a", "../../a"},   {"a/../../b", "../b"}, {"", ""},
+        {"/", "/"},         {"a/..", ""},       {"a..b/..c", "a..b/..c"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof rows[0]; i++) {
+        char normal[PATH_MAX];
+        assert_true(reach_normal(rows[i][0], normal));
+        assert_string_equal(normal, rows[i][1]);
+    }
+    static char longest[PATH_MAX + 1];
+    char normal[PATH_MAX];
+    memset(longest, 'a', PATH_MAX);
+    assert_false(reach_normal(longest, normal));
+    longest[PATH_MAX - 1] = 0;
+    assert_true(reach_normal(longest, normal));
+    assert_string_equal(normal, longest);
 }
 
 int main(void) {
@@ -61,6 +82,7 @@ int main(void) {
         FILE_TEST(test_read),
         FILE_TEST(test_version),
         FILE_TEST(test_canonical),
+        FILE_TEST(test_normal),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -225,10 +225,46 @@ static void test_labels(void **state) {
     assert_true(letter_pixels > 10);
 }
 
+// Images come from the host that gives files, not from the disk.
+static const char *give_image(void *host, const char *name, size_t *length) {
+    (void)host;
+    static const char bytes[] = "these are no pixels";
+    *length = sizeof bytes - 1;
+    return strcmp(name, "images/a.png") == 0 ? bytes : NULL;
+}
+
+static void test_images_of_the_host(void **state) {
+    Player *player = *state;
+    uint32_t pixels[8 * 4];
+    PetriOptions options = player_options(player);
+    options.read = give_image;
+    player_reopen(player, &options);
+    player_run(player,
+               "!window size=8;4\n    !canvas\n        !image filename='images/./a.png' size=4;4\n"
+               "        !image filename='/etc/passwd' size=4;4\n",
+               1);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPainter *painter = petri_painter_open();
+    PetriStatus status = petri_picture_draw(picture, painter, pixels, 8, 4, 8 * sizeof *pixels);
+    petri_picture_tell(player->session, picture);
+    const char *told = player_told(player);
+    if (status != PETRI_MISSING) {
+        assert_non_null(strstr(told, "cannot read 'images/./a.png': it is neither PNG nor JPEG"));
+        assert_non_null(strstr(told, "cannot read '/etc/passwd': No such file"));
+    }
+    petri_painter_close(&painter);
+    petri_picture_free(&picture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes), PLAYER_TEST(test_choice),
-        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready), PLAYER_TEST(test_labels),
+        PLAYER_TEST(test_independent),
+        PLAYER_TEST(test_sizes),
+        PLAYER_TEST(test_choice),
+        PLAYER_TEST(test_misuse),
+        PLAYER_TEST(test_ready),
+        PLAYER_TEST(test_labels),
+        PLAYER_TEST(test_images_of_the_host),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -39,9 +39,9 @@ static void test_texts(void **state) {
         if (last > text && *last == 0)
             assert_number(schema_names[row->name], row->fallback.value, x);
         bool known = text[0] != ':';
-        for (int w = 0; w < WORD_COUNT; w++)
-            known |= schema_words[w].type == row->type && str_equal(schema_words[w].text, str_from(text + 1)) &&
-                     schema_words[w].value == row->fallback.value;
+        for (int w = 0; !known && w < WORD_COUNT; w++)
+            known = schema_words[w].type == row->type && str_equal(schema_words[w].text, str_from(text + 1)) &&
+                    schema_words[w].value == row->fallback.value;
         assert_true(known);
     }
 }

@@ -221,6 +221,82 @@ static void test_check(void **state) {
     assert_int_equal(petri_frame(session).number, 1);
 }
 
+// --- files that the host gives
+
+typedef struct Given {
+    const char *name;
+    const char *text;
+} Given;
+
+typedef struct Shelf {
+    Given files[5];
+    int asked;
+} Shelf;
+
+static const char *give_file(void *host, const char *name, size_t *length) {
+    Shelf *shelf = host;
+    shelf->asked++;
+    for (size_t i = 0; i < COUNT_OF(shelf->files); i++)
+        if (shelf->files[i].name && strcmp(shelf->files[i].name, name) == 0) {
+            *length = strlen(shelf->files[i].text);
+            return shelf->files[i].text;
+        }
+    return NULL;
+}
+
+static void test_files_of_the_host(void **state) {
+    Desk *desk = *state;
+    Player *player = &desk->player;
+    Shelf shelf = {.files = {{"dish/main.fl", "import f from 'lib/../m.fl'\n%include './part.fl'\n"
+                                              "!a x=f(2) y=read('../words.txt') z=csv('t.csv', 0)\n"},
+                             {"dish/m.fl", "func f(x)\n    x*10\n"},
+                             {"dish/part.fl", "!part\n"},
+                             {"words.txt", "ein Wort"},
+                             {"dish/t.csv", "1,2\n"}}};
+    PetriOptions options = player_options(player);
+    options.read = give_file;
+    options.read_host = &shelf;
+    options.no_files = true;
+    player_reopen(player, &options);
+    assert_int_equal(petri_load(player->session, "dish/main.fl"), PETRI_OK);
+    player_step(player, 1);
+    assert_text("all of them", player_tree(player), "!part\n!a x=20 y='ein Wort' z=1;2\n");
+    assert_string_equal(petri_source(player->session, 0), "dish/main.fl");
+    assert_string_equal(petri_source(player->session, 1), "dish/part.fl");
+    assert_string_equal(petri_source(player->session, 2), "dish/m.fl");
+    // Another text of the same length is another file; nothing is compiled or read as long as it is the same.
+    shelf.files[1].text = "func f(x)\n    x*11\n";
+    shelf.files[3].text = "zwei W..";
+    player_step(player, 1);
+    assert_text("changed", player_tree(player), "!part\n!a x=22 y='zwei W..' z=1;2\n");
+    assert_string_equal(player_told(player), "");
+    assert_int_equal(petri_check(player->session, "dish/main.fl"), PETRI_OK);
+    assert_string_equal(player_told(player), "");
+}
+
+// What the host does not give is not there, whatever is on the disk.
+static void test_no_other_files(void **state) {
+    Desk *desk = *state;
+    Player *player = &desk->player;
+    char script[800];
+    Shelf shelf = {0};
+    PetriOptions options = player_options(player);
+    options.read = give_file;
+    options.read_host = &shelf;
+    player_reopen(player, &options);
+    folder_write(&desk->folder, "s.fl", "!a\n");
+    assert_int_equal(petri_load(player->session, folder_file(&desk->folder, "s.fl")), PETRI_INVALID);
+    check_told(desk, "No such file");
+    snprintf(script, sizeof script,
+             "import f from '%s/s.fl'\n%%include '%s/s.fl'\n!a x=read('%s/s.fl') y=glob('*') z=f(1)\n",
+             desk->folder.path, desk->folder.path, desk->folder.path);
+    shelf.asked = 0;
+    player_run(player, script, 2);
+    assert_text("nothing", player_tree(player), "!a\n");
+    assert_true(shelf.asked >= 3);
+    check_told(desk, "there is no such file");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_import),
@@ -233,6 +309,8 @@ int main(void) {
         DESK_TEST(test_define_names_an_include),
         DESK_TEST(test_what_cannot_be_loaded),
         DESK_TEST(test_check),
+        DESK_TEST(test_files_of_the_host),
+        DESK_TEST(test_no_other_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,74 @@
+// speed.c: makes the frames of a script without a screen, and prints the mean speed of its particles now and then.
+//
+//   cc speed.c -o speed $(pkg-config --cflags --libs petri) -lm && ./speed
+//
+// The script calls `kick`, a function of this program; the program reads the age that a counter keeps in the state,
+// which a script reads as `$:age`.
+#include <petri.h>
+
+#include <math.h>
+#include <stdio.h>
+
+static const char script[] = "%pragma fps 60\n"
+                             "!physics state=:gas dimensions=2 time=time resolution=1/120\n"
+                             "    for i in ..1000\n"
+                             "        !particle id=i position=(uniform(:x;i)[..2]-0.5)*400 radius=2 force=kick(i)\n"
+                             "    !collision strength=200\n"
+                             "    !drag strength=0.01\n"
+                             "!counter state=:age rate=1\n";
+
+// A push that is another for each particle: two numbers for one.
+static PetriValue kick(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+    (void)count;
+    double *push = petri_call_numbers(call, 2);
+    if (push == NULL || arguments[0].length != 1 || arguments[0].numbers == NULL) {
+        petri_call_fault(call, "one number is wanted");
+        return (PetriValue){0};
+    }
+    push[0] = *(double *)host * cos(arguments[0].numbers[0]);
+    push[1] = *(double *)host * sin(arguments[0].numbers[0]);
+    return (PetriValue){.length = 2, .numbers = push};
+}
+
+static double mean_speed(const PetriSystem *system) {
+    double sum = 0;
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        const double *velocity = system->velocity.data + i * system->velocity.stride;
+        sum += hypot(velocity[0], velocity[1]);
+    }
+    return system->particle_count > 0 ? sum / system->particle_count : 0;
+}
+
+static void tell(void *host, const PetriDiagnostic *diagnostic) {
+    (void)host;
+    fputs(diagnostic->rendered, stderr);
+}
+
+int main(void) {
+    double strength = 100;
+    PetriOptions options = petri_default_options();
+    options.diagnostic = tell;
+    PetriSession *session = petri_open(&options);
+    PetriFunction function = {.size = sizeof function,
+                              .name = "kick",
+                              .parameters = "number",
+                              .help = "A push in a direction of its own for each number.",
+                              .call = kick,
+                              .host = &strength};
+    PetriStatus status = petri_add_function(session, &function);
+    if (status == PETRI_OK)
+        status = petri_load_text(session, "speed.fl", script, PETRI_Z);
+    double key = petri_symbol(session, "age");
+    for (int frame = 0; frame <= 120 && status == PETRI_OK; frame++) {
+        PetriSystem gas;
+        status = petri_step(session);
+        PetriValue age = petri_state_get(session, (PetriValue){.length = 1, .numbers = &key});
+        if (frame % 40 == 0 && petri_system(session, 0, &gas))
+            printf("%3d: %u particles, age %.3g, mean speed %.2f\n", frame, gas.particle_count,
+                   age.length == 1 ? age.numbers[0] : 0, mean_speed(&gas));
+    }
+    if (status != PETRI_OK)
+        fprintf(stderr, "speed: %s\n", petri_status_text(status));
+    petri_close(&session);
+    return status != PETRI_OK;
+}

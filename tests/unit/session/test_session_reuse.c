@@ -1,0 +1,88 @@
+// test_session_reuse.c: a session that has run a script, as petri sweep uses it for run after run, comes to what a new
+// one comes to: tree, state and log of each frame. (That a file is missing is told when it is first looked for.)
+// argv[1..]: the folders to go through.
+#include "player.h"
+
+#include <ftw.h>
+
+enum { FRAMES = 3, BEFORE = 5, SECTIONS = PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG };
+
+static Notebook record(PetriSession *session) {
+    Notebook all = {0};
+    note(&all, "", 0);
+    bool going = true;
+    for (int frame = 0; going && frame < FRAMES; frame++) {
+        going = petri_step(session) == PETRI_OK;
+        petri_print(session, SECTIONS, note, &all);
+    }
+    return all;
+}
+
+// The run before has other definitions, and is longer.
+static bool run_again(Player *player, const char *file, Notebook *all) {
+    PetriSession *session = player->session;
+    if (petri_load(session, file) != PETRI_OK)
+        return false;
+    PetriConfig *base = petri_config(session);
+    assert_non_null(base);
+    for (int run = 0; run < 2; run++) {
+        petri_config_use(session, base);
+        petri_clear(session);
+        assert_int_equal(petri_define(session, run == 0 ? "SEED=5" : "SEED=7"), PETRI_OK);
+        assert_int_equal(petri_reload(session, NULL), PETRI_OK);
+        for (int frame = 0; run == 0 && frame < BEFORE && petri_step(session) == PETRI_OK; frame++)
+            continue;
+    }
+    petri_config_free(base);
+    *all = record(session);
+    return true;
+}
+
+static int scripts, differing;
+
+static int visit(const char *path, const struct stat *info, int type, struct FTW *walk) {
+    (void)info;
+    (void)walk;
+    size_t len = strlen(path);
+    if (type != FTW_F || len < 3 || strcmp(path + len - 3, ".fl") != 0)
+        return 0;
+    Player again = {0}, fresh = {0};
+    PetriOptions options = player_options(&again);
+    player_open_with(&again, &options);
+    options = player_options(&fresh);
+    player_open_with(&fresh, &options);
+    Notebook reused;
+    if (run_again(&again, path, &reused)) {
+        assert_int_equal(petri_define(fresh.session, "SEED=7"), PETRI_OK);
+        assert_int_equal(petri_load(fresh.session, path), PETRI_OK);
+        Notebook once = record(fresh.session);
+        scripts++;
+        if (once.len != reused.len || memcmp(once.text, reused.text, once.len) != 0) {
+            differing++;
+            print_error("%s\n--- once\n%.2000s\n--- again\n%.2000s\n", path, once.text, reused.text);
+        }
+        free(once.text);
+        free(reused.text);
+    }
+    player_close(&again);
+    player_close(&fresh);
+    return 0;
+}
+
+static int folder_count;
+static char **folders;
+
+static void test_same(void **state) {
+    (void)state;
+    for (int i = 0; i < folder_count; i++)
+        assert_int_equal(nftw(folders[i], visit, 16, FTW_PHYS), 0);
+    assert_true(scripts > 300);
+    assert_int_equal(differing, 0);
+}
+
+int main(int argc, char **argv) {
+    folder_count = argc - 1;
+    folders = argv + 1;
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_same)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
