@@ -81,7 +81,6 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
     -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
-STATIC='-Dc_link_args=-static -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 cmocka x11 ompi-c mpfr python3'
