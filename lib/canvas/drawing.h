@@ -15,7 +15,7 @@ struct DrawNode {
     uint32_t child_count;
     const AttrValue *attrs; // as they were written: transforms are applied in this order
     const DrawNode *const *children;
-    Str tags; // of nodes among pictures, which tell them apart: names with a space behind each, in order
+    Str tags;     // of nodes among pictures, which tell them apart: names with a space behind each, in order
     Origin place; // its program's text, or the node; who tells of it sees to it that the source is still there
 };
 
