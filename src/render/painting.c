@@ -39,7 +39,10 @@ struct Painting {
     bool begun;  // there is a first worker
     bool ending; // no more will be added
     bool failed;
-    int left; // that were given up in their midst
+    bool drawing;  // a frame of the film, which nobody has to wait for
+    bool given_up; // the film ends without the frame that is being drawn
+    bool filmed;   // it has a frame
+    int left;      // that were given up in their midst
     double seconds;
     const char *film; // the rest is the threads' own
     double fps;
@@ -59,6 +62,26 @@ static void set_trouble(Painting *painting, const char *text) {
     pthread_mutex_unlock(&painting->lock);
 }
 
+// Draws a frame of the film. If it is given up meanwhile, what the film has is no longer for this thread to touch.
+static bool draw_for_film(Painting *painting, PetriPicture *picture, PetriPainter *painter) {
+    const Video *video = &painting->video;
+    pthread_mutex_lock(&painting->lock);
+    painting->drawing = true;
+    pthread_mutex_unlock(&painting->lock);
+    PetriStatus status = petri_picture_draw(picture, painter, painting->pixels, video->width, video->height,
+                                            (size_t)video->width * sizeof(uint32_t));
+    pthread_mutex_lock(&painting->lock);
+    while (painting->given_up) {
+        pthread_cond_wait(&painting->changed, &painting->lock); // until the process ends
+    }
+    painting->drawing = false;
+    pthread_mutex_unlock(&painting->lock);
+    if (status == PETRI_MEMORY) {
+        set_trouble(painting, "out of memory");
+    }
+    return status == PETRI_OK;
+}
+
 static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter *painter) {
     Video *video = &painting->video;
     if (painting->pixels == NULL) {
@@ -74,18 +97,14 @@ static bool add_to_film(Painting *painting, PetriPicture *picture, PetriPainter 
             return false;
         }
     }
-    PetriStatus status = petri_picture_draw(picture, painter, painting->pixels, video->width, video->height,
-                                            (size_t)video->width * sizeof(uint32_t));
-    if (status == PETRI_MEMORY) {
-        set_trouble(painting, "out of memory");
-    }
-    if (status != PETRI_OK) {
+    if (!draw_for_film(painting, picture, painter)) {
         return false;
     }
     if (!video_add(video, painting->pixels)) {
         set_trouble(painting, video->trouble);
         return false;
     }
+    painting->filmed = true;
     return true;
 }
 
@@ -257,8 +276,8 @@ void painting_tell(Painting *painting, PetriSession *session) {
     }
 }
 
-// Waits until nothing is drawn any more; after a signal for a moment only, unless it is for a film. Returns how many
-// are given up.
+// Waits until nothing is drawn any more; after a signal for a moment only, and until what is drawn for a film is in it.
+// Returns how many are given up.
 static int wait_for_end(Painting *painting) {
     double signalled = 0;
     for (;;) {
@@ -269,10 +288,12 @@ static int wait_for_end(Painting *painting) {
         if (running == 0 && painting->waiting == NULL) {
             return 0;
         }
-        if (frames_signal() != 0 && painting->film == NULL) {
+        if (frames_signal() != 0) {
             signalled = signalled == 0 ? clock_seconds() : signalled;
-            if (clock_seconds() - signalled > PATIENCE) {
-                painting->failed = true; // what waits is not begun any more
+            bool patient = clock_seconds() - signalled <= PATIENCE;
+            if (!patient && (painting->film == NULL || painting->drawing)) {
+                painting->failed = painting->failed || painting->film == NULL; // what waits is not begun any more
+                painting->given_up = painting->film != NULL;
                 return running + painting->waiting_count;
             }
         }
@@ -291,7 +312,7 @@ bool painting_finish(Painting *painting, PetriSession *session, bool abandon, co
         pthread_join(painting->workers[--painting->worker_count], NULL);
     }
     painting_tell(painting, session);
-    if (painting->failed) {
+    if (painting->failed || (painting->given_up && !painting->filmed)) {
         video_abandon(&painting->video);
     } else if (painting->video.open) {
         double start = clock_seconds();

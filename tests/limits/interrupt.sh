@@ -58,6 +58,7 @@ for threads in 1 2; do
     if "$petri" render --frame 0 --quiet small.fl -o small.png 2>err; then
         interrupted "a drawing" "$window        for i in ..1e6\n            !rect size=3000 point=i;0\n            !fill color=1;0;0;0.1" \
             render --frame 0 -o picture.png
+        ! command -v ffmpeg >/dev/null || interrupted "a film's frame" "" render --frames 9 -o picture.mp4
         check "a drawing leaves nothing" [ -z "$(ls -A | grep picture)" ]
         interrupted "a series" "" render --frames 1000 -o picture%d.png
         interrupted "a save" '!window size=8000\n    !canvas\n        !rect size=4000\n        !fill color=1;0;0' \
