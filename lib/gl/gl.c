@@ -2,11 +2,16 @@
 #include "gl/internal.h"
 
 #include <epoxy/egl.h>
+#include <pthread.h>
 #include <stdlib.h>
 #include <string.h>
 
 // Samplers are of low precision unless told otherwise, and then give halves.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
+
+// Contexts of one process share more than they should: with Mesa 22.3 a thread that draws looks into the scenes of
+// other contexts, and crashes while another thread draws there. So one thread at a time has OpenGL.
+static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
 
 // Mesa can do without any display. Else the usual one, without a surface.
 static EGLDisplay find_display(void) {
@@ -67,7 +72,10 @@ Gl *gl_open(const char **problem) {
     // A driver that is not there says so at length on standard error; *problem is enough.
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
-    if (open_context(gl, problem) && gl_enter(gl, problem)) {
+    pthread_mutex_lock(&one_thread);
+    bool good = open_context(gl, problem);
+    pthread_mutex_unlock(&one_thread);
+    if (good && gl_enter(gl, problem)) {
         look_at_limits(gl);
         gl_leave(gl);
         return gl;
@@ -91,18 +99,26 @@ void gl_close(Gl *gl) {
             glDeleteTextures(1, &gl->nothing);
             gl_leave(gl);
         }
+        pthread_mutex_lock(&one_thread);
         eglDestroyContext(gl->display, gl->context);
+        pthread_mutex_unlock(&one_thread);
     }
     free(gl);
 }
 
 bool gl_enter(Gl *gl, const char **problem) {
     *problem = "OpenGL's context cannot be used";
-    return eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context);
+    pthread_mutex_lock(&one_thread);
+    if (eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context))
+        return true;
+    pthread_mutex_unlock(&one_thread);
+    return false;
 }
 
 void gl_leave(Gl *gl) {
+    glFinish();
     eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    pthread_mutex_unlock(&one_thread);
 }
 
 int gl_largest(const Gl *gl) {

@@ -1,8 +1,9 @@
 // gl.h: OpenGL ES 3 without a window: a context, pictures on the GPU, programs.
 //
 // A Gl belongs to one painter; between gl_enter and gl_leave it is current in the calling thread, and the other
-// functions may be called. Files that need more include <epoxy/gl.h> and call OpenGL themselves. What Mesa's llvmpipe
-// does here serves machines without a GPU. Shaders are written so that WebGL 2 takes them, too.
+// functions may be called; other threads wait in gl_enter meanwhile. Files that need more include <epoxy/gl.h> and call
+// OpenGL themselves. What Mesa's llvmpipe does here serves machines without a GPU. Shaders are written so that WebGL 2
+// takes them, too.
 #ifndef PETRI_GL_GL_H
 #define PETRI_GL_GL_H
 
