@@ -8,7 +8,7 @@ petri=$(program "$1") || exit 2
 scratch
 
 # interrupted NAME SCRIPT [ARGUMENTS...]: a run of a script without limits, or what the arguments say, ended by Ctrl-C
-# after a second. Without a script, that of before.
+# in its midst. Without a script, that of before.
 interrupted() {
     name=$1
     [ -z "$2" ] || printf '%b\n' "$2" >long.fl
@@ -17,7 +17,7 @@ interrupted() {
     # What a script starts in the background ignores SIGINT unless told otherwise.
     env --default-signal=INT "$petri" "$@" --work 1000T --memory 3G --threads "$threads" --quiet long.fl >out 2>err </dev/null &
     job=$!
-    sleep 1
+    sleep 0.4
     start=$(date +%s%N)
     kill -INT $job 2>/dev/null
     tries=0
