@@ -14,15 +14,12 @@ enum {
     BLOCK_LEAST = 64, // rows of a block
     BLOCK_PART = 24,  // and so many blocks in a column, if they are not smaller than that
     BLOCKS_MOST = BLOCK_PART + 1,
-    BLOCK_ALIGN = 8,
+    BLOCK_ALIGN = 8, // rows, a multiple of all lanes
     PATIENCE = 2000, // looks at a neighbour's progress before the processor is left to others
 };
 
 typedef struct Wave {
-    const PairWave *pairs;
-    size_t block;
-    size_t rows;    // blocks in a column
-    size_t columns; // blocks in a row
+    PairBlocks blocks;
     atomic_size_t next;
     atomic_size_t done[BLOCKS_MOST]; // by row of blocks: the column up to which it is done
 } Wave;
@@ -37,10 +34,17 @@ static size_t least(size_t a, size_t b) {
     return a < b ? a : b;
 }
 
-static void compute_block(const Wave *wave, size_t row, size_t column) {
-    const PairWave *pairs = wave->pairs;
-    size_t first = pairs->row + row * wave->block, end = least(first + wave->block, pairs->row_end);
-    size_t other = pairs->column + column * wave->block, other_end = least(other + wave->block, pairs->column_end);
+PairBlocks phys_pair_blocks(const PairWave *pairs, size_t part, size_t smallest) {
+    size_t rows = pairs->row_end - pairs->row, columns = pairs->column_end - pairs->column;
+    size_t block = (rows / part + BLOCK_ALIGN - 1) / BLOCK_ALIGN * BLOCK_ALIGN;
+    block = block < smallest ? smallest : block;
+    return (PairBlocks){pairs, block, (rows + block - 1) / block, (columns + block - 1) / block};
+}
+
+void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column) {
+    const PairWave *pairs = blocks->pairs;
+    size_t first = pairs->row + row * blocks->block, end = least(first + blocks->block, pairs->row_end);
+    size_t other = pairs->column + column * blocks->block, other_end = least(other + blocks->block, pairs->column_end);
     if (pairs->triangle && row == column)
         pairs->kernel->triangle(pairs->pass, first, end);
     else
@@ -52,21 +56,16 @@ static void follow(void *context, int worker, int workers) {
     (void)worker;
     (void)workers;
     size_t row;
-    while ((row = atomic_fetch_add(&wave->next, 1)) < wave->rows)
-        for (size_t column = wave->pairs->triangle ? row : 0; column < wave->columns; column++) {
+    while ((row = atomic_fetch_add(&wave->next, 1)) < wave->blocks.rows)
+        for (size_t column = wave->blocks.pairs->triangle ? row : 0; column < wave->blocks.columns; column++) {
             if (row)
                 wait_for(&wave->done[row - 1], column + 1);
-            compute_block(wave, row, column);
+            phys_pair_block(&wave->blocks, row, column);
             atomic_store_explicit(&wave->done[row], column + 1, memory_order_release);
         }
 }
 
 void phys_pair_wave(const PhysSystem *system, const PairWave *pairs) {
-    Wave wave = {.pairs = pairs};
-    size_t rows = pairs->row_end - pairs->row, columns = pairs->column_end - pairs->column;
-    wave.block = (rows / BLOCK_PART + BLOCK_ALIGN - 1) / BLOCK_ALIGN * BLOCK_ALIGN;
-    wave.block = wave.block < BLOCK_LEAST ? BLOCK_LEAST : wave.block;
-    wave.rows = (rows + wave.block - 1) / wave.block;
-    wave.columns = (columns + wave.block - 1) / wave.block;
-    phys_parallel_in_order(system, (int)least((size_t)system->options.threads, wave.rows), follow, &wave);
+    Wave wave = {.blocks = phys_pair_blocks(pairs, BLOCK_PART, BLOCK_LEAST)};
+    phys_parallel_in_order(system, (int)least((size_t)system->options.threads, wave.blocks.rows), follow, &wave);
 }

@@ -14,6 +14,18 @@ typedef struct PairWave {
     size_t column, column_end;
 } PairWave;
 
+// The same, cut into blocks of as many rows as columns; the last ones may be smaller.
+typedef struct PairBlocks {
+    const PairWave *pairs;
+    size_t block;
+    size_t rows;    // blocks in a column
+    size_t columns; // blocks in a row
+} PairBlocks;
+
+// `part` blocks in a column, if they do not have fewer than `smallest` rows then.
+PairBlocks phys_pair_blocks(const PairWave *pairs, size_t part, size_t smallest);
+void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column);
+
 // pair_rows.c: the pairs of particle i with the particles first … end - 1, in ascending order.
 void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end);
 
