@@ -81,24 +81,28 @@ int measure_round_frames(Worker *worker, const Case *c, double budget) {
     return frames < least ? least : frames > most ? most : (int)frames;
 }
 
-static double time_start(const Plan *plan, const Case *c) {
-    char path[4096];
-    snprintf(path, sizeof path, "%s/%s", plan->scripts, c->script);
+double measure_command(const Plan *plan, const char *const *words) {
     double begin = clock_now();
     pid_t process = fork();
     if (process == 0) {
         int nothing = open("/dev/null", O_RDWR);
         dup2(nothing, STDIN_FILENO);
         dup2(nothing, STDOUT_FILENO);
-        execl(plan->petri, plan->petri, "run", "--frames", "1", path, (char *)NULL);
+        execv(plan->petri, (char *const *)words);
         _exit(127);
     }
     int status;
     if (process < 0 || waitpid(process, &status, 0) != process || status != 0) {
-        fprintf(stderr, "bench: cannot run %s on %s\n", plan->petri, path);
+        fprintf(stderr, "bench: cannot run %s %s on %s\n", words[0], words[1], words[2]);
         exit(1);
     }
     return clock_now() - begin;
+}
+
+static double time_start(const Plan *plan, const Case *c) {
+    char path[4096];
+    snprintf(path, sizeof path, "%s/%s", plan->scripts, c->script);
+    return measure_command(plan, (const char *[]){plan->petri, "run", path, "--frames=1", NULL});
 }
 
 static double limit_once(const Case *c) {

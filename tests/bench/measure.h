@@ -51,6 +51,10 @@ typedef struct KernelFigures {
 } KernelFigures;
 KernelFigures measure_kernel(const Plan *plan, int dimensions);
 
+// Seconds from start to end of the petri command, silent; `words` begin with its path, its subcommand and the script,
+// and end in NULL. Ends the bench if the command fails.
+double measure_command(const Plan *plan, const char *const *words);
+
 // The same helpers serve the comparison with LAMMPS.
 // Starts a worker and lets it run until it is warm.
 Worker measure_warm_worker(const Plan *plan, const Case *c, const char *executable, int threads);

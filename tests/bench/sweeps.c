@@ -2,33 +2,15 @@
 // when all processors are to be used.
 #include "sweeps.h"
 
-#include <fcntl.h>
 #include <math.h>
-#include <stdlib.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 static double time_sweep(const Plan *plan, int jobs, int runs) {
     char path[4096], seeds[32], processes[32];
     snprintf(path, sizeof path, "%s/petri_n50.fl", plan->scripts);
     snprintf(seeds, sizeof seeds, "--seeds=%d", runs);
     snprintf(processes, sizeof processes, "--jobs=%d", jobs);
-    double begin = clock_now();
-    pid_t process = fork();
-    if (process == 0) {
-        int nothing = open("/dev/null", O_RDWR);
-        dup2(nothing, STDIN_FILENO);
-        dup2(nothing, STDOUT_FILENO);
-        execl(plan->petri, plan->petri, "sweep", path, seeds, processes, "--frames=100", "--metric=x=$(:dish;3)",
-              "--quiet", (char *)NULL);
-        _exit(127);
-    }
-    int status;
-    if (process < 0 || waitpid(process, &status, 0) != process || status != 0) {
-        fprintf(stderr, "bench: cannot run %s sweep on %s\n", plan->petri, path);
-        exit(1);
-    }
-    return clock_now() - begin;
+    return measure_command(plan, (const char *[]){plan->petri, "sweep", path, seeds, processes, "--frames=100",
+                                                  "--metric=x=$(:dish;3)", "--quiet", NULL});
 }
 
 Table sweeps_measure(const Plan *plan) {

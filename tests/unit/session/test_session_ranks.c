@@ -1,8 +1,7 @@
 // test_session_ranks.c: several sessions that share their work come to the bits of one. Here ranks are threads, and
 // numbers go between them through queues. argv[1..]: folders of scripts to go through.
 #include "player.h"
-
-#include <ftw.h>
+#include "scripts.h"
 #include <pthread.h>
 
 enum { FRAMES = 6, MOST_RANKS = 4 };
@@ -151,27 +150,17 @@ static bool same(const char *file, const char *text, int frames) {
 
 static int differing;
 
-static int visit(const char *path, const struct stat *info, int type, struct FTW *walk) {
-    (void)info;
-    (void)walk;
-    size_t len = strlen(path);
-    if (type != FTW_F || len < 3 || strcmp(path + len - 3, ".fl") != 0)
-        return 0;
+static void visit(const char *path) {
     scripts++;
     if (!same(path, NULL, FRAMES)) {
         differing++;
         print_error("%s: ranks differ\n", path);
     }
-    return 0;
 }
-
-static int folder_count;
-static char **folders;
 
 static void test_corpus(void **state) {
     (void)state;
-    for (int i = 0; i < folder_count; i++)
-        assert_int_equal(nftw(folders[i], visit, 16, FTW_PHYS), 0);
+    scripts_each(visit);
     assert_true(scripts > 50);
     assert_int_equal(differing, 0);
     assert_true(parcels > 1000);
@@ -209,8 +198,7 @@ static void test_many(void **state) {
 }
 
 int main(int argc, char **argv) {
-    folder_count = argc - 1;
-    folders = argv + 1;
+    scripts_take_folders(argc, argv);
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_corpus), cmocka_unit_test(test_many)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

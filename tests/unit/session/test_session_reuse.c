@@ -2,8 +2,7 @@
 // one comes to: tree, state and log of each frame. (That a file is missing is told when it is first looked for.)
 // argv[1..]: the folders to go through.
 #include "player.h"
-
-#include <ftw.h>
+#include "scripts.h"
 
 enum { FRAMES = 3, BEFORE = 5, SECTIONS = PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG };
 
@@ -40,12 +39,7 @@ static bool run_again(Player *player, const char *file, Notebook *all) {
 
 static int scripts, differing;
 
-static int visit(const char *path, const struct stat *info, int type, struct FTW *walk) {
-    (void)info;
-    (void)walk;
-    size_t len = strlen(path);
-    if (type != FTW_F || len < 3 || strcmp(path + len - 3, ".fl") != 0)
-        return 0;
+static void visit(const char *path) {
     Player again = {0}, fresh = {0};
     PetriOptions options = player_options(&again);
     player_open_with(&again, &options);
@@ -66,23 +60,17 @@ static int visit(const char *path, const struct stat *info, int type, struct FTW
     }
     player_close(&again);
     player_close(&fresh);
-    return 0;
 }
-
-static int folder_count;
-static char **folders;
 
 static void test_same(void **state) {
     (void)state;
-    for (int i = 0; i < folder_count; i++)
-        assert_int_equal(nftw(folders[i], visit, 16, FTW_PHYS), 0);
+    scripts_each(visit);
     assert_true(scripts > 300);
     assert_int_equal(differing, 0);
 }
 
 int main(int argc, char **argv) {
-    folder_count = argc - 1;
-    folders = argv + 1;
+    scripts_take_folders(argc, argv);
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_same)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

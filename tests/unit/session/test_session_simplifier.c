@@ -1,8 +1,7 @@
 // test_session_simplifier.c: every script of the tests and samples does the same with and without the simplifier, frame
 // by frame: tree, state, log, errors and diagnostics. argv[1..]: the folders to go through.
 #include "player.h"
-
-#include <ftw.h>
+#include "scripts.h"
 
 enum { FRAMES = 3, ALL_SECTIONS = 15 };
 
@@ -26,12 +25,7 @@ static Notebook record(const char *file, bool simplify) {
 
 static int scripts, differing;
 
-static int visit(const char *path, const struct stat *info, int type, struct FTW *walk) {
-    (void)info;
-    (void)walk;
-    size_t len = strlen(path);
-    if (type != FTW_F || len < 3 || strcmp(path + len - 3, ".fl") != 0)
-        return 0;
+static void visit(const char *path) {
     Notebook with = record(path, true), without = record(path, false);
     scripts++;
     if (with.len != without.len || memcmp(with.text, without.text, with.len) != 0) {
@@ -40,23 +34,17 @@ static int visit(const char *path, const struct stat *info, int type, struct FTW
     }
     free(with.text);
     free(without.text);
-    return 0;
 }
-
-static int folder_count;
-static char **folders;
 
 static void test_same(void **state) {
     (void)state;
-    for (int i = 0; i < folder_count; i++)
-        assert_int_equal(nftw(folders[i], visit, 16, FTW_PHYS), 0);
+    scripts_each(visit);
     assert_true(scripts > 500);
     assert_int_equal(differing, 0);
 }
 
 int main(int argc, char **argv) {
-    folder_count = argc - 1;
-    folders = argv + 1;
+    scripts_take_folders(argc, argv);
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_same)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
