@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/source.h"
+#include "draw/light.h"
 #include "draw/resize.h"
 
 #include <math.h>
@@ -182,7 +183,10 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
         cairo_rectangle(cr, 0, 0, width, height);
         cairo_clip(cr);
         cairo_set_operator(cr, draw_operator(paint->composite));
-        cairo_paint_with_alpha(cr, fmin(fmax(paint->color[3], 0), 1));
+        if (canvas->wide.pixels)
+            light_image(canvas, paint);
+        else
+            cairo_paint_with_alpha(cr, fmin(fmax(paint->color[3], 0), 1));
     }
     cairo_restore(cr);
     draw_forget_path(canvas);

@@ -167,20 +167,21 @@ _Noreturn static void give_up(Walk *walk) {
 }
 
 static Texture *make_canvas(Walk *walk, const DrawNode *node, int width, int height) {
-    Texture *texture = texture_new(width, height, false);
+    bool linear = draw_flag(node, ATTR_LINEAR), wide = linear && bits_of(node, 8) > 8;
+    Texture *texture = texture_new(width, height, wide);
     if (!texture)
         give_up(walk);
     if (draw_canvas(walk->painter, walk->picture, node, texture, walk->faults) == PETRI_MEMORY) {
         texture_free(texture);
         give_up(walk);
     }
-    if (!draw_flag(node, ATTR_LINEAR))
+    if (!linear || wide)
         return texture;
-    Texture *linear = texture_of_linear(texture);
+    Texture *converted = texture_of_linear(texture);
     texture_free(texture);
-    if (!linear)
+    if (!converted)
         give_up(walk);
-    return linear;
+    return converted;
 }
 
 static Texture *mix_plainly(Walk *walk, const DrawNode *node, Texture *const *inputs, uint32_t count, int width,
