@@ -69,8 +69,12 @@ __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel 
 __attribute__((format(printf, 5, 6))) void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level,
                                                          const char *code, const char *format, ...);
 
-__attribute__((format(printf, 4, 5))) void draw_report(DiagSink *faults, DiagLevel level, const char *code,
-                                                       const char *format, ...);
+// The place may be NULL.
+__attribute__((format(printf, 5, 6))) void draw_report(DiagSink *faults, const Origin *place, DiagLevel level,
+                                                       const char *code, const char *format, ...);
+// Whether memory was lacking because of the limit and not of the machine; tells that a node is left out then.
+bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
+                     DiagSink *faults);
 
 // apart.c
 // Charges bytes to the picture; false if it may not have so many.
@@ -85,6 +89,10 @@ void draw_lacks(Canvas *canvas, const Origin *place, const char *what, bool lack
 void draw_close(Canvas *canvas);
 
 // paint.c
+// Sets how much memory the painter may take from here on.
+void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
+// Reports that a drawing was given up because of that: PETRI_INVALID, or PETRI_MEMORY without room for it.
+PetriStatus draw_tell_limit(DiagSink *faults);
 // Draws a canvas into a cleared picture of its size: sRGB, or linear light. PETRI_OK, PETRI_INVALID after an error was
 // reported, or PETRI_MEMORY.
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,

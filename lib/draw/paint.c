@@ -44,15 +44,18 @@ static void report(DiagSink *faults, const Origin *place, DiagLevel level, const
                    va_list args) {
     Text text = text_new(faults->arena);
     text_add_va(&text, format, args);
-    diag_report(
-        faults,
-        &(Diag){.level = level, .source = place->source, .span = place->span, .text = text_str(&text), .code = code});
+    Diag diag = {.level = level, .text = text_str(&text), .code = code};
+    if (place) {
+        diag.source = place->source;
+        diag.span = place->span;
+    }
+    diag_report(faults, &diag);
 }
 
 void draw_fault(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    report(canvas->faults, &(Origin){0}, level, code, format, args);
+    report(canvas->faults, NULL, level, code, format, args);
     va_end(args);
 }
 
@@ -63,11 +66,22 @@ void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level, const c
     va_end(args);
 }
 
-void draw_report(DiagSink *faults, DiagLevel level, const char *code, const char *format, ...) {
+void draw_report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    report(faults, &(Origin){0}, level, code, format, args);
+    report(faults, place, level, code, format, args);
     va_end(args);
+}
+
+bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
+                     DiagSink *faults) {
+    if (!painter->meter.memory_refused)
+        return false;
+    painter->meter.memory_refused = false;
+    draw_report(faults, place, DIAG_WARNING, "memory-limit",
+                "%s: a picture of %d x %d pixels takes more memory than a script may have (--memory); it is left out",
+                node, width, height);
+    return true;
 }
 
 // Makes width x height units fill a box of the target, keeping their proportions.
@@ -137,11 +151,26 @@ static void draw_protected(void *context) {
     drawing->done = draw_page(&drawing->canvas, drawing->page, drawing->width, drawing->height);
 }
 
+void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
+    painter->meter.memory_limit = picture->memory;
+    painter->meter.memory_refused = false;
+}
+
+static void report_limit(void *faults) {
+    draw_report(faults, NULL, DIAG_ERROR, "memory-limit",
+                "drawing takes more memory than a script may have (--memory): the picture is not drawn");
+}
+
+PetriStatus draw_tell_limit(DiagSink *faults) {
+    return arena_protect(&faults->arena, 1, report_limit, faults) == ARENA_DONE ? PETRI_INVALID : PETRI_MEMORY;
+}
+
 // Draws on a surface of width x height.
 static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surface_t *surface, bool vector, double width,
                            double height, DiagSink *faults) {
     cairo_t *cr = cairo_create(surface);
     PetriStatus result = result_of(cairo_status(cr));
+    draw_limit(painter, page->picture);
     if (result == PETRI_OK) {
         Drawing drawing = {.canvas = {.painter = painter,
                                       .picture = page->picture,
@@ -155,7 +184,10 @@ static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surfac
                            .height = height};
         Arena *arenas[] = {&painter->arena, faults->arena};
         ArenaMark mark = arena_mark(&painter->arena);
-        if (arena_protect(arenas, 2, draw_protected, &drawing) != ARENA_DONE)
+        ArenaEnd end = arena_protect(arenas, 2, draw_protected, &drawing);
+        if (end == ARENA_BUDGET)
+            result = draw_tell_limit(faults);
+        else if (end != ARENA_DONE)
             result = PETRI_MEMORY;
         else if (!drawing.done)
             result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;

@@ -546,12 +546,58 @@ static void test_jitter(void **state) {
     free(seen[1]);
 }
 
+// What takes more memory than the script may have is left out or drawn plainly, is told once, and the rest is there, in
+// each frame; nothing of what was taken stays taken.
+static void test_memory(void **state) {
+    (void)state;
+    static const struct {
+        const char *script; // after a green square at the left; before a blue one at the right
+        const char *told;
+        int red; // of the middle
+    } cases[] = {
+        {"        !group\n            !blur radius=9\n            !rect point=1000;0 size=1000;3000 fill=true "
+         "color=1;0;0\n",
+         "5 [memory-limit] drawing takes more memory than a script may have (--memory); this is drawn without a "
+         "filter\n",
+         255},
+        {"        !group\n            !layer size=3000;3000 alpha=0.5\n                !layer size=3000;3000\n"
+         "                    !rect point=1000;0 size=1000;3000 fill=true color=1;0;0\n",
+         "6 [memory-limit] drawing takes more memory than a script may have (--memory); this is drawn without the "
+         "layer\n",
+         127},
+        {"        !blend ratio=0.5\n            !paint color=1;0;0\n            !paint color=0;1;0\n"
+         "        !rect point=1000;0 size=1000;3000 fill=true color=1;0;0\n        !color color=0\n"
+         "    !canvas size=9000;9000\n        !rect size=9000 fill=true\n    !canvas size=3000\n",
+         "4 [memory-limit] drawing takes more memory than a script may have (--memory); this is drawn without a "
+         "filter\n"
+         "9 [memory-limit] !canvas: a picture of 9000 x 9000 pixels takes more memory than a script may have "
+         "(--memory); "
+         "it is left out\n",
+         255},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char script[2000];
+        Drawn drawn;
+        snprintf(script, sizeof script,
+                 "!window size=60;60\n    !canvas size=3000;3000\n"
+                 "        !rect size=1000;3000 fill=true color=0;1;0\n%s"
+                 "        !rect point=2000;0 size=1000;3000 fill=true color=0;0;1\n",
+                 cases[i].script);
+        drawn_open_with(&drawn, script, i == 0 ? 3 : 1, 100 << 20); // the frame before is kept, too
+        assert_string_equal(drawn.told, cases[i].told);
+        check_pixel(&drawn, 10, 30, (double[]){0, 1, 0}, "before");
+        check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
+        assert_true(abs(drawn_byte(&drawn, 30, 30, 0) - cases[i].red) <= 2);
+        drawn_close(&drawn);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_modes),  cmocka_unit_test(test_filter_blend),  cmocka_unit_test(test_color_matrix),
         cmocka_unit_test(test_blur),   cmocka_unit_test(test_other_filters), cmocka_unit_test(test_wide),
         cmocka_unit_test(test_noise),  cmocka_unit_test(test_arc_to),        cmocka_unit_test(test_path_effects),
-        cmocka_unit_test(test_jitter),
+        cmocka_unit_test(test_jitter), cmocka_unit_test(test_memory),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
