@@ -1,6 +1,7 @@
 // scene_draw.c: a scene as a camera sees it; see scene.h.
 #include "gl/scene_store.h"
 
+#include "gl/scene_disc.h"
 #include "gl/texts.h"
 
 #include <math.h>
@@ -24,22 +25,42 @@ typedef struct Drawing {
     GLint ends[LIGHT_KINDS - 1]; // where those of other kinds end
 } Drawing;
 
+static void make_record(const SceneInstance *instance, SceneRecord *record) {
+    double cofactors[9];
+    matrix_cofactors(&instance->matrix, cofactors);
+    // Their length means nothing; as floats they must not overflow.
+    double most = 1e-300;
+    for (int k = 0; k < 9; k++)
+        most = fmax(most, fabs(cofactors[k]));
+    for (int k = 0; k < 9; k++)
+        record->cofactors[k] = (float)(cofactors[k] / most);
+    for (int k = 0; k < 16; k++)
+        record->matrix[k] = (float)instance->matrix.m[k];
+}
+
+// A disc has the ball in place of cofactors.
+static void make_disc_record(const Drawing *drawing, const SceneInstance *instance, SceneRecord *record) {
+    SceneDisc disc;
+    scene_disc(&drawing->eye, &drawing->view, &instance->matrix, &disc);
+    double ball[9] = {disc.middle[0], disc.middle[1], disc.middle[2], disc.radius, disc.near};
+    for (int k = 0; k < 9; k++)
+        record->cofactors[k] = (float)ball[k];
+    for (int k = 0; k < 16; k++)
+        record->matrix[k] = (float)disc.place.m[k];
+}
+
 static void send_records(const Drawing *drawing) {
     const SceneOrder *order = &drawing->order;
     SceneRecord *records = arena_alloc_array(drawing->scene->arena, order->count, sizeof *records);
-    for (uint32_t i = 0; i < order->count; i++) {
-        const SceneInstance *instance = order->instances[i];
-        double cofactors[9];
-        matrix_cofactors(&instance->matrix, cofactors);
-        // Their length means nothing; as floats they must not overflow.
-        double most = 1e-300;
-        for (int k = 0; k < 9; k++)
-            most = fmax(most, fabs(cofactors[k]));
-        for (int k = 0; k < 9; k++)
-            records[i].cofactors[k] = (float)(cofactors[k] / most);
-        for (int k = 0; k < 16; k++)
-            records[i].matrix[k] = (float)instance->matrix.m[k];
-        records[i].surface = instance->material->surface;
+    for (uint32_t d = 0; d < order->draw_count; d++) {
+        const SceneDraw *draw = &order->draws[d];
+        for (uint32_t i = draw->first; i < draw->first + draw->count; i++) {
+            if (draw->disc)
+                make_disc_record(drawing, order->instances[i], &records[i]);
+            else
+                make_record(order->instances[i], &records[i]);
+            records[i].surface = order->instances[i]->material->surface;
+        }
     }
     glBindBuffer(GL_ARRAY_BUFFER, drawing->store->instances);
     glBufferData(GL_ARRAY_BUFFER, (GLsizeiptr)(order->count * sizeof *records), records, GL_STREAM_DRAW);
@@ -132,13 +153,16 @@ static void send_lights(Drawing *drawing, const SceneGroup *group) {
 }
 
 // The program, set up; 0, after a report, if it does not compile.
-static GLuint use_program(const Drawing *drawing, bool textured) {
+static GLuint use_program(const Drawing *drawing, bool textured, bool disc) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
     Str problem;
+    const char *variant = disc ? "#define DISC\n" : "";
     text_add_c(&vertex, gl_header);
+    text_add_c(&vertex, variant);
     text_add_c(&vertex, gl_text_scene_vertex);
     text_add_c(&fragment, gl_header);
+    text_add_c(&fragment, variant);
     text_add_format(&fragment, "#define MOST_LIGHTS %d\n", BLOCK_LIGHTS);
     text_add_c(&fragment, textured ? "#define TEXTURED\n" : "");
     text_add_c(&fragment, drawing->many ? "#define MANY_LIGHTS\n" : "");
@@ -228,11 +252,12 @@ static void draw_all(Drawing *drawing) {
     const Scene *scene = drawing->scene;
     uint32_t group = UINT32_MAX;
     GLuint program = 0;
-    int textured = -1;
+    int textured = -1, disc = -1;
     for (uint32_t i = 0; i < drawing->order.draw_count; i++) {
         const SceneDraw *draw = &drawing->order.draws[i];
         SceneModel model = scene->models[draw->model];
         model.segments = draw->segments;
+        model.disc = draw->disc;
         const SceneShape *shape = gl_store_shape(drawing->store, scene, &model);
         if (draw->group != group) {
             group = draw->group;
@@ -241,9 +266,10 @@ static void draw_all(Drawing *drawing) {
             arena_rewind(scene->arena, mark);
             textured = -1;
         }
-        if ((draw->textures > 0) != textured) {
+        if ((draw->textures > 0) != textured || draw->disc != disc) {
             textured = draw->textures > 0;
-            program = use_program(drawing, textured);
+            disc = draw->disc;
+            program = use_program(drawing, textured, disc);
         }
         if (!program)
             return;
@@ -307,7 +333,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     SceneBox *boxes = arena_alloc_array(scene->arena, scene->model_count, sizeof *boxes);
     for (uint32_t i = 0; i < scene->model_count; i++)
         boxes[i] = gl_store_shape(drawing.store, scene, &scene->models[i])->box;
-    drawing.order = scene_order(scene, &drawing.view, &drawing.projection, camera->width, boxes);
+    drawing.order = scene_order(scene, &drawing.eye, &drawing.view, &drawing.projection, camera->width, boxes);
     if (drawing.order.cut)
         scene_report(scene, "too-many-triangles", KIND_CANVAS3D,
                      "a picture can show 50 million triangles; the others are left out");

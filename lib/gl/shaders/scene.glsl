@@ -1,6 +1,13 @@
 // scene.glsl: the colour of a point of a surface as the camera sees it (spec canvas3d.md 5.3, 5.5).
 void main() {
+#ifdef DISC
+    // Where the ray through this point of the disc meets the ball; the disc's radius is sqrt(1 - near²) of the ball's.
+    float near = towards.w, depth = sqrt(max(1.0 - dot(across, across) / (1.0 - near * near), 0.0));
+    N = (across + towards.xyz * (depth + near)) / (1.0 + near * depth);
+    world = ball.xyz + ball.w * N;
+#else
     N = normalize(outwards);
+#endif
     V = eye - world;
     float away = length(V), metal = surface.y, roughness = surface.z, ao = surface.w;
     float transparency = albedo_transparency.a;

@@ -1,5 +1,11 @@
 // scene_light.glsl: what lights do to a point of a surface (spec canvas3d.md 5.3, 5.4).
+#ifdef DISC
+in vec3 across;                // from the middle of the disc, in radii of the ball
+flat in vec4 ball, towards;    // middle and radius; direction to the camera, radius / distance
+vec3 world;
+#else
 in vec3 world, outwards;
+#endif
 in vec2 coord;
 flat in vec4 albedo_transparency, emissive_translucency, surface;
 out vec4 color;
