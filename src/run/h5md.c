@@ -48,8 +48,8 @@ static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
 static bool add_ids(H5md *file, PetriSession *session, size_t s, const PetriSystem *system) {
     PetriColumn ids = petri_ids(session, s);
     for (uint32_t i = 0; i < system->particle_count; i++) {
-        PetriValue id = {1, ids.data + i * ids.stride, NULL};
-        if (!add_id(file, session, ids.data != NULL ? id : petri_id(session, s, i))) {
+        const double *number = ids.data == NULL ? NULL : ids.data + i * ids.stride;
+        if (!add_id(file, session, number == NULL ? petri_id(session, s, i) : (PetriValue){1, number, NULL})) {
             return false;
         }
     }
@@ -63,7 +63,7 @@ static void send_text(Output *output, const char *text, size_t length) {
 }
 
 static void send_column(Output *output, PetriColumn column, size_t width, uint32_t count) {
-    if (column.stride == width) {
+    if (column.stride == width && count > 0) {
         output_write(output, (const char *)column.data, count * width * sizeof(double));
         return;
     }
@@ -101,6 +101,7 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
     PetriSystem system;
     file->ids.length = 0;
     bytes_add(&file->ids, "", 0);
+    bytes_add(&texts, "", 0);
     for (; petri_system(session, frame.system_count, &system); frame.system_count++) {
         if (!add_ids(file, session, frame.system_count, &system)) {
             return false;

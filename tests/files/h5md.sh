@@ -77,7 +77,12 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     done
     mkfifo unread
     exec 7<>unread
-    at_work 3 --print state >unread # until nobody takes what is printed
+    at_work 3 --print state >unread
+    before=0
+    until [ "$(wc -c <err)" -eq $before ]; do # nobody takes what is printed
+        before=$(wc -c <err)
+        sleep 0.1
+    done
     kill -INT $job
     sleep 0.3
     kill -INT $job
