@@ -65,6 +65,9 @@ typedef struct PetriDiagnostic {
     const char *text;
     const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
     const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
+    const char *hint;     // a second sentence that helps, such as "did you mean 'cos'?"; "" for none
+    uint32_t end_line;    // of the first character behind what is meant
+    uint32_t end_column;
 } PetriDiagnostic;
 
 // When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
@@ -531,6 +534,34 @@ PETRI_API PetriStatus petri_preview(PetriSession *session);
 // A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
 // Valid as long as the session.
 PETRI_API const char *petri_name(const PetriSession *session, size_t number);
+
+// The tokens of a text, for editors: comments among them, and where lines end and blocks begin and end.
+typedef enum PetriTokenKind {
+    PETRI_TOKEN_NAME,
+    PETRI_TOKEN_KEYWORD, // a word where it is one; %pragma and %include, too
+    PETRI_TOKEN_NUMBER,  // time codes, too
+    PETRI_TOKEN_STRING,
+    PETRI_TOKEN_SYMBOL,
+    PETRI_TOKEN_NODE,
+    PETRI_TOKEN_TAG,
+    PETRI_TOKEN_OPERATOR, // brackets and punctuation, too
+    PETRI_TOKEN_COMMENT,  // without the line's end; what `#!` begins, too
+    PETRI_TOKEN_WRONG,    // no token starts with this
+    PETRI_TOKEN_LINE_END, // a statement may end here, or the head of a block; of no length, as the next two are
+    PETRI_TOKEN_INDENT,
+    PETRI_TOKEN_DEDENT,
+} PetriTokenKind;
+typedef struct PetriToken {
+    PetriTokenKind kind;
+    size_t start; // in bytes from the text's beginning
+    size_t end;
+} PetriToken;
+typedef void PetriTakeToken(void *host, const PetriToken *token);
+// Gives the tokens of a text in order; its lines end in LF, and it begins with no byte-order mark. Where it does not
+// parse, it goes on behind that, PETRI_OK all the same; of text that is not UTF-8 it gives none. `take` calls nothing
+// of the session.
+PETRI_API PetriStatus petri_tokens(PetriSession *session, const char *text, size_t length, PetriTakeToken *take,
+                                   void *host);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code. PETRI_INVALID without one, or if the writer said stop.
