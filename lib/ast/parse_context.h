@@ -4,6 +4,7 @@
 #define PETRI_AST_PARSE_CONTEXT_H
 
 #include "ast/ast.h"
+#include "ast/token.h"
 #include "base/diag.h"
 
 enum { PARSE_ALTERNATIVES = 4 };
@@ -16,6 +17,9 @@ typedef struct Unexpected {
     int expected_count;                       // 0: none or too many
     bool wants_value;                         // a value is one of them
 } Unexpected;
+
+// Takes each token as the grammar sees it: a word that is a keyword where it stands has its kind.
+typedef void ParseSeen(void *host, const Token *token);
 
 typedef struct ParseContext {
     Arena *arena; // the program's
@@ -31,6 +35,8 @@ typedef struct ParseContext {
     Unexpected unexpected;
     bool overflow; // the tree has become too high, or the parser's stack is full
     Span overflow_at;
+    ParseSeen *seen; // NULL: nobody wants the tokens
+    void *host;
 } ParseContext;
 
 #endif

@@ -6,6 +6,7 @@
 #include <math.h>
 #include <pthread.h>
 #include <stdlib.h>
+#include <string.h>
 
 static void *take_pixels(Texture *texture, size_t each, bool cleared) {
     size_t count = (size_t)texture->width * (size_t)texture->height;
@@ -84,6 +85,16 @@ void texture_free(Texture *texture) {
 
 // The sRGB curve at its 256 bytes, and half way between them.
 static float decoded[256], thresholds[256];
+// How many of these are not above each float whose lower half is 0: a look at the upper half of a float's bits leaves
+// one or two to compare with.
+enum { ONE = 0x3f80 }; // of 1.0
+static uint8_t below[ONE + 1];
+
+static float float_of(uint32_t bits) {
+    float x;
+    memcpy(&x, &bits, sizeof x);
+    return x;
+}
 
 static double curve(double e) {
     return e <= 0.04045 ? e / 12.92 : maths_pow((e + 0.055) / 1.055, 2.4);
@@ -93,6 +104,11 @@ static void make_tables(void) {
     for (int i = 0; i < 256; i++) {
         decoded[i] = (float)curve(i / 255.0);
         thresholds[i] = (float)curve((i + 0.5) / 255.0);
+    }
+    for (uint32_t half = 0, count = 0; half <= ONE; half++) {
+        while (count < 255 && float_of(half << 16) >= thresholds[count])
+            count++;
+        below[half] = (uint8_t)count;
     }
 }
 
@@ -108,10 +124,16 @@ float texture_decode(unsigned byte) {
 
 unsigned texture_encode(float c) {
     need_tables();
-    unsigned low = 0;
-    for (unsigned step = 128; step > 0; step /= 2) // the number of thresholds that are not above c
-        low += c >= thresholds[low + step - 1] ? step : 0;
-    return low;
+    uint32_t bits;
+    if (!(c > 0))
+        return 0;
+    if (c >= 1)
+        return 255;
+    memcpy(&bits, &c, sizeof bits);
+    unsigned count = below[bits >> 16];
+    while (c >= thresholds[count]) // the last is above 1
+        count++;
+    return count;
 }
 
 static uint32_t encode_pixel(const float color[4], bool opaque) {

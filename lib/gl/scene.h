@@ -40,6 +40,7 @@ typedef struct SceneModel {
     uint8_t remap;
     bool flat;
     bool invert;
+    bool disc;            // of a sphere: its outline alone, seen from the camera (scene_disc.h)
     const DrawNode *node; // one that has it
 } SceneModel;
 

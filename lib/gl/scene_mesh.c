@@ -87,6 +87,28 @@ Mesh mesh_sphere(Arena *arena, uint32_t segments) {
     return mesh;
 }
 
+// The triangles between an arc of corners and its chord, as large as can be: few pixels are in two of them.
+static void add_arc(Mesh *mesh, uint32_t from, uint32_t to, uint32_t n) {
+    uint32_t middle = (from + to) / 2;
+    if (to - from < 2)
+        return;
+    add_triangle(mesh, from, middle, to % n);
+    add_arc(mesh, from, middle, n);
+    add_arc(mesh, middle, to, n);
+}
+
+Mesh mesh_disc(Arena *arena, uint32_t segments) {
+    uint32_t n = (segments < 4 ? 4 : segments + 3) / 4 * 4;
+    Mesh mesh = new_mesh(arena, n, n - 2);
+    for (uint32_t i = 0; i < n; i++)
+        add_vertex(&mesh, (double[3]){maths_cos(TURN * i / n), maths_sin(TURN * i / n), 0}, (double[3]){0, 0, 1}, 0, 0);
+    add_triangle(&mesh, 0, n / 3, 2 * n / 3);
+    add_arc(&mesh, 0, n / 3, n);
+    add_arc(&mesh, n / 3, 2 * n / 3, n);
+    add_arc(&mesh, 2 * n / 3, n, n);
+    return mesh;
+}
+
 // A point of the rim, with a normal; `slope` 0 for that of a cylinder, 1 for that of a cone.
 static uint32_t add_rim(Mesh *mesh, double turns, double z, double slope, double v) {
     double cosine = maths_cos(TURN * turns), sine = maths_sin(TURN * turns), part = slope != 0 ? 0.7071067811865476 : 1;

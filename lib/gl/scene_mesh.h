@@ -26,6 +26,7 @@ enum { MESH_MOST_SEGMENTS = 1024, MESH_MOST_CORNERS = 12 << 20 };
 
 Mesh mesh_box(Arena *arena, bool repeat);                        // each face has all of the texture
 Mesh mesh_sphere(Arena *arena, uint32_t segments);               // rounded up to a multiple of 4
+Mesh mesh_disc(Arena *arena, uint32_t segments);                 // likewise; radius 1, towards z
 Mesh mesh_cylinder(Arena *arena, uint32_t segments);             // 2 or more
 Mesh mesh_cone(Arena *arena, uint32_t segments);                 // likewise
 void mesh_box_of(const Mesh *mesh, float low[3], float high[3]); // the mesh is not empty

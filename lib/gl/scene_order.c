@@ -1,6 +1,8 @@
 // scene_order.c: what a camera sees of a scene, and in which order it is drawn (spec canvas3d.md 2.6).
 #include "gl/scene_order.h"
 
+#include "gl/scene_disc.h"
+
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -10,6 +12,7 @@ typedef struct Sorted {
     uint32_t segments;
     uint32_t instance;
     uint32_t rank; // of its model and textures; UINT32_MAX: transparent, in a group that sorts
+    bool disc;     // it can be one
 } Sorted;
 
 // Opaque instances by model, nearest first; then transparent ones, farthest first.
@@ -65,9 +68,19 @@ static uint32_t rank_of(Ranks *ranks, size_t pair, uint32_t group) {
     return (uint32_t)ranks->ranks[pair];
 }
 
+static bool is_translucent(const SceneInstance *instance) {
+    return instance->material->surface.translucency > 0;
+}
+
 static bool is_transparent(const Scene *scene, const SceneInstance *instance) {
-    return instance->material->surface.transparency > 0 ||
+    return instance->material->surface.transparency > 0 || is_translucent(instance) ||
            scene->textures[instance->material->textures].ids[SCENE_TEXTURES - 1].len > 0;
+}
+
+static bool goes_on(const SceneDraw *draw, const SceneDraw *wanted, bool split) {
+    return draw->group == wanted->group && draw->model == wanted->model && draw->textures == wanted->textures &&
+           draw->transparent == wanted->transparent && draw->translucent == wanted->translucent &&
+           draw->disc == wanted->disc && (draw->segments == wanted->segments || !split);
 }
 
 static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count) {
@@ -75,18 +88,19 @@ static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, co
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
         const SceneInstance *instance = &group->instances[sorted[i].instance];
-        bool last = sorted[i].rank == UINT32_MAX;
         SceneDraw *draw = order->draw_count ? &order->draws[order->draw_count - 1] : NULL;
-        if (!draw || draw->group != number || draw->model != instance->model ||
-            draw->textures != instance->material->textures || draw->transparent != last ||
-            (draw->segments != sorted[i].segments && order->draw_count < MOST_SPLIT)) {
+        const SceneDraw wanted = {.group = number,
+                                  .model = instance->model,
+                                  .textures = instance->material->textures,
+                                  .transparent = sorted[i].rank == UINT32_MAX,
+                                  .translucent = sorted[i].rank == UINT32_MAX && is_translucent(instance),
+                                  .disc = sorted[i].disc,
+                                  .first = order->count,
+                                  .segments = sorted[i].segments};
+        if (!draw || !goes_on(draw, &wanted, order->draw_count < MOST_SPLIT)) {
             order->draws = arena_room(scene->arena, order->draws, order->draw_count, &order->draw_room, sizeof *draw);
             draw = &order->draws[order->draw_count++];
-            *draw = (SceneDraw){.group = number,
-                                .model = instance->model,
-                                .textures = instance->material->textures,
-                                .transparent = last,
-                                .first = order->count};
+            *draw = wanted;
         }
         draw->count++;
         draw->segments = draw->segments > sorted[i].segments ? draw->segments : sorted[i].segments;
@@ -102,27 +116,81 @@ static double pixels_of(const Matrix *placed, double depth, bool perspective, do
     return perspective ? scale * sqrt(most) / fmax(depth, 1e-9) : scale * sqrt(most);
 }
 
+static const double CHORD = 4.93; // of radius / segments²: the arc beyond its chord
+
+static bool is_ball(const Scene *scene, const SceneInstance *instance) {
+    const SceneModel *model = &scene->models[instance->model];
+    return model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
+}
+
 // Segments of a sphere that is so large: as few as leave no point off by more than a twentieth of a pixel; what shines
 // sharply shows more.
 static uint32_t segments_of(const Scene *scene, const SceneInstance *instance, double pixels) {
-    const SceneModel *model = &scene->models[instance->model];
-    const double OFF = 4.93; // of radius / segments²: the arc beyond its chord
     double roughness = instance->material->surface.roughness, most = 0.05 * roughness * roughness;
-    bool plain = model->kind == KIND_SPHERE && !model->flat && model->snap == 0.5 && instance->material->textures == 0;
-    uint32_t segments = model->segments;
-    while (plain && segments >= 32 && segments % 8 == 0 && pixels * OFF < most * (segments / 2.0) * (segments / 2.0))
+    bool ball = is_ball(scene, instance);
+    uint32_t segments = scene->models[instance->model].segments;
+    while (ball && segments >= 32 && segments % 8 == 0 && pixels * CHORD < most * (segments / 2.0) * (segments / 2.0))
         segments /= 2;
     return segments;
 }
 
-SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, int width,
+// Whether a disc looks like the sphere: no point is off by more than a tenth of a pixel.
+static bool can_be_disc(const Scene *scene, const SceneGroup *group, const SceneInstance *instance, double pixels) {
+    const SceneModel *model = &scene->models[instance->model];
+    return is_ball(scene, instance) && !model->invert && group->look.face_cull && group->look.cull_face == FACE_BACK &&
+           pixels * CHORD < 0.1 * model->segments * model->segments;
+}
+
+// What is seen of a camera's picture.
+typedef struct Sight {
+    const Eye *eye;
+    const Matrix *view;
+    const Matrix *projection;
+    Matrix both;
+    double scale; // pixels of an edge of 1 at a distance of 1
+} Sight;
+
+// Fills all but `rank`; false if the instance is not seen.
+static bool look_at(const Scene *scene, const SceneGroup *group, const Sight *sight, const SceneBox *box,
+                    Sorted *sorted) {
+    const SceneInstance *instance = &group->instances[sorted->instance];
+    Matrix clip = matrix_product(&sight->both, &instance->matrix);
+    Matrix placed = matrix_product(sight->view, &instance->matrix);
+    double z[4], least, most = 0;
+    row_of(&placed, 2, z);
+    range_of(z, box, &least, &most);
+    if (box->triangles == 0 || !is_seen(&clip, box))
+        return false;
+    double pixels = pixels_of(&placed, -most, sight->projection->m[11] != 0, sight->scale);
+    SceneDisc disc;
+    sorted->depth = -most;
+    sorted->segments = segments_of(scene, instance, pixels);
+    sorted->disc = is_transparent(scene, instance) && can_be_disc(scene, group, instance, pixels) &&
+                   scene_disc(sight->eye, sight->view, &instance->matrix, &disc);
+    return true;
+}
+
+// Transparent ones are discs where nothing has a depth; all discs of a model are drawn at once.
+static void choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool *deep) {
+    for (uint32_t i = 0; i < count; i++)
+        *deep |= group->look.depth_test &&
+                 (sorted[i].rank != UINT32_MAX || is_translucent(&group->instances[sorted[i].instance]));
+    for (uint32_t i = 0; i < count; i++) {
+        sorted[i].disc &= !*deep && sorted[i].rank == UINT32_MAX;
+        if (sorted[i].disc)
+            sorted[i].segments = scene->models[group->instances[sorted[i].instance].model].segments;
+    }
+}
+
+SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
                        const SceneBox *boxes) {
     SceneOrder order = {.instances = arena_alloc_array(scene->arena, scene->instance_count, sizeof *order.instances)};
     Sorted *sorted = arena_alloc_array(scene->arena, scene->instance_count, sizeof *sorted);
     size_t pairs = (size_t)scene->model_count * scene->texture_count;
     Ranks ranks = {arena_alloc_array(scene->arena, pairs, sizeof *ranks.ranks), 0};
     memset(ranks.ranks, 0, pairs * sizeof *ranks.ranks);
-    Matrix both = matrix_product(projection, view);
+    Sight sight = {eye, view, projection, matrix_product(projection, view), fabs(projection->m[0]) * width / 2};
+    bool deep = false; // something has left its depth
     for (uint32_t number = 0; number < scene->group_count; number++) {
         const SceneGroup *group = scene->groups[number];
         bool sorts = group->look.depth_sort && group->look.depth_test;
@@ -131,28 +199,23 @@ SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *pro
         for (uint32_t i = 0; i < group->instance_count; i++) {
             const SceneInstance *instance = &group->instances[i];
             const SceneBox *box = &boxes[instance->model];
-            Matrix clip = matrix_product(&both, &instance->matrix), placed = matrix_product(view, &instance->matrix);
-            double z[4], least, most = 0;
-            row_of(&placed, 2, z);
-            range_of(z, box, &least, &most);
             size_t pair = (size_t)instance->model * scene->texture_count + instance->material->textures;
             uint32_t rank = rank_of(&ranks, pair, number);
-            if (box->triangles == 0 || !is_seen(&clip, box))
+            Sorted *next = &sorted[count];
+            *next = (Sorted){.instance = i, .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
+            if (!look_at(scene, group, &sight, box, next))
                 continue;
-            double pixels = pixels_of(&placed, -most, projection->m[11] != 0, fabs(projection->m[0]) * width / 2);
-            uint32_t segments = segments_of(scene, instance, pixels);
-            double part = segments ? (double)segments / scene->models[instance->model].segments : 1;
+            double part = next->segments ? (double)next->segments / scene->models[instance->model].segments : 1;
             uint64_t triangles = (uint64_t)(part * part * box->triangles);
             if (order.triangles + triangles > SCENE_MOST_TRIANGLES) {
                 order.cut = true;
                 continue;
             }
             order.triangles += triangles;
-            sorted[count++] = (Sorted){.depth = sorts ? -most : 0,
-                                       .segments = segments,
-                                       .instance = i,
-                                       .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
+            next->depth = sorts ? next->depth : 0;
+            count++;
         }
+        choose_discs(scene, group, sorted, count, &deep);
         qsort(sorted, count, sizeof *sorted, compare_sorted);
         add_draws(scene, &order, number, sorted, count);
     }

@@ -19,6 +19,8 @@ typedef struct SceneDraw {
     uint32_t model;
     uint32_t textures;
     bool transparent; // drawn last, from back to front
+    bool translucent; // likewise; leaves its depth
+    bool disc;        // spheres as scene_disc.h has them
     uint32_t first;
     uint32_t count;
     uint32_t segments; // of the model: fewer than it has where that looks the same
@@ -35,7 +37,7 @@ typedef struct SceneOrder {
 } SceneOrder;
 
 // Of all groups in a picture of a width; `boxes` has one for each model.
-SceneOrder scene_order(const Scene *scene, const Matrix *view, const Matrix *projection, int width,
+SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
                        const SceneBox *boxes);
 
 #endif

@@ -260,7 +260,8 @@ static uint64_t source_of(const Scene *scene, const DrawNode *node) {
 
 bool scene_same_model(const SceneModel *a, const SceneModel *b) {
     return a->kind == b->kind && a->segments == b->segments && a->source == b->source && a->flat == b->flat &&
-           a->invert == b->invert && a->remap == b->remap && a->uv_map == b->uv_map && a->snap == b->snap;
+           a->invert == b->invert && a->disc == b->disc && a->remap == b->remap && a->uv_map == b->uv_map &&
+           a->snap == b->snap;
 }
 
 // UINT32_MAX, after a report, if there are too many.
@@ -416,6 +417,7 @@ bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh 
         return false;
     if (model->kind != KIND_MODEL)
         *mesh = model->kind == KIND_BOX        ? mesh_box(arena, model->uv_map == UV_REPEAT)
+                : model->disc                  ? mesh_disc(arena, model->segments)
                 : model->kind == KIND_SPHERE   ? mesh_sphere(arena, model->segments)
                 : model->kind == KIND_CYLINDER ? mesh_cylinder(arena, model->segments)
                                                : mesh_cone(arena, model->segments);

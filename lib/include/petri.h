@@ -65,6 +65,9 @@ typedef struct PetriDiagnostic {
     const char *text;
     const char *code;     // short name of the kind, such as "unbound-name"; may be NULL
     const char *rendered; // `FILE:LINE:COLUMN: level: text [code]`, source line and carets; ends in a newline
+    const char *hint;     // a second sentence that helps, such as "did you mean 'cos'?"; "" for none
+    uint32_t end_line;    // of the first character behind what is meant
+    uint32_t end_column;
 } PetriDiagnostic;
 
 // When the particle engine keeps lists of neighbours instead of looking at all pairs. Results never depend on it.
@@ -83,6 +86,10 @@ typedef struct PetriRanks {
     void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
     // The numbers of one rank become those of all.
     void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    // Those of each rank r, which are at starts[r] up to starts[r + 1], become those of all.
+    void (*gather)(void *host, double *numbers, const size_t *starts);
+    // Each number becomes the largest that a rank has. None is NaN.
+    void (*most)(void *host, double *numbers, size_t count);
 } PetriRanks;
 
 typedef struct PetriOptions {
@@ -419,6 +426,25 @@ PETRI_API PetriValue petri_id(PetriSession *session, size_t system, uint32_t par
 // The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made
 // when they are asked for first and whenever the system has got others. Valid as the columns are.
 PETRI_API PetriColumn petri_ids(PetriSession *session, size_t system);
+// How ranks (PetriOptions.ranks) share a system, and what this one has sent for it so far. A message to all is one.
+typedef enum PetriSharing {
+    PETRI_ALONE,     // each does all of it: it is small, or so are the forces
+    PETRI_BY_PAIRS,  // forces without reach: blocks of pairs are dealt out
+    PETRI_BY_REGION, // each has the particles of a region
+} PetriSharing;
+typedef struct PetriTraffic {
+    PetriSharing sharing; // in the last frame
+    uint64_t frames;      // that simulated
+    uint64_t steps;
+    uint64_t step_bytes; // sent within steps
+    uint64_t step_messages;
+    uint64_t reductions;  // decisions that all ranks took together: twice the logarithm of their number in messages
+    uint64_t frame_bytes; // sent at the end of frames, for all to have all particles
+    uint64_t own;         // particles of its region, summed over the steps
+    uint64_t halo;        // those of other regions that it was told of, likewise
+} PetriTraffic;
+// False if there is no such system.
+PETRI_API bool petri_traffic(PetriSession *session, size_t system, PetriTraffic *traffic);
 // The number of the particle that has an id; false if there is none, or memory is used up.
 PETRI_API bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 
@@ -531,6 +557,34 @@ PETRI_API PetriStatus petri_preview(PetriSession *session);
 // A name that the prompt can see, besides built-ins, by number from 0; NULL beyond the last. Names may come twice.
 // Valid as long as the session.
 PETRI_API const char *petri_name(const PetriSession *session, size_t number);
+
+// The tokens of a text, for editors: comments among them, and where lines end and blocks begin and end.
+typedef enum PetriTokenKind {
+    PETRI_TOKEN_NAME,
+    PETRI_TOKEN_KEYWORD, // a word where it is one; %pragma and %include, too
+    PETRI_TOKEN_NUMBER,  // time codes, too
+    PETRI_TOKEN_STRING,
+    PETRI_TOKEN_SYMBOL,
+    PETRI_TOKEN_NODE,
+    PETRI_TOKEN_TAG,
+    PETRI_TOKEN_OPERATOR, // brackets and punctuation, too
+    PETRI_TOKEN_COMMENT,  // without the line's end; what `#!` begins, too
+    PETRI_TOKEN_WRONG,    // no token starts with this
+    PETRI_TOKEN_LINE_END, // a statement may end here, or the head of a block; of no length, as the next two are
+    PETRI_TOKEN_INDENT,
+    PETRI_TOKEN_DEDENT,
+} PetriTokenKind;
+typedef struct PetriToken {
+    PetriTokenKind kind;
+    size_t start; // in bytes from the text's beginning
+    size_t end;
+} PetriToken;
+typedef void PetriTakeToken(void *host, const PetriToken *token);
+// Gives the tokens of a text in order; its lines end in LF, and it begins with no byte-order mark. Where it does not
+// parse, it goes on behind that, PETRI_OK all the same; of text that is not UTF-8 it gives none. `take` calls nothing
+// of the session.
+PETRI_API PetriStatus petri_tokens(PetriSession *session, const char *text, size_t length, PetriTakeToken *take,
+                                   void *host);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code. PETRI_INVALID without one, or if the writer said stop.

@@ -72,6 +72,7 @@ static void add_heard(void *context) {
     item->text = keep(heard, item->text);
     item->code = keep(heard, item->code);
     item->rendered = keep(heard, item->rendered);
+    item->hint = keep(heard, item->hint);
     heard->count++;
 }
 

@@ -29,8 +29,9 @@ static size_t text_size(const char *text) {
 
 // One that there is no memory for is not kept.
 static void keep(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
-    PetriDiagnostic *copy = malloc(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) +
-                                   text_size(diagnostic->code) + text_size(diagnostic->rendered));
+    PetriDiagnostic *copy =
+        malloc(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) + text_size(diagnostic->code) +
+               text_size(diagnostic->rendered) + text_size(diagnostic->hint));
     if (!copy)
         return;
     char *end = (char *)(copy + 1);
@@ -39,6 +40,7 @@ static void keep(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
     copy->text = add_text(&end, diagnostic->text);
     copy->code = add_text(&end, diagnostic->code);
     copy->rendered = add_text(&end, diagnostic->rendered);
+    copy->hint = add_text(&end, diagnostic->hint);
     bool full = diagnostics->kept_count == MOST_KEPT;
     PetriDiagnostic **place = &diagnostics->kept[(diagnostics->kept_first + diagnostics->kept_count) % MOST_KEPT];
     free(*place);
@@ -97,16 +99,21 @@ static void remember(Diagnostics *diagnostics, uint64_t hash) {
 
 static void give(PetriSession *session, const Diag *diag, Str rendered) {
     Arena *arena = &session->text_arena;
-    SourcePlace place = {0};
-    if (diag->source)
+    SourcePlace place = {0}, end = {0};
+    if (diag->source) {
         place = source_locate(diag->source, diag->span.start);
+        end = source_locate(diag->source, diag->span.end);
+    }
     PetriDiagnostic public_diag = {.level = (PetriLevel)diag->level,
                                    .file = diag->source ? str_to_c(arena, diag->source->name) : NULL,
                                    .line = place.line,
                                    .column = place.column,
                                    .text = str_to_c(arena, diag_text(diag)),
                                    .code = diag->code,
-                                   .rendered = str_to_c(arena, rendered)};
+                                   .rendered = str_to_c(arena, rendered),
+                                   .hint = str_to_c(arena, diag->hint),
+                                   .end_line = end.line,
+                                   .end_column = end.column};
     diagnostics_pass_on(session, &public_diag);
 }
 
@@ -155,7 +162,8 @@ static void tell_plainly(PetriSession *session, const Diag *diag) {
     char text[200], rendered[240];
     snprintf(text, sizeof text, "%.*s", STR_ARGS(str_cut(diag->text, sizeof text - 1)));
     snprintf(rendered, sizeof rendered, "%s: %s\n", levels[diag->level], text);
-    PetriDiagnostic plain = {.level = (PetriLevel)diag->level, .text = text, .code = diag->code, .rendered = rendered};
+    PetriDiagnostic plain = {
+        .level = (PetriLevel)diag->level, .text = text, .code = diag->code, .rendered = rendered, .hint = ""};
     diagnostics_pass_on(session, &plain);
 }
 

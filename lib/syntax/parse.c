@@ -291,12 +291,18 @@ static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token 
     return status;
 }
 
+static void show(const ParseContext *context, const Token *token) {
+    if (context->seen)
+        context->seen(context->host, token);
+}
+
 // Skips the rest of the line after an error from which the grammar could not recover.
-static int skip_line(Layout *layout) {
+static int skip_line(const ParseContext *context, Layout *layout) {
     Token token;
-    do
+    do {
         token = layout_next(layout);
-    while (token.kind != NEWLINE && token.kind != END);
+        show(context, &token);
+    } while (token.kind != NEWLINE && token.kind != END);
     return token.kind;
 }
 
@@ -345,6 +351,7 @@ static void parse_tokens(void *context) {
     while (status == YYPUSH_MORE && !parsing->context->too_deep) {
         Token token = layout_next(layout);
         resolve_keyword(parsing->context, layout, parsing->parser, &token);
+        show(parsing->context, &token);
         status = push(parsing->context, layout, parsing->parser, &token);
         if (status == 1 && token.kind != END) {
             // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
@@ -352,7 +359,7 @@ static void parse_tokens(void *context) {
             parsing->parser = gr_pstate_new();
             if (!parsing->parser)
                 arena_exhausted(parsing->context->arena);
-            status = token.kind == NEWLINE || skip_line(layout) == NEWLINE ? YYPUSH_MORE : 1;
+            status = token.kind == NEWLINE || skip_line(parsing->context, layout) == NEWLINE ? YYPUSH_MORE : 1;
         }
     }
 }
@@ -415,11 +422,23 @@ ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source) {
     return parsing.need;
 }
 
+static void parse(ParseContext *context) {
+    if (check_text(context))
+        with_parser(&(Parsing){context, arena_alloc(context->arena, sizeof(Layout)), NULL, PARSE_WHOLE}, parse_tokens);
+}
+
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
-    if (check_text(&context))
-        with_parser(&(Parsing){&context, arena_alloc(arena, sizeof(Layout)), NULL, PARSE_WHOLE}, parse_tokens);
+    parse(&context);
     if (context.failed && !foreign_encoding(source))
         foreign_sum_up(source, diags);
     return context.failed ? NULL : context.program;
+}
+
+const Ast *parse_loosely(Arena *arena, SymbolTable *symbols, const Source *source, ParseSeen *seen, void *host) {
+    DiagSink nowhere = diag_sink_new(arena, 0);
+    ParseContext context = {
+        .arena = arena, .symbols = symbols, .source = source, .diags = &nowhere, .seen = seen, .host = host};
+    parse(&context);
+    return context.program;
 }

@@ -2,13 +2,15 @@
 #ifndef PETRI_SYNTAX_PARSE_H
 #define PETRI_SYNTAX_PARSE_H
 
-#include "ast/ast.h"
-#include "base/diag.h"
+#include "ast/parse_context.h"
 
 // Parses a whole program into a SUITE whose first children are the PRAGMAs. The tree lives in the arena; names and
 // symbols are added to the table. Errors go to the sink, several from one run where recovery is safe; the result is
 // NULL if there was any.
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags);
+// The same for editors, without a word on what is wrong: the tree is what is left without the statements that have
+// errors, NULL if nothing is. `seen` takes the tokens.
+const Ast *parse_loosely(Arena *arena, SymbolTable *symbols, const Source *source, ParseSeen *seen, void *host);
 
 // Whether more lines can follow what was typed so far.
 typedef enum ParseNeed {

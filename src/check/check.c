@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 
+#include "check/report.h"
 #include "cli/options.h"
 #include "cli/script.h"
 #include "petri.h"
@@ -10,6 +11,7 @@
 typedef struct Check {
     Options *options;
     bool shown_last;
+    Report report;
 } Check;
 
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
@@ -18,7 +20,9 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
     if (diagnostic->level != PETRI_NOTE) {
         check->shown_last = diagnostic->level == PETRI_ERROR || check->options->verbosity != LOG_QUIET;
     }
-    if (check->shown_last) {
+    if (check->shown_last && check->report.form != REPORT_TEXT) {
+        report_add(&check->report, diagnostic);
+    } else if (check->shown_last) {
         fputs(diagnostic->rendered, stderr);
     }
 }
@@ -40,12 +44,13 @@ static int check_all(Check *check, const Host *host) {
     message("%zu file%s checked: %" PRIu64 " error%s, %" PRIu64 " warning%s", options->scripts.count,
             options->scripts.count == 1 ? "" : "s", errors, errors == 1 ? "" : "s", warnings, warnings == 1 ? "" : "s");
     bool clean = rejected == 0 && errors == 0 && !options->unreadable && !(options->werror && warnings > 0);
-    return clean ? STATUS_DONE : STATUS_FAILED;
+    int result = clean ? STATUS_DONE : STATUS_FAILED;
+    return check->report.form == REPORT_TEXT ? result : report_end(&check->report, result);
 }
 
 static int check_run(const Host *host, Options *options) {
     if (options->scripts.count > 0) {
-        return check_all(&(Check){.options = options}, host);
+        return check_all(&(Check){.options = options, .report = {.form = (ReportForm)options->report}}, host);
     }
     if (!options->unreadable) {
         message("no script found: there is no file named *.fl");
@@ -64,7 +69,8 @@ const Command CHECK_COMMAND = {
         "branches that are never reached, misspelled nodes and attributes. To see the latter it makes the first\n"
         "frame, of which nothing is printed, drawn or stored. The exit status is 1 if there was an error.",
     .examples = "  petri check dish.fl\n"
-                "  petri check --werror .                          all scripts here, for CI\n",
+                "  petri check --werror .                          all scripts here, for CI\n"
+                "  petri check --format=sarif . >petri.sarif       … as code hosts read it\n",
     .needed = "nothing to check",
     .options = FOR_CHECK,
     .many = true,

@@ -54,6 +54,8 @@ FIELD(Verbosity,    verbosity,    LOG_NORMAL)
 FIELD(bool,         colour,       colour_by_default())
 FIELD(bool,         monochrome,   no_colour())    // not even pictures in the terminal have colours
 FIELD(bool,         werror,       false)
+FIELD(int,          report,       0)              // check: as text, for gcc's readers, as JSON or as SARIF
+FIELD(bool,         only_checks,  false)          // fmt: nothing is written
 FIELD(bool,         parameters,   false)          // they are listed, and nothing is run
 FIELD(int,          dump,         -1)             // PetriDump, or -1
 
@@ -66,6 +68,7 @@ OPTION(FOR_TEST, "update", 0, NULL, read_flag, update, "record what the scripts 
 OPTION(FOR_TEST, "filter", 0, "TEXT", read_text, filter, "only scripts with TEXT in their path below PATH")
 OPTION(FOR_TEST, "junit", 0, "FILE", read_text, junit, "also write the results to FILE, in the form that CI systems read")
 OPTION(FOR_TEST, "jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (as many as CPUs)")
+OPTION(FOR_FMT, "check", 0, NULL, read_flag, only_checks, "only tell which scripts are to be laid out, and exit with 1 if there are any")
 OPTION(FOR_SWEEP, "define", 'D', "NAME=VALUES", read_definition, axes, "values of a parameter: 1..10, 0..1|0.05, 1;5;20, or one; may be repeated")
 OPTION(FOR_SWEEP, "sample", 0, "latin:N", read_text, sample, "N runs with values spread evenly over all ranges (a Latin hypercube), not all combinations; latin:N:SEED for others")
 OPTION(FOR_SWEEP, "seeds", 0, "N", WHOLE(1, 1000000), seeds, "each combination N times, with SEED from 1 to N")
@@ -113,7 +116,7 @@ OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "as with run
 OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate everything in every frame; results never depend on it")
 OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "on a terminal, show its picture there, if it has one and no text is asked for")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "close with a table of times, speeds and each system's energy")
-OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write where the particles are to FILE.xyz (extended XYZ) or FILE.csv")
+OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write where the particles are to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD)")
 OPTION(FOR_RUN | FOR_GOLDEN, "profile", 0, NULL, read_flag, profile, "close with the time that each line of the script took, the slowest first")
 OPTION(FOR_CHECK | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "quiet", 0, NULL, VERBOSITY(LOG_QUIET), verbosity, "report errors only")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "verbose", 0, NULL, VERBOSITY(LOG_VERBOSE), verbosity, "also report a summary at the end")
@@ -121,6 +124,7 @@ OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "debug", 0, NULL, VERBOSITY
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "trace", 0, NULL, VERBOSITY(LOG_TRACE), verbosity, "also report the time that every frame took")
 OPTION(FOR_CHECK | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "color", 0, "WHEN", ONE_OF(read_colour, "auto", "always", "never"), colour, "colour messages: auto, always or never")
 OPTION(FOR_REPL, "color", 0, "WHEN", ONE_OF(read_colour, "auto", "always", "never"), colour, "colour prompts and messages: auto, always or never")
+OPTION(FOR_CHECK, "format", 0, "F", ONE_OF(read_choice, "text", "gcc", "json", "sarif"), report, "how to tell it: text, with the lines that are meant; on standard output gcc (a line each), json or sarif")
 OPTION(FOR_CHECK, "werror", 0, NULL, read_flag, werror, "exit with 1 if there was a warning, too")
 OPTION(FOR_RUN | FOR_GOLDEN, "parameters", 0, NULL, read_flag, parameters, "list what -D can set: name, default, range and comment; do not run it")
 OPTION(FOR_RUN | FOR_GOLDEN, "dump", 0, "WHAT", ONE_OF(read_choice, "ast", "code"), dump, "print the script's ast or code and do not run it")

@@ -5,9 +5,11 @@
 
 #ifdef PETRI_PICTURES
 const Command *const COMMANDS[] = {&RUN_COMMAND,  &VIEW_COMMAND,  &RENDER_COMMAND, &REPL_COMMAND, &SWEEP_COMMAND,
-                                   &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND,    &HELP_COMMAND, NULL};
+                                   &TEST_COMMAND, &CHECK_COMMAND, &FMT_COMMAND,    &NEW_COMMAND,  &HELP_COMMAND,
+                                   NULL};
 #else // those that never draw
-const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &CHECK_COMMAND, &NEW_COMMAND, NULL};
+const Command *const COMMANDS[] = {&RUN_COMMAND, &SWEEP_COMMAND, &TEST_COMMAND, &CHECK_COMMAND,
+                                   &FMT_COMMAND, &NEW_COMMAND,   NULL};
 #endif
 
 const Command *command_find(const char *name) {

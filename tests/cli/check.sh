@@ -144,3 +144,25 @@ END
 petri check order.fl
 check "what is said comes in the order of the text" [ "$(grep -o '^order.fl:[0-9]*' err | tr '\n' ' ')" = \
     "order.fl:3 order.fl:4 order.fl:6 " ]
+
+# For programs.
+printf 'let \303\251=coz(1)\n!n a=\303\251 b="\\q"+1\n!pysics\nlet u=2\n' >told.fl
+petri check --format gcc told.fl
+check "--format gcc: a line each on standard output" lines_are out 4
+check "… with place, text, hint and code" \
+    has out "told.fl:1:7: warning: unbound name 'coz' is null; did you mean 'cos'? [unbound-name]"
+check "… and the summary on standard error" last_line_is err "petri: 1 file checked: 0 errors, 4 warnings"
+petri check --format=json told.fl
+check "--format json: an array" [ "$(sed -n '1p;$p' out | tr -d '\n')" = "[]" ]
+check "… with places in characters, ends among them" has out '{"file": "told.fl", "level": "warning", "code": "unbound-name", "text": "unbound name '"'coz'"' is null", "hint": "did you mean '"'cos'"'?", "line": 1, "column": 7, "endLine": 1, "endColumn": 10}'
+check "… and no hint where there is none" has out '"hint": null'
+petri check --format=json clean.fl
+check "… empty if nothing is wrong" [ "$(cat out)" = "[]" ]
+cp told.fl "t\"o ld.fl"
+petri check --format=sarif "t\"o ld.fl" clean.fl
+check "--format sarif: a run of the tool" has out '"version": "2.1.0"'
+check "… with the rules" has out '"rules": [{"id": "unbound-name"}, {"id": "text-arithmetic"}'
+check "… places by URI" has out '{"artifactLocation": {"uri": "t%22o%20ld.fl"}, "region": {"startLine": 1, "startColumn": 7, "endLine": 1, "endColumn": 10}}'
+check "… with exit status 0" status_is 0
+petri check --format=json --werror told.fl
+check "--werror holds for them" status_is 1

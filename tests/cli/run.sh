@@ -25,7 +25,7 @@ one_error() { status_is 1 && count_is err "error: " 1 && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }
 
 shift
-for part in ${*:-command suggest streams parameters check habits bad_input state record render golden new}; do
+for part in ${*:-command suggest streams parameters check habits bad_input state record render golden new fmt}; do
     # shellcheck source=/dev/null
     . "$here/$part.sh"
 done

@@ -117,6 +117,37 @@ static void test_dumps(void **state) {
     assert_non_null(strstr(player->shown.text, "frame"));
 }
 
+static void note_token(void *host, const PetriToken *token) {
+    char line[40];
+    int len = snprintf(line, sizeof line, "%c%zu-%zu ", "nk1s:!#o-?;><"[token->kind], token -> start, token -> end);
+    note(host, line, (size_t)len);
+}
+
+// One letter for the kind of each, and where it is. Words are keywords where they are keywords.
+static void test_tokens(void **state) {
+    static const struct {
+        const char *text;
+        const char *tokens;
+    } rows[] = {
+        {"", ";0-0 "},
+        {"let in=1:30", "k0-3 n4-6 o6-7 17-11 ;11-11 "},
+        {"let a=1:30 -- x", "k0-3 n4-5 o5-6 16-10 ;11-11 -11-15 "},
+        {"!a #t x='s'\n  !b\n", "!0-2 #3-5 n6-7 o7-8 s8-11 ;11-11 >14-14 !14-16 ;16-16 <17-17 "},
+        {"-- c\n(1\n-- d\n;:a)\n", ";0-0 -0-4 o5-6 16-7 -8-12 o13-14 :14-16 o16-17 ;17-17 "},
+        {"#! x\n!a\n", "-0-4 !5-7 ;7-7 "},
+        {"!a x=)\nfor i in 3\n !b\n",
+         "!0-2 n3-4 o4-5 o5-6 ;6-6 k7-10 n11-12 k13-15 116-17 ;17-17 >19-19 !19-21 ;21-21 <22-22 "},
+        {"!a ?\n!b\n", "!0-2 ?3-4 ;4-4 !5-7 ;7-7 "},
+    };
+    Player *player = *state;
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        player->shown.len = 0;
+        note(&player->shown, "", 0);
+        assert_int_equal(petri_tokens(player->session, rows[i].text, PETRI_Z, note_token, &player->shown), PETRI_OK);
+        assert_string_equal(player->shown.text, rows[i].tokens);
+    }
+}
+
 static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c rate=1\n";
 
 // A row for each line that was evaluated; what is evaluated when the script is loaded takes no time later.
@@ -416,6 +447,7 @@ int main(void) {
         PLAYER_TEST(test_two_sessions),
         PLAYER_TEST(test_nodes),
         cmocka_unit_test(test_rendered),
+        PLAYER_TEST(test_tokens),
         cmocka_unit_test(test_places_of_nodes),
         cmocka_unit_test(test_one_place_is_told_once),
         cmocka_unit_test(test_helpers),

@@ -249,6 +249,15 @@ static PetriStatus act_dump(Stage *stage) {
     return status == PETRI_OK ? petri_dump(stage->player.session, PETRI_DUMP_CODE, take_text, &stage->written) : status;
 }
 
+static void ignore_token(void *host, const PetriToken *token) {
+    (void)host;
+    (void)token;
+}
+
+static PetriStatus act_tokens(Stage *stage) {
+    return petri_tokens(stage->player.session, "let new_name=(1;'two';:three) -- four\n", PETRI_Z, ignore_token, NULL);
+}
+
 static PetriStatus act_input(Stage *stage) {
     uint64_t errors = petri_diagnostic_count(stage->player.session, PETRI_ERROR);
     if (petri_input(stage->player.session, "area(1;", PETRI_Z) == PETRI_INPUT_PART)
@@ -393,6 +402,7 @@ static const Row rows[] = {
     {"automatic picture", act_automatic_picture, false},
     {"print", act_print, false},
     {"dump", act_dump, false},
+    {"tokens", act_tokens, false},
     {"input", act_input, false},
     {"prompt value", act_prompt_value, false},
     {"prompt binding", act_prompt_binding, false},

@@ -14,6 +14,11 @@ static const char *const KEYS = "!physics state=:a dimensions=2 time=beat\n    !
                                 "!window\n    !key name=:space state=:space\n    !pointer state=:mouse\n";
 
 // Texts live as long as petri.h says, whatever else is asked meanwhile.
+static void ignore_token(void *host, const PetriToken *token) {
+    (void)host;
+    (void)token;
+}
+
 static void test_lifetimes(void **state) {
     Player *player = *state;
     PetriSession *session = player->session;
@@ -144,6 +149,9 @@ static void test_null(void **state) {
         petri_profile(session, 0, NULL, NULL),
         petri_dump(none, PETRI_DUMP_AST, note, &player->shown),
         petri_dump(session, PETRI_DUMP_AST, NULL, NULL),
+        petri_tokens(none, "1", 1, ignore_token, NULL),
+        petri_tokens(session, NULL, 0, ignore_token, NULL),
+        petri_tokens(session, "1", 1, NULL, NULL),
         petri_prompt(none, "1", 1, NULL, NULL, &done),
         petri_prompt(session, NULL, 0, NULL, NULL, &done),
         petri_prompt(session, "1", 1, NULL, NULL, NULL),
@@ -175,6 +183,8 @@ static void test_null(void **state) {
     assert_false(petri_key_bound(NULL, "a"));
     assert_false(petri_key_bound(session, NULL));
     assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
+    PetriTraffic traffic;
+    assert_false(petri_traffic(NULL, 0, &traffic) || petri_traffic(session, 0, NULL));
     assert_int_equal(petri_id(NULL, 0, 0).length, 0);
     assert_null(petri_ids(NULL, 0).data);
     assert_false(petri_find(NULL, 0, (PetriValue){0}, &particle) || petri_find(session, 0, (PetriValue){0}, NULL));

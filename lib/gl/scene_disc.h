@@ -1,0 +1,23 @@
+// scene_disc.h: balls drawn as discs.
+//
+// Seen from a camera, a ball is the disc that its outline bounds, and where a ray through the disc meets the ball is
+// known: a fragment shader finds place and normal by itself. A disc of 64 corners has 62 triangles, a ball 2048, most
+// of which are smaller than the blocks of pixels in which surfaces are shaded. What a disc has not is the ball's depth:
+// it serves where nothing else in the picture has one.
+#ifndef PETRI_GL_SCENE_DISC_H
+#define PETRI_GL_SCENE_DISC_H
+
+#include "gl/scene.h"
+
+typedef struct SceneDisc {
+    Matrix place; // of a disc of radius 1 towards z; its third column is of length 1, towards the camera
+    double middle[3];
+    double radius; // of the ball
+    double near;   // radius / distance from the camera; 0 without perspective
+} SceneDisc;
+
+// The disc of a ball of radius 1 that is placed so; false if it is no ball there, or too near or too far to be seen
+// whole.
+bool scene_disc(const Eye *eye, const Matrix *view, const Matrix *place, SceneDisc *disc);
+
+#endif

@@ -1,0 +1,28 @@
+// tokens.h: a text as editors see it: tokens of a few kinds, comments among them.
+#ifndef PETRI_SYNTAX_TOKENS_H
+#define PETRI_SYNTAX_TOKENS_H
+
+#include "syntax/parse.h"
+
+// As PetriTokenKind of petri.h.
+typedef enum TokenKind {
+    TOKEN_NAME,
+    TOKEN_KEYWORD,
+    TOKEN_NUMBER,
+    TOKEN_STRING,
+    TOKEN_SYMBOL,
+    TOKEN_NODE,
+    TOKEN_TAG,
+    TOKEN_OPERATOR,
+    TOKEN_COMMENT,
+    TOKEN_WRONG,
+    TOKEN_LINE_END,
+    TOKEN_INDENT,
+    TOKEN_DEDENT,
+} TokenKind;
+
+typedef void TokensTake(void *host, TokenKind kind, Span span);
+// Gives the tokens in order; returns what parse_loosely does.
+const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokensTake *take, void *host);
+
+#endif

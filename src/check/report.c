@@ -1,0 +1,129 @@
+// report.c: see report.h.
+#include "check/report.h"
+
+#include <ctype.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "cli/json.h"
+#include "cli/output.h"
+
+static const char *const levels[] = {"error", "warning", "note"};
+
+// Text and hint as one: they are two sentences of one remark.
+static void remark(const PetriDiagnostic *diagnostic, Bytes *out) {
+    bytes_format(out, "%s%s%s", diagnostic->text, diagnostic->hint[0] != '\0' ? "; " : "", diagnostic->hint);
+}
+
+// `FILE:LINE:COLUMN: level: text [code]`.
+static void add_gcc(Report *report, const PetriDiagnostic *diagnostic, const char *said) {
+    Bytes *out = &report->text;
+    if (diagnostic->file != NULL) {
+        bytes_format(out, "%s:%u:%u: ", diagnostic->file, diagnostic->line, diagnostic->column);
+    }
+    bytes_format(out, "%s: %s", levels[diagnostic->level], said);
+    if (diagnostic->code != NULL) {
+        bytes_format(out, " [%s]", diagnostic->code);
+    }
+    bytes_add_text(out, "\n");
+}
+
+static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
+    Bytes *out = &report->text;
+    const struct {
+        const char *name;
+        const char *text;
+    } fields[] = {{"file", diagnostic->file},
+                  {"level", levels[diagnostic->level]},
+                  {"code", diagnostic->code},
+                  {"text", diagnostic->text},
+                  {"hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL}};
+    bytes_add_text(out, report->count == 0 ? "[\n  {" : ",\n  {");
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
+        bytes_format(out, "\"%s\": ", fields[i].name);
+        json_add_text(out, fields[i].text);
+        bytes_add_text(out, ", ");
+    }
+    bytes_format(out, "\"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
+                 diagnostic->column, diagnostic->end_line, diagnostic->end_column);
+}
+
+// A path as a URI reference.
+static void add_uri(Bytes *out, const char *path) {
+    bytes_add_text(out, path[0] == '/' ? "\"file://" : "\"");
+    for (const char *c = path; *c != '\0'; c++) {
+        bool plain = isalnum((unsigned char)*c) || strchr("/-._~", *c) != NULL;
+        bytes_format(out, plain ? "%c" : "%%%02X", (unsigned char)*c);
+    }
+    bytes_add_text(out, "\"");
+}
+
+static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const char *said) {
+    Bytes *out = &report->text;
+    bytes_format(out, "%s\n      {\"level\": \"%s\"", report->count == 0 ? "" : ",", levels[diagnostic->level]);
+    if (diagnostic->code != NULL) {
+        bytes_format(out, ", \"ruleId\": \"%s\"", diagnostic->code);
+        if (!texts_hold(&report->codes, diagnostic->code)) {
+            texts_add(&report->codes, diagnostic->code);
+        }
+    }
+    bytes_add_text(out, ", \"message\": {\"text\": ");
+    json_add_text(out, said);
+    bytes_add_text(out, "}");
+    if (diagnostic->file != NULL) {
+        bytes_add_text(out, ", \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {\"uri\": ");
+        add_uri(out, diagnostic->file);
+        bytes_format(out,
+                     "}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
+                     diagnostic->line, diagnostic->column, diagnostic->end_line, diagnostic->end_column);
+    }
+    bytes_add_text(out, "}");
+}
+
+void report_add(Report *report, const PetriDiagnostic *diagnostic) {
+    SCOPED_BYTES said = {0};
+    remark(diagnostic, &said);
+    if (report->form == REPORT_GCC) {
+        add_gcc(report, diagnostic, said.data);
+    } else if (report->form == REPORT_JSON) {
+        add_json(report, diagnostic);
+    } else {
+        add_sarif(report, diagnostic, said.data);
+    }
+    report->count++;
+}
+
+static void frame_sarif(const Report *report, Bytes *out) {
+    bytes_format(out,
+                 "{\n  \"$schema\": \"https://json.schemastore.org/sarif-2.1.0.json\",\n  \"version\": \"2.1.0\",\n"
+                 "  \"runs\": [{\n    \"tool\": {\"driver\": {\"name\": \"petri\", \"version\": \"%s\", \"rules\": [",
+                 petri_version());
+    for (size_t i = 0; i < report->codes.count; i++) {
+        bytes_format(out, "%s{\"id\": \"%s\"}", i == 0 ? "" : ", ", report->codes.items[i]);
+    }
+    bytes_add_text(out, "]}},\n    \"columnKind\": \"unicodeCodePoints\",\n    \"results\": [");
+    bytes_add(out, report->text.data, report->text.length);
+    bytes_add_text(out, "\n    ]\n  }]\n}\n");
+}
+
+int report_end(Report *report, int status) {
+    SCOPED_BYTES all = {0};
+    bytes_add(&report->text, "", 0);
+    if (report->form == REPORT_SARIF) {
+        frame_sarif(report, &all);
+    } else {
+        bytes_add(&all, report->text.data, report->text.length);
+    }
+    if (report->form == REPORT_JSON) {
+        bytes_add_text(&all, report->count == 0 ? "[]\n" : "\n]\n");
+    }
+    Output *output = memory_zeroed(sizeof *output);
+    output_start(output, STDOUT_FILENO);
+    output_write(output, all.data, all.length);
+    status = output_finish(output, status);
+    free(output);
+    bytes_free(&report->text);
+    texts_free(&report->codes);
+    return status;
+}

@@ -1,0 +1,10 @@
+// json.h: writing JSON.
+#ifndef PETRI_SRC_JSON_H
+#define PETRI_SRC_JSON_H
+
+#include "cli/bytes.h"
+
+// Adds a string with its quotes; what is not UTF-8 becomes U+FFFD. NULL is null.
+void json_add_text(Bytes *out, const char *text);
+
+#endif

@@ -1,0 +1,150 @@
+// fmt.c: `petri fmt`: one layout for all scripts.
+#include <errno.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "base/source.h"
+#include "cli/options.h"
+#include "cli/output.h"
+#include "cli/script.h"
+#include "fmt/layout.h"
+#include "petri.h"
+
+static const size_t MOST_BYTES = (size_t)256 << 20;
+
+typedef struct Formatting {
+    PetriSession *session;
+    bool only_checks;
+    size_t changed; // or would be
+    size_t failed;
+} Formatting;
+
+static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
+    (void)host;
+    if (diagnostic->level == PETRI_ERROR) {
+        fputs(diagnostic->rendered, stderr);
+    }
+}
+
+static bool read_script(const char *name, Bytes *text) {
+    bytes_add(text, "", 0);
+    bool read = script_is_stdin(name) ? bytes_read(text, STDIN_FILENO, MOST_BYTES) : bytes_read_file(text, name);
+    if (!read || text->length > MOST_BYTES) {
+        message("cannot read %s: %s", script_shown(name), read ? "it is too large" : strerror(errno));
+    }
+    return read && text->length <= MOST_BYTES;
+}
+
+// The text as petri reads it: lines end in LF, and no byte-order mark begins it.
+static Str plain_text(Bytes *text) {
+    static const char mark[] = "\xef\xbb\xbf";
+    size_t skipped = strncmp(text->data, mark, strlen(mark)) == 0 ? strlen(mark) : 0;
+    char *bytes = text->data + skipped;
+    return (Str){bytes, source_unify_lines(bytes, text->length - skipped)};
+}
+
+static bool lay_out(Formatting *formatting, const char *name, const Bytes *given, Bytes *out) {
+    SCOPED_BYTES copy = {0};
+    bytes_add(&copy, given->data, given->length);
+    Str text = plain_text(&copy);
+    const char *shown = script_shown(name);
+    // What is wrong with the script is told by the load.
+    if (petri_load_text(formatting->session, shown, text.bytes, text.len) != PETRI_OK) {
+        return false;
+    }
+    if (!layout_text(formatting->session, text, out) ||
+        !layout_same(formatting->session, shown, text, (Str){out->data, out->length})) {
+        message("%s is left as it is: laid out it would not be the same program; please tell petri's authors", shown);
+        return false;
+    }
+    return true;
+}
+
+static bool write_script(const char *name, const Bytes *out) {
+    const char *problem = file_replace(name, (Str){out->data, out->length}, 0);
+    if (problem != NULL) {
+        message("cannot write %s: %s", name, problem);
+        return false;
+    }
+    return true;
+}
+
+// What came from standard input goes to standard output, whether it changes or not.
+static int write_out(const Bytes *out) {
+    Output *output = memory_zeroed(sizeof *output);
+    output_start(output, STDOUT_FILENO);
+    output_write(output, out->data, out->length);
+    int status = output_finish(output, STATUS_DONE);
+    free(output);
+    return status;
+}
+
+static void format(Formatting *formatting, const char *name) {
+    SCOPED_BYTES text = {0};
+    SCOPED_BYTES out = {0};
+    if (!read_script(name, &text) || !lay_out(formatting, name, &text, &out)) {
+        formatting->failed++;
+        return;
+    }
+    bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;
+    formatting->changed += changed;
+    if (formatting->only_checks) {
+        if (changed) {
+            message("%s is not laid out by petri fmt", script_shown(name));
+        }
+    } else if (script_is_stdin(name)) {
+        formatting->failed += write_out(&out) == STATUS_DONE ? 0 : 1;
+    } else if (changed) {
+        formatting->failed += write_script(name, &out) ? 0 : 1;
+    }
+}
+
+static int fmt_run(const Host *host, Options *options) {
+    Formatting formatting = {.only_checks = options->only_checks};
+    if (options->scripts.count == 0) {
+        if (!options->unreadable) {
+            message("no script found: there is no file named *.fl");
+        }
+        return STATUS_FAILED;
+    }
+    options->unsimplified = true;
+    options->threads = 1;
+    int status = options_open(options, host, on_diagnostic, NULL, &formatting.session);
+    if (status != OPTIONS_READ) {
+        return status;
+    }
+    for (size_t i = 0; i < options->scripts.count; i++) {
+        format(&formatting, options->scripts.items[i].path);
+    }
+    petri_close(&formatting.session);
+    size_t count = options->scripts.count;
+    if (count > 1 || !script_is_stdin(options->scripts.items[0].path)) {
+        message("%zu file%s: %zu %s, %zu left as %s", count, count == 1 ? "" : "s", formatting.changed,
+                formatting.only_checks ? "to be laid out" : "laid out", count - formatting.changed,
+                count - formatting.changed == 1 ? "it is" : "they are");
+    }
+    bool good = formatting.failed == 0 && !options->unreadable && !(formatting.only_checks && formatting.changed > 0);
+    return good ? STATUS_DONE : STATUS_FAILED;
+}
+
+const Command FMT_COMMAND = {
+    .name = "fmt",
+    .operands = "PATH...",
+    .summary = "give scripts the one layout that all have",
+    .details =
+        "Lays scripts out, or each file named *.fl in a folder and the folders in it: four spaces for each level,\n"
+        "spaces that show what binds more, none around the = of a name, comments behind code in one column. Lines\n"
+        "stay as they are broken, comments stay where they are, and the program stays the same: petri compares the\n"
+        "code before it replaces a file. With - it reads standard input and writes standard output. A script that\n"
+        "has errors is left as it is.",
+    .examples =
+        "  petri fmt dish.fl\n"
+        "  petri fmt --check .                             exit with 1 if something is to be laid out, for CI\n",
+    .needed = "nothing to lay out",
+    .options = FOR_FMT,
+    .many = true,
+    .run = fmt_run,
+};

@@ -1,0 +1,260 @@
+// layout.c: see layout.h.
+#include "fmt/layout.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "fmt/tokens.h"
+
+enum { INDENT = 4, MOST_LEVELS = 2100 };
+
+// A line that is written, but for the comment behind its code.
+typedef struct Line {
+    size_t start; // in `text`
+    size_t end;
+    const Word *comment; // NULL: none
+    uint32_t width;      // in characters
+} Line;
+
+// A word under which later lines may be aligned: the first in a bracket, or behind the first `=` of a statement.
+typedef struct Anchor {
+    const Word *word; // NULL: none yet
+    uint32_t indent;  // of its line in `text`
+    uint32_t column;  // of the word there
+} Anchor;
+
+typedef struct Writer {
+    const Words *words;
+    Bytes text;
+    Line *lines;
+    size_t line_count;
+    size_t line_capacity;
+    uint32_t indent;               // of the line at work
+    uint32_t level;                // of the statement at work
+    uint32_t indents[MOST_LEVELS]; // of each level, as it is in the text
+    uint32_t depth;                // open brackets
+    Anchor anchors[MOST_LEVELS];   // of the statement, and of each of them
+} Writer;
+
+static Line *line(Writer *writer) {
+    return &writer->lines[writer->line_count - 1];
+}
+
+static void end_line(Writer *writer) {
+    if (writer->line_count == 0) {
+        return;
+    }
+    line(writer)->end = writer->text.length;
+    Str code = {writer->text.data + line(writer)->start, writer->text.length - line(writer)->start};
+    for (size_t i = code.len; i > 0; i--) {
+        if (code.bytes[i - 1] == '\n') { // in a string
+            code = (Str){code.bytes + i, code.len - i};
+            break;
+        }
+    }
+    line(writer)->width = (uint32_t)utf8_length(code);
+}
+
+static void begin_line(Writer *writer, uint32_t indent) {
+    end_line(writer);
+    if (writer->line_count == writer->line_capacity) {
+        writer->line_capacity = writer->line_capacity == 0 ? 256 : 2 * writer->line_capacity;
+        writer->lines = memory_resized(writer->lines, writer->line_capacity * sizeof *writer->lines);
+    }
+    bytes_add(&writer->text, "", 0);
+    writer->lines[writer->line_count++] = (Line){.start = writer->text.length};
+    writer->indent = indent;
+    bytes_format(&writer->text, "%*s", (int)indent, "");
+}
+
+// The level of a comment that has a line of its own: that of the statement behind it or, if it is further to the right,
+// of a block that ends before it.
+static uint32_t comment_level(const Writer *writer, size_t at) {
+    const Words *words = writer->words;
+    const Word *comment = &words->items[at], *next = NULL;
+    for (size_t i = at; i < words->count && next == NULL; i++) {
+        next = words->items[i].begins ? &words->items[i] : NULL;
+    }
+    uint32_t level = next == NULL ? 0 : next->level;
+    if (level > writer->level) {
+        return comment->indent >= next->indent ? level : writer->level;
+    }
+    uint32_t found = writer->level;
+    while (found > level && writer->indents[found] > comment->indent) {
+        found--;
+    }
+    return found;
+}
+
+// Of a line that goes on with a statement.
+static uint32_t continued_indent(const Writer *writer, const Word *word) {
+    const Anchor *anchor = &writer->anchors[writer->depth];
+    if (anchor->word != NULL && word->role != ROLE_CLOSE && word->indent == word_column(writer->words, anchor->word)) {
+        return anchor->column;
+    }
+    return writer->depth == 0 ? INDENT * (writer->level + 1) : anchor->indent + (word->role == ROLE_CLOSE ? 0 : INDENT);
+}
+
+static uint32_t indent_of(Writer *writer, size_t at) {
+    const Word *word = &writer->words->items[at];
+    if (word->begins) {
+        writer->level = word->level;
+        writer->depth = 0;
+        writer->anchors[0] = (Anchor){0};
+        if (word->level < MOST_LEVELS) {
+            writer->indents[word->level] = word->indent;
+        }
+        return INDENT * word->level;
+    }
+    bool own = word->role == ROLE_COMMENT && writer->depth == 0;
+    return own ? INDENT * comment_level(writer, at) : continued_indent(writer, word);
+}
+
+static bool space_between(const Words *words, size_t at) {
+    const Word *before = &words->items[at - 1], *word = &words->items[at];
+    if (word_is(before, "-") && word_is(word, "-")) {
+        return true; // two dashes begin a comment
+    }
+    if (before->role == ROLE_OPEN || before->role == ROLE_PREFIX || before->role == ROLE_TIGHT ||
+        word->role == ROLE_CLOSE || word->role == ROLE_TIGHT || word->role == ROLE_COMMA) {
+        return false;
+    }
+    if (before->role == ROLE_COMMA || before->role == ROLE_LOOSE || word->role == ROLE_LOOSE) {
+        return !(word->role == ROLE_OPEN && word_is(before, "func"));
+    }
+    if (before->role == ROLE_SUM || word->role == ROLE_SUM) {
+        return !word_tight(words, before->role == ROLE_SUM ? at - 1 : at);
+    }
+    // A bracket behind an operand calls or picks.
+    return word->role != ROLE_OPEN || before->heads;
+}
+
+// Notes the word that was just begun, and brackets.
+static void track(Writer *writer, size_t at) {
+    const Word *word = &writer->words->items[at], *before = at == 0 || word->breaks > 0 ? NULL : word - 1;
+    Anchor *anchor = &writer->anchors[writer->depth];
+    bool first = before != NULL && (writer->depth > 0 ? before->role == ROLE_OPEN : word_is(before, "="));
+    if (first && anchor->word == NULL) {
+        const char *begins = writer->text.data + line(writer)->start;
+        anchor->word = word;
+        anchor->column = (uint32_t)utf8_length((Str){begins, writer->text.length - line(writer)->start});
+    }
+    if (word->role == ROLE_OPEN && writer->depth + 1 < MOST_LEVELS) {
+        writer->anchors[++writer->depth] = (Anchor){.indent = writer->indent};
+    } else if (word->role == ROLE_CLOSE && writer->depth > 0) {
+        writer->depth--;
+    }
+}
+
+static void add_empty_lines(Writer *writer, const Word *word, uint32_t indent) {
+    uint32_t most = indent == 0 ? 2 : 1, empty = word->breaks - 1;
+    for (uint32_t i = 0; writer->line_count > 0 && i < empty && i < most; i++) {
+        begin_line(writer, 0);
+    }
+}
+
+static void add_word(Writer *writer, size_t at) {
+    const Words *words = writer->words;
+    const Word *word = &words->items[at];
+    if (writer->line_count == 0 || word->breaks > 0) {
+        uint32_t indent = indent_of(writer, at);
+        if (word->joined && words->items[at - 1].kind != PETRI_TOKEN_COMMENT) {
+            bytes_add_text(&writer->text, " \\");
+        } else if (word->breaks > 1) {
+            add_empty_lines(writer, word, indent);
+        }
+        begin_line(writer, indent);
+    } else if (word->role == ROLE_COMMENT) {
+        line(writer)->comment = word;
+        return;
+    } else if (space_between(words, at)) {
+        bytes_add_text(&writer->text, " ");
+    }
+    track(writer, at);
+    bytes_add(&writer->text, word->text.bytes, word->text.len);
+}
+
+// Where the comments behind lines that follow each other begin: in the column that they all have, if the code leaves it
+// to them.
+static uint32_t comment_column(const Writer *writer, size_t at) {
+    uint32_t widest = 0, column = word_column(writer->words, writer->lines[at].comment);
+    for (size_t i = at; i < writer->line_count && writer->lines[i].comment != NULL; i++) {
+        widest = writer->lines[i].width > widest ? writer->lines[i].width : widest;
+        column = word_column(writer->words, writer->lines[i].comment) == column ? column : 0;
+    }
+    return column >= widest + 2 ? column : widest + 2;
+}
+
+static void write_lines(const Writer *writer, Bytes *out) {
+    uint32_t column = 0;
+    bool behind = false;
+    for (size_t i = 0; i < writer->line_count; i++) {
+        const Line *at = &writer->lines[i];
+        bytes_add(out, writer->text.data + at->start, at->end - at->start);
+        if (at->comment != NULL) {
+            column = behind ? column : comment_column(writer, i);
+            bytes_format(out, "%*s", (int)(column - at->width), "");
+            bytes_add(out, at->comment->text.bytes, at->comment->text.len);
+        }
+        behind = at->comment != NULL;
+        bytes_add_text(out, "\n");
+    }
+}
+
+bool layout_text(PetriSession *session, Str text, Bytes *out) {
+    Words words;
+    bool read = words_read(session, text, &words);
+    if (read) {
+        Writer *writer = memory_zeroed(sizeof *writer);
+        writer->words = &words;
+        for (size_t i = 0; i < words.count; i++) {
+            add_word(writer, i);
+        }
+        end_line(writer);
+        bytes_add(out, "", 0);
+        write_lines(writer, out);
+        bytes_free(&writer->text);
+        free(writer->lines);
+        free(writer);
+    }
+    words_free(&words);
+    return read;
+}
+
+// The code without the numbers of lines, which stand second.
+static bool read_code(PetriSession *session, const char *name, Str text, Bytes *code) {
+    SCOPED_BYTES dump = {0};
+    if (petri_load_text(session, name, text.bytes, text.len) != PETRI_OK ||
+        petri_dump(session, PETRI_DUMP_CODE, bytes_collect, &dump) != PETRI_OK) {
+        return false;
+    }
+    Str row;
+    for (size_t at = 0; bytes_line(&dump, &at, &row);) {
+        size_t skipped = strspn(row.bytes, " ");
+        skipped += strspn(row.bytes + skipped, "0123456789 ");
+        bytes_add(code, row.bytes + skipped, row.len - skipped);
+        bytes_add_text(code, "\n");
+    }
+    return true;
+}
+
+static bool same_words(const Words *a, const Words *b) {
+    bool same = a->count == b->count;
+    for (size_t i = 0; same && i < a->count; i++) {
+        const Word *one = &a->items[i], *other = &b->items[i];
+        same = one->kind == other->kind && str_equal(one->text, other->text) && one->begins == other->begins &&
+               (one->level == other->level || one->kind == PETRI_TOKEN_COMMENT);
+    }
+    return same;
+}
+
+bool layout_same(PetriSession *session, const char *name, Str before, Str after) {
+    Words a, b = {0};
+    bool same = words_read(session, before, &a) && words_read(session, after, &b) && same_words(&a, &b);
+    words_free(&a);
+    words_free(&b);
+    SCOPED_BYTES old_code = {0};
+    SCOPED_BYTES new_code = {0};
+    return same && read_code(session, name, before, &old_code) && read_code(session, name, after, &new_code) &&
+           old_code.length == new_code.length && memcmp(old_code.data, new_code.data, old_code.length) == 0;
+}

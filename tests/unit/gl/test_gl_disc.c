@@ -1,0 +1,186 @@
+// test_gl_disc.c: which balls are drawn as discs, and where those are (scene_disc.h), without OpenGL.
+#include "check.h"
+
+#include <math.h>
+#include <string.h>
+
+#include "gl/scene_disc.h"
+#include "gl/scene_mesh.h"
+#include "gl/scene_order.h"
+
+// Three balls of radius 10 in a row before a camera that looks at them from the side; and what a case changes.
+typedef struct Stage {
+    Arena arena;
+    Scene scene;
+    SceneGroup group;
+    SceneGroup *groups[1];
+    SceneInstance instances[3];
+    SceneMaterial material;
+    SceneMaterial opaque;
+    SceneModel model;
+    SceneTextures textures;
+    Look3D look;
+    Eye eye;
+} Stage;
+
+enum { WIDTH = 400 };
+
+static void set_stage(Stage *stage) {
+    *stage = (Stage){
+        .look = {.fov = 0.25, .near = 1, .far = 1000},
+        .eye = {.position = {30, 20, 300}, .up = {0, 1, 0}, .near = 1, .far = 1000, .width = WIDTH, .aspect = 1},
+        .material = {.surface = {.transparency = 0.5f, .roughness = 0.3f}},
+        .opaque = {.surface = {.roughness = 0.3f}},
+        .model = {.kind = KIND_SPHERE, .segments = 64, .snap = 0.5}};
+    arena_init(&stage->arena, "test", SIZE_MAX);
+    stage->eye.look = &stage->look;
+    for (int i = 0; i < 3; i++) {
+        Matrix *place = &stage->instances[i].matrix;
+        *place = matrix_one;
+        place->m[0] = place->m[5] = place->m[10] = 10;
+        place->m[12] = 40.0 * (i - 1);
+        place->m[14] = -5.0 * i;
+        stage->instances[i].material = &stage->material;
+    }
+    stage->group = (SceneGroup){.look = {.depth_sort = true, .depth_test = true, .face_cull = true},
+                                .instances = stage->instances,
+                                .instance_count = 3};
+    stage->groups[0] = &stage->group;
+    stage->scene = (Scene){.arena = &stage->arena,
+                           .groups = stage->groups,
+                           .group_count = 1,
+                           .models = &stage->model,
+                           .model_count = 1,
+                           .textures = &stage->textures,
+                           .texture_count = 1,
+                           .instance_count = 3};
+}
+
+// How many of the stage's balls are discs.
+static uint32_t count_discs(Stage *stage) {
+    const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
+    Matrix view = matrix_view(&stage->eye), projection = matrix_projection(&stage->eye);
+    SceneOrder order = scene_order(&stage->scene, &stage->eye, &view, &projection, WIDTH, &box);
+    uint32_t count = 0;
+    assert_int_equal(order.count, 3);
+    for (uint32_t i = 0; i < order.draw_count; i++) {
+        count += order.draws[i].disc ? order.draws[i].count : 0;
+        if (order.draws[i].disc)
+            assert_int_equal(order.draws[i].segments, stage->model.segments);
+    }
+    arena_free(&stage->arena);
+    return count;
+}
+
+static void test_choice(void **state) {
+    (void)state;
+    Stage stage;
+    set_stage(&stage);
+    assert_int_equal(count_discs(&stage), 3);
+    set_stage(&stage); // what is opaque leaves its depth
+    stage.instances[1].material = &stage.opaque;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage); // without sorting all leave it
+    stage.group.look.depth_sort = false;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage); // the far sides are seen, too
+    stage.group.look.face_cull = false;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage); // only they
+    stage.group.look.cull_face = FACE_FRONT;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage);
+    stage.model.flat = true;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage);
+    stage.model.invert = true;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage); // its corners are seen
+    stage.model.segments = 12;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage); // an ellipsoid
+    stage.instances[0].matrix.m[0] = 12;
+    assert_int_equal(count_discs(&stage), 2);
+    set_stage(&stage); // mirrored: its inside is seen
+    stage.instances[0].matrix.m[0] = -10;
+    assert_int_equal(count_discs(&stage), 2);
+    set_stage(&stage); // sheared
+    stage.instances[0].matrix.m[4] = 3;
+    assert_int_equal(count_discs(&stage), 2);
+    set_stage(&stage); // cut off by what is too near
+    stage.eye.near = 300;
+    assert_true(count_discs(&stage) < 3);
+    set_stage(&stage);
+    stage.eye.far = 310;
+    assert_true(count_discs(&stage) < 3);
+}
+
+static double apart(const double a[3], const double b[3]) {
+    double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+    return sqrt(vector_dot(d, d));
+}
+
+// A ray from the camera through the disc's rim touches the ball: Pythagoras.
+static void check_rim(Stage *stage, const Matrix *place) {
+    SceneDisc disc;
+    Matrix view = matrix_view(&stage->eye);
+    assert_true(scene_disc(&stage->eye, &view, place, &disc));
+    double *eye = stage->eye.position, away = apart(eye, disc.middle), turned = 0;
+    for (int i = 0; i < 16; i++) {
+        double angle = i * 0.3927, rim[3], on[3] = {cos(angle), sin(angle), 0}, outwards[3], towards[3], normal[3];
+        matrix_point(&disc.place, on, rim);
+        for (int k = 0; k < 3; k++) {
+            outwards[k] = rim[k] - disc.middle[k];
+            towards[k] = stage->look.orthographic ? eye[k] - stage->eye.focus[k] : eye[k] - rim[k];
+        }
+        assert_true(fabs(apart(rim, disc.middle) - disc.radius) < 1e-9 * disc.radius);
+        assert_true(fabs(vector_dot(outwards, towards)) < 1e-8 * away * disc.radius);
+        matrix_direction(&disc.place, (double[3]){0, 0, 1},
+                         normal); // corners go counter-clockwise as the camera sees them
+        turned += vector_dot(normal, towards) > 0;
+    }
+    assert_int_equal((int)turned, 16);
+    assert_true(fabs(disc.near - (stage->look.orthographic ? 0 : disc.radius / away)) < 1e-12);
+}
+
+static void test_rim(void **state) {
+    (void)state;
+    Stage stage;
+    set_stage(&stage);
+    for (int i = 0; i < 3; i++)
+        check_rim(&stage, &stage.instances[i].matrix);
+    stage.eye.position[1] = 150, stage.eye.up[0] = 1;
+    check_rim(&stage, &stage.instances[0].matrix);
+    stage.look.orthographic = true;
+    for (int i = 0; i < 3; i++)
+        check_rim(&stage, &stage.instances[i].matrix);
+    arena_free(&stage.arena);
+}
+
+// The corners of the disc are those of a polygon of so many, all turned the same way round.
+static void test_mesh(void **state) {
+    (void)state;
+    Arena arena;
+    arena_init(&arena, "test", SIZE_MAX);
+    for (uint32_t segments = 4; segments <= 128; segments += 4) {
+        Mesh mesh = mesh_disc(&arena, segments);
+        double area = 0, n = segments;
+        assert_int_equal(mesh.vertex_count, segments);
+        assert_int_equal(mesh.index_count, 3 * (segments - 2));
+        for (uint32_t i = 0; i < mesh.index_count; i += 3) {
+            const float *a = mesh.vertices[mesh.indices[i]].position, *b = mesh.vertices[mesh.indices[i + 1]].position,
+                        *c = mesh.vertices[mesh.indices[i + 2]].position;
+            double part = ((double)b[0] - a[0]) * ((double)c[1] - a[1]) - ((double)b[1] - a[1]) * ((double)c[0] - a[0]);
+            assert_true(part > 0);
+            area += part / 2;
+        }
+        assert_true(fabs(area - n / 2 * sin(6.283185307179586 / n)) < 1e-5);
+    }
+    arena_free(&arena);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_choice), cmocka_unit_test(test_rim),
+                                       cmocka_unit_test(test_mesh)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
