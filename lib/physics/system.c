@@ -1,6 +1,5 @@
 // system.c: the description of a system (see system.h).
-#include "physics/internal.h"
-#include "physics/neighbours.h"
+#include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <assert.h>
@@ -44,6 +43,7 @@ void phys_free(PhysSystem *system) {
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         phys_neighbours_free(&system->lists[i]);
+    phys_domain_free(system);
     if (system->owns_threads)
         phys_threads_free(system->threads);
     Arena home = system->home; // the struct goes with it
@@ -162,6 +162,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
     if (!system->arranged)
         return;
+    system->touched = true;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
     if (columns->radius[i] != record->radius)
@@ -307,6 +308,10 @@ PhysColumns phys_columns(const PhysSystem *system) {
         .anchor = &records->anchor,
         .anchor_stride = sizeof *records,
     };
+}
+
+PhysTraffic phys_traffic(const PhysSystem *system) {
+    return system->traffic;
 }
 
 uint32_t phys_force_count(const PhysSystem *system) {
