@@ -210,6 +210,8 @@ static Gl *need_gpu(Walk *walk) {
     const char *problem = painter->gl_problem;
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
+    if (!painter->gl && !problem)
+        give_up(walk);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
         walk->gpu = true;
         return painter->gl;

@@ -14,7 +14,7 @@
 
 typedef struct Gl Gl;
 
-// NULL, with the reason, if there is no OpenGL ES 3 here or memory is used up.
+// NULL, with the reason, if there is no OpenGL ES 3 here; with none if memory is used up.
 Gl *gl_open(const char **problem);
 void gl_close(Gl *gl); // NULL is fine; not between enter and leave
 // False, with the reason, if the context was lost.
