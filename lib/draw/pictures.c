@@ -211,7 +211,7 @@ static Gl *need_gpu(Walk *walk) {
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
     if (!painter->gl && !problem)
-        give_up(walk);
+        arena_exhausted(&walk->frame->arena);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
         walk->gpu = true;
         return painter->gl;
