@@ -1,4 +1,4 @@
-// pass_on.h: starting the other programs, petri-pictures and petri-ranks, for what this one cannot do.
+// pass_on.h: starting the other programs, petri-pictures, petri-lsp and petri-ranks, for what this one cannot do.
 #ifndef PETRI_SRC_PASS_ON_H
 #define PETRI_SRC_PASS_ON_H
 
@@ -10,6 +10,8 @@ bool pass_on_wanted(const char *first);
 bool pass_on_all(void);
 // Becomes petri-pictures with the same arguments. Returns only if that fails: the status to exit with, after a message.
 int pass_on(char **argv);
+// Becomes petri-lsp, which serves editors; -1: this is petri-lsp.
+int pass_on_lsp(char **argv);
 // Becomes petri-ranks, one of several processes that run a script together, if mpirun has started several. -1 if not.
 int pass_on_ranks(char **argv);
 
