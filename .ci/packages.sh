@@ -19,12 +19,13 @@ pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, films, plans of petri sweep and editors:
+# For windows, films, plans of petri sweep, files in HDF5 and editors:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
 pkg-config --exists json-c: libjson-c-dev
+pkg-config --exists hdf5  : libhdf5-dev
 "
 # For the module for Python:
 PYTHON_NEEDS="
@@ -56,10 +57,13 @@ command -v desktop-file-validate : desktop-file-utils
 pkg-config --exists x11   : libx11-dev
 pkg-config --exists ompi-c: libopenmpi-dev openmpi-bin
 pkg-config --exists mpfr  : libmpfr-dev
+/usr/bin/python3 -I -c 'import h5py' : python3-h5py
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf : fonts-dejavu-extra
 test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 "
 CLANG_NEEDS='command -v clang: clang'
+# The memory sanitizer of Debian's clang, 14, does not know fstat of today's glibc.
+MEMORY_NEEDS='command -v clang-16: clang-16 libclang-rt-16-dev'
 COVERAGE_NEEDS='command -v llvm-cov: llvm'
 FORMAT_NEEDS='command -v clang-format: clang-format'
 TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
@@ -81,10 +85,10 @@ command -v xz               : xz-utils
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
-    -Djson=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
+    -Dhdf5=disabled -Djson=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 json-c cmocka x11 ompi-c mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 hdf5 json-c cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

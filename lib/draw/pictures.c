@@ -208,6 +208,8 @@ static Gl *need_gpu(Walk *walk) {
     const char *problem = painter->gl_problem;
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
+    if (!painter->gl && !problem)
+        give_up(walk);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
         walk->gpu = true;
         return painter->gl;
@@ -287,7 +289,7 @@ static void prepare(Walk *walk, Made *made, uint32_t count) {
 // What a camera of a scene sees; NULL, after a report, if that cannot be.
 static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
     Gl *gl = walk->painter->gl;
-    if (!is_good_size(walk, KIND_CAMERA, (Origin){0}, camera->width, camera->height))
+    if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->place, camera->width, camera->height))
         return NULL;
     GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
     Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;

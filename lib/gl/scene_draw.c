@@ -20,6 +20,8 @@ typedef struct Drawing {
     Matrix view;
     Matrix projection;
     SceneOrder order;
+    SceneTarget *target;         // of the picture
+    GlImage backs;               // what shines through the group's backs
     bool many;                   // lights of the group are in a texture
     double ambient[3];           // of its lights
     GLint ends[LIGHT_KINDS - 1]; // where those of other kinds end
@@ -152,26 +154,35 @@ static void send_lights(Drawing *drawing, const SceneGroup *group) {
     glBindBufferBase(GL_UNIFORM_BUFFER, 0, drawing->store->light_block);
 }
 
+// What a program does beside the usual.
+enum { TEXTURED = 1, DISC = 2, BACK = 4, TRANSLUCENT = 8 };
+
+static void add_variant(Text *text, unsigned variant) {
+    static const char *const names[] = {"TEXTURED", "DISC", "BACK", "TRANSLUCENT"};
+    for (unsigned i = 0; i < sizeof names / sizeof *names; i++)
+        if (variant & 1u << i)
+            text_add_format(text, "#define %s\n", names[i]);
+}
+
 // The program, set up; 0, after a report, if it does not compile.
-static GLuint use_program(const Drawing *drawing, bool textured, bool disc) {
+static GLuint use_program(const Drawing *drawing, unsigned variant) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
-    Str problem;
-    const char *variant = disc ? "#define DISC\n" : "";
+    GlFault fault;
     text_add_c(&vertex, gl_header);
-    text_add_c(&vertex, variant);
+    add_variant(&vertex, variant);
     text_add_c(&vertex, gl_text_scene_vertex);
     text_add_c(&fragment, gl_header);
-    text_add_c(&fragment, variant);
+    add_variant(&fragment, variant);
     text_add_format(&fragment, "#define MOST_LIGHTS %d\n", BLOCK_LIGHTS);
-    text_add_c(&fragment, textured ? "#define TEXTURED\n" : "");
     text_add_c(&fragment, drawing->many ? "#define MANY_LIGHTS\n" : "");
     text_add_c(&fragment, gl_text_scene_light);
-    text_add_c(&fragment, textured ? gl_text_scene_texture : "");
+    text_add_c(&fragment, variant & TEXTURED ? gl_text_scene_texture : "");
+    text_add_c(&fragment, variant & TRANSLUCENT ? gl_text_scene_through : "");
     text_add_c(&fragment, gl_text_scene);
-    GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &problem);
+    GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &fault);
     if (!program) {
-        scene_report(scene, "bad-shader", KIND_CANVAS3D, str_to_c(scene->arena, problem));
+        scene_report(scene, "bad-shader", scene->node, str_to_c(scene->arena, fault.text));
         return 0;
     }
     glUseProgram(program);
@@ -182,6 +193,12 @@ static GLuint use_program(const Drawing *drawing, bool textured, bool disc) {
         set_whole(program, "lights", SCENE_TEXTURES);
     else
         glUniformBlockBinding(program, glGetUniformBlockIndex(program, "Lights"), 0);
+    if (variant & TRANSLUCENT) {
+        glActiveTexture(GL_TEXTURE0 + SCENE_TEXTURES + 1);
+        glBindTexture(GL_TEXTURE_2D, drawing->backs.texture);
+        glActiveTexture(GL_TEXTURE0);
+        set_whole(program, "backs", SCENE_TEXTURES + 1);
+    }
     return program;
 }
 
@@ -205,7 +222,7 @@ static void set_textures(const Drawing *drawing, GLuint program, const SceneText
     glUniform4fv(glGetUniformLocation(program, "border"), 1, textures->border_color);
 }
 
-static void set_blending(const Look3D *look, bool transparent) {
+static void set_blending(const Look3D *look, bool transparent, bool translucent) {
     static const struct {
         GLenum equation;
         GLenum source;
@@ -226,7 +243,7 @@ static void set_blending(const Look3D *look, bool transparent) {
     glBlendEquation(modes[look->composite].equation);
     glBlendFunc(modes[look->composite].source, modes[look->composite].target);
     (look->depth_test ? glEnable : glDisable)(GL_DEPTH_TEST);
-    glDepthMask(look->depth_test && !transparent);
+    glDepthMask(look->depth_test && (!transparent || translucent));
     (look->face_cull ? glEnable : glDisable)(GL_CULL_FACE);
     glCullFace(look->cull_face == FACE_FRONT ? GL_FRONT : GL_BACK);
 }
@@ -248,37 +265,77 @@ static void clear(const SceneCamera *camera) {
     glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-static void draw_all(Drawing *drawing) {
+static void draw_shape(const Drawing *drawing, const SceneDraw *draw, GLuint program) {
+    const Scene *scene = drawing->scene;
+    SceneModel model = scene->models[draw->model];
+    model.segments = draw->segments;
+    model.disc = draw->disc;
+    const SceneShape *shape = gl_store_shape(drawing->store, scene, &model);
+    if (draw->textures > 0)
+        set_textures(drawing, program, &scene->textures[draw->textures]);
+    gl_store_point(drawing->store, shape, draw->first);
+    glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
+}
+
+// The backs of what is translucent in the group that begins with this draw (spec 5.6): the light that goes in there,
+// and how far away it is. False if that cannot be.
+static bool draw_backs(Drawing *drawing, uint32_t first) {
+    const SceneOrder *order = &drawing->order;
+    GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;
+    int width = drawing->target->width, height = drawing->target->height;
+    SceneTarget *extra = gl_store_target(drawing->store, width, height, 0, format, true);
+    drawing->backs = extra ? gl_image_new(drawing->gl, width, height, format) : (GlImage){0};
+    if (!drawing->backs.texture)
+        return false;
+    glBindFramebuffer(GL_FRAMEBUFFER, extra->framebuffer);
+    glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, drawing->backs.texture, 0);
+    set_blending(&(Look3D){.depth_sort = true, .depth_test = true, .face_cull = true, .cull_face = FACE_FRONT}, false,
+                 false);
+    glClearColor(0, 0, 0, 0);
+    glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+    for (uint32_t i = first; i < order->draw_count && order->draws[i].group == order->draws[first].group; i++) {
+        const SceneDraw *draw = &order->draws[i];
+        GLuint program = draw->translucent ? use_program(drawing, BACK | (draw->textures > 0 ? TEXTURED : 0u)) : 0;
+        if (program)
+            draw_shape(drawing, draw, program);
+    }
+    glBindFramebuffer(GL_FRAMEBUFFER, drawing->target->framebuffer);
+    return true;
+}
+
+static bool draw_all(Drawing *drawing) {
     const Scene *scene = drawing->scene;
     uint32_t group = UINT32_MAX;
     GLuint program = 0;
-    int textured = -1, disc = -1;
+    unsigned current = UINT32_MAX;
     for (uint32_t i = 0; i < drawing->order.draw_count; i++) {
         const SceneDraw *draw = &drawing->order.draws[i];
-        SceneModel model = scene->models[draw->model];
-        model.segments = draw->segments;
-        model.disc = draw->disc;
-        const SceneShape *shape = gl_store_shape(drawing->store, scene, &model);
+        unsigned variant =
+            (draw->textures > 0 ? TEXTURED : 0u) | (draw->disc ? DISC : 0u) | (draw->translucent ? TRANSLUCENT : 0u);
         if (draw->group != group) {
             group = draw->group;
+            gl_image_free(drawing->gl, drawing->backs);
+            drawing->backs = (GlImage){0};
             ArenaMark mark = arena_mark(scene->arena);
             send_lights(drawing, scene->groups[group]);
             arena_rewind(scene->arena, mark);
-            textured = -1;
+            current = UINT32_MAX;
         }
-        if ((draw->textures > 0) != textured || draw->disc != disc) {
-            textured = draw->textures > 0;
-            disc = draw->disc;
-            program = use_program(drawing, textured, disc);
+        if (draw->translucent && !drawing->backs.texture) {
+            if (!draw_backs(drawing, i))
+                return false;
+            current = UINT32_MAX;
+        }
+        if (variant != current) {
+            current = variant;
+            program = use_program(drawing, variant);
         }
         if (!program)
-            return;
-        if (draw->textures > 0)
-            set_textures(drawing, program, &scene->textures[draw->textures]);
-        set_blending(&scene->groups[group]->look, draw->transparent);
-        gl_store_point(drawing->store, shape, draw->first);
-        glDrawElementsInstanced(GL_TRIANGLES, shape->index_count, GL_UNSIGNED_INT, NULL, (GLsizei)draw->count);
+            return true;
+        set_blending(&scene->groups[group]->look, draw->transparent, draw->translucent);
+        draw_shape(drawing, draw, program);
     }
+    return true;
 }
 
 static void leave_state(void) {
@@ -293,10 +350,11 @@ static bool draw_to(Drawing *drawing, GlImage image) {
     Gl *gl = drawing->gl;
     const SceneCamera *camera = drawing->camera;
     double samples = fmin(camera->look.samples, 64);
-    SceneTarget *target =
-        gl_store_target(drawing->store, image.width, image.height, samples >= 2 ? (int)samples : 0, image.format);
+    SceneTarget *target = gl_store_target(drawing->store, image.width, image.height, samples >= 2 ? (int)samples : 0,
+                                          image.format, false);
     if (!target)
         return false;
+    drawing->target = target;
     glBindFramebuffer(GL_FRAMEBUFFER, target->framebuffer);
     if (!target->color)
         glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, image.texture, 0);
@@ -304,8 +362,9 @@ static bool draw_to(Drawing *drawing, GlImage image) {
         return false;
     glViewport(0, 0, image.width, image.height);
     clear(camera);
-    draw_all(drawing);
+    bool good = draw_all(drawing);
     leave_state();
+    gl_image_free(gl, drawing->backs);
     if (target->color) {
         gl_target(gl, image);
         glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
@@ -313,7 +372,7 @@ static bool draw_to(Drawing *drawing, GlImage image) {
                           GL_NEAREST);
         glBindFramebuffer(GL_FRAMEBUFFER, gl->framebuffer);
     }
-    return glGetError() == GL_NO_ERROR;
+    return good && glGetError() == GL_NO_ERROR;
 }
 
 static int bits_of(const Scene *scene, const SceneCamera *camera) {
@@ -335,7 +394,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
         boxes[i] = gl_store_shape(drawing.store, scene, &scene->models[i])->box;
     drawing.order = scene_order(scene, &drawing.eye, &drawing.view, &drawing.projection, camera->width, boxes);
     if (drawing.order.cut)
-        scene_report(scene, "too-many-triangles", KIND_CANVAS3D,
+        scene_report(scene, "too-many-triangles", scene->node,
                      "a picture can show 50 million triangles; the others are left out");
     while (glGetError() != GL_NO_ERROR)
         ;
@@ -343,7 +402,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     GlImage image = gl_image_new(gl, camera->width, camera->height, gl_format(gl, bits_of(scene, camera)));
     if (image.texture && draw_to(&drawing, image))
         return image;
-    scene_report(scene, "bad-size", KIND_CANVAS3D, "the GPU has no room for a picture of this size");
+    scene_report(scene, "bad-size", scene->node, "the GPU has no room for a picture of this size");
     gl_image_free(gl, image);
     return none;
 }

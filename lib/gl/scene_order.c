@@ -68,15 +68,19 @@ static uint32_t rank_of(Ranks *ranks, size_t pair, uint32_t group) {
     return (uint32_t)ranks->ranks[pair];
 }
 
+static bool is_translucent(const SceneInstance *instance) {
+    return instance->material->surface.translucency > 0;
+}
+
 static bool is_transparent(const Scene *scene, const SceneInstance *instance) {
-    return instance->material->surface.transparency > 0 ||
+    return instance->material->surface.transparency > 0 || is_translucent(instance) ||
            scene->textures[instance->material->textures].ids[SCENE_TEXTURES - 1].len > 0;
 }
 
 static bool goes_on(const SceneDraw *draw, const SceneDraw *wanted, bool split) {
     return draw->group == wanted->group && draw->model == wanted->model && draw->textures == wanted->textures &&
-           draw->transparent == wanted->transparent && draw->disc == wanted->disc &&
-           (draw->segments == wanted->segments || !split);
+           draw->transparent == wanted->transparent && draw->translucent == wanted->translucent &&
+           draw->disc == wanted->disc && (draw->segments == wanted->segments || !split);
 }
 
 static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count) {
@@ -89,6 +93,7 @@ static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, co
                                   .model = instance->model,
                                   .textures = instance->material->textures,
                                   .transparent = sorted[i].rank == UINT32_MAX,
+                                  .translucent = sorted[i].rank == UINT32_MAX && is_translucent(instance),
                                   .disc = sorted[i].disc,
                                   .first = order->count,
                                   .segments = sorted[i].segments};
@@ -168,7 +173,8 @@ static bool look_at(const Scene *scene, const SceneGroup *group, const Sight *si
 // Transparent ones are discs where nothing has a depth; all discs of a model are drawn at once.
 static void choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool *deep) {
     for (uint32_t i = 0; i < count; i++)
-        *deep |= group->look.depth_test && sorted[i].rank != UINT32_MAX;
+        *deep |= group->look.depth_test &&
+                 (sorted[i].rank != UINT32_MAX || is_translucent(&group->instances[sorted[i].instance]));
     for (uint32_t i = 0; i < count; i++) {
         sorted[i].disc &= !*deep && sorted[i].rank == UINT32_MAX;
         if (sorted[i].disc)

@@ -19,6 +19,7 @@ typedef struct SceneDraw {
     uint32_t model;
     uint32_t textures;
     bool transparent; // drawn last, from back to front
+    bool translucent; // likewise; leaves its depth
     bool disc;        // spheres as scene_disc.h has them
     uint32_t first;
     uint32_t count;

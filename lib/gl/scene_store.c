@@ -178,12 +178,12 @@ static bool make_target(SceneTarget *target) {
     return glGetError() == GL_NO_ERROR;
 }
 
-SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples, GlFormat format) {
+SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples, GlFormat format, bool extra) {
     SceneTarget *oldest = &store->targets[0];
     for (int i = 0; i < SCENE_TARGETS; i++) {
         SceneTarget *target = &store->targets[i];
         if (target->framebuffer && target->width == width && target->height == height && target->samples == samples &&
-            target->format == format) {
+            target->format == format && target->extra == extra) {
             target->used = store->now;
             return target;
         }
@@ -191,7 +191,8 @@ SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples,
             oldest = target;
     }
     free_target(oldest);
-    *oldest = (SceneTarget){.width = width, .height = height, .samples = samples, .format = format, .used = store->now};
+    *oldest = (SceneTarget){
+        .width = width, .height = height, .samples = samples, .format = format, .extra = extra, .used = store->now};
     if (make_target(oldest))
         return oldest;
     free_target(oldest);

@@ -139,8 +139,8 @@ static bool read_sections(const Args *args, void *field) {
 
 static bool read_trajectory(const Args *args, void *field) {
     const char *dot = strrchr(args->value, '.');
-    bool known = dot != NULL && dot != args->value && (strcmp(dot, ".xyz") == 0 || strcmp(dot, ".csv") == 0);
-    return known ? read_text(args, field) : wrong_value(args, "a file name that ends in .xyz or .csv");
+    bool known = dot != NULL && dot != args->value && str_word_number(str_from(dot), ".xyz .csv .h5 .h5md") >= 0;
+    return known ? read_text(args, field) : wrong_value(args, "a file name that ends in .xyz, .csv or .h5");
 }
 
 static bool no_colour(void) {

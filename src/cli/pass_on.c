@@ -61,6 +61,11 @@ static int become(const char *name, char **argv, char path[PATH_MAX + 64]) {
     return cause;
 }
 
+int pass_on_become(const char *name, char **argv) {
+    char path[PATH_MAX + 64];
+    return become(name, argv, path);
+}
+
 int pass_on(char **argv) {
     char path[PATH_MAX + 64];
     int cause = become("petri-pictures", argv, path);

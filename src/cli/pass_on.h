@@ -1,4 +1,4 @@
-// pass_on.h: starting the other programs, petri-pictures, petri-lsp and petri-ranks, for what this one cannot do.
+// pass_on.h: starting the other programs, such as petri-pictures and petri-ranks, for what this one cannot do.
 #ifndef PETRI_SRC_PASS_ON_H
 #define PETRI_SRC_PASS_ON_H
 
@@ -14,5 +14,7 @@ int pass_on(char **argv);
 int pass_on_lsp(char **argv);
 // Becomes petri-ranks, one of several processes that run a script together, if mpirun has started several. -1 if not.
 int pass_on_ranks(char **argv);
+// Becomes another program of petri's. Returns only if that fails: why, as errno has it.
+int pass_on_become(const char *name, char **argv);
 
 #endif

@@ -2,7 +2,7 @@
 //
 // Extended XYZ (one block a frame, all systems together) as ASE and OVITO read it: the format has three dimensions, so
 // missing ones are 0 and further ones are left out; the species of every particle is X, the one that both know for "no
-// element". CSV: one row a particle and frame.
+// element". CSV: one row a particle and frame. H5MD: h5md.h.
 #include "run/trajectory.h"
 
 #include <errno.h>
@@ -33,7 +33,7 @@ static void keep_now(void *context) {
     Trajectory *trajectory = context;
     Output *output = &trajectory->output;
     int fd = output->fd;
-    if (trajectory->file.file < 0 || trajectory->file.direct || trajectory->whole == 0) {
+    if (trajectory->file.file < 0 || trajectory->file.direct || trajectory->whole == 0 || trajectory->failed) {
         return;
     }
     // Of what waits, some may have been written just now: it is written once more.
@@ -43,12 +43,23 @@ static void keep_now(void *context) {
     }
 }
 
+static TrajectoryFormat format_of(const char *path) {
+    const char *suffix = strrchr(path, '.');
+    return strcmp(suffix, ".csv") == 0   ? TRAJECTORY_CSV
+           : strcmp(suffix, ".xyz") == 0 ? TRAJECTORY_XYZ
+                                         : TRAJECTORY_H5MD;
+}
+
 bool trajectory_open(Trajectory *trajectory, const char *path) {
     trajectory->path = path;
     trajectory->failed = false;
     trajectory->dimensions = 0;
     trajectory->whole = 0;
-    trajectory->csv = strcmp(path + strlen(path) - 4, ".csv") == 0;
+    trajectory->format = format_of(path);
+    if (trajectory->format == TRAJECTORY_H5MD) {
+        trajectory->open = h5md_open(&trajectory->h5md, path, &trajectory->output);
+        return trajectory->open;
+    }
     trajectory->open = replace_begin(&trajectory->file, path, 0);
     if (!trajectory->open) {
         return complain(trajectory, errno);
@@ -161,35 +172,52 @@ static bool add_csv(Trajectory *trajectory, PetriSession *session) {
     return true;
 }
 
+static bool add(Trajectory *trajectory, PetriSession *session) {
+    switch (trajectory->format) {
+    case TRAJECTORY_XYZ:
+        add_xyz(&trajectory->output, session);
+        return true;
+    case TRAJECTORY_CSV:
+        return add_csv(trajectory, session);
+    default:
+        return h5md_add(&trajectory->h5md, session, &trajectory->output);
+    }
+}
+
 void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     uint64_t errors = petri_diagnostic_count(session, PETRI_ERROR);
-    bool whole = true;
-    if (!trajectory->csv) {
-        add_xyz(&trajectory->output, session);
-    } else {
-        whole = add_csv(trajectory, session);
-    }
+    bool whole = add(trajectory, session);
     if (!whole || petri_diagnostic_count(session, PETRI_ERROR) != errors) { // something is missing for want of memory
-        trajectory->output.error = ENOMEM;
+        complain(trajectory, ENOMEM);
+        return;
     }
     atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment
     trajectory->whole = trajectory->output.written + trajectory->output.used;
-    if (trajectory->output.error != 0) {
+    if (trajectory->output.error != 0 && trajectory->format == TRAJECTORY_H5MD) {
+        trajectory->failed = true; // petri-hdf5 has ended, and told why
+    } else if (trajectory->output.error != 0) {
         complain(trajectory, trajectory->output.error);
     }
+}
+
+static bool put_in_place(Trajectory *trajectory, bool keep) {
+    if (trajectory->format == TRAJECTORY_H5MD) {
+        return h5md_close(&trajectory->h5md, keep, &trajectory->output);
+    }
+    bool flushed = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
+    unfinished_end(trajectory->unfinished);
+    if (!flushed || !keep) {
+        replace_abandon(&trajectory->file);
+        return flushed;
+    }
+    return replace_commit(&trajectory->file) || complain(trajectory, errno);
 }
 
 bool trajectory_close(Trajectory *trajectory, bool good) {
     if (!trajectory->open) {
         return true;
     }
-    bool done = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
-    unfinished_end(trajectory->unfinished);
-    if (!done || (!good && trajectory->whole == 0)) {
-        replace_abandon(&trajectory->file);
-    } else if (!replace_commit(&trajectory->file)) {
-        done = complain(trajectory, errno);
-    }
     trajectory->open = false;
-    return done;
+    bool keep = !trajectory->failed && (good || trajectory->whole > 0);
+    return put_in_place(trajectory, keep) && !trajectory->failed;
 }

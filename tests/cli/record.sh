@@ -23,7 +23,7 @@ check "… all systems together" lines_are way.xyz 18
 check "… missing dimensions are 0" has way.xyz "X 5 4 0 5 0 0 0.5 2 -3 1 0 0"
 petri run pair.fl --trajectory way.txt
 check "other kinds of trajectory are refused" status_is 2
-check "… naming those there are" has err "a file name that ends in .xyz or .csv"
+check "… naming those there are" has err "a file name that ends in .xyz, .csv or .h5"
 petri run pair.fl --trajectory absent/way.csv
 check "a trajectory that cannot be made is an error" status_is 1
 check "… which names the file" has err "cannot write absent/way.csv"

@@ -10,12 +10,16 @@ trap 'rm -rf "$scratch"' EXIT
 
 for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     case $header in *_list.h | */engine_names.h) continue ;; esac
-    # What draws is for builds that have the library.
+    # What takes a library is for builds that have it.
     isa=
     case $header in
     lib/draw/draw.h)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
+        ;;
+    src/hdf5/*)
+        pkg-config --exists hdf5 2>/dev/null || continue
+        isa=$(pkg-config --cflags hdf5)
         ;;
     lib/gl/internal.h) pkg-config --exists epoxy 2>/dev/null || continue ;;
     esac

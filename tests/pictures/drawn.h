@@ -17,11 +17,13 @@ typedef struct Drawn {
     int height;
     uint32_t *pixels; // of the frame that was drawn last: rows from the top
     char told[TOLD];  // diagnostics, a line each: LINE [CODE] TEXT
+    unsigned column;  // of the last one
 } Drawn;
 
 static inline void drawn_tell(void *host, const PetriDiagnostic *diagnostic) {
     Drawn *drawn = host;
     size_t at = strlen(drawn->told);
+    drawn->column = diagnostic->column;
     snprintf(drawn->told + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
 }
 

@@ -17,6 +17,9 @@ void main() {
     } else {
         V /= away;
     }
+#ifdef BACK
+    V = N;
+#endif
     albedo = albedo_transparency.rgb;
     vec3 emissive = emissive_translucency.rgb;
 #ifdef TEXTURED
@@ -43,6 +46,10 @@ void main() {
     GV = NV / (NV * (1.0 - k) + k);
     diffuse_share = (1.0 - F0) * (1.0 - metal) * albedo;
     diffuse = vec3(0.0);
+#ifdef BACK
+    entering = vec3(0.0);
+    entering_share = (1.0 - F0) * (1.0 - metal) * (1.0 + albedo) / 2.0;
+#endif
     float brightness = lum(emissive);
     specular = brightness <= 1.0 ? emissive
                                  : emissive / brightness + (emissive - emissive / brightness) * nv;
@@ -71,10 +78,16 @@ void main() {
                     ? pow(clamp((away - fog_min) / (fog_max - fog_min), 0.0, 1.0), 1.0 / fog_curve)
                     : 0.0;
     float opacity = 1.0 - transparency;
+#ifdef TRANSLUCENT
+    opacity *= come_through(emissive_translucency.a, away);
+#endif
     vec3 sum = mix(diffuse, fog_color, fog) * opacity + specular * (1.0 - fog);
     if (monochrome)
         sum = vec3(lum(sum));
     color = vec4(sum * tint, opacity);
+#ifdef BACK
+    color = vec4(entering, away);
+#endif
     if (any(isnan(color)) || any(isinf(color)))
         color = vec4(0.0);
 }

@@ -28,6 +28,9 @@ layout(std140) uniform Lights { vec4 lights[MOST_LIGHTS * 4]; };
 float lum(vec3 c) { return dot(c, vec3(0.2126, 0.7152, 0.0722)); }
 
 vec3 N, V, albedo, F0, diffuse_share, diffuse, specular;
+#ifdef BACK
+vec3 entering, entering_share;
+#endif
 float alpha2, k, NV, GV;
 
 // One light, or one step of it, from a direction at a distance.
@@ -39,6 +42,10 @@ void shine(vec3 c, vec4 falloff, vec3 L, float d, float b, bool first, bool last
         return;
     if (first)
         diffuse += I * diffuse_share;
+#ifdef BACK
+    if (first)
+        entering += I * entering_share;
+#endif
     if (last) {
         vec3 H = normalize(V + L);
         float HV = clamp(dot(H, V), 0.0, 1.0), NH = clamp(dot(N, H), 0.0, 1.0), rest = 1.0 - HV;

@@ -30,6 +30,7 @@ typedef struct Case {
     double ior;
     double ao;
     double transparency;
+    double translucency; // the wall is 1 thick
     bool orthographic;
     bool monochrome;
     double tint[3];
@@ -163,6 +164,21 @@ static void shine(Point *at, const Light *light) {
     }
 }
 
+// Light that goes in at the wall's back comes through: canvas3d.md 5.6 where the back is the same all over. Changes the
+// opacity.
+static void come_through(Point *at, const Case *c, double *opacity) {
+    const Light *light = &c->lights[0];
+    double T = pow(0.5, 1 / c->translucency), towards[3], zero[3] = {0};
+    add(towards, zero, 1, light->direction);
+    norm(towards);
+    for (int k = 0; k < 3; k++) {
+        double in =
+            light->color[k] * clamp(towards[2], 0, 1) * (1 - at->F0[k]) * (1 - c->metal) * (1 + c->color[k]) / 2;
+        at->specular[k] += in * c->color[k] * T * (1 - T);
+    }
+    *opacity *= 1 - pow(T, 5);
+}
+
 // The colour that point p of a surface with a normal shows to a camera at 0;0;4 that looks along -z.
 static void model(const Case *c, const double p[3], const double N[3], double out[3]) {
     double eye[3] = {0, 0, 4};
@@ -183,11 +199,14 @@ static void model(const Case *c, const double p[3], const double N[3], double ou
     }
     for (int i = 0; i < MOST_LIGHTS; i++)
         shine(&at, &c->lights[i]);
+    double opacity = 1 - c->transparency;
+    if (c->translucency > 0)
+        come_through(&at, c, &opacity);
     double fog = 0, sky[3] = {0.1, 0.2, 0.3};
     if (c->fog_max > c->fog_min && c->fog_curve > 0)
         fog = pow(clamp((at.D - c->fog_min) / (c->fog_max - c->fog_min), 0, 1), 1 / c->fog_curve);
     for (int k = 0; k < 3; k++)
-        out[k] = (at.diffuse[k] * (1 - fog) + sky[k] * fog) * (1 - c->transparency) + at.specular[k] * (1 - fog);
+        out[k] = (at.diffuse[k] * (1 - fog) + sky[k] * fog) * opacity + at.specular[k] * (1 - fog);
     double grey = lum(out);
     for (int k = 0; k < 3; k++)
         out[k] = (c->monochrome ? grey : out[k]) * c->tint[k];
@@ -240,8 +259,8 @@ static void write_script(char *out, const Case *c, const char *surface) {
     out += sprintf(out, "        %s", surface);
     out += add_three(out, "color", c->color);
     out += add_three(out, "emissive", c->emissive);
-    sprintf(out, " roughness=%g metal=%g ior=%g ao=%g transparency=%g\n", c->roughness, c->metal, c->ior, c->ao,
-            c->transparency);
+    sprintf(out, " roughness=%g metal=%g ior=%g ao=%g transparency=%g translucency=%g\n", c->roughness, c->metal,
+            c->ior, c->ao, c->transparency, c->translucency);
 }
 
 static bool missing; // OpenGL
@@ -358,6 +377,36 @@ static const Case cases[] = {
      .lights = {{POINT, {3, 3, 3}, .position = {0.5, 0.5, 2}, .falloff = SQUARE}}},
 };
 
+// Walls that a light shines at from behind: without perspective each point is as thick as the others.
+static const Case through[] = {
+    {.name = "translucency",
+     .color = {0.9, 0.6, 0.3},
+     USUAL,
+     .translucency = 1.5,
+     .orthographic = true,
+     .lights = {{DIRECTIONAL, {1, 1, 0.8}, .direction = {0.5, 0, 1}, .falloff = SQUARE},
+                {AMBIENT, {0.1, 0.2, 0.3}, .falloff = SQUARE}}},
+    {.name = "translucency of a thick wall",
+     .color = {0.9, 0.6, 0.3},
+     USUAL,
+     .translucency = 0.4,
+     .orthographic = true,
+     .lights = {{DIRECTIONAL, {3, 3, 3}, .direction = {0, 0, 1}, .falloff = SQUARE},
+                {DIRECTIONAL, {1, 1, 1}, .direction = {0, 0, -1}, .falloff = SQUARE}}},
+    {.name = "translucency and transparency",
+     .color = {0.9, 0.6, 0.3},
+     .roughness = 0.5,
+     .metal = 0.3,
+     .ior = 1.4,
+     .ao = 1,
+     .tint = WHITE,
+     .translucency = 3,
+     .transparency = 0.4,
+     .orthographic = true,
+     .lights = {{DIRECTIONAL, {2, 1, 3}, .direction = {0, 0.2, 1}, .falloff = SQUARE},
+                {DIRECTIONAL, {1, 1, 1}, .direction = {0, 1, -1}, .falloff = SQUARE}}},
+};
+
 static int worst_of(const double wanted[3], uint32_t pixel, int worst) {
     for (int k = 0; k < 3; k++) {
         int off = abs(byte_of(wanted[k]) - (int)(pixel >> (16 - 8 * k) & 255));
@@ -430,6 +479,8 @@ static void test_walls(void **state) {
     (void)state;
     for (size_t i = 0; i < sizeof cases / sizeof *cases && !missing; i++)
         check_wall(&cases[i]);
+    for (size_t i = 0; i < sizeof through / sizeof *through && !missing; i++)
+        check_wall(&through[i]);
     if (missing)
         skip();
 }

@@ -1,0 +1,113 @@
+// hdf5.c: see hdf5.h.
+#include "cli/hdf5.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <signal.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "cli/bytes.h"
+#include "cli/cli.h"
+#include "cli/pass_on.h"
+#include "cli/unfinished.h"
+
+static bool wait_for(pid_t process) {
+    int status = 0;
+    pid_t done;
+    do {
+        done = waitpid(process, &status, 0);
+    } while (done < 0 && errno == EINTR);
+    return done == process && WIFEXITED(status) && WEXITSTATUS(status) == STATUS_DONE;
+}
+
+// Before a signal ends this process.
+static void end_now(void *context) {
+    Hdf5 *writer = context;
+    close(writer->stream);
+    wait_for(writer->process);
+}
+
+// In the child. Signals for all processes of a terminal are not for it: it ends with the stream.
+static void become_writer(int stream, char **words) {
+    static const int ignored[] = {SIGINT, SIGTERM, SIGHUP, SIGQUIT};
+    for (size_t i = 0; i < sizeof ignored / sizeof ignored[0]; i++) {
+        signal(ignored[i], SIG_IGN);
+    }
+    int cause = errno, nothing = open("/dev/null", O_WRONLY); // whoever reads what petri prints need not wait for this
+    if (nothing >= 0 && dup2(stream, STDIN_FILENO) >= 0 && dup2(nothing, STDOUT_FILENO) >= 0) {
+        cause = pass_on_become(words[0], words);
+    }
+    message("cannot write %s: there is no petri-hdf5: %s%s", words[2], strerror(cause),
+            cause == ENOENT ? "; this petri was built without HDF5 (Debian: libhdf5-dev)" : "");
+    _exit(STATUS_FAILED);
+}
+
+// The writer says a word as soon as all that can fail at first is done.
+static bool hear(int stream) {
+    char word;
+    ssize_t length;
+    do {
+        length = read(stream, &word, 1);
+    } while (length < 0 && errno == EINTR);
+    return length == 1;
+}
+
+static bool start(Hdf5 *writer, char **words) {
+    int ends[2];
+    if (socketpair(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0, ends) != 0) {
+        return false;
+    }
+    writer->stream = ends[0];
+    writer->process = fork();
+    if (writer->process == 0) {
+        become_writer(ends[1], words);
+    }
+    close(ends[1]);
+    return writer->process > 0;
+}
+
+bool hdf5_start(Hdf5 *writer, const char *kind, const char *path) {
+    char program[] = "petri-hdf5";
+    SCOPED_TEXT as_kind = memory_text(kind);
+    SCOPED_TEXT as_path = memory_text(path);
+    char *words[] = {program, as_kind, as_path, NULL};
+    *writer = (Hdf5){.process = -1, .stream = -1, .unfinished = -1};
+    bool started = start(writer, words);
+    if (!started) {
+        message("cannot write %s: %s", path, strerror(errno));
+    } else if (hear(writer->stream)) {
+        writer->unfinished = unfinished_begin(end_now, writer);
+        return true;
+    }
+    hdf5_end(writer);
+    return false;
+}
+
+bool hdf5_end(Hdf5 *writer) {
+    if (writer->stream >= 0) {
+        close(writer->stream);
+    }
+    bool good = writer->process > 0 && wait_for(writer->process);
+    unfinished_end(writer->unfinished);
+    return good;
+}
+
+bool hdf5_table(const char *path, const char *csv, size_t length) {
+    Hdf5 writer;
+    Hdf5Head head = {HDF5_ADD, length}, end = {HDF5_KEEP, 0};
+    if (!hdf5_start(&writer, "table", path)) {
+        return false;
+    }
+    bool sent = file_write(writer.stream, (const char *)&head, sizeof head) && file_write(writer.stream, csv, length) &&
+                file_write(writer.stream, (const char *)&end, sizeof end);
+    return hdf5_end(&writer) && sent;
+}
+
+bool hdf5_is_wanted(const char *path) {
+    const char *dot = strrchr(path, '.');
+    return dot != NULL && str_word_number(str_from(dot), ".h5 .hdf5") >= 0;
+}

@@ -1,0 +1,65 @@
+// hdf5.h: files in HDF5: what is to stand in them goes down a stream to petri-hdf5, which alone takes libhdf5.
+//
+// So no signal that ends petri can harm a file: petri-hdf5 ends with the stream, and keeps what is whole.
+#ifndef PETRI_SRC_HDF5_H
+#define PETRI_SRC_HDF5_H
+
+#include <stdbool.h>
+#include <stddef.h>
+#include <stdint.h>
+#include <sys/types.h>
+
+typedef struct Hdf5 {
+    pid_t process;
+    int stream;
+    int unfinished; // its number there
+} Hdf5;
+
+// Starts petri-hdf5 on a file of a kind: "trajectory" takes a stream of Hdf5Head with what it counts, "table" CSV
+// behind one, and then another. False after a message.
+bool hdf5_start(Hdf5 *writer, const char *kind, const char *path);
+// A table as a whole. False after a message.
+bool hdf5_table(const char *path, const char *csv, size_t length);
+// Whether a table is to be in HDF5, by its name.
+bool hdf5_is_wanted(const char *path);
+// Waits until the file has taken its name. False if there is none, which petri-hdf5 has told if it is its fault.
+bool hdf5_end(Hdf5 *writer);
+
+// What follows is the layout of the stream, of two programs that are built together.
+
+typedef enum Hdf5Act {
+    HDF5_ADD = 1, // `bytes` follow
+    HDF5_KEEP,    // the file is complete; it is also kept if the stream ends after something was added
+    HDF5_DROP,    // it is not to be
+} Hdf5Act;
+
+typedef struct Hdf5Head {
+    uint64_t act;
+    uint64_t bytes;
+} Hdf5Head;
+
+// A frame. Its ids that are new and no whole numbers from 0 follow, each ended by NUL, then the systems. All texts are
+// filled up with NULs to eight bytes.
+typedef struct Hdf5Frame {
+    int64_t number;
+    double time;
+    uint64_t text_bytes;
+    uint64_t text_count;
+    uint64_t system_count;
+} Hdf5Frame;
+
+// A system. Its name follows, then of all particles: positions, velocities, radii, masses and charges as doubles; ids
+// as int64_t, -2-K for text K of all frames; whether it is an anchor as int64_t.
+typedef struct Hdf5System {
+    uint64_t particles;
+    uint64_t dimensions;
+    uint64_t name_bytes;
+} Hdf5System;
+
+enum { HDF5_NUMBERS = 5 }; // of a particle besides those of position and velocity, all of eight bytes
+
+static inline size_t hdf5_padded(size_t length) {
+    return (length + 8) / 8 * 8; // at least one NUL
+}
+
+#endif

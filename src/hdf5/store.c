@@ -1,0 +1,227 @@
+// store.c: see store.h. Times are kept nowhere, so that the same run gives the same bytes.
+#include "hdf5/store.h"
+
+#include <errno.h>
+#include <stdlib.h>
+#include <string.h>
+
+#include "cli/bytes.h"
+#include "cli/cli.h"
+
+// The library says why the system refused in words only.
+static herr_t find_cause(unsigned depth, const H5E_error2_t *error, void *context) {
+    (void)depth;
+    Store *store = context;
+    const char *place = error->desc == NULL ? NULL : strstr(error->desc, "errno = ");
+    if (place != NULL && store->cause == 0) {
+        store->cause = atoi(place + strlen("errno = "));
+    }
+    return 0;
+}
+
+void store_check(Store *store, int64_t result) {
+    if (result < 0 && !store->failed) {
+        store->failed = true;
+        H5Ewalk2(H5E_DEFAULT, H5E_WALK_UPWARD, find_cause, store);
+    }
+}
+
+static hid_t checked(Store *store, hid_t made) {
+    store_check(store, made);
+    return made;
+}
+
+static bool complain(const Store *store, const char *why) {
+    message("cannot write %s: %s", store->path, why);
+    return false;
+}
+
+bool store_begin(Store *store, const char *path) {
+    *store = (Store){.path = path, .file = H5I_INVALID_HID};
+    // It takes no file without a name.
+    if (!replace_begin(&store->replacement, path, REPLACE_NAMED)) {
+        return complain(store, strerror(errno));
+    }
+    if (store->replacement.direct) {
+        replace_abandon(&store->replacement);
+        return complain(store, "it is no regular file");
+    }
+    // It locks files, which ours is already.
+    setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
+    H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
+    hid_t access = H5Pcreate(H5P_FILE_ACCESS);
+    H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // with all that is open in it
+    SCOPED_BYTES name = {0};
+    bytes_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.beside);
+    store->file = checked(store, H5Fcreate(name.data, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    H5Pclose(access);
+    return !store->failed || store_end(store, false);
+}
+
+bool store_end(Store *store, bool keep) {
+    if (store->file >= 0) {
+        store_check(store, H5Fclose(store->file));
+    }
+    if (keep && !store->failed) {
+        return replace_commit(&store->replacement) || complain(store, strerror(errno));
+    }
+    replace_abandon(&store->replacement);
+    return !store->failed || complain(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 cannot do it");
+}
+
+hid_t store_group(Store *store, hid_t parent, const char *name) {
+    return checked(store, H5Gcreate2(parent, name, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+static void add_attribute(Store *store, hid_t object, const char *name, hid_t type, hid_t space, const void *value) {
+    hid_t attribute = checked(store, H5Acreate2(object, name, type, space, H5P_DEFAULT, H5P_DEFAULT));
+    store_check(store, H5Awrite(attribute, type, value));
+    H5Aclose(attribute);
+    H5Sclose(space);
+}
+
+hid_t store_text_type(size_t length) {
+    hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, length + 1);
+    H5Tset_cset(type, H5T_CSET_UTF8);
+    return type;
+}
+
+void store_text(Store *store, hid_t object, const char *name, const char *text) {
+    hid_t type = store_text_type(strlen(text));
+    add_attribute(store, object, name, type, H5Screate(H5S_SCALAR), text);
+    H5Tclose(type);
+}
+
+void store_texts(Store *store, hid_t object, const char *name, const char *text, hsize_t count) {
+    size_t bytes = strlen(text) + 1;
+    char *texts = memory_zeroed(count * bytes);
+    for (size_t i = 0; i < count; i++) {
+        memcpy(texts + i * bytes, text, bytes);
+    }
+    hid_t type = store_text_type(bytes - 1);
+    add_attribute(store, object, name, type, H5Screate_simple(1, &count, NULL), texts);
+    H5Tclose(type);
+    free(texts);
+}
+
+void store_numbers(Store *store, hid_t object, const char *name, const int *numbers, hsize_t count) {
+    hid_t space = count == 1 ? H5Screate(H5S_SCALAR) : H5Screate_simple(1, &count, NULL);
+    add_attribute(store, object, name, H5T_NATIVE_INT, space, numbers);
+}
+
+// Chunks hold many short rows, or a part of a long one: what is not filled is lost, and each takes its time.
+static void choose_chunk(int rank, const hsize_t sizes[STORE_RANKS], hsize_t chunk[STORE_RANKS]) {
+    enum { SHORT = 1024, LONG = 65536 }; // numbers
+    hsize_t row = 1;
+    for (int k = rank - 1; k > 0; k--) {
+        hsize_t size = sizes[k] > LONG / row ? LONG / row : sizes[k];
+        chunk[k] = size > 0 ? size : 1;
+        row *= chunk[k];
+    }
+    chunk[0] = row < SHORT ? SHORT / row : 1;
+}
+
+StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t type, int rank,
+                         const hsize_t sizes[STORE_RANKS], const void *fill) {
+    StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
+    hsize_t most[STORE_RANKS] = {H5S_UNLIMITED, H5S_UNLIMITED, H5S_UNLIMITED};
+    choose_chunk(rank, sizes, column.chunk);
+    hid_t made = H5Pcreate(H5P_DATASET_CREATE), space = H5Screate_simple(rank, column.sizes, most);
+    H5Pset_obj_track_times(made, false);
+    H5Pset_chunk(made, rank, column.chunk);
+    H5Pset_fill_value(made, type, fill);
+    column.set = checked(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    H5Pclose(made);
+    H5Sclose(space);
+    return column;
+}
+
+void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
+    bool grows = false;
+    for (int k = 0; k < column->rank; k++) {
+        grows = grows || sizes[k] > column->sizes[k];
+        column->sizes[k] = sizes[k] > column->sizes[k] ? sizes[k] : column->sizes[k];
+    }
+    if (grows) {
+        store_check(store, H5Dset_extent(column->set, column->sizes));
+    }
+}
+
+// The beginning of a row, written or read.
+static void move_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], void *out,
+                     const void *in) {
+    hsize_t start[STORE_RANKS] = {row}, count[STORE_RANKS] = {1};
+    for (int k = 1; k < column->rank; k++) {
+        count[k] = sizes[k];
+    }
+    hid_t file = H5Dget_space(column->set), memory = H5Screate_simple(column->rank, count, NULL);
+    store_check(store, H5Sselect_hyperslab(file, H5S_SELECT_SET, start, NULL, count, NULL));
+    store_check(store, out == NULL ? H5Dwrite(column->set, column->type, memory, file, H5P_DEFAULT, in)
+                                   : H5Dread(column->set, column->type, memory, file, H5P_DEFAULT, out));
+    H5Sclose(file);
+    H5Sclose(memory);
+}
+
+// Rows have become far longer: in chunks for short ones each would be in very many.
+static void make_anew(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
+    StoreColumn old = *column;
+    store_check(store, H5Ldelete(old.parent, old.name, H5P_DEFAULT)); // it is there until it is closed
+    *column = store_column(store, old.parent, old.name, old.type, old.rank, sizes, old.fill);
+    store_grow(store, column, old.sizes);
+    hsize_t numbers = old.rank > 2 ? old.sizes[1] * old.sizes[2] : old.sizes[1];
+    double *row = memory_zeroed(numbers * sizeof *row);
+    for (hsize_t i = 0; i < old.sizes[0] && numbers > 0; i++) {
+        move_row(store, &old, i, old.sizes, row, NULL);
+        move_row(store, column, i, old.sizes, NULL, row);
+    }
+    free(row);
+    H5Dclose(old.set);
+}
+
+void store_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], const void *numbers) {
+    enum { MOST_CHUNKS = 8 };
+    if (column->rank > 1 && column->chunk[0] > 1 && sizes[1] > MOST_CHUNKS * column->chunk[1]) {
+        make_anew(store, column, sizes);
+    }
+    hsize_t whole[STORE_RANKS] = {row + 1};
+    bool empty = false;
+    for (int k = 1; k < column->rank; k++) {
+        whole[k] = sizes[k];
+        empty = empty || sizes[k] == 0;
+    }
+    store_grow(store, column, whole);
+    if (!empty) {
+        move_row(store, column, row, sizes, NULL, numbers);
+    }
+}
+
+void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list) {
+    hid_t space = H5Screate_simple(1, &count, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(made, false);
+    hid_t set = checked(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, list));
+    H5Dclose(set);
+    H5Pclose(made);
+    H5Sclose(space);
+    H5Tclose(type);
+}
+
+void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count) {
+    size_t longest = 0;
+    const char *text = texts;
+    for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
+        longest = strlen(text) > longest ? strlen(text) : longest;
+    }
+    char *all = memory_zeroed(count * (longest + 1));
+    text = texts;
+    for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
+        memcpy(all + i * (longest + 1), text, strlen(text));
+    }
+    store_list(store, parent, name, store_text_type(longest), count, all);
+    free(all);
+}
+
+void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name) {
+    store_check(store, H5Lcreate_hard(from, old, to, name, H5P_DEFAULT, H5P_DEFAULT));
+}

@@ -1,0 +1,135 @@
+// h5md.c: see h5md.h. Numbers go to petri-hdf5 from where they lie.
+#include "run/h5md.h"
+
+#include <errno.h>
+#include <string.h>
+
+bool h5md_open(H5md *file, const char *path, Output *output) {
+    *file = (H5md){0};
+    bool started = hdf5_start(&file->writer, "trajectory", path);
+    output_start(output, file->writer.stream);
+    return started;
+}
+
+static bool is_text(const void *owner, uint32_t entry, const void *key) {
+    return strcmp(((const H5md *)owner)->texts.items[entry], key) == 0;
+}
+
+// The number that stands for the text of an id in the whole file.
+static bool number_text(H5md *file, const char *text, int64_t *number) {
+    uint64_t hash = hash_bytes(0, text, strlen(text));
+    uint32_t entry = index_find(&file->index, hash, is_text, file, text);
+    if (entry == INDEX_NONE) {
+        entry = (uint32_t)file->texts.count;
+        if (!index_add(&file->index, hash, entry)) {
+            return false;
+        }
+        texts_add(&file->texts, text);
+    }
+    *number = -2 - (int64_t)entry;
+    return true;
+}
+
+// A whole number from 0 stands for itself, all else is text.
+static bool add_id(H5md *file, PetriSession *session, PetriValue value) {
+    const double MOST = 9007199254740992; // 2^53: above it doubles are not all whole numbers
+    double number = value.length == 1 && value.numbers != NULL ? value.numbers[0] : -1;
+    int64_t id = number >= 0 && number <= MOST ? (int64_t)number : -1;
+    if (id < 0 || (double)id != number) {
+        const char *text = petri_text(session, value);
+        if (text == NULL || !number_text(file, text, &id)) {
+            return false;
+        }
+    }
+    bytes_add(&file->ids, (const char *)&id, sizeof id);
+    return true;
+}
+
+static bool add_ids(H5md *file, PetriSession *session, size_t s, const PetriSystem *system) {
+    PetriColumn ids = petri_ids(session, s);
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        const double *number = ids.data == NULL ? NULL : ids.data + i * ids.stride;
+        if (!add_id(file, session, number == NULL ? petri_id(session, s, i) : (PetriValue){1, number, NULL})) {
+            return false;
+        }
+    }
+    return true;
+}
+
+static void send_text(Output *output, const char *text, size_t length) {
+    static const char filling[8];
+    output_write(output, text, length);
+    output_write(output, filling, hdf5_padded(length) - length);
+}
+
+static void send_column(Output *output, PetriColumn column, size_t width, uint32_t count) {
+    if (column.stride == width && count > 0) {
+        output_write(output, (const char *)column.data, count * width * sizeof(double));
+        return;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        output_write(output, (const char *)(column.data + i * column.stride), width * sizeof(double));
+    }
+}
+
+static void send_system(Output *output, const PetriSystem *system, const int64_t *ids) {
+    Hdf5System head = {system->particle_count, system->dimensions, hdf5_padded(strlen(system->name))};
+    output_write(output, (const char *)&head, sizeof head);
+    send_text(output, system->name, strlen(system->name));
+    send_column(output, system->position, system->dimensions, system->particle_count);
+    send_column(output, system->velocity, system->dimensions, system->particle_count);
+    send_column(output, system->radius, 1, system->particle_count);
+    send_column(output, system->mass, 1, system->particle_count);
+    send_column(output, system->charge, 1, system->particle_count);
+    output_write(output, (const char *)ids, system->particle_count * sizeof *ids);
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        int64_t is_anchor = system->anchor[i * system->anchor_stride];
+        output_write(output, (const char *)&is_anchor, sizeof is_anchor);
+    }
+}
+
+static void send_head(Output *output, Hdf5Act act, uint64_t bytes) {
+    Hdf5Head head = {act, bytes};
+    output_write(output, (const char *)&head, sizeof head);
+}
+
+bool h5md_add(H5md *file, PetriSession *session, Output *output) {
+    SCOPED_BYTES texts = {0};
+    PetriFrame now = petri_frame(session);
+    Hdf5Frame frame = {.number = now.number, .time = now.time, .text_count = file->sent};
+    size_t bytes = sizeof frame;
+    PetriSystem system;
+    file->ids.length = 0;
+    bytes_add(&file->ids, "", 0);
+    bytes_add(&texts, "", 0);
+    for (; petri_system(session, frame.system_count, &system); frame.system_count++) {
+        if (!add_ids(file, session, frame.system_count, &system)) {
+            return false;
+        }
+        bytes += sizeof(Hdf5System) + hdf5_padded(strlen(system.name)) +
+                 system.particle_count * (2 * system.dimensions + HDF5_NUMBERS) * sizeof(double);
+    }
+    for (; file->sent < file->texts.count; file->sent++) {
+        bytes_add(&texts, file->texts.items[file->sent], strlen(file->texts.items[file->sent]) + 1);
+    }
+    frame.text_count = file->sent - frame.text_count;
+    frame.text_bytes = hdf5_padded(texts.length);
+    send_head(output, HDF5_ADD, bytes + frame.text_bytes);
+    output_write(output, (const char *)&frame, sizeof frame);
+    send_text(output, texts.data, texts.length);
+    const int64_t *ids = (const int64_t *)(const void *)file->ids.data;
+    for (size_t s = 0; petri_system(session, s, &system); s++) {
+        send_system(output, &system, ids);
+        ids += system.particle_count;
+    }
+    return true;
+}
+
+bool h5md_close(H5md *file, bool keep, Output *output) {
+    send_head(output, keep ? HDF5_KEEP : HDF5_DROP, 0);
+    output_flush(output);
+    texts_free(&file->texts);
+    index_free(&file->index);
+    bytes_free(&file->ids);
+    return hdf5_end(&file->writer);
+}

@@ -1,0 +1,92 @@
+"""h5md.py WAY.h5 WAY.csv: whether a trajectory in H5MD holds what the same run has written as CSV, to the last bit.
+h5md.py --frames WAY.h5: how many frames it has."""
+
+import csv
+import math
+import sys
+
+import h5py
+import numpy
+
+
+def rows_of(group):
+    """The row of each frame that the group is in."""
+    return {int(step): row for row, step in enumerate(group["position/step"])}
+
+
+def check_form(file):
+    about = file["h5md"]
+    assert list(about.attrs["version"]) == [1, 1]
+    assert about["creator"].attrs["name"] == b"petri" and about["author"].attrs["name"]
+    for group in file["particles"].values():
+        frames = len(group["position/step"])
+        dimensions = group["box"].attrs["dimension"]
+        assert list(group["box"].attrs["boundary"]) == [b"none"] * dimensions
+        assert group["box/edges/value"].shape == (frames, dimensions)
+        shape = group["position/value"].shape
+        assert shape[0] == frames and shape[2] == dimensions
+        for name in "position", "velocity", "radius", "mass", "charge", "id", "anchor":
+            element = group[name]
+            assert element["step"] == group["position/step"] and element["time"] == group["position/time"]
+            assert element["value"].shape == (shape if name in ("position", "velocity") else shape[:2])
+            assert element["value"].dtype == ("<i8" if name in ("id", "anchor") else "<f8")
+        assert group["id/value"].fillvalue == -1
+        assert group["species"].shape == shape[1:2] and not group["species"][:].any()
+
+
+def compare(path, table):
+    with h5py.File(path) as file:
+        check_form(file)
+        groups = {group.attrs["system"].decode(): group for group in file["particles"].values()}
+        texts = [text.decode() for text in file["parameters/id_texts"]] if "parameters" in file else []
+        data = {
+            name: {column: group[column]["value"][:] for column in group if column not in ("box", "species")}
+            for name, group in groups.items()
+        }
+        rows = {name: rows_of(group) for name, group in groups.items()}
+        times = {name: group["position/time"][:] for name, group in groups.items()}
+        edges = {name: group["box/edges/value"][:] for name, group in groups.items()}
+    seen = {}
+    with open(table, newline="") as lines:
+        for line in csv.DictReader(lines):
+            name, frame = line["system"], int(line["frame"])
+            row = rows[name][frame]
+            place = seen.get((name, row), 0)
+            seen[name, row] = place + 1
+            columns = {column: values[row, place] for column, values in data[name].items()}
+            number = int(columns["id"])
+            assert (str(number) if number >= 0 else texts[-2 - number]) == line["id"], line
+            for key in "radius", "mass", "charge", "anchor":
+                assert float(line[key]) == columns[key], (key, line)
+            for letter, column in ("x", "position"), ("v", "velocity"):
+                for k, value in enumerate(columns[column]):
+                    assert float(line[f"{letter}{k + 1}"]) == value, (column, line)
+            assert float(line["time"]) == times[name][row]
+    filled = 0
+    for name, columns in data.items():
+        for row in rows[name].values():
+            count = seen.get((name, row), 0)
+            assert (columns["id"][row, count:] == -1).all()
+            assert numpy.isnan(columns["position"][row, count:]).all()
+            filled += columns["id"].shape[1] - count
+            inside = columns["position"][row, :count]
+            extent = inside.max(axis=0) - inside.min(axis=0) if count else 0
+            assert (edges[name][row] == extent).all()
+    assert sum(seen.values()) > 0
+    print(len(groups), "systems,", sum(seen.values()), "particles,", filled, "absent,", len(texts), "texts")
+
+
+def frames(path):
+    with h5py.File(path) as file:
+        check_form(file)
+        (group,) = file["particles"].values()
+        count = len(group["position/step"])
+        assert list(group["position/step"]) == list(range(count))
+        assert not math.isnan(group["position/value"][count - 1].sum())
+        print(count)
+
+
+if sys.argv[1] == "--frames":
+    frames(sys.argv[2])
+else:
+    compare(*sys.argv[1:])

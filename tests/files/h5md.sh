@@ -1,0 +1,104 @@
+# h5md.sh: `petri run --trajectory FILE.h5`. Part of ../cli/run.sh.
+
+mkdir bare
+cp "$petri" bare/petri
+cat >pair.fl <<'END'
+%pragma fps 10
+!physics state=:w dimensions=2 time=time resolution=0.1
+    !anchor id='a,"b' position=1;2
+    !particle id=7 mass=2 radius=0.5 charge=-3 position=3;4 velocity=5;0
+    for i in ..3*frame % 7
+        !particle id=100+i position=i;1/3
+if frame != 2
+    !physics state=:line;1 dimensions=1 time=time
+        !particle id=:p position=0.1
+        !particle id=-0.5 position=0.2
+!physics state=:many dimensions=3 time=time
+    for i in ..(2000 if frame > 1 else 0)
+        !particle id=i position=sin(i);cos(i);i velocity=i;i;1/(i+1)
+END
+"$work/bare/petri" run pair.fl --frames 2 --trajectory way.h5 >out 2>err </dev/null
+status=$?
+check "a petri without petri-hdf5 writes no H5MD" status_is 1
+check "… and says what it lacks" has err "built without HDF5 (Debian: libhdf5-dev)"
+if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
+    petri run pair.fl --trajectory absent/way.h5
+    check "an H5MD file that cannot be made is an error" status_is 1
+    check "… which names the file" has err "cannot write absent/way.h5: No such file"
+    echo old >full.h5
+    (
+        trap '' XFSZ # the disk is full
+        ulimit -f 1000
+        exec timeout 100 "$petri" run pair.fl --frames 5000 --trajectory full.h5 >out 2>err </dev/null
+    )
+    status=$?
+    check "one that the disk cannot hold is an error" status_is 1
+    check "… told once" count_is err "cannot write full.h5: File too large" 1
+    check "… and nothing else" lines_are err 1
+    check "… the old file is left alone" [ "$(cat full.h5)" = old ]
+    check "… and no half of a new one" [ -z "$(find . -name '*.tmp')" ]
+    for threads in 1 2; do
+        petri run pair.fl --frames 12 --threads $threads --trajectory way$threads.h5
+    done
+    check "the same run gives the same bytes" eval 'status_is 0 && cmp way1.h5 way2.h5'
+    check "nothing is left beside it" [ -z "$(find . -name '*.tmp')" ]
+fi
+python=/usr/bin/python3
+if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err; then
+    read_h5md() { $python -I "$here/../files/h5md.py" "$@" >out 2>err; }
+    petri run pair.fl --frames 12 --trajectory way.csv
+    check "H5MD holds what CSV does, as h5py reads it" eval 'read_h5md way1.h5 way.csv || { cat err; false; }'
+    check "… of all systems" has out "3 systems, 20083 particles"
+    petri run pair.fl --frames 5 --every 2 --trajectory way.h5md
+    petri run pair.fl --frames 5 --every 2 --trajectory way.csv
+    check "… each K-th frame, also as .h5md" eval 'read_h5md way.h5md way.csv || { cat err; false; }'
+
+    # Whatever ends the run, the frames that are whole are there.
+    printf '!physics state=:c dimensions=2\n    for i in ..300\n        !particle id=i velocity=1;i\n' >w.fl
+    # at_work FRAMES [OPTION...]: starts it, until it has made so many.
+    at_work() {
+        least=$(($1 - 1))
+        shift
+        rm -f way.h5
+        env --default-signal=HUP,INT,TERM "$petri" run w.fl --frames 100000000 --trace --trajectory way.h5 "$@" 2>err </dev/null &
+        job=$!
+        while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -le $least ]; do :; done
+    }
+    kept() { read_h5md --frames way.h5 && [ "$(cat out)" -ge $least ]; }
+    number=129
+    for signal in HUP INT TERM; do
+        at_work 20 >out
+        kill -$signal $job
+        wait $job
+        status=$?
+        check "SIG$signal ends a run" status_is $number
+        check "… whose H5MD file has its frames" kept
+        number=$((number == 129 ? 130 : 143))
+    done
+    mkfifo unread
+    exec 7<>unread
+    at_work 3 --print state >unread
+    before=0
+    until [ "$(wc -c <err)" -eq $before ]; do # nobody takes what is printed
+        before=$(wc -c <err)
+        sleep 0.1
+    done
+    kill -INT $job
+    sleep 0.3
+    kill -INT $job
+    wait $job
+    status=$?
+    exec 7>&-
+    check "a second Ctrl-C ends a run at once" status_is 130
+    check "… whose H5MD file has the frames that are whole" kept
+    at_work 20 >out
+    kill -9 $job
+    wait $job 2>/dev/null
+    status=$?
+    tries=0
+    while [ ! -e way.h5 ] && [ $tries -lt 1000 ]; do
+        tries=$((tries + 1))
+        sleep 0.01
+    done
+    check "kill -9 keeps them as well" eval 'status_is 137 && kept'
+fi
