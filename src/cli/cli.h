@@ -9,6 +9,7 @@
 #include "base/str.h"
 
 struct Args;
+struct Mail;
 struct Options;
 struct PetriRanks;
 struct SweepExtras;
@@ -46,6 +47,7 @@ typedef struct Host {
     const char *cpu;                 // PetriOptions.cpu
     const struct SweepExtras *sweep; // what petri sweep takes libraries for; NULL: petri-pictures has it
     const struct PetriRanks *ranks;  // the processes that share the work, as mpirun has started them; NULL: this alone
+    const struct Mail *mail;         // … between them; NULL likewise
 } Host;
 
 typedef struct Command {
