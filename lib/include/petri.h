@@ -86,6 +86,10 @@ typedef struct PetriRanks {
     void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
     // The numbers of one rank become those of all.
     void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    // Those of each rank r, which are at starts[r] up to starts[r + 1], become those of all.
+    void (*gather)(void *host, double *numbers, const size_t *starts);
+    // Each number becomes the largest that a rank has. None is NaN.
+    void (*most)(void *host, double *numbers, size_t count);
 } PetriRanks;
 
 typedef struct PetriOptions {
@@ -417,11 +421,33 @@ typedef struct PetriSystem {
 } PetriSystem;
 // By number from 0 in order of declaration; false beyond the last, and if memory is used up.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
+// For hosts whose users hold columns for longer: from now on those that are no longer valid stay readable, with what
+// they held last or hold by chance, until this is called with false, or the session is closed. Their memory counts.
+PETRI_API void petri_keep_columns(PetriSession *session, bool keep);
 // The id of a particle; null if there is none. Valid until the next petri_id or petri_force, and as the columns are.
 PETRI_API PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle);
 // The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made
 // when they are asked for first and whenever the system has got others. Valid as the columns are.
 PETRI_API PetriColumn petri_ids(PetriSession *session, size_t system);
+// How ranks (PetriOptions.ranks) share a system, and what this one has sent for it so far. A message to all is one.
+typedef enum PetriSharing {
+    PETRI_ALONE,     // each does all of it: it is small, or so are the forces
+    PETRI_BY_PAIRS,  // forces without reach: blocks of pairs are dealt out
+    PETRI_BY_REGION, // each has the particles of a region
+} PetriSharing;
+typedef struct PetriTraffic {
+    PetriSharing sharing; // in the last frame
+    uint64_t frames;      // that simulated
+    uint64_t steps;
+    uint64_t step_bytes; // sent within steps
+    uint64_t step_messages;
+    uint64_t reductions;  // decisions that all ranks took together: twice the logarithm of their number in messages
+    uint64_t frame_bytes; // sent at the end of frames, for all to have all particles
+    uint64_t own;         // particles of its region, summed over the steps
+    uint64_t halo;        // those of other regions that it was told of, likewise
+} PetriTraffic;
+// False if there is no such system.
+PETRI_API bool petri_traffic(PetriSession *session, size_t system, PetriTraffic *traffic);
 // The number of the particle that has an id; false if there is none, or memory is used up.
 PETRI_API bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle);
 

@@ -7,7 +7,7 @@ enum { PAIRS_FOR_THREADS = 30000 }; // fewer are done before another thread is a
 
 // One pass on its way through the groups.
 typedef struct Pass {
-    const PhysSystem *system;
+    PhysSystem *system;
     const Kernels *kernels;   // NULL: not for this pass, which goes row by row
     const PairKernel *kernel; // likewise
     int threads;
@@ -25,12 +25,8 @@ static void fill_terms(PairTerm *terms, ForceRange forces) {
         };
 }
 
-static Pass prepare_pass(const PhysSystem *system, ForceRange forces) {
-    enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
-    const Columns *columns = &system->columns;
-    Pass pass = {.system = system, .threads = system->options.threads};
-    fill_terms(system->terms.bytes, forces);
-    pass.pairs = (PairPass){
+PairPass phys_columns_pass(const Columns *columns) {
+    return (PairPass){
         .dimensions = columns->dimensions,
         .stride = columns->stride,
         .position = columns->position,
@@ -38,11 +34,19 @@ static Pass prepare_pass(const PhysSystem *system, ForceRange forces) {
         .radius = columns->radius,
         .mass = columns->mass,
         .charge = columns->charge,
-        .term_count = (size_t)(forces.end - forces.begin),
-        .terms = system->terms.bytes,
-        // What one process leaves out, others would wait for.
-        .stop = system->options.ranks.count > 1 ? NULL : phys_stop(system),
     };
+}
+
+static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
+    enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
+    const Columns *columns = &system->columns;
+    Pass pass = {.system = system, .threads = system->options.threads};
+    fill_terms(system->terms.bytes, forces);
+    pass.pairs = phys_columns_pass(columns);
+    pass.pairs.term_count = (size_t)(forces.end - forces.begin);
+    pass.pairs.terms = system->terms.bytes;
+    // What one process leaves out, others would wait for.
+    pass.pairs.stop = system->options.ranks.count > 1 ? NULL : phys_stop(system);
     if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MOST_TERMS &&
         columns->count >= MIN_FOR_LANES) {
         pass.kernels = phys_kernels(system);
@@ -116,6 +120,7 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     Pass pass = prepare_pass(system, phys_forces(system, level, STAGE_PAIR));
     if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level))
         return;
+    system->unlisted = true;
     size_t first = group->first, end = first + group->count;
     if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))
         return;

@@ -24,10 +24,6 @@ typedef struct Survey {
 // Squares of lengths that a list deals with must be normal numbers.
 #define SHORTEST 1e-100
 
-// Instead of a cell.
-#define IDLE UINT32_MAX
-#define LARGE (UINT32_MAX - 1)
-
 static void sort_doubles(double *values, size_t count) {
     for (size_t gap = count / 2; gap; gap /= 2)
         for (size_t i = gap; i < count; i++) {
@@ -64,7 +60,7 @@ static void take_samples(const PairPass *pass, const Neighbours *list, Survey *s
         sort_doubles(survey->sample[k], k < pass->dimensions || k == PHYS_VECTOR_DIMENSIONS ? survey->samples : 0);
 }
 
-// Extent of all, and how many are large; fills list->cell with IDLE, LARGE or 0.
+// Extent of all, and how many are large; fills list->cell with PHYS_CELL_IDLE, PHYS_CELL_LARGE or 0.
 static void survey_all(const PairPass *pass, Neighbours *list, Survey *survey) {
     uint32_t rank = 0;
     for (size_t k = 0; k < pass->dimensions; k++) {
@@ -77,11 +73,11 @@ static void survey_all(const PairPass *pass, Neighbours *list, Survey *survey) {
         for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++) {
             size_t column = (size_t)list->ranges.at[r].first + i;
             if (idle(pass, list, column)) {
-                list->cell[rank] = IDLE;
+                list->cell[rank] = PHYS_CELL_IDLE;
                 continue;
             }
             if (pass->radius[column] > survey->large) {
-                list->cell[rank] = LARGE;
+                list->cell[rank] = PHYS_CELL_LARGE;
                 survey->large_count++;
                 continue;
             }
@@ -97,8 +93,8 @@ static void survey_all(const PairPass *pass, Neighbours *list, Survey *survey) {
 }
 
 // Where the grid lies and how fine it is: cells no narrower than `width`, and not many more of them than particles.
-static void choose_cells(const Survey *survey, double width, Grid *grid) {
-    double most = 2.0 * survey->regular + 64, product = 1;
+static void choose_cells(const Survey *survey, double width, double most, Grid *grid) {
+    double product = 1;
     double span[PHYS_VECTOR_DIMENSIONS];
     for (size_t k = 0; k < grid->dimensions; k++) {
         const double *sample = survey->sample[k];
@@ -129,13 +125,6 @@ static void choose_cells(const Survey *survey, double width, Grid *grid) {
     }
 }
 
-static uint32_t cell_of(const Grid *grid, const double *position, size_t stride) {
-    uint32_t cell = 0;
-    for (size_t k = grid->dimensions; k-- > 0;)
-        cell = cell * grid->cells[k] + phys_axis_cell(grid, k, position[k * stride]);
-    return cell;
-}
-
 static void put_into_place(const PairPass *pass, Neighbours *list, uint32_t place, uint32_t rank, size_t column) {
     list->view.column[place] = (uint32_t)column;
     list->key[place] = rank;
@@ -153,8 +142,8 @@ static void sort_by_cell(const PairPass *pass, Neighbours *list, const Survey *s
         grid->start[c] = 0;
     for (uint32_t r = 0; r < list->ranges.count; r++)
         for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++)
-            if (list->cell[rank] < LARGE) {
-                list->cell[rank] = cell_of(grid, pass->position + list->ranges.at[r].first + i, pass->stride);
+            if (list->cell[rank] < PHYS_CELL_LARGE) {
+                list->cell[rank] = phys_cell_of(grid, pass->position + list->ranges.at[r].first + i, pass->stride);
                 grid->start[list->cell[rank] + 2]++;
             }
     for (uint32_t c = 2; c < cells + 2; c++)
@@ -163,7 +152,9 @@ static void sort_by_cell(const PairPass *pass, Neighbours *list, const Survey *s
     for (uint32_t r = 0; r < list->ranges.count; r++)
         for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++) {
             uint32_t cell = list->cell[rank];
-            uint32_t place = cell == IDLE ? rest++ : cell == LARGE ? large++ : grid->start[cell + 1]++;
+            uint32_t place = cell == PHYS_CELL_IDLE    ? rest++
+                             : cell == PHYS_CELL_LARGE ? large++
+                                                       : grid->start[cell + 1]++;
             put_into_place(pass, list, place, rank, (size_t)list->ranges.at[r].first + i);
         }
 }
@@ -208,29 +199,42 @@ static void fill_up(const PairPass *pass, Neighbours *list, uint32_t dummy) {
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
 
-bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
-    Survey survey;
-    list->total = (uint32_t)phys_ranges_total(&list->ranges);
-    if (!reserve_arrays(system, pass, list))
-        return false;
-    take_samples(pass, list, &survey);
-    double median = survey.samples ? survey.sample[PHYS_VECTOR_DIMENSIONS][survey.samples / 2] : 0;
+// Finds out how long a skin is, which particles are large, and where cells lie: no more than about `most`.
+static bool lay(const PairPass *pass, Neighbours *list, double most, Survey *survey, Grid *grid) {
+    take_samples(pass, list, survey);
+    double median = survey->samples ? survey->sample[PHYS_VECTOR_DIMENSIONS][survey->samples / 2] : 0;
     list->base = fmax(2 * median, list->bound);
     if (!(list->base > SHORTEST && list->base < 1 / SHORTEST))
         return false;
-    if (!(list->skin >= 0.05 * list->base && list->skin <= 0.6 * list->base))
+    if (!list->skin_given && !(list->skin >= 0.05 * list->base && list->skin <= 0.6 * list->base))
         list->skin = 0.3 * list->base;
+    survey->large = 2 * list->base;
+    survey_all(pass, list, survey);
+    if (survey->large_count > PHYS_MOST_LARGE) { // they are no exception
+        survey->large = INFINITY;
+        survey_all(pass, list, survey);
+    }
+    double width = (fmax(2 * survey->widest, list->bound) + list->skin) * (1 + 1e-9);
+    choose_cells(survey, width, fmin(most, 2.0 * survey->regular + 64), grid);
+    return true;
+}
+
+bool phys_grid_lay(const PairPass *pass, Neighbours *list, double most, Grid *grid, double *widest) {
+    Survey survey;
+    if (!lay(pass, list, most, &survey, grid))
+        return false;
+    *widest = survey.widest;
+    return true;
+}
+
+bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
+    Survey survey;
+    Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
+    list->total = (uint32_t)phys_ranges_total(&list->ranges);
+    if (!reserve_arrays(system, pass, list) || !lay(pass, list, INFINITY, &survey, &grid))
+        return false;
     // A little less than half the skin, so that rounding cannot let a pair slip through.
     list->view.moved = 0.25 * list->skin * list->skin * (1 - 1e-6);
-    survey.large = 2 * list->base;
-    survey_all(pass, list, &survey);
-    if (survey.large_count > PHYS_MOST_LARGE) { // they are no exception
-        survey.large = INFINITY;
-        survey_all(pass, list, &survey);
-    }
-    double width = (fmax(2 * survey.widest, list->bound) + list->skin) * (1 + 1e-9);
-    Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
-    choose_cells(&survey, width, &grid);
     uint64_t cells = (uint64_t)grid.cells[0] * grid.cells[1] * grid.cells[2];
     if (!phys_buffer_reserve(system, &list->cells, 0, cells + 2, sizeof(uint32_t)))
         return false;

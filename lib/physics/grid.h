@@ -21,6 +21,22 @@ static inline uint32_t phys_axis_cell(const Grid *grid, size_t k, double x) {
     return (uint32_t)(cell > 0 ? cell < last ? cell : last : 0);
 }
 
+static inline uint32_t phys_cell_of(const Grid *grid, const double *position, size_t stride) {
+    uint32_t cell = 0;
+    for (size_t k = grid->dimensions; k-- > 0;)
+        cell = cell * grid->cells[k] + phys_axis_cell(grid, k, position[k * stride]);
+    return cell;
+}
+
+// Instead of a cell.
+#define PHYS_CELL_IDLE UINT32_MAX
+#define PHYS_CELL_LARGE (UINT32_MAX - 1)
+
+// grid.c: only where the cells are, `most` of them, and what list->base, list->skin and the largest radius in a cell
+// are. list->cell tells of each particle whether it has a cell. False if the particles do not lie in a way that a grid
+// can sort.
+bool phys_grid_lay(const PairPass *pass, Neighbours *list, double most, Grid *grid, double *widest);
+
 // grid_search.c: makes the lists of all regular places. Free lanes list the place `dummy`. False if they would cost
 // more than they are worth, or there is no memory.
 bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy, Neighbours *list);

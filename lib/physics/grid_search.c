@@ -25,7 +25,8 @@ typedef struct Search {
     const Kernels *kernels;
     const Neighbours *list;
     const Grid *grid;
-    uint32_t own; // places with a key below are of the pass's own group
+    const bool *foreign; // by column: needs no list; NULL: none
+    uint32_t own;        // places with a key below are of the pass's own group
     uint32_t dummy;
     uint64_t capacity;    // entries in all
     uint64_t scan_limit;  // candidates for each worker
@@ -103,6 +104,8 @@ static bool find_block(Finder *finder, uint32_t block, uint64_t *used, uint64_t 
     uint32_t lanes = (uint32_t)search->list->lanes, first = block * lanes, *entries = view->entries + *used;
     uint32_t most = 0;
     for (uint32_t lane = 0; lane < lanes && first + lane < view->regular; lane++) {
+        if (search->foreign && search->foreign[view->column[first + lane]])
+            continue;
         size_t count = find_list(finder, first + lane);
         if (*used + (uint64_t)(count > most ? count : most) * lanes > end)
             return false;
@@ -179,7 +182,12 @@ static bool find_all(PhysSystem *system, Search *search, Neighbours *list) {
 
 bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy, Neighbours *list) {
     uint64_t own = list->ranges.at[0].count, total = list->total;
-    Search search = {.kernels = kernels, .list = list, .grid = grid, .own = (uint32_t)own, .dummy = dummy};
+    Search search = {.kernels = kernels,
+                     .list = list,
+                     .grid = grid,
+                     .foreign = system->foreign,
+                     .own = (uint32_t)own,
+                     .dummy = dummy};
     // Where nearly everybody is a candidate of everybody, a grid does not help.
     search.scan_limit = own * total / 4 + 64 * total;
     if (search.scan_limit > 4000 * total)

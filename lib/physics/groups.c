@@ -63,8 +63,7 @@ static void arrange_forces(PhysSystem *system) {
     }
 }
 
-// Short cuts past enclosing groups that have nothing to say, which make deep nesting cheap.
-static void link_groups(PhysSystem *system) {
+void phys_link_groups(PhysSystem *system) {
     Group *groups = system->groups.bytes;
     for (uint32_t g = 0; g < system->group_count; g++) {
         Group *group = &groups[g];
@@ -94,6 +93,6 @@ bool phys_arrange_forces(PhysSystem *system) {
         !phys_buffer_reserve(system, &system->chain, 0, system->force_count, sizeof(Force *)))
         return false;
     arrange_forces(system);
-    link_groups(system);
+    phys_link_groups(system);
     return true;
 }

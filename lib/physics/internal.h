@@ -24,6 +24,7 @@ typedef struct Buffer {
     Arena arena;
     void *bytes;
     uint64_t capacity; // in bytes
+    bool shown;        // the host may look at it
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
@@ -38,6 +39,7 @@ typedef struct Group {
     uint32_t parent; // the top is its own parent
     uint32_t first;  // own particles are columns first … first + count - 1
     uint32_t count;
+    uint32_t movers;               // that are no anchors, if the columns have `draws`
     uint32_t populated;            // this group or its nearest ancestor that has particles, or NO_GROUP
     uint32_t nearest[STAGE_COUNT]; // this group or its nearest ancestor that has forces of a stage, or NO_GROUP
 } Group;
@@ -80,9 +82,10 @@ typedef struct Columns {
     double *radius;
     double *mass;
     double *charge;
-    double *section; // radius^(n-1), valid if some force needs it
-    double *volume;  // radius^n, likewise
-    double *scratch; // 3 n doubles for the kernel that is running
+    double *section;       // radius^(n-1), valid if some force needs it
+    double *volume;        // radius^n, likewise
+    const uint32_t *draws; // those before it in its group that take random numbers; NULL: as counted in the columns
+    double *scratch;       // 3 n doubles for the kernel that is running
     bool *anchor;
 } Columns;
 
@@ -129,6 +132,14 @@ struct PhysSystem {
     // kept from step to step and from frame to frame
     uint64_t frame; // number of this frame
     struct Neighbours *lists;
+    // on several processes (domain.h)
+    uint64_t arrangement; // counts how often the columns have been filled
+    bool touched;         // particles were given new numbers since the last frame
+    Buffer domain;        // Domain
+    PhysTraffic traffic;
+    const bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
+    double skin;         // likewise, that of all lists
+    bool unlisted;       // likewise: a pass went without a list
 };
 
 // A run of forces.
@@ -175,6 +186,11 @@ bool phys_clear_not_finite(PhysSystem *system);
 bool phys_load(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);
 void phys_store(PhysSystem *system, bool keep_last_finite);
+
+// particles.c: points the columns into their memory.
+bool phys_reserve_columns(PhysSystem *system);
+// groups.c: short cuts past enclosing groups that have nothing to say, which make deep nesting cheap.
+void phys_link_groups(PhysSystem *system);
 
 // step.c: one step of `delta` at `clock`; false if it was given up half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);

@@ -175,6 +175,10 @@ static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pa
         return true;
     }
     list->built = false;
+    if (system->foreign) { // until the next halo
+        list->resting = UINT32_MAX;
+        return false;
+    }
     list->backoff = list->backoff ? list->backoff * 2 : REST_FIRST;
     list->backoff = list->backoff < REST_LONGEST ? list->backoff : REST_LONGEST;
     list->resting = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS ? 0 : list->backoff;
@@ -211,9 +215,32 @@ static Neighbours *list_for(PhysSystem *system, const Kernels *kernels, const Pa
         list->ranges = ranges;
         list->built = false;
         list->resting = list->backoff = list->life = 0;
-        list->skin = 0;
+        list->skin = system->skin;
+        list->skin_given = system->foreign;
     }
     return list;
+}
+
+bool phys_lists_hold(PhysSystem *system, uint32_t age) {
+    const Kernels *kernels = phys_kernels(system);
+    PairPass pass = phys_columns_pass(&system->columns);
+    bool hold = true;
+    for (int i = 0; i < PHYS_MOST_LISTS; i++) {
+        ListPass work = {.kernels = kernels, .pass = &pass, .list = &system->lists[i]};
+        if (work.list->built)
+            hold = refresh(system, &work) && hold && work.list->age == age;
+    }
+    return hold;
+}
+
+void phys_lists_drop(PhysSystem *system, double skin) {
+    system->skin = skin;
+    for (int i = 0; i < PHYS_MOST_LISTS; i++) {
+        Neighbours *list = &system->lists[i];
+        list->built = false;
+        list->resting = 0;
+        list->skin = skin;
+    }
 }
 
 bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
@@ -226,7 +253,7 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
         return false;
     }
     ListPass work = {.kernels = kernels, .pass = pass, .list = list};
-    if (list->built && !refresh(system, &work)) {
+    if (list->built && !system->foreign && !refresh(system, &work)) {
         list->built = false;
         adapt_skin(list);
     }

@@ -42,6 +42,7 @@ typedef struct Neighbours {
     uint32_t total; // places; those after view.listed are idle: not finite, or without the size for a contact
     double base;    // length that the skin is measured by: the usual distance of contact
     double skin;
+    bool skin_given;  // by the domain that the particles are of
     uint64_t scanned; // candidates that the last construction looked at
     uint64_t padded;  // entries of all lists, dummies included
     // when to use it
@@ -54,10 +55,19 @@ typedef struct Neighbours {
     Buffer entries;
 } Neighbours;
 
+// force_pair.c: a pass over the columns, without forces.
+PairPass phys_columns_pass(const Columns *columns);
+
 // neighbours.c: computes a pass with neighbour lists, or returns false if all pairs are the better way.
 bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                          uint32_t level);
 void phys_neighbours_free(Neighbours *list);
+
+// Those of a system that is part of a larger one (domain.h), which says when lists are made.
+// Brings lists up to date that have served `age` steps; false if new ones are needed.
+bool phys_lists_hold(PhysSystem *system, uint32_t age);
+// Drops all lists; new ones get this skin.
+void phys_lists_drop(PhysSystem *system, double skin);
 
 // grid.c: makes a list for the positions of now; list->skin is what is wanted. False if there is no memory for it or
 // the particles do not lie in a way that a grid can sort.

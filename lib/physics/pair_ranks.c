@@ -19,6 +19,7 @@ bool phys_ranks_share(const PhysSystem *system, uint64_t pairs) {
 }
 
 typedef struct Shared {
+    PhysTraffic *traffic;
     const PhysRanks *ranks;
     PairBlocks blocks;
 } Shared;
@@ -45,30 +46,41 @@ static void compute_row(const Shared *shared, size_t row) {
             ranks->receive(ranks->host, owner(shared, row - 1), numbers, pass->dimensions, length, pass->stride);
         phys_pair_block(&shared->blocks, row, column);
         // On the diagonal the columns are the rows, which are whole at the end of the row.
-        if (row + 1 < shared->blocks.rows && !(pairs->triangle && row == column))
-            ranks->send(ranks->host, owner(shared, row + 1), numbers, pass->dimensions, length, pass->stride);
+        if (row + 1 == shared->blocks.rows || (pairs->triangle && row == column))
+            continue;
+        ranks->send(ranks->host, owner(shared, row + 1), numbers, pass->dimensions, length, pass->stride);
+        shared->traffic->step_messages++;
+        shared->traffic->step_bytes += length * pass->dimensions * sizeof *numbers;
     }
+}
+
+static void spread_range(const Shared *shared, int from, double *numbers, size_t length) {
+    const PhysRanks *ranks = shared->ranks;
+    const PairPass *pass = shared->blocks.pairs->pass;
+    ranks->spread(ranks->host, from, numbers, pass->dimensions, length, pass->stride);
+    shared->traffic->step_messages += ranks->rank == from;
+    shared->traffic->step_bytes += ranks->rank == from ? length * pass->dimensions * sizeof *numbers : 0;
 }
 
 // Rows of blocks are whole where they were computed, the columns of a rectangle where the last row was.
 static void spread(const Shared *shared) {
-    const PhysRanks *ranks = shared->ranks;
     const PairWave *pairs = shared->blocks.pairs;
-    const PairPass *pass = pairs->pass;
     for (size_t row = 0; row < shared->blocks.rows; row++) {
         size_t length;
         double *numbers = sums(shared, pairs->row, pairs->row_end, row, &length);
-        ranks->spread(ranks->host, owner(shared, row), numbers, pass->dimensions, length, pass->stride);
+        spread_range(shared, owner(shared, row), numbers, length);
     }
     if (!pairs->triangle)
-        ranks->spread(ranks->host, owner(shared, shared->blocks.rows - 1), pass->force + pairs->column,
-                      pass->dimensions, pairs->column_end - pairs->column, pass->stride);
+        spread_range(shared, owner(shared, shared->blocks.rows - 1), pairs->pass->force + pairs->column,
+                     pairs->column_end - pairs->column);
 }
 
-void phys_pair_ranks(const PhysSystem *system, const PairWave *pairs) {
+void phys_pair_ranks(PhysSystem *system, const PairWave *pairs) {
     const PhysRanks *ranks = &system->options.ranks;
-    Shared shared = {ranks, phys_pair_blocks(pairs, BLOCK_PART, ranks->least ? BLOCK_TESTED : BLOCK_LEAST)};
+    Shared shared = {&system->traffic, ranks,
+                     phys_pair_blocks(pairs, BLOCK_PART, ranks->least ? BLOCK_TESTED : BLOCK_LEAST)};
     for (size_t row = (size_t)ranks->rank; row < shared.blocks.rows; row += (size_t)ranks->count)
         compute_row(&shared, row);
     spread(&shared);
+    system->traffic.sharing = PHYS_BY_PAIRS;
 }

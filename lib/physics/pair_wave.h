@@ -33,6 +33,6 @@ void phys_pair_wave(const PhysSystem *system, const PairWave *pairs);
 
 // pair_ranks.c: whether the processes that simulate the system share so many pairs, and how they do.
 bool phys_ranks_share(const PhysSystem *system, uint64_t pairs);
-void phys_pair_ranks(const PhysSystem *system, const PairWave *pairs);
+void phys_pair_ranks(PhysSystem *system, const PairWave *pairs);
 
 #endif

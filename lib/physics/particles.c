@@ -7,8 +7,7 @@
 
 #include <string.h>
 
-// Points the columns into their memory.
-static bool reserve_columns(PhysSystem *system) {
+bool phys_reserve_columns(PhysSystem *system) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
     double **vectors[] = {&columns->position, &columns->velocity, &columns->own_force, &columns->force};
@@ -67,6 +66,7 @@ void phys_raise_radii(PhysSystem *system) {
     if (volume)
         raise_radii(system, n, columns->volume);
     system->radii_raised = true;
+    system->touched |= section || volume;
 }
 
 static void load_share(void *context, int worker, int workers) {
@@ -192,9 +192,10 @@ static int shares_for(const PhysSystem *system) {
 }
 
 bool phys_load(PhysSystem *system) {
-    if (!reserve_columns(system))
+    if (!phys_reserve_columns(system))
         return false;
     phys_parallel(system, shares_for(system), load_share, system);
+    system->arrangement++;
     return true;
 }
 

@@ -117,22 +117,47 @@ KERNEL void single_buoyancy(const Singles *s) {
         push(s->block, k, applies, vector_part(given->vector, k) * weight);
 }
 
+// Items of the stream that particles before this one have taken in this frame.
+KERNEL uint64_t items_before(const Singles *s, size_t lane) {
+    const uint32_t *draws = s->columns->draws;
+    return s->force->item + (draws ? s->n * draws[s->block->first + lane] : s->pass->taken);
+}
+
 #if LANES == 1
 
 // S · normal(seed)[index], index counting up by one for each component of each particle, over all steps of a frame.
 KERNEL void single_random(const Singles *s) {
-    uint64_t item = s->force->item + s->pass->taken;
+    uint64_t item = items_before(s, 0);
     for (size_t k = 0; k < s->n; k++)
         push(s->block, k, s->block->live, s->force->strength * random_normal(s->force->given.key, item + k));
 }
 
 #else
 
-// The same, drawn for all lanes together; anchors take no items.
+// How many of the live lanes from one on take items that follow each other.
+KERNEL size_t run_of_draws(const Singles *s, size_t lane, unsigned bits, size_t active) {
+    const uint32_t *draws = s->columns->draws;
+    if (!draws)
+        return active;
+    size_t count = 1;
+    while (lane + count < LANES && bits >> (lane + count) & 1 &&
+           draws[s->block->first + lane + count] == draws[s->block->first + lane] + count)
+        count++;
+    return count;
+}
+
+// The same, drawn for many lanes together; anchors take no items.
 KERNEL void single_random(const Singles *s) {
     double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
-    random_normals(LANES_LEVEL, s->force->given.key, s->force->item + s->pass->taken, s->n * s->block->active, normals);
     unsigned bits = mask_bits(s->block->live);
+    for (size_t had = 0, lane = 0; had < s->block->active; lane++) {
+        if (!(bits >> lane & 1))
+            continue;
+        size_t count = run_of_draws(s, lane, bits, s->block->active - had);
+        random_normals(LANES_LEVEL, s->force->given.key, items_before(s, lane), s->n * count, normals + s->n * had);
+        had += count;
+        lane += count - 1; // without `draws` it was the last
+    }
     const double *next = normals;
     for (size_t lane = 0; lane < LANES; lane++)
         for (size_t k = 0; k < s->n && bits >> lane & 1; k++)

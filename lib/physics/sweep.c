@@ -53,7 +53,7 @@ static void sweep_share(void *context, int worker, int workers) {
     size_t start = share->group->first, stop = start + share->group->count;
     size_t first = start + phys_share(blocks, worker, workers) * lanes;
     size_t end = start + phys_share(blocks, worker + 1, workers) * lanes;
-    if (share->random && first > start)
+    if (share->random && first > start && !columns.draws)
         pass.taken = columns.dimensions * moving_between(&columns, start, first);
     share->kernel(&pass, first, end < stop ? end : stop);
 }
@@ -68,10 +68,11 @@ static bool draws(const SweepPass *pass) {
 
 // The streams go on behind what the particles of a group have taken.
 static void advance_streams(const SweepPass *pass, const Group *group) {
-    uint64_t taken =
-        pass->columns->dimensions * moving_between(pass->columns, group->first, (size_t)group->first + group->count);
+    const Columns *columns = pass->columns;
+    uint64_t movers =
+        columns->draws ? group->movers : moving_between(columns, group->first, (size_t)group->first + group->count);
     for (uint32_t f = 0; f < pass->force_count; f++)
-        ((Force *)pass->forces[f])->item += taken;
+        ((Force *)pass->forces[f])->item += movers * columns->dimensions;
 }
 
 void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_of_light) {

@@ -1,6 +1,5 @@
 // system.c: the description of a system (see system.h).
-#include "physics/internal.h"
-#include "physics/neighbours.h"
+#include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <assert.h>
@@ -27,6 +26,7 @@ PhysSystem *phys_new(void) {
     PhysSystem *system = &memory->system;
     Neighbours *lists = memory->lists;
     *system = (PhysSystem){.home = home, .lists = lists};
+    system->particles.shown = system->rows.shown = system->last_rows.shown = system->force_rows.shown = true;
     memset(lists, 0, PHYS_MOST_LISTS * sizeof *lists);
     phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_here.level});
     phys_begin(system, 1);
@@ -44,6 +44,7 @@ void phys_free(PhysSystem *system) {
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         phys_neighbours_free(&system->lists[i]);
+    phys_domain_free(system);
     if (system->owns_threads)
         phys_threads_free(system->threads);
     Arena home = system->home; // the struct goes with it
@@ -162,6 +163,7 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
     if (!system->arranged)
         return;
+    system->touched = true;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
     if (columns->radius[i] != record->radius)
@@ -307,6 +309,10 @@ PhysColumns phys_columns(const PhysSystem *system) {
         .anchor = &records->anchor,
         .anchor_stride = sizeof *records,
     };
+}
+
+PhysTraffic phys_traffic(const PhysSystem *system) {
+    return system->traffic;
 }
 
 uint32_t phys_force_count(const PhysSystem *system) {

@@ -88,7 +88,29 @@ typedef struct PhysRanks {
     void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
     // Those of one rank become those of all.
     void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    // Those of each rank r, at starts[r] up to starts[r + 1], become those of all.
+    void (*gather)(void *host, double *numbers, const size_t *starts);
+    // Each becomes the largest that a rank has; there is no NaN among them.
+    void (*most)(void *host, double *numbers, size_t count);
 } PhysRanks;
+
+// How the ranks have shared a system, and what this one has sent for it.
+typedef enum PhysSharing {
+    PHYS_ALONE,     // each does all of it
+    PHYS_BY_PAIRS,  // blocks of pairs are dealt out
+    PHYS_BY_REGION, // each has the particles of a region
+} PhysSharing;
+typedef struct PhysTraffic {
+    PhysSharing sharing; // in the last frame
+    uint64_t frames;
+    uint64_t steps;
+    uint64_t step_bytes; // halos, particles that move to another rank, sums of pairs
+    uint64_t step_messages;
+    uint64_t reductions;  // that all ranks take part in
+    uint64_t frame_bytes; // to make everything whole at the end of frames
+    uint64_t own;         // particles of its region, summed over steps
+    uint64_t halo;        // those of other regions that it was told of, likewise
+} PhysTraffic;
 
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
@@ -200,6 +222,7 @@ PhysColumns phys_columns(const PhysSystem *system);
 static inline const double *phys_at_particle(PhysColumn column, uint32_t particle) {
     return column.numbers + particle * column.stride;
 }
+PhysTraffic phys_traffic(const PhysSystem *system);
 uint32_t phys_force_count(const PhysSystem *system);
 // Force appliers and barriers, by number from 0 in the order of the calls; false beyond the last.
 bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);

@@ -8,7 +8,7 @@
 //       last = last + delta;  remaining = t − last
 //       more = remaining > 1e-9 * resolution
 //   until not (more and (lockstep or this is the frame's first step and performance > 1.5))
-#include "physics/internal.h"
+#include "physics/domain.h"
 
 #include <math.h>
 
@@ -36,10 +36,22 @@ static bool arrange(PhysSystem *system) {
     return true;
 }
 
+static bool step(PhysSystem *system, bool shared, double clock, double delta, double speed_of_light) {
+    return shared ? phys_domain_step(system, clock, delta, speed_of_light)
+                  : phys_step(system, clock, delta, speed_of_light);
+}
+
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
+    system->traffic.frames++;
+    system->traffic.sharing = PHYS_ALONE;
     if (!arrange(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
+        result.status = PHYS_NO_MEMORY;
+        return result;
+    }
+    bool shared = phys_domain_begin(system);
+    if (system->failed) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
@@ -51,18 +63,22 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
-        if (!phys_step(system, result.clock, delta, time->speed_of_light)) {
+        if (!step(system, shared, result.clock, delta, time->speed_of_light)) {
             system->arranged = false; // rows are as they were, columns are not
-            return (PhysResult){.status = PHYS_STOPPED, .clock = time->clock};
+            return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
         }
         result.clock += delta;
         result.steps++;
+        system->traffic.steps++;
         system->stepped = true;
         last += delta;
         remaining = time->now - last;
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
-    phys_store(system, time->keep_last_finite);
+    if (shared)
+        phys_domain_store(system, time->keep_last_finite);
+    else
+        phys_store(system, time->keep_last_finite);
     return result;
 }

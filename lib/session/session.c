@@ -80,8 +80,8 @@ static PhysOptions physics_options(const PetriOptions *options) {
     cpu_choose(options->cpu, &physics.cpu);
     const PetriRanks *ranks = options->ranks;
     if (ranks)
-        physics.ranks = (PhysRanks){ranks->rank, ranks->count,   ranks->least, ranks->host,
-                                    ranks->send, ranks->receive, ranks->spread};
+        physics.ranks = (PhysRanks){ranks->rank,    ranks->count,  ranks->least,  ranks->host, ranks->send,
+                                    ranks->receive, ranks->spread, ranks->gather, ranks->most};
     return physics;
 }
 
@@ -265,6 +265,7 @@ void petri_close(PetriSession **handle) {
                        &session->key_arena,   &session->prompt.arena,        &session->arena};
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
+    arena_drop_kept(&session->meter);
     free(session);
 }
 

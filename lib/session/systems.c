@@ -63,8 +63,40 @@ static void find_system(PetriSession *session, void *context) {
     request->found = true;
 }
 
+void petri_keep_columns(PetriSession *session, bool keep) {
+    if (!session)
+        return;
+    session->meter.keeps = keep;
+    if (!keep)
+        arena_drop_kept(&session->meter);
+}
+
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
     return session && system && ask(session, find_system, number, 0, system);
+}
+
+static void find_traffic(PetriSession *session, void *context) {
+    Request *request = context;
+    SceneView view;
+    if (!scene_view(session->scene, session->state, request->system, &view))
+        return;
+    PhysTraffic traffic = phys_traffic(view.engine);
+    *(PetriTraffic *)request->out = (PetriTraffic){
+        .sharing = (PetriSharing)traffic.sharing,
+        .frames = traffic.frames,
+        .steps = traffic.steps,
+        .step_bytes = traffic.step_bytes,
+        .step_messages = traffic.step_messages,
+        .reductions = traffic.reductions,
+        .frame_bytes = traffic.frame_bytes,
+        .own = traffic.own,
+        .halo = traffic.halo,
+    };
+    request->found = true;
+}
+
+bool petri_traffic(PetriSession *session, size_t number, PetriTraffic *traffic) {
+    return session && traffic && ask(session, find_traffic, number, 0, traffic);
 }
 
 static void find_id(PetriSession *session, void *context) {

@@ -87,6 +87,24 @@ static void spread_numbers(void *host, int from, double *numbers, size_t runs, s
     }
 }
 
+static void gather_numbers(void *host, double *numbers, const size_t *starts) {
+    (void)host;
+    wait_for_sendings();
+    int count = ranks.as_options.count, *lengths = memory_resized(NULL, 2 * (size_t)count * sizeof *lengths);
+    for (int r = 0; r < count; r++) {
+        lengths[r] = (int)(starts[r + 1] - starts[r]);
+        lengths[count + r] = (int)starts[r];
+    }
+    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, numbers, lengths, lengths + count, MPI_DOUBLE, MPI_COMM_WORLD);
+    free(lengths);
+}
+
+static void find_most(void *host, double *numbers, size_t count) {
+    (void)host;
+    wait_for_sendings();
+    MPI_Allreduce(MPI_IN_PLACE, numbers, (int)count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+}
+
 // All do the same, so what the others would write is there already.
 static void be_quiet(void) {
     int nothing = open("/dev/null", O_RDWR);
@@ -99,7 +117,11 @@ void ranks_begin(Host *host) {
     int given = 0, level = cpu_here.level, least = level;
     MPI_Init_thread(NULL, NULL, MPI_THREAD_SERIALIZED, &given);
     PetriRanks *options = &ranks.as_options;
-    *options = (PetriRanks){.send = send_numbers, .receive = receive_numbers, .spread = spread_numbers};
+    *options = (PetriRanks){.send = send_numbers,
+                            .receive = receive_numbers,
+                            .spread = spread_numbers,
+                            .gather = gather_numbers,
+                            .most = find_most};
     MPI_Comm_rank(MPI_COMM_WORLD, &options->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &options->count);
     // What is worth sharing depends on the processor: all go by the least one.

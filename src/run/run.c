@@ -144,7 +144,7 @@ static int run_frames(Run *run) {
     report_profile(run);
     report_summary(run);
     if (frames->options->stats) {
-        stats_print(&run->stats, frames->session, clock_seconds() - frames->start);
+        stats_print(&run->stats, frames->session, clock_seconds() - frames->start, going ? frames->ranks : NULL);
     }
     if (frames_signal() != 0 && !frames->state.behind && recorded) {
         return STATUS_SIGNAL + frames_signal();

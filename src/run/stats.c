@@ -18,6 +18,38 @@ void stats_count(Stats *stats, PetriSession *session) {
     }
 }
 
+// What ranks sent each other for a system: the most that one of them did.
+static void print_traffic(PetriSession *session, size_t number, const PetriRanks *ranks) {
+    static const char *const how[] = {"not shared, because it is small or ranks cannot share its forces", "by pairs",
+                                      "by region"};
+    enum { OWN, HALO, BYTES, MESSAGES, FRAME_BYTES, REDUCTIONS, NUMBERS };
+    PetriTraffic traffic;
+    if (ranks == NULL || !petri_traffic(session, number, &traffic)) {
+        return;
+    }
+    double steps = traffic.steps > 0 ? (double)traffic.steps : 1,
+           frames = traffic.frames > 0 ? (double)traffic.frames : 1;
+    double most[NUMBERS] = {
+        [OWN] = (double)traffic.own / steps,
+        [HALO] = (double)traffic.halo / steps,
+        [BYTES] = (double)traffic.step_bytes / steps,
+        [MESSAGES] = (double)traffic.step_messages / steps,
+        [FRAME_BYTES] = (double)traffic.frame_bytes / frames,
+        [REDUCTIONS] = (double)traffic.reductions / steps,
+    };
+    ranks->most(ranks->host, most, NUMBERS);
+    fprintf(stderr, "    on %d ranks        %s\n", ranks->count, how[traffic.sharing]);
+    if (traffic.sharing == PETRI_ALONE) {
+        return;
+    }
+    if (traffic.sharing == PETRI_BY_REGION) {
+        fprintf(stderr, "      particles       at most %.6g a rank, and %.6g of others\n", most[OWN], most[HALO]);
+    }
+    fprintf(stderr, "      sent by a rank  at most %.6g bytes in %.3g messages a step, %.6g bytes a frame\n",
+            most[BYTES], most[MESSAGES], most[FRAME_BYTES]);
+    fprintf(stderr, "      agreed upon     %.3g times a step\n", most[REDUCTIONS]);
+}
+
 static void print_system(PetriSession *session, size_t number, const PetriSystem *system) {
     enum { MOST_COMPONENTS = 4 };
     fprintf(stderr, "  system %s, %" PRIu32 "-dimensional", system->name, system->dimensions);
@@ -43,7 +75,7 @@ static void print_time(const char *what, double seconds, int64_t frames) {
     fprintf(stderr, "  %-18s%.4f ms a frame\n", what, frames > 0 ? seconds * 1e3 / (double)frames : 0);
 }
 
-void stats_print(const Stats *stats, PetriSession *session, double seconds) {
+void stats_print(const Stats *stats, PetriSession *session, double seconds, const PetriRanks *ranks) {
     fprintf(stderr, "statistics\n  %-18s%" PRId64 "\n  %-18s%" PRIu64 "\n  %-18s%.3f s\n", "frames", stats->frames,
             "simulation steps", stats->physics_steps, "wall time", seconds);
     print_time("evaluation", stats->evaluation_seconds, stats->frames);
@@ -54,5 +86,6 @@ void stats_print(const Stats *stats, PetriSession *session, double seconds) {
     PetriSystem system;
     for (size_t i = 0; petri_system(session, i, &system); i++) {
         print_system(session, i, &system);
+        print_traffic(session, i, ranks);
     }
 }

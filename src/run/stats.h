@@ -19,7 +19,7 @@ typedef struct Stats {
 // Counts a frame that was made. Its output is counted by whoever writes it.
 void stats_count(Stats *stats, PetriSession *session);
 // Writes the table to standard error: the sums, and for each system of the last frame its energy, momentum and fastest
-// particle.
-void stats_print(const Stats *stats, PetriSession *session, double seconds);
+// particle; with `ranks`, which must all come here, also what they sent each other.
+void stats_print(const Stats *stats, PetriSession *session, double seconds, const PetriRanks *ranks);
 
 #endif

@@ -173,6 +173,37 @@ let A=A or 1
     !particle id=1 position=A velocity=A
 DONE
 fail sweep "$plain" sweep runs.fl -D 'A=1;2;3' --frames 2 --metric 'x=$(:cells;1)' --jobs 1 -o new/t.table --summary new/u.table
+# Starting OpenGL takes long: only by name.
+if [ "$wanted" = scene ]; then
+    printf 'v -1 -1 0\nv 1 -1 0\nv 0 1 0\nf 1 2 3\n' >m.obj
+    cat >scene.fl <<'END'
+!window size=40;30
+    !bloom radius=3
+        !canvas id=:spots size=16;16 hidden=true
+            !ellipse point=8;8 radius=5 color=1;0.5;0 fill=true
+        !canvas3d viewpoint=0;0;5 near=0.1 far=20 samples=4
+            !light color=0.2
+            !light color=9 position=2;2;3 radius=0.2
+            !camera id=:other secondary=true size=20;20
+            !model filename='m.obj' position=-1;0;0 color=1 color_id=:spots
+            !sphere position=1;0;0 color=1;0;0 transparency=0.3
+            !group
+                !light color=1 direction=0;0;-1
+                !box position=0;1;0 size=0.5 color=0;1;0 translucency=0.2 texture_id=:other
+        !vignette
+            !reference id=:other
+        !shader alpha=0.2 tint=0.2;0.1;0 fragment="""${HEADER}
+out vec4 color;
+uniform vec3 tint;
+void main() { color = vec4(tint, 0.1); }
+"""
+        !shader fragment='no program'
+END
+    rm -f old/*
+    fail scene "$pictures" render scene.fl --frames 2 --threads 1 -o new/a.png
+    finish
+    exit
+fi
 cp golden.head g/s.golden
 "$plain" test --update g >out 2>&1
 fail test "$plain" test g

@@ -33,11 +33,21 @@ cat >stars.fl <<'END'
     !random strength=3
     !drag strength=0.01
 debug('frame';frame)
+!physics state=:discs dimensions=2 resolution=1/240
+    for i in ..9000
+        !particle id=i radius=0.5 position=(i%100)*0.97;(i//100)*0.97 velocity=9*normal(:v)[2*i..2*i+2]
+    for i in ..80
+        !distance from=100*i to=100*i+99 max=90 strength=0.1
+    !collision strength=1000
+    !random strength=0.5
+    !barrier position=0;0 normal=0;1
 END
-"$petri" run stars.fl --frames 5 --print hash,log --trajectory one.csv >one 2>err
+"$petri" run stars.fl --frames 5 --print hash,log --trajectory one.csv --stats >one 2>stats
 for count in 2 3 4 7; do
-    ranks $count run stars.fl --frames 5 --print hash,log --threads $((count % 2 + 1))
+    ranks $count run stars.fl --frames 5 --print hash,log --stats --threads $((count % 2 + 1))
     check "$count ranks come to the bits of one, and say it once" same one out
+    check "in one table, too" [ "$(grep momentum err)" = "$(grep momentum stats)" ]
+    check "with stars shared by pairs, discs by region" [ "$(grep -c "on $count ranks  *by \(pairs\|region\)" err)" -eq 2 ]
 done
 ranks 2 stars.fl --frames 5 --print hash,log --trajectory two.csv
 check "as does a script without command" same one out

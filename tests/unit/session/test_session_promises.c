@@ -182,7 +182,10 @@ static void test_null(void **state) {
     assert_false(petri_drawable(NULL));
     assert_false(petri_key_bound(NULL, "a"));
     assert_false(petri_key_bound(session, NULL));
+    petri_keep_columns(NULL, true);
     assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
+    PetriTraffic traffic;
+    assert_false(petri_traffic(NULL, 0, &traffic) || petri_traffic(session, 0, NULL));
     assert_int_equal(petri_id(NULL, 0, 0).length, 0);
     assert_null(petri_ids(NULL, 0).data);
     assert_false(petri_find(NULL, 0, (PetriValue){0}, &particle) || petri_find(session, 0, (PetriValue){0}, NULL));

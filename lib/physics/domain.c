@@ -1,0 +1,281 @@
+// domain.c: see domain.h. What the ranks do in a frame.
+#include "physics/domain.h"
+
+#include <string.h>
+#include <time.h>
+
+enum {
+    WORTH_PARTICLES = 8000, // for fewer it is not worth it
+    PATIENCE_FIRST = 32,    // steps before plots are dealt out again, at first; doubled each time
+};
+#define UNEVEN 1.15 // the longest work of a rank, divided by the mean, that lets plots be dealt out again
+
+static bool any_far(const PhysSystem *system, Domain *reach) {
+    const Force *forces = system->forces.bytes;
+    bool any = false;
+    reach->contact = false;
+    reach->bound = 0;
+    for (uint32_t f = 0; f < system->force_count; f++) {
+        ForceRow row = phys_force_row(forces[f].given.kind);
+        if (row.stage != STAGE_PAIR)
+            continue;
+        double limit = forces[f].given.max_distance;
+        any = true;
+        if (row.reach == REACH_CONTACT)
+            reach->contact = true;
+        else if (limit > 0)
+            reach->bound = fmax(reach->bound, limit);
+        else
+            return true;
+    }
+    return !any || !(reach->bound < INFINITY);
+}
+
+static bool worth(const PhysSystem *system) {
+    const PhysOptions *options = &system->options;
+    return options->ranks.count > 1 && options->neighbours != PHYS_NEIGHBOURS_NEVER &&
+           system->dimensions <= PHYS_VECTOR_DIMENSIONS && system->particle_count &&
+           (options->ranks.least || system->particle_count >= WORTH_PARTICLES);
+}
+
+static Domain *domain_of(PhysSystem *system) {
+    if (!system->domain.bytes) {
+        if (!phys_buffer_reserve(system, &system->domain, 0, 1, sizeof(Domain)))
+            return NULL;
+        memset(system->domain.bytes, 0, sizeof(Domain));
+    }
+    Domain *domain = system->domain.bytes;
+    if (!domain->local && !(domain->local = phys_new())) {
+        system->failed = true;
+        return NULL;
+    }
+    PhysOptions options = system->options;
+    options.neighbours = PHYS_NEIGHBOURS_ALWAYS;
+    options.pool = system->threads;
+    options.meter = NULL; // all ranks charge the same, whatever their part
+    options.ranks = (PhysRanks){.count = 0};
+    if (!system->threads)
+        options.threads = 1;
+    phys_set_options(domain->local, &options);
+    return domain;
+}
+
+void phys_domain_free(PhysSystem *system) {
+    Domain *domain = system->domain.bytes;
+    if (!domain)
+        return;
+    Buffer *buffers[] = {&domain->plot_owners, &domain->owners,   &domain->columns,     &domain->own,
+                         &domain->foreign,     &domain->built,    &domain->movers,      &domain->draws,
+                         &domain->to.starts,   &domain->to.items, &domain->from.starts, &domain->from.items,
+                         &domain->parcels,     &domain->table,    &domain->numbers,     &domain->whole,
+                         &domain->starts,      &domain->loads};
+    for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
+        phys_buffer_free(buffers[i]);
+    phys_neighbours_free(&domain->survey);
+    phys_free(domain->local);
+    phys_buffer_free(&system->domain);
+}
+
+// Some particle sees farther than the halo was made for.
+static bool grown(const PhysSystem *system, const Domain *domain) {
+    const double *radius = system->columns.radius;
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        if (!(radius[i] > domain->widest))
+            continue;
+        bool large = false;
+        for (uint32_t l = 0; l < domain->large_count; l++)
+            large |= domain->large[l] == i;
+        if (!large)
+            return true;
+    }
+    return false;
+}
+
+// Has the work turned out uneven? All ranks know the same.
+static bool uneven(const PhysSystem *system, const Domain *domain) {
+    const double *loads = domain->loads.bytes;
+    double longest = 0, sum = 0;
+    for (int r = 0; r < system->options.ranks.count; r++) {
+        longest = fmax(longest, loads[r]);
+        sum += loads[r];
+    }
+    return domain->steps >= domain->patience && longest * system->options.ranks.count > UNEVEN * sum;
+}
+
+static bool deal(PhysSystem *system, Domain *domain) {
+    domain->made =
+        phys_domain_deal(system, domain) && phys_domain_find_halo(system, domain) && phys_domain_gather(system, domain);
+    domain->arrangement = system->arrangement;
+    return domain->made;
+}
+
+bool phys_domain_begin(PhysSystem *system) {
+    Domain reach, *domain;
+    if (!worth(system) || any_far(system, &reach) || !(domain = domain_of(system)))
+        return false;
+    bool same = domain->made && domain->arrangement == system->arrangement;
+    if (!same) {
+        domain->steps = 0;
+        domain->patience = PATIENCE_FIRST;
+    }
+    bool again = same && uneven(system, domain);
+    if (again)
+        domain->patience *= 2;
+    again |= !same || domain->contact != reach.contact || domain->bound != reach.bound ||
+             (system->touched && grown(system, domain));
+    domain->contact = reach.contact;
+    domain->bound = reach.bound;
+    if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
+        return false;
+    if (!again && system->touched)
+        phys_domain_reload(system, domain);
+    system->touched = false;
+    domain->local->frame = system->frame;
+    system->traffic.sharing = PHYS_BY_REGION;
+    return true;
+}
+
+// Has an own particle left its skin, or grown? For forces that have no lists, which would tell.
+static bool stirred(const Domain *domain) {
+    const Columns *columns = &domain->local->columns;
+    const uint32_t *own = domain->own.bytes;
+    const double *built = domain->built.bytes;
+    size_t n = columns->dimensions, count = domain->own_count;
+    double most = 0.25 * domain->survey.skin * domain->survey.skin * (1 - 1e-6);
+    bool still = true;
+    for (size_t i = 0; i < count && still; i++) {
+        double square = 0;
+        bool finite = true;
+        for (size_t k = 0; k < n; k++) {
+            double x = columns->position[k * columns->stride + own[i]], d = x - built[k * count + i];
+            finite &= isfinite(x) || !isfinite(built[k * count + i]);
+            square += d * d;
+        }
+        still = finite && !(square > most) && !(columns->radius[own[i]] > built[n * count + i]);
+    }
+    return !still;
+}
+
+static bool move_on(PhysSystem *system, Domain *domain) {
+    Neighbours *survey = &domain->survey;
+    if (domain->age < 8)
+        survey->skin = fmin(survey->skin * 1.25, 0.6 * survey->base);
+    else if (domain->age > 24)
+        survey->skin = fmax(survey->skin / 1.15, 0.05 * survey->base);
+    phys_domain_give_back(system, domain);
+    return phys_domain_move(system, domain) && phys_domain_find_halo(system, domain) &&
+           phys_domain_gather(system, domain);
+}
+
+// Brings the halo up to date, with a new one if some rank needs it.
+static bool prepare(PhysSystem *system, Domain *domain) {
+    const PhysRanks *ranks = &system->options.ranks;
+    if (!domain->age)
+        return true;
+    if (!phys_domain_exchange(system, domain))
+        return false;
+    PhysSystem *local = domain->local;
+    double news[2] = {!phys_lists_hold(local, domain->age) || (local->unlisted && stirred(domain)), 0};
+    for (int i = 0; i < PHYS_MOST_LISTS; i++)
+        news[1] += local->lists[i].built ? (double)local->lists[i].padded : 0;
+    ranks->most(ranks->host, news, 2);
+    system->traffic.reductions++;
+    system->traffic.step_bytes += sizeof news;
+    domain->padded = (uint64_t)news[1] * (uint64_t)ranks->count;
+    return !(news[0] > 0) || move_on(system, domain);
+}
+
+static double seconds(void) {
+    struct timespec now;
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
+}
+
+bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
+    enum { ENTRIES_A_UNIT = 4, NUMBERS_A_UNIT = 32, STEP_WORK = 64, GROUP_WORK = 2 };
+    Domain *domain = system->domain.bytes;
+    uint64_t work = STEP_WORK + (uint64_t)GROUP_WORK * system->group_count + system->force_count;
+    work += system->particle_count * (2 + system->dimensions / NUMBERS_A_UNIT) + domain->padded / ENTRIES_A_UNIT;
+    if (!phys_charge(system, work) || !prepare(system, domain)) {
+        domain->made = false;
+        return false;
+    }
+    double start = seconds();
+    phys_step(domain->local, clock, delta, speed_of_light);
+    domain->seconds += seconds() - start;
+    domain->age++;
+    domain->steps++;
+    system->traffic.own += domain->own_count;
+    system->traffic.halo += domain->local->particle_count - domain->own_count;
+    domain->local->stepped = true;
+    if (domain->local->failed)
+        system->failed = true;
+    return !system->failed;
+}
+
+// Where the particles of each rank begin among the numbers of all; after them comes how long the rank has worked.
+static size_t *lay_out(PhysSystem *system, Domain *domain, size_t width) {
+    size_t ranks = (size_t)system->options.ranks.count;
+    if (!phys_buffer_reserve(system, &domain->starts, 0, 2 * ranks + 1, sizeof(size_t)) ||
+        !phys_buffer_reserve(system, &domain->whole, 0, width * system->particle_count + ranks, sizeof(double)))
+        return NULL;
+    size_t *starts = domain->starts.bytes;
+    memset(starts, 0, (ranks + 1) * sizeof *starts);
+    for (uint32_t i = 0; i < system->particle_count; i++)
+        starts[phys_owners(domain)[i] + 1] += width;
+    for (size_t r = 0; r < ranks; r++)
+        starts[r + 1] += starts[r] + 1;
+    return starts;
+}
+
+static void pack_own(const Domain *domain, bool forces, double *to) {
+    const Columns *columns = &domain->local->columns;
+    const uint32_t *own = domain->own.bytes;
+    size_t n = columns->dimensions, stride = columns->stride;
+    for (uint32_t i = 0; i < domain->own_count; i++) {
+        for (size_t k = 0; k < n; k++)
+            *to++ = columns->position[k * stride + own[i]];
+        for (size_t k = 0; k < n; k++)
+            *to++ = columns->velocity[k * stride + own[i]];
+        for (size_t k = 0; k < n && forces; k++)
+            *to++ = columns->force[k * stride + own[i]];
+    }
+    *to = domain->seconds;
+}
+
+static void unpack_all(const PhysSystem *system, const Domain *domain, bool forces, size_t *next) {
+    const Columns *columns = &system->columns;
+    const double *whole = domain->whole.bytes;
+    const uint32_t *owners = phys_owners(domain);
+    size_t n = columns->dimensions, stride = columns->stride;
+    for (uint32_t i = 0; i < columns->count; i++) {
+        const double *from = whole + next[owners[i]];
+        next[owners[i]] += (forces ? 3 : 2) * n;
+        for (size_t k = 0; k < n; k++) {
+            columns->position[k * stride + i] = from[k];
+            columns->velocity[k * stride + i] = from[n + k];
+        }
+        for (size_t k = 0; k < n && forces; k++)
+            columns->force[k * stride + i] = from[2 * n + k];
+    }
+}
+
+void phys_domain_store(PhysSystem *system, bool keep_last_finite) {
+    Domain *domain = system->domain.bytes;
+    const PhysRanks *ranks = &system->options.ranks;
+    bool forces = system->options.keep_forces;
+    size_t width = (forces ? 3 : 2) * (size_t)system->dimensions, *starts = lay_out(system, domain, width);
+    if (!starts)
+        return;
+    double *whole = domain->whole.bytes, *loads = domain->loads.bytes;
+    pack_own(domain, forces, whole + starts[ranks->rank]);
+    ranks->gather(ranks->host, whole, starts);
+    system->traffic.frame_bytes += (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof *whole;
+    for (int r = 0; r < ranks->count; r++)
+        loads[r] = whole[starts[r + 1] - 1];
+    size_t *next = starts + ranks->count + 1;
+    memcpy(next, starts, (size_t)ranks->count * sizeof *next);
+    unpack_all(system, domain, forces, next);
+    phys_store(system, keep_last_finite);
+    phys_domain_reload(system, domain);
+}

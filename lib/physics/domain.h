@@ -1,0 +1,117 @@
+// domain.h: one system on several processes, each of which simulates the particles of a region of its own.
+//
+// It is for systems whose pair forces all have a bounded reach. Space is cut into plots; runs of them along a curve
+// that fills space are dealt out to the ranks. A rank owns the particles that are in its plots, and computes all that
+// acts on them; what it needs for that of the others, the halo, is sent to it before each step: their positions. Its
+// particles and its halo, in the order of the whole system's columns, are a system of their own, so that each particle
+// meets its partners in the order that it has on one process, and no force is ever sent.
+//
+// A halo holds until something has moved by half of a margin, the skin, as neighbour lists do. Then, on all ranks
+// together, particles move to the owners of the plots where they are, and halos and lists are made anew. At the end of
+// a frame all positions and velocities are made whole on every rank.
+#ifndef PETRI_PHYSICS_DOMAIN_H
+#define PETRI_PHYSICS_DOMAIN_H
+
+#include "physics/grid.h"
+
+// A particle that another rank is to get.
+typedef struct Parcel {
+    uint32_t rank;
+    uint32_t column;
+} Parcel;
+
+// Particles by rank: those that go to rank r, or come from it, are numbers start[r] up to start[r + 1].
+typedef struct Parcels {
+    uint32_t *start;
+    Buffer starts;
+    Buffer items; // uint32_t
+} Parcels;
+
+typedef struct Domain {
+    bool made;   // all that follows is there
+    bool active; // in this frame
+    PhysSystem *local;
+    uint64_t arrangement; // of the system's columns that it is for
+    // how far particles see
+    bool contact;  // some force acts on contact
+    double bound;  // largest max_distance of the others, else 0
+    double widest; // radius of the largest particle but for the `large` ones
+    Neighbours survey;
+    uint32_t large[PHYS_MOST_LARGE]; // columns
+    uint32_t large_count;
+    // who owns what
+    Grid plots;
+    Buffer plot_owners; // uint32_t
+    Buffer owners;      // uint32_t by column
+    Buffer columns;     // uint32_t: by local number the column, then by column the local number
+    uint32_t *column;
+    uint32_t *local_of; // of own particles and of the halo
+    Buffer own;         // uint32_t: local numbers of own particles, ascending
+    uint32_t own_count;
+    Buffer foreign;   // bool by local number: of the halo
+    Buffer built;     // own particles when the halo was made: n columns of positions, one of radii
+    Buffer movers;    // uint32_t by column: particles of its group before it that move; if a force is random
+    Buffer draws;     // the same by local number
+    Parcels to, from; // the halo, by local number
+    // on the way
+    Buffer parcels; // Parcel
+    uint32_t parcel_count;
+    Buffer table;   // R x R doubles: how many particles go from one rank to another
+    Buffer numbers; // of messages
+    Buffer whole;   // all particles, by rank
+    Buffer starts;  // size_t
+    // when
+    uint32_t age; // steps that the halo has served
+    uint64_t padded;
+    double seconds;    // that this rank has worked since plots were dealt out
+    uint64_t steps;    // since then
+    uint64_t patience; // steps after which they may be dealt out again
+    Buffer loads;      // double by rank: the seconds of all
+} Domain;
+
+// domain.c: whether the ranks share this frame of the system that way; if so, all is prepared. All ranks come to the
+// same. False with system->failed if memory is used up.
+bool phys_domain_begin(PhysSystem *system);
+bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
+// Makes all particles whole and stores them, as phys_store.
+void phys_domain_store(PhysSystem *system, bool keep_last_finite);
+void phys_domain_free(PhysSystem *system);
+
+// domain_deal.c: deals the plots out to the ranks, by what their particles cost. The columns must be whole. False if
+// plots cannot be made, or memory is used up.
+bool phys_domain_deal(PhysSystem *system, Domain *domain);
+// The owner of the plot where a particle is.
+uint32_t phys_domain_owner(const Domain *domain, const double *position, size_t stride);
+
+// How far along a Hilbert curve a cell is, in a cube of 2^levels cells along each of n axes (1 to 3).
+uint64_t phys_curve_place(const uint32_t *cell, uint32_t n, uint32_t levels);
+
+// domain_halo.c: lets particles move to the owners of their plots.
+bool phys_domain_move(PhysSystem *system, Domain *domain);
+// Finds out who needs what, and gets the positions of the halo into the system's columns.
+bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
+// Gets the positions of the halo for a step.
+bool phys_domain_exchange(PhysSystem *system, Domain *domain);
+
+// domain_local.c: makes the system of own particles and of the halo.
+bool phys_domain_gather(PhysSystem *system, Domain *domain);
+// Brings its forces up to date.
+bool phys_domain_take_forces(PhysSystem *system, Domain *domain);
+// Own particles, as they are within a frame, into the system's columns.
+void phys_domain_give_back(PhysSystem *system, const Domain *domain);
+// The system's columns into the local ones.
+void phys_domain_reload(const PhysSystem *system, Domain *domain);
+
+static inline uint32_t *phys_owners(const Domain *domain) {
+    return domain->owners.bytes;
+}
+
+static inline const uint32_t *phys_parcel(const Parcels *parcels, size_t rank) {
+    return (const uint32_t *)parcels->items.bytes + parcels->start[rank];
+}
+
+static inline size_t phys_parcel_count(const Parcels *parcels, size_t rank) {
+    return parcels->start[rank + 1] - parcels->start[rank];
+}
+
+#endif
