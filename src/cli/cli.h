@@ -9,6 +9,7 @@
 #include "base/str.h"
 
 struct Args;
+struct Mail;
 struct Options;
 struct PetriRanks;
 struct SweepExtras;
@@ -48,6 +49,7 @@ struct Host {
     const struct SweepExtras *sweep; // what petri sweep takes libraries for; NULL: petri-pictures has it
     int (*serve)(const Host *host, struct Options *options); // petri lsp; NULL: petri-lsp has it
     const struct PetriRanks *ranks; // the processes that share the work, as mpirun has started them; NULL: this alone
+    const struct Mail *mail;        // … between them; NULL likewise
 };
 
 typedef struct Command {

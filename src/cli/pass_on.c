@@ -91,13 +91,16 @@ int pass_on_lsp(char **argv) {
 #endif
 }
 
-int pass_on_ranks(char **argv) {
+int pass_on_ranks(char **argv, bool needed) {
     int rank = 0, count = 0;
     if (!mpirun_rank(&rank, &count)) {
         return -1;
     }
     char path[PATH_MAX + 64];
     int cause = become("petri-ranks", argv, path);
+    if (cause == ENOENT && !needed) {
+        return -1;
+    }
     if (rank == 0) {
         message("cannot start petri-ranks, which mpirun takes: %s%s", strerror(cause),
                 cause == ENOENT ? "; this petri was built without MPI (Debian: libopenmpi-dev)" : "");

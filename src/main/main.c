@@ -14,7 +14,7 @@
 #ifdef PETRI_RANKS
 #include "ranks/ranks.h"
 #endif
-#ifdef PETRI_PICTURES
+#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
 #include "sweep/extras.h"
 #endif
 #ifdef PETRI_LSP
@@ -77,7 +77,8 @@ static int dispatch(const Host *host, int argc, char **argv) {
     const Command *command = command_find(first);
     bool is_script = command == NULL && (first[0] == '-' || looks_like_file(first));
 #ifndef PETRI_RANKS
-    int status = command == &RUN_COMMAND || is_script ? pass_on_ranks(argv) : -1;
+    bool sweeps = command == &SWEEP_COMMAND;
+    int status = command == &RUN_COMMAND || is_script || sweeps ? pass_on_ranks(argv, !sweeps) : -1;
     if (status >= 0) {
         return status;
     }
@@ -165,7 +166,7 @@ int main(int argc, char **argv) {
 #ifdef PETRI_LSP
     job.host.serve = lsp_serve;
 #endif
-#ifdef PETRI_PICTURES
+#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
     job.host.sweep = &SWEEP_EXTRAS;
 #endif
     if (!run_on_large_stack(&job)) {
