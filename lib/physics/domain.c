@@ -128,7 +128,7 @@ bool phys_domain_begin(PhysSystem *system) {
     if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
         return false;
     if (!again && system->touched)
-        phys_domain_reload(system, domain);
+        phys_domain_reload(system, domain, true);
     system->touched = false;
     domain->local->frame = system->frame;
     system->traffic.sharing = PHYS_BY_REGION;
@@ -277,5 +277,5 @@ void phys_domain_store(PhysSystem *system, bool keep_last_finite) {
     memcpy(next, starts, (size_t)ranks->count * sizeof *next);
     unpack_all(system, domain, forces, next);
     phys_store(system, keep_last_finite);
-    phys_domain_reload(system, domain);
+    phys_domain_reload(system, domain, false);
 }

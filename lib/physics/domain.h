@@ -99,8 +99,8 @@ bool phys_domain_gather(PhysSystem *system, Domain *domain);
 bool phys_domain_take_forces(PhysSystem *system, Domain *domain);
 // Own particles, as they are within a frame, into the system's columns.
 void phys_domain_give_back(PhysSystem *system, const Domain *domain);
-// The system's columns into the local ones.
-void phys_domain_reload(const PhysSystem *system, Domain *domain);
+// The system's columns into the local ones; only positions and velocities unless `all` are wanted.
+void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all);
 
 static inline uint32_t *phys_owners(const Domain *domain) {
     return domain->owners.bytes;
