@@ -73,8 +73,8 @@ typedef struct Domain {
 // same. False with system->failed if memory is used up.
 bool phys_domain_begin(PhysSystem *system);
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
-// Makes all particles whole and stores them, as phys_store.
-void phys_domain_store(PhysSystem *system, bool keep_last_finite);
+// Makes all particles whole and stores them, as phys_store; false if it was given up.
+bool phys_domain_store(PhysSystem *system, bool keep_last_finite);
 void phys_domain_free(PhysSystem *system);
 
 // domain_deal.c: deals the plots out to the ranks, by what their particles cost. The columns must be whole. False if

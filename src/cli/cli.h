@@ -46,6 +46,7 @@ typedef struct Host {
     const char *cpu;                 // PetriOptions.cpu
     const struct SweepExtras *sweep; // what petri sweep takes libraries for; NULL: petri-pictures has it
     const struct PetriRanks *ranks;  // the processes that share the work, as mpirun has started them; NULL: this alone
+    void (*leave_ranks)(void);       // … are no longer waited for, after a signal; a signal handler may call it
 } Host;
 
 typedef struct Command {
