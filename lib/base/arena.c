@@ -26,15 +26,36 @@ void arena_init(Arena *arena, const char *name, size_t budget) {
     *arena = (Arena){.budget = budget, .name = name};
 }
 
-void arena_free(Arena *arena) {
-    for (ArenaBlock *block = arena->first, *next; block; block = next) {
+static void free_blocks(Meter *meter, ArenaBlock *block) {
+    for (ArenaBlock *next; block; block = next) {
         next = block->next;
         UNPOISON(block->bytes, block->capacity);
-        meter_give(arena->meter, sizeof *block + block->capacity);
+        meter_give(meter, sizeof *block + block->capacity);
         free(block);
     }
+}
+
+void arena_free(Arena *arena) {
+    free_blocks(arena->meter, arena->first);
     arena->first = arena->current = NULL;
     arena->used = 0;
+}
+
+void arena_retire(Arena *arena) {
+    Meter *meter = arena->meter;
+    for (ArenaBlock *block = arena->first, *next; block && meter && meter->keeps; block = next) {
+        next = block->next;
+        block->next = meter->kept;
+        meter->kept = block;
+        arena->first = next;
+    }
+    arena_free(arena);
+}
+
+void arena_drop_kept(Meter *meter) {
+    ArenaBlock *kept = meter->kept;
+    meter->kept = NULL;
+    free_blocks(meter, kept);
 }
 
 void arena_release(Arena *arena) {

@@ -79,6 +79,12 @@ void arena_init(Arena *arena, const char *name, size_t budget);
 // Returns all blocks to the system.
 void arena_free(Arena *arena);
 
+// The same, once the host does not look at the blocks any more: while its meter keeps them, they stay as they are, and
+// charged.
+void arena_retire(Arena *arena);
+// Returns what was kept so.
+void arena_drop_kept(Meter *meter);
+
 // What the arena holds is charged to nobody from here on.
 void arena_release(Arena *arena);
 

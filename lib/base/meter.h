@@ -20,6 +20,8 @@ typedef struct Meter {
     size_t memory_limit;
     bool memory_refused;          // since meter_begin
     const atomic_bool *interrupt; // true: the host wants an end; NULL: nobody can ask for one
+    bool keeps;                   // the host still looks at what is to be freed (arena_retire)
+    void *kept;                   // … which is here: ArenaBlock
 } Meter;
 
 // What an array of so many bytes costs that is filled or looked at in a simple loop.

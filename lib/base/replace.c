@@ -33,7 +33,7 @@ static int open_at(int folder, const char *name, int flags, mode_t mode) {
 
 // By hand, for a signal handler may need it.
 static bool make_name(char name[NAME_MAX + 1]) {
-    uint64_t number;
+    uint64_t number = 0;
     if (getentropy(&number, sizeof number) != 0)
         return false;
     memcpy(name, PREFIX, PREFIX_LENGTH);

@@ -43,11 +43,32 @@ static bool may_use_file(const Reader *reader, const DrawNode *node) {
 
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind);
 
+// `!blend` and the like are sources, and filters too: what is inside tells.
+static bool holds_filters(const Reader *reader, const Node *node, int depth) {
+    enum { DEEPEST = 100 };
+    const Schema *schema = reader->schema;
+    arena_charge(reader->arena, 1 + node->child_count);
+    for (uint32_t i = 0; i < node->child_count && depth < DEEPEST; i++) {
+        const Node *child = node->children[i];
+        NodeKind kind = schema_kind_in(schema, child, PLACE_SOURCE);
+        if (kind == KIND_COUNT ? schema_kind_in(schema, child, PLACE_FILTER) != KIND_COUNT
+                               : kind == KIND_BLEND && holds_filters(reader, child, depth + 1))
+            return true;
+    }
+    return false;
+}
+
+static NodeKind kind_of(const Reader *reader, const Node *node) {
+    NodeKind kind = schema_kind_in(reader->schema, node, schema_kinds[reader->kind].children);
+    bool open = schema_kinds[reader->kind].children == PLACE_DRAWING;
+    return kind == KIND_BLEND && open && holds_filters(reader, node, 0) ? KIND_FILTER_BLEND : kind;
+}
+
 static void read_children(const Reader *reader, DrawNode *out) {
     const Node *node = reader->node;
     const DrawNode **children = arena_alloc_array(reader->arena, node->child_count, sizeof *children);
     for (uint32_t i = 0; i < node->child_count; i++) {
-        NodeKind child = schema_kind_in(reader->schema, node->children[i], schema_kinds[reader->kind].children);
+        NodeKind child = kind_of(reader, node->children[i]);
         if (child == KIND_COUNT) {
             report_misplaced(reader, node->children[i],
                              schema_window_kind(reader->schema, node->children[i]) != KIND_COUNT);

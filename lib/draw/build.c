@@ -91,15 +91,13 @@ bool build_take(Look *look, const DrawNode *node) {
     return changed;
 }
 
-static uint32_t add_paint(Build *build, const Look *look) {
+uint32_t build_paint(Build *build, const Look *look) {
     ListPaint *paint = LIST_ADD(build->arena, build->list->paints, 1);
     *paint = (ListPaint){.color = {look->color[0], look->color[1], look->color[2], look->color[3]},
                          .stroke_width = look->stroke_width,
-                         .dash_offset = look->dash_offset,
-                         .dashes = look->dashes,
-                         .dash_count = look->dash_count,
                          .source = look->source,
                          .filter = look->filter,
+                         .effect = look->effect,
                          .join = look->join,
                          .cap = look->cap,
                          .composite = look->composite,
@@ -115,8 +113,8 @@ static ListCommand *add_command(Build *build, Level *level, ListCommandKind kind
         level->matrix_at = list->matrices.count - 1;
     }
     if (!own && level->paint_at == LIST_NONE)
-        level->paint_at = add_paint(build, &level->look);
-    uint32_t paint = own ? add_paint(build, own) : level->paint_at;
+        level->paint_at = build_paint(build, &level->look);
+    uint32_t paint = own ? build_paint(build, own) : level->paint_at;
     ListCommand *command = LIST_ADD(build->arena, list->commands, 1);
     *command = (ListCommand){.kind = kind, .matrix = level->matrix_at, .paint = paint, .path = level->path};
     return command;
@@ -161,7 +159,9 @@ static void enter(Walk *walk, const DrawNode *node) {
         ListPath box = build_no_path;
         build_rectangle(&walk->build, &box, origin, size);
         add_command(&walk->build, &walk->levels[walk->depth - 1], LIST_CLIP, NULL)->path = box;
-        add_command(&walk->build, &walk->levels[walk->depth - 1], LIST_LAYER, NULL);
+        add_command(&walk->build, &walk->levels[walk->depth - 1], LIST_LAYER, NULL)->item =
+            walk->build.list->places.count;
+        *LIST_ADD(walk->build.arena, walk->build.list->places, 1) = node->place;
     }
     Level *level = push(walk, node);
     build_transform(&level->matrix, node, false);
@@ -182,9 +182,7 @@ static void enter(Walk *walk, const DrawNode *node) {
 static void keep_paint(Level *outside, const Look *inside) {
     outside->look.source = inside->source;
     outside->look.filter = inside->filter;
-    outside->look.dashes = inside->dashes;
-    outside->look.dash_count = inside->dash_count;
-    outside->look.dash_offset = inside->dash_offset;
+    outside->look.effect = inside->effect;
     outside->paint_at = LIST_NONE;
 }
 
@@ -306,7 +304,7 @@ const List *list_build(Arena *arena, const DrawNode *canvas) {
                    .paint_at = LIST_NONE,
                    .matrix = {1, 0, 0, 1, 0, 0},
                    .path = build_no_path,
-                   .look = {.source = LIST_NONE, .filter = LIST_NONE}};
+                   .look = {.source = LIST_NONE, .filter = LIST_NONE, .effect = LIST_NONE}};
     schema_defaults(KIND_CANVAS, &top->look);
     build_take(&top->look, canvas);
     build_transform(&top->matrix, canvas, false);

@@ -81,6 +81,8 @@ static cairo_pattern_t *make_pattern(Canvas *canvas, uint32_t number, double alp
         return fade(canvas, make_image(canvas, source), alpha);
     case SOURCE_BLEND:
         return fade(canvas, make_blend(canvas, source), alpha);
+    case SOURCE_NOISE:
+        return draw_noise(canvas, source, alpha);
     }
     cairo_pattern_set_extend(pattern, CAIRO_EXTEND_PAD);
     add_stops(canvas->list, source, alpha, pattern);

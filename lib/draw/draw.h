@@ -7,10 +7,21 @@
 #include "draw/list.h"
 #include "draw/pictures.h"
 
-typedef struct Picture Picture; // of an image file: images.c
+typedef struct Picture Picture;         // of an image file: images.c
+typedef struct SheetMemory SheetMemory; // sheets.c
+
+// Red, green, blue and alpha of each pixel, multiplied by alpha, 0 to 1; rows from the top.
+typedef struct Sheet {
+    int width;
+    int height;
+    float *pixels; // NULL: none
+    int x;         // where it lies on the target, if it is drawn on
+    int y;
+} Sheet;
 
 struct PetriPainter {
     Arena arena; // reset with each picture
+    Meter meter; // of the memory that drawing may have
     PangoFontMap *fonts;
     PangoContext *text_context;
     PangoLayout *layout;
@@ -40,18 +51,50 @@ typedef struct Canvas {
     const ListCommand *path_of; // the command whose path is the current one; or NULL
     cairo_matrix_t base;        // of the list's units
     bool failed;                // an error was reported
+    double work;                // of filters and the like, so far
+    size_t taken;               // bytes that are charged
+    SheetMemory *sheets;        // all there are
+    Sheet wide;                 // what is drawn on in place of the target's pixels; or none
+    // While something is drawn apart: what was drawn on before, and the surface.
+    cairo_t *outer;
+    Sheet outer_wide;
+    cairo_surface_t *apart;
 } Canvas;
 
 // Reports what drawing has found, each text once.
 __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel level, const char *code,
                                                       const char *format, ...);
 
-__attribute__((format(printf, 4, 5))) void draw_report(DiagSink *faults, DiagLevel level, const char *code,
-                                                       const char *format, ...);
+// The same about what stands at a place.
+__attribute__((format(printf, 5, 6))) void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level,
+                                                         const char *code, const char *format, ...);
+
+// The place may be NULL.
+__attribute__((format(printf, 5, 6))) void draw_report(DiagSink *faults, const Origin *place, DiagLevel level,
+                                                       const char *code, const char *format, ...);
+// Whether memory was lacking because of the limit and not of the machine; tells that a node is left out then.
+bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
+                     DiagSink *faults);
+
+// apart.c
+// Charges bytes to the picture; false if it may not have so many.
+bool draw_take(Canvas *canvas, size_t bytes);
+void draw_give(Canvas *canvas, size_t bytes);
+// Draws on a surface of its own from here on, whose top left corner is at x, y of the target; NULL without memory.
+cairo_surface_t *draw_begin_apart(Canvas *canvas, int width, int height, double x, double y);
+void draw_end_apart(Canvas *canvas);
+// If memory was lacking: tells that something is drawn without this, or leaves if it is the machine's.
+void draw_lacks(Canvas *canvas, const Origin *place, const char *what, bool lacking);
+// Gives back whatever is still held.
+void draw_close(Canvas *canvas);
 
 // paint.c
-// Draws a canvas into a cleared sRGB picture of its size. PETRI_OK, PETRI_INVALID after an error was reported, or
-// PETRI_MEMORY.
+// Sets how much memory the painter may take from here on.
+void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
+// Reports that a drawing was given up because of that: PETRI_INVALID, or PETRI_MEMORY without room for it.
+PetriStatus draw_tell_limit(DiagSink *faults);
+// Draws a canvas into a cleared picture of its size: sRGB, or linear light. PETRI_OK, PETRI_INVALID after an error was
+// reported, or PETRI_MEMORY.
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
                         DiagSink *faults);
 
@@ -71,6 +114,7 @@ void draw_tame(Canvas *canvas, double *x, double *y);
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep, bool join);
 // Makes the command's path the current one, in the matrix that is in force.
 void draw_set_path(Canvas *canvas, const ListCommand *command);
+void draw_add_piece(Canvas *canvas, ListPiece kind, const double *numbers);
 void draw_forget_path(Canvas *canvas);
 
 // paints.c
@@ -79,11 +123,27 @@ cairo_operator_t draw_operator(int composite);
 void draw_set_edges(Canvas *canvas, bool antialias, int fill_type);
 // Fills or strokes the current path, or both as one figure.
 void draw_figure(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
+// A figure as a mask, to be destroyed.
+cairo_pattern_t *draw_make_mask(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
+// The box on the target that the current path is drawn in: left, top, right, bottom; false if that is not known.
+bool draw_find_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint, double box[4]);
+// What is drawn next touches no more than that.
+void draw_clip_to_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
 // Can the path be drawn in reasonable time? If not, the picture fails.
 bool draw_is_drawable(Canvas *canvas);
 
 // colours.c
 void draw_set_source(Canvas *canvas, const ListPaint *paint);
+
+// effects.c
+// Has the paint an effect that changes the path, other than dashes of its lines?
+bool draw_has_effect(const Canvas *canvas, const ListPaint *paint);
+// Makes what becomes of a path the current one, for its lines or for what is inside. False without memory.
+bool draw_apply_effect(Canvas *canvas, const ListPaint *paint, const cairo_path_t *path, bool lines);
+
+// noise.c
+// A pattern of noise within the clip.
+cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alpha);
 
 // filters.c
 // Draws through the paint's filter.

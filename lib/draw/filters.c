@@ -1,216 +1,253 @@
 // filters.c: what is drawn through a filter (spec canvas.md 6): drawn on a transparent sheet, which is then changed.
-#include "draw/draw.h"
+#include "draw/sheets.h"
 
-#include "maths/maths.h"
+#include "draw/light.h"
 
 #include <math.h>
-#include <stdlib.h>
-#include <string.h>
 
-static const double WIDEST = 256; // standard deviation, pixels
-enum { MOST_SHEET = 1 << 26 };    // pixels
+enum { MOST_SHEET = 1 << 26 };       // pixels
+static const double FARTHEST = 2000; // that something is moved, pixels
+static const double MOST_WORK = 4e9; // in a canvas, in numbers of pixels: some seconds
 
-// r, g, b, a of each pixel, multiplied by alpha, 0 to 255.
-typedef struct Sheet {
-    int width;
-    int height;
-    float *pixels; // to be freed; NULL: memory is used up, and so it is with what is made of it
-} Sheet;
-
-static Sheet sheet_new(const Sheet *like) {
-    size_t count = (size_t)like->width * (size_t)like->height;
-    return (Sheet){like->width, like->height, like->pixels ? calloc(count, 4 * sizeof(float)) : NULL};
-}
-
-static float *pixel_of(const Sheet *sheet, int x, int y) {
-    return sheet->pixels + 4 * ((size_t)y * (size_t)sheet->width + (size_t)x);
-}
-
-// The weights of whole distances from 0 on; returns how many.
-static int make_weights(double sigma, float *weights) {
-    int reach = (int)ceil(3 * sigma);
-    double sum = 0;
-    for (int i = 0; i <= reach; i++)
-        sum += (i ? 2 : 1) * maths_exp(-0.5 * i * i / (sigma * sigma));
-    for (int i = 0; i <= reach; i++)
-        weights[i] = (float)(maths_exp(-0.5 * i * i / (sigma * sigma)) / sum);
-    return reach;
-}
-
-// Blurs one row or column of `count` pixels that are `step` floats apart.
-static void blur_row(const float *from, float *to, int count, size_t step, const float *weights, int reach) {
-    for (int i = 0; i < count; i++) {
-        float sum[4] = {0, 0, 0, 0};
-        int first = i - reach < 0 ? 0 : i - reach, last = i + reach >= count ? count - 1 : i + reach;
-        for (int j = first; j <= last; j++)
-            for (int k = 0; k < 4; k++)
-                sum[k] += weights[abs(i - j)] * from[(size_t)j * step + (size_t)k];
-        memcpy(to + (size_t)i * step, sum, sizeof sum);
-    }
-}
-
-static Sheet blur(Sheet sheet, const double sigma[2]) {
-    float weights[3 * 256 + 2];
-    for (int axis = 0; axis < 2; axis++) {
-        if (!(sigma[axis] > 0.05))
-            continue;
-        Sheet out = sheet_new(&sheet);
-        int reach = make_weights(fmin(sigma[axis], WIDEST), weights);
-        int rows = !out.pixels ? 0 : axis ? sheet.width : sheet.height;
-        for (int i = 0; i < rows; i++) {
-            size_t start =
-                (size_t)(axis ? pixel_of(&sheet, i, 0) - sheet.pixels : pixel_of(&sheet, 0, i) - sheet.pixels);
-            blur_row(sheet.pixels + start, out.pixels + start, axis ? sheet.height : sheet.width,
-                     axis ? 4 * (size_t)sheet.width : 4, weights, reach);
-        }
-        free(sheet.pixels);
-        sheet = out;
-    }
-    return sheet;
-}
-
-// What is on the canvas's target is moved by whole pixels.
-static Sheet move(Sheet sheet, double dx, double dy) {
-    Sheet out = sheet_new(&sheet);
-    int x0 = (int)fmin(fmax(rint(dx), -sheet.width), sheet.width);
-    int y0 = (int)fmin(fmax(rint(dy), -sheet.height), sheet.height);
-    int first = x0 > 0 ? x0 : 0, last = x0 > 0 ? sheet.width : sheet.width + x0;
-    for (int y = 0; out.pixels && y < sheet.height; y++)
-        if (y - y0 >= 0 && y - y0 < sheet.height && last > first)
-            memcpy(pixel_of(&out, first, y), pixel_of(&sheet, first - x0, y - y0),
-                   (size_t)(last - first) * 4 * sizeof(float));
-    free(sheet.pixels);
-    return out;
-}
+// Where filters are applied.
+typedef struct Room {
+    Canvas *canvas;
+    cairo_matrix_t matrix; // of what is drawn
+    double x;              // of the sheets on the target
+    double y;
+    const Sheet *drawn;
+} Room;
 
 static double scale_in(const cairo_matrix_t *m, int axis) {
     return axis ? sqrt(m->xy * m->xy + m->yy * m->yy) : sqrt(m->xx * m->xx + m->yx * m->yx);
 }
 
-static Sheet copy(const Sheet *sheet) {
-    Sheet out = sheet_new(sheet);
-    if (out.pixels)
-        memcpy(out.pixels, sheet->pixels, (size_t)sheet->width * (size_t)sheet->height * 4 * sizeof(float));
-    return out;
+static void report_widest(Canvas *canvas, const ListFilter *filter, const double radius[2]) {
+    if (fmax(radius[0], radius[1]) > SHEET_WIDEST)
+        draw_fault_at(canvas, &filter->place, DIAG_WARNING, "blur-limit",
+                      "!%s: a radius of more than %d pixels counts as one of so many",
+                      filter->kind == FILTER_BLUR ? "blur" : "shadow", SHEET_WIDEST);
 }
 
-static void shade(Sheet *sheet, const double color[4]) {
-    size_t count = sheet->pixels ? (size_t)sheet->width * (size_t)sheet->height : 0;
-    for (size_t i = 0; i < count; i++) {
-        float *pixel = sheet->pixels + 4 * i, alpha = pixel[3] * (float)color[3];
-        for (int k = 0; k < 3; k++)
-            pixel[k] = alpha * (float)color[k];
-        pixel[3] = alpha;
+static Sheet apply(const Room *room, uint32_t number);
+
+// A new sheet with the paint everywhere.
+static Sheet paint_all(const Room *room, const ListPaint *paint) {
+    Canvas *canvas = room->canvas;
+    if (canvas->wide.pixels && paint->source == LIST_NONE) {
+        Sheet plain = sheet_new(canvas, room->drawn->width, room->drawn->height);
+        sheet_fill(&plain, paint->color);
+        return plain;
     }
-}
-
-static void lay_over(Sheet *below, const Sheet *above) {
-    size_t count = below->pixels ? (size_t)below->width * (size_t)below->height : 0;
-    for (size_t i = 0; i < 4 * count; i++)
-        below->pixels[i] = above->pixels[i] + below->pixels[i] * (1 - above->pixels[i | 3] / 255);
-}
-
-// Gives back `drawn`.
-static Sheet apply(const List *list, uint32_t number, const cairo_matrix_t *m, Sheet drawn) {
-    const ListFilter *filter = &list->filters.at[number];
-    double dx = filter->offset[0], dy = filter->offset[1];
-    double sigma[2] = {filter->radius[0] * scale_in(m, 0), filter->radius[1] * scale_in(m, 1)};
-    cairo_matrix_transform_distance(m, &dx, &dy);
-    if (filter->input != LIST_NONE)
-        drawn = apply(list, filter->input, m, drawn);
-    if (filter->kind == FILTER_BLUR)
-        return blur(drawn, sigma);
-    if (filter->kind == FILTER_OFFSET)
-        return move(drawn, dx, dy);
-    Sheet shadow = copy(&drawn);
-    shade(&shadow, filter->color);
-    shadow = move(blur(shadow, sigma), dx, dy);
-    if (!filter->only)
-        lay_over(&shadow, &drawn);
-    free(drawn.pixels);
-    return shadow;
-}
-
-// How far beyond what is seen things may lie that are seen through the filter.
-static double margin_of(const List *list, uint32_t number, const cairo_matrix_t *m) {
-    double margin = 2;
-    for (; number != LIST_NONE; number = list->filters.at[number].input) {
-        const ListFilter *filter = &list->filters.at[number];
-        double dx = filter->offset[0], dy = filter->offset[1];
-        cairo_matrix_transform_distance(m, &dx, &dy);
-        margin += fmin(fmax(fabs(dx), fabs(dy)), 2000);
-        margin += 3 * fmin(fmax(filter->radius[0] * scale_in(m, 0), filter->radius[1] * scale_in(m, 1)), WIDEST);
-    }
-    return ceil(margin);
-}
-
-static Sheet take_pixels(cairo_surface_t *surface, int width, int height) {
-    cairo_surface_flush(surface);
-    const uint32_t *from = (const uint32_t *)(const void *)cairo_image_surface_get_data(surface);
-    Sheet sheet = {width, height, from ? malloc((size_t)width * (size_t)height * 4 * sizeof(float)) : NULL};
-    for (size_t i = 0; sheet.pixels && i < (size_t)width * (size_t)height; i++)
-        for (unsigned k = 0; k < 4; k++)
-            sheet.pixels[4 * i + k] = (float)(from[i] >> (k < 3 ? 16 - 8 * k : 24) & 255);
+    cairo_surface_t *surface = draw_begin_apart(canvas, room->drawn->width, room->drawn->height, room->x, room->y);
+    Sheet sheet = {0};
+    if (!surface)
+        return sheet;
+    cairo_set_matrix(canvas->cr, &room->matrix);
+    draw_set_source(canvas, paint);
+    cairo_paint(canvas->cr);
+    sheet = sheet_take(canvas, surface);
+    draw_end_apart(canvas);
     return sheet;
 }
 
-static void put_pixels(cairo_surface_t *surface, const Sheet *sheet) {
-    uint32_t *to = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
-    for (size_t i = 0; to && sheet->pixels && i < (size_t)sheet->width * (size_t)sheet->height; i++) {
-        uint32_t pixel = 0;
-        for (unsigned k = 0; k < 4; k++)
-            pixel |= (uint32_t)lrintf(fminf(fmaxf(sheet->pixels[4 * i + k], 0), 255)) << (k < 3 ? 16 - 8 * k : 24);
-        to[i] = pixel;
-    }
-    cairo_surface_mark_dirty(surface);
+static Sheet cast_shadow(const Room *room, const ListFilter *filter, Sheet drawn, const double sigma[2], double dx,
+                         double dy) {
+    Canvas *canvas = room->canvas;
+    Sheet shadow = sheet_copy(canvas, &drawn);
+    sheet_shade(&shadow, filter->color);
+    sheet_blur(canvas, &shadow, sigma);
+    sheet_move(canvas, &shadow, dx, dy);
+    if (!filter->only)
+        sheet_lay_over(&shadow, &drawn);
+    sheet_free(canvas, &drawn);
+    return shadow;
 }
 
-// Draws the command by itself on a surface whose top left corner is at x, y of the target.
-static void draw_apart(Canvas *canvas, const ListCommand *command, const ListPaint *paint, cairo_surface_t *surface,
-                       double x, double y) {
+// A new sheet.
+static Sheet apply(const Room *room, uint32_t number) {
+    Canvas *canvas = room->canvas;
+    if (number == LIST_NONE)
+        return sheet_copy(canvas, room->drawn);
+    const List *list = canvas->list;
+    const ListFilter *filter = &list->filters.at[number];
+    const double *numbers = filter->numbers == LIST_NONE ? NULL : list->numbers.at + filter->numbers;
+    double dx = filter->offset[0], dy = filter->offset[1];
+    double radius[2] = {filter->radius[0] * scale_in(&room->matrix, 0), filter->radius[1] * scale_in(&room->matrix, 1)};
+    cairo_matrix_transform_distance(&room->matrix, &dx, &dy);
+    if (filter->kind == FILTER_PAINT)
+        return paint_all(room, &list->paints.at[filter->paint]);
+    Sheet sheet = apply(room, filter->inputs[0]), other;
+    switch (filter->kind) {
+    case FILTER_BLUR:
+        report_widest(canvas, filter, radius);
+        sheet_blur(canvas, &sheet, radius);
+        break;
+    case FILTER_SHADOW:
+        report_widest(canvas, filter, radius);
+        return cast_shadow(room, filter, sheet, radius, dx, dy);
+    case FILTER_OFFSET:
+        sheet_move(canvas, &sheet, dx, dy);
+        break;
+    case FILTER_DILATE:
+    case FILTER_ERODE:
+        sheet_spread(canvas, &sheet, radius, filter->kind == FILTER_ERODE);
+        break;
+    case FILTER_MATRIX:
+        sheet_recolor(&sheet, numbers);
+        break;
+    case FILTER_BLEND:
+        other = apply(room, filter->inputs[1]);
+        sheet_combine(&sheet, &other, numbers, (CompositeMode)filter->mode);
+        if (!other.pixels)
+            sheet_free(canvas, &sheet);
+        sheet_free(canvas, &other);
+        break;
+    default:
+        break;
+    }
+    return sheet;
+}
+
+// What a filter asks for.
+typedef struct Needs {
+    double margin;   // how far beyond what is seen things may lie that are seen through it, and its traces
+    double work;     // for each pixel
+    bool everywhere; // it changes what is transparent
+} Needs;
+
+static void add_needs(const List *list, uint32_t number, const cairo_matrix_t *m, Needs *needs) {
+    if (number == LIST_NONE)
+        return;
+    const ListFilter *filter = &list->filters.at[number];
+    const double *numbers = filter->numbers == LIST_NONE ? NULL : list->numbers.at + filter->numbers;
+    double dx = filter->offset[0], dy = filter->offset[1];
+    double radius = fmax(filter->radius[0] * scale_in(m, 0), filter->radius[1] * scale_in(m, 1));
+    bool blurs = filter->kind == FILTER_BLUR || filter->kind == FILTER_SHADOW;
+    cairo_matrix_transform_distance(m, &dx, &dy);
+    needs->margin += fmin(fmax(fabs(dx), fabs(dy)), FARTHEST);
+    needs->margin += blurs ? 3 * fmin(radius, SHEET_WIDEST) : fmin(radius, FARTHEST);
+    needs->work += blurs ? 20 + 4 * fmin(radius, 16) : 20;
+    needs->everywhere |= filter->kind == FILTER_PAINT || (filter->kind == FILTER_MATRIX && numbers[19] != 0) ||
+                         (filter->kind == FILTER_BLEND && numbers && numbers[3] != 0);
+    add_needs(list, filter->inputs[0], m, needs);
+    add_needs(list, filter->inputs[1], m, needs);
+}
+
+typedef struct Box {
+    double x;
+    double y;
+    double width;
+    double height;
+} Box;
+
+// What of the target the sheet covers: where the figure is, if that is known, and where one can see.
+static bool find_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint, const Needs *needs, Box *box) {
+    cairo_t *cr = canvas->cr;
+    double seen[4], figure[4], margin = ceil(needs->margin + 2);
+    cairo_save(cr);
+    cairo_identity_matrix(cr);
+    cairo_clip_extents(cr, &seen[0], &seen[1], &seen[2], &seen[3]);
+    cairo_restore(cr);
+    if (seen[2] <= seen[0] || seen[3] <= seen[1])
+        return false;
+    bool known = command->kind == LIST_DRAW && !needs->everywhere;
+    if (known) {
+        draw_set_path(canvas, command);
+        known = draw_find_box(canvas, command, paint, figure);
+    }
+    for (int k = 0; k < 2; k++) {
+        double low = known ? fmax(seen[k], figure[k]) : seen[k];
+        double high = known ? fmin(seen[2 + k], figure[2 + k]) : seen[2 + k];
+        // What lies outside may come in, and what is inside may go as far.
+        if (known && (figure[k] - margin >= seen[2 + k] || figure[2 + k] + margin <= seen[k]))
+            return false;
+        low = known ? fmax(seen[k] - margin, figure[k] - margin) : low - margin;
+        high = known ? fmin(seen[2 + k] + margin, figure[2 + k] + margin) : high + margin;
+        *(k ? &box->y : &box->x) = floor(low);
+        *(k ? &box->height : &box->width) = ceil(high) - floor(low);
+    }
+    return box->width >= 1 && box->height >= 1;
+}
+
+// May the picture go through the filter? If not, it is told.
+static bool may_filter(Canvas *canvas, const ListFilter *filter, const Box *box, const Needs *needs) {
+    double work = box->width * box->height * needs->work;
+    if (box->width * box->height <= MOST_SHEET && canvas->work + work <= MOST_WORK) {
+        canvas->work += work;
+        return true;
+    }
+    draw_fault_at(canvas, &filter->place, DIAG_WARNING, "filter-limit",
+                  "filters of this canvas take too long; what comes after is drawn without them");
+    return false;
+}
+
+// The command drawn by itself, as a sheet.
+static Sheet draw_apart(Canvas *canvas, const ListCommand *command, const ListPaint *paint, const Box *box) {
     cairo_matrix_t matrix;
-    cairo_t *target = canvas->cr;
-    cairo_get_matrix(target, &matrix);
-    cairo_surface_set_device_offset(surface, -x, -y);
-    canvas->cr = cairo_create(surface);
-    cairo_set_tolerance(canvas->cr, cairo_get_tolerance(target));
+    cairo_get_matrix(canvas->cr, &matrix);
+    cairo_surface_t *surface = draw_begin_apart(canvas, (int)box->width, (int)box->height, box->x, box->y);
+    Sheet sheet = {0};
+    if (!surface)
+        return sheet;
     cairo_set_matrix(canvas->cr, &matrix);
     ListPaint plain = *paint;
     plain.filter = LIST_NONE;
     plain.composite = COMPOSITE_OVER;
-    canvas->path_of = NULL;
-    draw_plainly(canvas, command, &plain);
-    cairo_destroy(canvas->cr);
-    canvas->cr = target;
-    draw_forget_path(canvas);
+    if (canvas->outer_wide.pixels) {
+        sheet = canvas->wide = sheet_new(canvas, (int)box->width, (int)box->height);
+        canvas->wide.x = (int)box->x;
+        canvas->wide.y = (int)box->y;
+    }
+    if (!canvas->outer_wide.pixels || sheet.pixels)
+        draw_plainly(canvas, command, &plain);
+    if (!canvas->outer_wide.pixels)
+        sheet = sheet_take(canvas, surface);
+    draw_end_apart(canvas);
+    return sheet;
 }
 
-void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+// Lays what came out over the target.
+static void lay(Canvas *canvas, const Sheet *sheet, const Box *box, int composite) {
     cairo_t *cr = canvas->cr;
-    cairo_matrix_t matrix;
-    double x1, y1, x2, y2;
-    cairo_get_matrix(cr, &matrix);
-    cairo_save(cr);
-    cairo_identity_matrix(cr);
-    cairo_clip_extents(cr, &x1, &y1, &x2, &y2);
-    cairo_restore(cr);
-    double margin = margin_of(canvas->list, paint->filter, &matrix), x = floor(x1) - margin, y = floor(y1) - margin;
-    double width = ceil(x2) + margin - x, height = ceil(y2) + margin - y;
-    if (x2 <= x1 || y2 <= y1 || width * height > MOST_SHEET)
+    if (canvas->wide.pixels) {
+        light_lay(canvas, sheet, box->x, box->y, composite);
         return;
-    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
-    draw_apart(canvas, command, paint, surface, x, y);
-    Sheet sheet = apply(canvas->list, paint->filter, &matrix, take_pixels(surface, (int)width, (int)height));
-    put_pixels(surface, &sheet);
-    bool lost = !sheet.pixels;
-    free(sheet.pixels);
+    }
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, sheet->width, sheet->height);
+    sheet_put(sheet, surface);
     cairo_save(cr);
     cairo_identity_matrix(cr);
-    cairo_set_source_surface(cr, surface, 0, 0); // it knows where it lies
-    cairo_set_operator(cr, draw_operator(paint->composite));
+    cairo_set_source_surface(cr, surface, box->x, box->y);
+    cairo_set_operator(cr, draw_operator(composite));
     cairo_paint(cr);
     cairo_restore(cr);
     cairo_surface_destroy(surface);
-    if (lost)
-        arena_exhausted(&canvas->painter->arena);
+}
+
+void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    Room room = {.canvas = canvas};
+    Needs needs = {0};
+    Box box;
+    cairo_get_matrix(canvas->cr, &room.matrix);
+    add_needs(canvas->list, paint->filter, &room.matrix, &needs);
+    if (!find_box(canvas, command, paint, &needs, &box))
+        return;
+    const ListFilter *filter = &canvas->list->filters.at[paint->filter];
+    Sheet result = {0};
+    if (may_filter(canvas, filter, &box, &needs)) {
+        Sheet drawn = draw_apart(canvas, command, paint, &box);
+        room.x = box.x;
+        room.y = box.y;
+        room.drawn = &drawn;
+        if (drawn.pixels)
+            result = apply(&room, paint->filter);
+        sheet_free(canvas, &drawn);
+        draw_lacks(canvas, &filter->place, "a filter", result.pixels == NULL);
+    }
+    if (result.pixels)
+        lay(canvas, &result, &box, paint->composite);
+    else
+        draw_plainly(canvas, command, paint);
+    sheet_free(canvas, &result);
 }

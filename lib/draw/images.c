@@ -3,6 +3,7 @@
 
 #include "base/file.h"
 #include "base/source.h"
+#include "draw/light.h"
 #include "draw/resize.h"
 
 #include <math.h>
@@ -17,11 +18,14 @@ struct Picture {
     char *version;            // changes when the file does
     cairo_surface_t *surface; // NULL: cannot be read
     char *problem;            // then why
+    Meter *meter;             // that its pixels are charged to
+    size_t taken;
 };
 
 static void picture_free(Picture *picture) {
     if (picture->surface)
         cairo_surface_destroy(picture->surface);
+    meter_give(picture->meter, picture->taken);
     free(picture->path);
     free(picture->version);
     free(picture->problem);
@@ -91,6 +95,17 @@ static cairo_surface_t *decode(Str bytes, const char **problem) {
     return NULL;
 }
 
+static bool charge(Picture *picture) {
+    size_t bytes = (size_t)cairo_image_surface_get_stride(picture->surface) *
+                   (size_t)cairo_image_surface_get_height(picture->surface);
+    if (!meter_take(picture->meter, bytes)) {
+        picture->meter->memory_refused = false;
+        return false;
+    }
+    picture->taken = bytes;
+    return true;
+}
+
 static Picture *load(PetriPainter *painter, const Reach *reach, const char *path, Str version) {
     ArenaMark mark = arena_mark(&painter->arena);
     Str bytes;
@@ -101,8 +116,14 @@ static Picture *load(PetriPainter *painter, const Reach *reach, const char *path
         arena_exhausted(&painter->arena);
     picture->path = strdup(path);
     picture->version = strndup(version.bytes, version.len);
+    picture->meter = &painter->meter;
     if (read)
         picture->surface = decode(bytes, &problem);
+    if (picture->surface && !charge(picture)) {
+        cairo_surface_destroy(picture->surface);
+        picture->surface = NULL;
+        problem = "it takes more memory than a script may have (--memory)";
+    }
     picture->problem = problem ? strdup(problem) : NULL;
     if (!picture->path || !picture->version || (!picture->surface && !picture->problem)) {
         picture_free(picture);
@@ -182,19 +203,23 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
         cairo_rectangle(cr, 0, 0, width, height);
         cairo_clip(cr);
         cairo_set_operator(cr, draw_operator(paint->composite));
-        cairo_paint_with_alpha(cr, fmin(fmax(paint->color[3], 0), 1));
+        if (canvas->wide.pixels)
+            light_image(canvas, paint);
+        else
+            cairo_paint_with_alpha(cr, fmin(fmax(paint->color[3], 0), 1));
     }
     cairo_restore(cr);
     draw_forget_path(canvas);
 }
 
 // The pixels of a file, or NULL after a report.
-static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, DiagSink *faults) {
+static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, const Origin *place,
+                                  DiagSink *faults) {
     Arena *arena = &painter->arena;
     const Reach *reach = &picture->reach;
     const Picture *found = find(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name)));
     if (!found->surface)
-        draw_report(faults, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name.bytes,
+        draw_report(faults, place, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name.bytes,
                     found->problem ? found->problem : "");
     return found->surface;
 }
@@ -235,7 +260,7 @@ static cairo_surface_t *linear_copy(cairo_surface_t *file) {
 cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
     if (image->file.len == 0)
         return find_picture(canvas, image->id);
-    cairo_surface_t *surface = find_file(canvas->painter, canvas->picture, image->file, canvas->faults);
+    cairo_surface_t *surface = find_file(canvas->painter, canvas->picture, image->file, &image->place, canvas->faults);
     return !surface ? NULL : canvas->list->linear ? linear_copy(surface) : cairo_surface_reference(surface);
 }
 
@@ -253,22 +278,23 @@ Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture,
                             DiagSink *faults) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME);
     cairo_surface_t *surface =
-        name && name->as.text.len > 0 ? find_file(painter, picture, name->as.text, faults) : NULL;
+        name && name->as.text.len > 0 ? find_file(painter, picture, name->as.text, &node->place, faults) : NULL;
     if (!surface)
         return NULL;
     int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
     pictures_size(node, &width, &height);
     if (width < 1 || height < 1 || width > MOST_SIDE || height > MOST_SIDE || (int64_t)width * height > MOST_PIXELS) {
-        draw_report(faults, DIAG_WARNING, "bad-size", "!image: a picture can have 1 to %d pixels in width and height",
-                    MOST_SIDE);
+        draw_report(faults, &node->place, DIAG_WARNING, "bad-size",
+                    "!image: a picture can have 1 to %d pixels in width and height", MOST_SIDE);
         return NULL;
     }
     cairo_format_t format = cairo_image_surface_get_format(surface);
-    Texture *texture = resize_pixels((const uint32_t *)(const void *)cairo_image_surface_get_data(surface),
-                                     cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
-                                     (size_t)cairo_image_surface_get_stride(surface), format == CAIRO_FORMAT_ARGB32,
-                                     width, height, draw_word(node, ATTR_FLIP));
-    if (!texture)
+    Texture *texture =
+        resize_pixels(&painter->meter, (const uint32_t *)(const void *)cairo_image_surface_get_data(surface),
+                      cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
+                      (size_t)cairo_image_surface_get_stride(surface), format == CAIRO_FORMAT_ARGB32, width, height,
+                      draw_word(node, ATTR_FLIP));
+    if (!texture && !draw_is_refused(painter, &node->place, "!image", width, height, faults))
         arena_exhausted(&painter->arena);
     return texture;
 }

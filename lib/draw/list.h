@@ -23,6 +23,7 @@ typedef enum ListPiece {
     PIECE_CURVE_3, // two controls and an end
     PIECE_ARC,     // begins a figure: middle x, y, radii x, y, start and sweep in turns, clockwise
     PIECE_ARC_ON,  // the same, joined by a line
+    PIECE_ARC_TO,  // radii x, y, rotation in turns, large and clockwise (0 or 1), end x, y
     PIECE_CLOSE,
 } ListPiece;
 
@@ -41,7 +42,14 @@ typedef struct ListPath {
     uint8_t fill_type;
 } ListPath;
 
-typedef enum ListSourceKind { SOURCE_COLOR, SOURCE_LINEAR, SOURCE_RADIAL, SOURCE_PATTERN, SOURCE_BLEND } ListSourceKind;
+typedef enum ListSourceKind {
+    SOURCE_COLOR,
+    SOURCE_LINEAR,
+    SOURCE_RADIAL,
+    SOURCE_PATTERN,
+    SOURCE_BLEND,
+    SOURCE_NOISE
+} ListSourceKind;
 
 typedef struct ListStop {
     double offset;
@@ -52,16 +60,26 @@ typedef struct ListStop {
 typedef struct ListSource {
     ListSourceKind kind;
     double color[4];
-    double ends[4];      // of a linear gradient
+    double ends[4];      // of a linear gradient; frequencies and tile of noise
     ListMatrix matrix;   // of the unit circle of a radial gradient; of a pattern
     uint32_t first_stop; // or the first source of a blend
-    uint32_t stop_count; // or its second source
-    double ratio;        // nan: `mode` counts
-    int mode;
+    uint32_t stop_count; // or its second source; or the octaves of noise
+    double ratio;        // nan: `mode` counts; or the seed of noise
+    int mode;            // or the type of noise
     uint32_t image;
 } ListSource;
 
-typedef enum ListFilterKind { FILTER_BLUR, FILTER_SHADOW, FILTER_OFFSET } ListFilterKind;
+typedef enum ListFilterKind {
+    FILTER_BLUR,
+    FILTER_SHADOW,
+    FILTER_OFFSET,
+    FILTER_DILATE,
+    FILTER_ERODE,
+    FILTER_MATRIX,
+    FILTER_PAINT,
+    FILTER_BLEND,
+    FILTER_DRAWN // what is drawn, as it is
+} ListFilterKind;
 
 typedef struct ListFilter {
     ListFilterKind kind;
@@ -69,18 +87,33 @@ typedef struct ListFilter {
     double offset[2];
     double color[4];
     bool only;
-    uint32_t input; // filter; LIST_NONE: what is drawn
+    int mode;
+    uint32_t paint;
+    uint32_t numbers;   // in `numbers`: 20 of a matrix, 4 coefficients of a blend; LIST_NONE: its mode counts
+    uint32_t inputs[2]; // filters; LIST_NONE: what is drawn, or none
+    Origin place;       // of its node
 } ListFilter;
+
+typedef enum ListEffectKind { EFFECT_DASH, EFFECT_ROUND, EFFECT_JITTER, EFFECT_MATRIX, EFFECT_SUM } ListEffectKind;
+
+// What changes a figure before it is filled or stroked.
+typedef struct ListEffect {
+    ListEffectKind kind;
+    uint32_t inner;   // an effect that comes first; LIST_NONE
+    uint32_t numbers; // in `numbers`: dashes, 9 of a matrix by rows, the effects of a sum
+    uint32_t count;
+    double amounts[2]; // offset of dashes; radius; length and deviation
+    double seed;
+    Origin place;
+} ListEffect;
 
 // How something is painted.
 typedef struct ListPaint {
     double color[4]; // its alpha counts for sources and images, too
     double stroke_width;
-    double dash_offset;
-    uint32_t dashes; // in `numbers`
-    uint32_t dash_count;
     uint32_t source;
     uint32_t filter;
+    uint32_t effect;
     int join;
     int cap;
     int composite;
@@ -106,6 +139,7 @@ typedef struct ListImage {
     double point[2];
     double size[2];
     ListFit fit;
+    Origin place;
 } ListImage;
 
 typedef enum ListCommandKind {
@@ -126,7 +160,7 @@ typedef struct ListCommand {
     bool stroke;
     uint32_t matrix;
     uint32_t paint;
-    uint32_t item; // text, image
+    uint32_t item; // text, image; place of a layer
     ListPath path;
     double alpha;
 } ListCommand;
@@ -149,8 +183,10 @@ typedef struct List {
     LIST_ARRAY(ListSource) sources;
     LIST_ARRAY(ListStop) stops;
     LIST_ARRAY(ListFilter) filters;
+    LIST_ARRAY(ListEffect) effects;
     LIST_ARRAY(ListText) texts;
     LIST_ARRAY(ListImage) images;
+    LIST_ARRAY(Origin) places; // of nodes, to tell where something is wrong
 } List;
 
 // Makes room for `more` elements and returns the first of them.

@@ -54,7 +54,7 @@ Texture *mix_pictures(const Mix *mix) {
     bool same = only && only->width == mix->width && only->height == mix->height && mix->alpha == 1;
     if (same && (only->bytes ? mix->srgb || mix->bits > 8 : !mix->srgb && mix->bits > 8))
         return texture_keep(mix->inputs[0]); // lin and enc cancel
-    Texture *out = texture_new(mix->width, mix->height, !mix->srgb);
+    Texture *out = texture_new(mix->meter, mix->width, mix->height, !mix->srgb);
     if (!out || mix->count == 0)
         return out;
     for (int y = 0; y < mix->height; y++)

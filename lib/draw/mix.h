@@ -14,6 +14,7 @@ typedef struct Mix {
     Sampler sampler;
     int bits;  // 8, 16, 32
     bool srgb; // of 8 bits, encoded
+    Meter *meter;
 } Mix;
 
 // A new picture, or another reference to the only input if that is what would come out. NULL if memory is used up.

@@ -18,12 +18,16 @@ void petri_painter_close(PetriPainter **handle) {
     *handle = NULL;
 }
 
-static PetriStatus missing(DiagSink *faults) {
+static void report_missing(void *faults) {
     diag_report(faults, &(Diag){.level = DIAG_ERROR,
                                 .code = "cannot-draw",
                                 .text = STR("this build of petri cannot draw: it was made without Cairo, Pango and "
                                             "libjpeg (Debian: libcairo2-dev libpango1.0-dev libjpeg-dev)")});
-    return PETRI_MISSING;
+}
+
+static PetriStatus missing(DiagSink *faults) {
+    Arena *arenas[] = {faults->arena};
+    return arena_protect(arenas, 1, report_missing, faults) == ARENA_DONE ? PETRI_MISSING : PETRI_MEMORY;
 }
 
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,

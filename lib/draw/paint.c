@@ -15,6 +15,9 @@ PetriPainter *petri_painter_open(void) {
     if (!painter)
         return NULL;
     arena_init(&painter->arena, "painter", SIZE_MAX);
+    painter->meter.memory_limit = SIZE_MAX;
+    meter_begin(&painter->meter, UINT64_MAX, NULL);
+    painter->arena.meter = &painter->meter;
     painter->pictures = pictures_new();
     if (painter->pictures && draw_text_open(painter))
         return painter;
@@ -37,24 +40,48 @@ void petri_painter_close(PetriPainter **handle) {
     free(painter);
 }
 
-static void report(DiagSink *faults, DiagLevel level, const char *code, const char *format, va_list args) {
+static void report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,
+                   va_list args) {
     Text text = text_new(faults->arena);
     text_add_va(&text, format, args);
-    diag_report(faults, &(Diag){.level = level, .text = text_str(&text), .code = code});
+    Diag diag = {.level = level, .text = text_str(&text), .code = code};
+    if (place) {
+        diag.source = place->source;
+        diag.span = place->span;
+    }
+    diag_report(faults, &diag);
 }
 
 void draw_fault(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    report(canvas->faults, level, code, format, args);
+    report(canvas->faults, NULL, level, code, format, args);
     va_end(args);
 }
 
-void draw_report(DiagSink *faults, DiagLevel level, const char *code, const char *format, ...) {
+void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    report(faults, level, code, format, args);
+    report(canvas->faults, place, level, code, format, args);
     va_end(args);
+}
+
+void draw_report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
+    va_list args;
+    va_start(args, format);
+    report(faults, place, level, code, format, args);
+    va_end(args);
+}
+
+bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
+                     DiagSink *faults) {
+    if (!painter->meter.memory_refused)
+        return false;
+    painter->meter.memory_refused = false;
+    draw_report(faults, place, DIAG_WARNING, "memory-limit",
+                "%s: a picture of %d x %d pixels takes more memory than a script may have (--memory); it is left out",
+                node, width, height);
+    return true;
 }
 
 // Makes width x height units fill a box of the target, keeping their proportions.
@@ -65,14 +92,15 @@ static void fit(cairo_t *cr, double width, double height, double box_width, doub
 }
 
 // What is drawn on a surface.
-typedef struct Sheet {
+typedef struct Page {
     const CanvasPicture *picture;
     const DrawNode *canvas;  // or NULL
     cairo_surface_t *pixels; // in place of a canvas; or NULL
+    Sheet wide;              // what the canvas is drawn on in place of the surface; or none
     double width;            // in units, made to fit
     double height;
     bool black; // behind it
-} Sheet;
+} Page;
 
 static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels) {
     cairo_set_source_surface(cr, pixels, 0, 0);
@@ -81,24 +109,24 @@ static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels) {
     cairo_paint(cr);
 }
 
-// Draws the whole sheet. False if Cairo gave up.
-static bool draw_sheet(Canvas *canvas, const Sheet *sheet, double width, double height) {
+// Draws the whole page. False if Cairo gave up.
+static bool draw_page(Canvas *canvas, const Page *page, double width, double height) {
     cairo_t *cr = canvas->cr;
     canvas->painter->family = NULL;
     cairo_set_tolerance(cr, 0.1);
-    if (sheet->black) {
+    if (page->black) {
         cairo_set_source_rgb(cr, 0, 0, 0);
         cairo_paint(cr);
     }
-    fit(cr, sheet->width, sheet->height, width, height);
-    cairo_rectangle(cr, 0, 0, sheet->width, sheet->height);
+    fit(cr, page->width, page->height, width, height);
+    cairo_rectangle(cr, 0, 0, page->width, page->height);
     cairo_clip(cr);
-    if (sheet->pixels)
-        draw_image_of(cr, sheet->pixels);
-    else if (sheet->canvas)
-        draw_list(canvas, list_build(&canvas->painter->arena, sheet->canvas));
-    else if (sheet->picture->automatic)
-        draw_automatic(canvas, sheet->picture->automatic);
+    if (page->pixels)
+        draw_image_of(cr, page->pixels);
+    else if (page->canvas)
+        draw_list(canvas, list_build(&canvas->painter->arena, page->canvas));
+    else if (page->picture->automatic)
+        draw_automatic(canvas, page->picture->automatic);
     cairo_status_t status = cairo_status(cr);
     if (status != CAIRO_STATUS_SUCCESS && !canvas->failed)
         draw_fault(canvas, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn: %s",
@@ -112,7 +140,7 @@ static PetriStatus result_of(cairo_status_t status) {
 
 typedef struct Drawing {
     Canvas canvas;
-    const Sheet *sheet;
+    const Page *page;
     double width;
     double height;
     bool done;
@@ -120,30 +148,50 @@ typedef struct Drawing {
 
 static void draw_protected(void *context) {
     Drawing *drawing = context;
-    drawing->done = draw_sheet(&drawing->canvas, drawing->sheet, drawing->width, drawing->height);
+    drawing->done = draw_page(&drawing->canvas, drawing->page, drawing->width, drawing->height);
+}
+
+void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
+    painter->meter.memory_limit = picture->memory;
+    painter->meter.memory_refused = false;
+}
+
+static void report_limit(void *faults) {
+    draw_report(faults, NULL, DIAG_ERROR, "memory-limit",
+                "drawing takes more memory than a script may have (--memory): the picture is not drawn");
+}
+
+PetriStatus draw_tell_limit(DiagSink *faults) {
+    return arena_protect(&faults->arena, 1, report_limit, faults) == ARENA_DONE ? PETRI_INVALID : PETRI_MEMORY;
 }
 
 // Draws on a surface of width x height.
-static PetriStatus draw_on(PetriPainter *painter, const Sheet *sheet, cairo_surface_t *surface, bool vector,
-                           double width, double height, DiagSink *faults) {
+static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surface_t *surface, bool vector, double width,
+                           double height, DiagSink *faults) {
     cairo_t *cr = cairo_create(surface);
     PetriStatus result = result_of(cairo_status(cr));
+    draw_limit(painter, page->picture);
     if (result == PETRI_OK) {
         Drawing drawing = {.canvas = {.painter = painter,
-                                      .picture = sheet->picture,
+                                      .picture = page->picture,
                                       .cr = cr,
                                       .faults = faults,
                                       .vector = vector,
-                                      .rows = height},
-                           .sheet = sheet,
+                                      .rows = height,
+                                      .wide = page->wide},
+                           .page = page,
                            .width = width,
                            .height = height};
         Arena *arenas[] = {&painter->arena, faults->arena};
         ArenaMark mark = arena_mark(&painter->arena);
-        if (arena_protect(arenas, 2, draw_protected, &drawing) != ARENA_DONE)
+        ArenaEnd end = arena_protect(arenas, 2, draw_protected, &drawing);
+        if (end == ARENA_BUDGET)
+            result = draw_tell_limit(faults);
+        else if (end != ARENA_DONE)
             result = PETRI_MEMORY;
         else if (!drawing.done)
             result = cairo_status(cr) == CAIRO_STATUS_NO_MEMORY ? PETRI_MEMORY : PETRI_INVALID;
+        draw_close(&drawing.canvas);
         arena_rewind(&painter->arena, mark);
     }
     cairo_destroy(cr);
@@ -157,10 +205,16 @@ static cairo_surface_t *surface_of(uint32_t *pixels, int width, int height, size
 
 PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
                         DiagSink *faults) {
-    Sheet sheet = {.picture = picture, .canvas = node, .width = texture->width, .height = texture->height};
-    cairo_surface_t *surface =
-        surface_of(texture->bytes, texture->width, texture->height, (size_t)texture->width * sizeof(uint32_t));
-    PetriStatus result = draw_on(painter, &sheet, surface, false, texture->width, texture->height, faults);
+    Page page = {.picture = picture,
+                 .canvas = node,
+                 .wide = {.width = texture->width, .height = texture->height, .pixels = texture->linear},
+                 .width = texture->width,
+                 .height = texture->height};
+    cairo_surface_t *surface = texture->bytes ? surface_of(texture->bytes, texture->width, texture->height,
+                                                           (size_t)texture->width * sizeof(uint32_t))
+                                              : cairo_image_surface_create(CAIRO_FORMAT_A8, texture->width,
+                                                                           texture->height); // for the clip
+    PetriStatus result = draw_on(painter, &page, surface, false, texture->width, texture->height, faults);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
     return result;
@@ -220,14 +274,14 @@ static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) 
 }
 
 // The picture for a surface whose size may be another than its own. Its `pixels` are to be destroyed.
-static Sheet sheet_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
+static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, bool vector) {
     bool made = picture->window && !picture->direct && painter->shown;
-    return (Sheet){.picture = picture,
-                   .canvas = picture->direct,
-                   .pixels = made ? surface_of_texture(painter->shown, picture->opaque) : NULL,
-                   .width = picture->width,
-                   .height = picture->height,
-                   .black = vector && picture->opaque};
+    return (Page){.picture = picture,
+                  .canvas = picture->direct,
+                  .pixels = made ? surface_of_texture(painter->shown, picture->opaque) : NULL,
+                  .width = picture->width,
+                  .height = picture->height,
+                  .black = vector && picture->opaque};
 }
 
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
@@ -242,9 +296,9 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
         return PETRI_OK;
     }
     cairo_surface_t *surface = surface_of(pixels, width, height, stride);
-    Sheet sheet = sheet_of(painter, picture, false);
-    result = draw_on(painter, &sheet, surface, false, width, height, faults);
-    cairo_surface_destroy(sheet.pixels);
+    Page page = page_of(painter, picture, false);
+    result = draw_on(painter, &page, surface, false, width, height, faults);
+    cairo_surface_destroy(page.pixels);
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
     if (result != PETRI_OK)
@@ -276,15 +330,15 @@ static PetriStatus encode_png(PetriPainter *painter, const CanvasPicture *pictur
     return result;
 }
 
-static PetriStatus encode_vector(PetriPainter *painter, const Sheet *sheet, bool pdf, int width, int height,
-                                 Encoded *out, DiagSink *faults) {
+static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool pdf, int width, int height, Encoded *out,
+                                 DiagSink *faults) {
     cairo_surface_t *surface = pdf ? cairo_pdf_surface_create_for_stream(collect, out, width, height)
                                    : cairo_svg_surface_create_for_stream(collect, out, width, height);
     if (pdf) // the same bytes each time
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
-    PetriStatus result = draw_on(painter, sheet, surface, true, width, height, faults);
+    PetriStatus result = draw_on(painter, page, surface, true, width, height, faults);
     cairo_surface_finish(surface);
     if (result == PETRI_OK)
         result = result_of(cairo_surface_status(surface));
@@ -298,9 +352,9 @@ PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, Can
     if (result == PETRI_OK && format == CANVAS_PNG) {
         result = encode_png(painter, picture, width, height, out, faults);
     } else if (result == PETRI_OK) {
-        Sheet sheet = sheet_of(painter, picture, true);
-        result = encode_vector(painter, &sheet, format == CANVAS_PDF, width, height, out, faults);
-        cairo_surface_destroy(sheet.pixels);
+        Page page = page_of(painter, picture, true);
+        result = encode_vector(painter, &page, format == CANVAS_PDF, width, height, out, faults);
+        cairo_surface_destroy(page.pixels);
     }
     return result;
 }
@@ -322,14 +376,14 @@ PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *pictu
         good = encode_jpeg_pixels(out, texture->bytes, texture->width, texture->height,
                                   (int)draw_number(node, ATTR_QUALITY));
     } else {
-        Sheet sheet = {.picture = picture,
-                       .canvas = record->direct,
-                       .pixels = record->direct ? NULL : surface_of_texture(texture, !alpha),
-                       .width = texture->width,
-                       .height = texture->height,
-                       .black = !alpha};
-        result = encode_vector(painter, &sheet, format == CANVAS_PDF, texture->width, texture->height, out, faults);
-        cairo_surface_destroy(sheet.pixels);
+        Page page = {.picture = picture,
+                     .canvas = record->direct,
+                     .pixels = record->direct ? NULL : surface_of_texture(texture, !alpha),
+                     .width = texture->width,
+                     .height = texture->height,
+                     .black = !alpha};
+        result = encode_vector(painter, &page, format == CANVAS_PDF, texture->width, texture->height, out, faults);
+        cairo_surface_destroy(page.pixels);
     }
     return good ? result : PETRI_MEMORY;
 }

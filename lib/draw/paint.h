@@ -31,8 +31,9 @@ typedef struct CanvasPicture {
     const AutoPicture *automatic;
     double width; // in the script's units
     double height;
-    bool opaque; // nothing is transparent: black where nothing is drawn
-    Reach reach; // of the files that it names
+    bool opaque;   // nothing is transparent: black where nothing is drawn
+    Reach reach;   // of the files that it names
+    size_t memory; // bytes that drawing it may take, those included that the painter keeps
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;

@@ -1,5 +1,5 @@
 // paints.c: colours, gradients, lines, ways to combine colours.
-#include "draw/draw.h"
+#include "draw/light.h"
 
 #include <math.h>
 #include <string.h>
@@ -44,8 +44,11 @@ static void set_line(Canvas *canvas, const ListPaint *paint) {
     cairo_set_line_join(canvas->cr, joins[paint->join]);
     cairo_set_miter_limit(canvas->cr, 4);
     cairo_set_line_cap(canvas->cr, caps[paint->cap]);
-    const double *dashes = paint->dash_count > 0 ? canvas->list->numbers.at + paint->dashes : NULL;
-    cairo_set_dash(canvas->cr, dashes, (int)paint->dash_count, paint->dash_offset);
+    const ListEffect *effect = paint->effect == LIST_NONE ? NULL : &canvas->list->effects.at[paint->effect];
+    if (effect && effect->kind == EFFECT_DASH)
+        cairo_set_dash(canvas->cr, canvas->list->numbers.at + effect->numbers, (int)effect->count, effect->amounts[0]);
+    else
+        cairo_set_dash(canvas->cr, NULL, 0, 0);
 }
 
 static void stroke_path(Canvas *canvas, const ListPaint *paint) {
@@ -100,18 +103,15 @@ static void stroke_pieces(Canvas *canvas, const ListPaint *paint) {
     cairo_path_destroy(path);
 }
 
-// The parts of a figure, with the source and operator that are set.
-static void draw_parts(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
-    bool huge = canvas->path_work > SMOOTH_WORK;
-    if (command->fill) {
-        draw_set_edges(canvas, paint->antialias && !huge, command->path.fill_type);
-        cairo_fill_preserve(canvas->cr);
-    }
-    if (!command->stroke)
-        return;
+static void fill_part(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    draw_set_edges(canvas, paint->antialias && canvas->path_work <= SMOOTH_WORK, command->path.fill_type);
+    cairo_fill_preserve(canvas->cr);
+}
+
+static void stroke_part(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
     draw_set_edges(canvas, paint->antialias, command->path.fill_type);
     set_line(canvas, paint);
-    if (huge && !canvas->vector && paint->dash_count == 0) {
+    if (canvas->path_work > SMOOTH_WORK && !canvas->vector && cairo_get_dash_count(canvas->cr) == 0) {
         stroke_pieces(canvas, paint);
         canvas->path_of = NULL; // of which the last piece is left
     } else {
@@ -119,31 +119,75 @@ static void draw_parts(Canvas *canvas, const ListCommand *command, const ListPai
     }
 }
 
-// What is drawn next touches no more than the box of the figure.
-static void clip_to_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
-    cairo_t *cr = canvas->cr;
-    double x1, y1, x2, y2;
-    if (command->path.fill_type > FILL_EVEN_ODD)
+// The parts of a figure with an effect, each of which has a path of its own then.
+static void draw_changed_parts(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    cairo_path_t *path = cairo_copy_path(canvas->cr);
+    bool lacking = false;
+    for (int lines = 0; lines < 2; lines++) {
+        if (!(lines ? command->stroke : command->fill))
+            continue;
+        if (!draw_apply_effect(canvas, paint, path, lines)) {
+            lacking = true;
+            draw_forget_path(canvas);
+            cairo_append_path(canvas->cr, path);
+        }
+        if (draw_is_drawable(canvas))
+            (lines ? stroke_part : fill_part)(canvas, command, paint);
+    }
+    cairo_path_destroy(path);
+    draw_forget_path(canvas);
+    draw_lacks(canvas, &canvas->list->effects.at[paint->effect].place, "its effect", lacking);
+}
+
+// The parts of a figure, with the source and operator that are set.
+static void draw_parts(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    if (draw_has_effect(canvas, paint)) {
+        draw_changed_parts(canvas, command, paint);
         return;
-    cairo_path_t *path = cairo_copy_path(cr);
+    }
+    if (command->fill)
+        fill_part(canvas, command, paint);
+    if (command->stroke)
+        stroke_part(canvas, command, paint);
+}
+
+bool draw_find_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint, double box[4]) {
+    cairo_t *cr = canvas->cr;
     cairo_matrix_t matrix;
+    if (command->path.fill_type > FILL_EVEN_ODD || draw_has_effect(canvas, paint))
+        return false;
     cairo_get_matrix(cr, &matrix);
     double wide =
         fmax(fmax(fabs(matrix.xx) + fabs(matrix.xy), fabs(matrix.yx) + fabs(matrix.yy)) * paint->stroke_width, 1);
     double border = command->stroke ? 2 * wide + 2 : 2; // the miter limit is 4
     cairo_identity_matrix(cr);
-    cairo_path_extents(cr, &x1, &y1, &x2, &y2);
+    cairo_path_extents(cr, &box[0], &box[1], &box[2], &box[3]);
+    cairo_set_matrix(cr, &matrix);
+    for (int k = 0; k < 2; k++) {
+        box[k] = floor(box[k] - border);
+        box[2 + k] = ceil(box[2 + k] + border);
+    }
+    return true;
+}
+
+void draw_clip_to_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+    cairo_t *cr = canvas->cr;
+    double box[4];
+    if (!draw_find_box(canvas, command, paint, box))
+        return;
+    cairo_path_t *path = cairo_copy_path(cr);
+    cairo_matrix_t matrix;
+    cairo_get_matrix(cr, &matrix);
+    cairo_identity_matrix(cr);
     cairo_new_path(cr);
-    x1 = floor(x1 - border);
-    y1 = floor(y1 - border);
-    cairo_rectangle(cr, x1, y1, ceil(x2 + border) - x1, ceil(y2 + border) - y1);
+    cairo_rectangle(cr, box[0], box[1], box[2] - box[0], box[3] - box[1]);
     cairo_clip(cr);
     cairo_set_matrix(cr, &matrix);
     cairo_append_path(cr, path);
     cairo_path_destroy(path);
 }
 
-static cairo_pattern_t *make_mask(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
+cairo_pattern_t *draw_make_mask(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
     cairo_t *cr = canvas->cr;
     cairo_push_group_with_content(cr, CAIRO_CONTENT_ALPHA);
     cairo_set_operator(cr, CAIRO_OPERATOR_OVER);
@@ -212,11 +256,11 @@ static cairo_pattern_t *combine_all(Canvas *canvas, cairo_surface_t *below, int 
 // The figure becomes a mask, through which its colour is then painted once.
 static void draw_through_mask(Canvas *canvas, const ListCommand *command, const ListPaint *paint) {
     cairo_t *cr = canvas->cr;
+    draw_set_source(canvas, paint); // from which control may leave
     cairo_save(cr);
-    clip_to_box(canvas, command, paint);
-    cairo_pattern_t *mask = make_mask(canvas, command, paint);
+    draw_clip_to_box(canvas, command, paint);
+    cairo_pattern_t *mask = draw_make_mask(canvas, command, paint);
     bool apart = (is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE) && !canvas->vector;
-    draw_set_source(canvas, paint);
     cairo_set_operator(cr, draw_operator(paint->composite));
     if (apart) {
         cairo_pattern_t *all = combine_all(canvas, cairo_get_group_target(cr), paint->composite);
@@ -238,6 +282,10 @@ void draw_figure(Canvas *canvas, const ListCommand *command, const ListPaint *pa
     cairo_t *cr = canvas->cr;
     if (!draw_is_drawable(canvas))
         return;
+    if (canvas->wide.pixels) {
+        light_figure(canvas, command, paint);
+        return;
+    }
     bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
          both = command->fill && command->stroke;
     bool pieces = command->stroke && canvas->path_work > SMOOTH_WORK; // which overlap

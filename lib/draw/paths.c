@@ -77,7 +77,40 @@ void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry,
     }
 }
 
-static void add_piece(Canvas *canvas, ListPiece kind, const double *n) {
+// The arc of an ellipse from where the path ends to x, y, as SVG has it (its appendix on implementing arcs): on the
+// unit circle, the middle is found from the chord.
+static void arc_to(Canvas *canvas, const double *n) {
+    double x0, y0, x = n[5], y = n[6], c = maths_cos(n[2] * TURN), s = maths_sin(n[2] * TURN);
+    cairo_get_current_point(canvas->cr, &x0, &y0);
+    double rx = n[0], ry = n[1], dx = (x - x0) / 2, dy = (y - y0) / 2;
+    double a = (c * dx + s * dy) / rx, b = (c * dy - s * dx) / ry; // half the chord
+    double half = maths_hypot(a, b);
+    if (!(half > 0) || !isfinite(half)) { // no way to go, or no radius: then it is straight
+        line_to(canvas, x, y);
+        return;
+    }
+    double grow = fmax(half, 1), height = sqrt(fmax(grow * grow / (half * half) - 1, 0));
+    double side = (n[3] != 0) == (n[4] != 0) ? -1 : 1;
+    double mx = -b * height * side, my = a * height * side; // from the middle of the chord to that of the circle
+    double from = maths_atan2(-b - my, -a - mx), to = maths_atan2(b - my, a - mx);
+    double sweep = to - from + (n[4] != 0 && to < from ? TURN : n[4] == 0 && to > from ? -TURN : 0);
+    int pieces = (int)ceil(fabs(sweep) / (TURN / 8));
+    double step = sweep / (pieces ? pieces : 1), handle = 4.0 / 3 * maths_tan(step / 4);
+    for (int i = 1; i <= pieces; i++) {
+        double at = from + (i - 1) * step, next = from + i * step, p[3][2];
+        double c1 = maths_cos(at), s1 = maths_sin(at), c2 = maths_cos(next), s2 = maths_sin(next);
+        const double circle[3][2] = {
+            {c1 - handle * s1, s1 + handle * c1}, {c2 + handle * s2, s2 - handle * c2}, {c2, s2}};
+        for (int k = 0; k < 3; k++) {
+            double u = (circle[k][0] * grow + mx) * rx, v = (circle[k][1] * grow + my) * ry;
+            p[k][0] = (x0 + x) / 2 + c * u - s * v;
+            p[k][1] = (y0 + y) / 2 + s * u + c * v;
+        }
+        curve_to(canvas, p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
+    }
+}
+
+void draw_add_piece(Canvas *canvas, ListPiece kind, const double *n) {
     switch (kind) {
     case PIECE_MOVE:
         move_to(canvas, n[0], n[1]);
@@ -95,6 +128,9 @@ static void add_piece(Canvas *canvas, ListPiece kind, const double *n) {
     case PIECE_ARC_ON:
         draw_ellipse_path(canvas, n[0], n[1], n[2], n[3], n[4], n[5], kind == PIECE_ARC_ON);
         break;
+    case PIECE_ARC_TO:
+        arc_to(canvas, n);
+        break;
     case PIECE_CLOSE:
         cairo_close_path(canvas->cr);
         break;
@@ -108,7 +144,7 @@ static bool is_set(const Canvas *canvas, const ListCommand *command) {
 }
 
 void draw_set_path(Canvas *canvas, const ListCommand *command) {
-    static const uint8_t counts[] = {2, 2, 4, 6, 6, 6, 0};
+    static const uint8_t counts[] = {2, 2, 4, 6, 6, 6, 7, 0};
     const List *list = canvas->list;
     if (is_set(canvas, command))
         return;
@@ -119,7 +155,7 @@ void draw_set_path(Canvas *canvas, const ListCommand *command) {
         uint32_t end = last ? command->path.end : list->runs.at[run].end;
         for (uint32_t i = list->runs.at[run].start; i < end;) {
             ListPiece kind = (ListPiece)list->numbers.at[i];
-            add_piece(canvas, kind, list->numbers.at + i + 1);
+            draw_add_piece(canvas, kind, list->numbers.at + i + 1);
             i += 1u + counts[kind];
         }
         run = last ? LIST_NONE : list->runs.at[run].next;

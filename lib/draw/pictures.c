@@ -161,26 +161,29 @@ static int bits_of(const DrawNode *node, int bits) {
     return x == 8 || x == 16 || x == 32 ? (int)x : bits;
 }
 
-// Memory for pixels is used up.
-_Noreturn static void give_up(Walk *walk) {
-    arena_exhausted(&walk->frame->arena);
+// Memory for pixels is used up: that of the machine, or, after a report, what the script may have. NULL.
+static Texture *give_up(Walk *walk, const DrawNode *node, int width, int height) {
+    char name[40];
+    snprintf(name, sizeof name, "!%s", schema_kinds[node->kind].name);
+    if (!draw_is_refused(walk->painter, &node->place, name, width, height, walk->faults))
+        arena_exhausted(&walk->frame->arena);
+    return NULL;
 }
 
 static Texture *make_canvas(Walk *walk, const DrawNode *node, int width, int height) {
-    Texture *texture = texture_new(width, height, false);
+    bool linear = draw_flag(node, ATTR_LINEAR), wide = linear && bits_of(node, 8) > 8;
+    Texture *texture = texture_new(&walk->painter->meter, width, height, wide);
     if (!texture)
-        give_up(walk);
+        return give_up(walk, node, width, height);
     if (draw_canvas(walk->painter, walk->picture, node, texture, walk->faults) == PETRI_MEMORY) {
         texture_free(texture);
-        give_up(walk);
+        arena_exhausted(&walk->frame->arena);
     }
-    if (!draw_flag(node, ATTR_LINEAR))
+    if (!linear || wide)
         return texture;
-    Texture *linear = texture_of_linear(texture);
+    Texture *converted = texture_of_linear(&walk->painter->meter, texture);
     texture_free(texture);
-    if (!linear)
-        give_up(walk);
-    return linear;
+    return converted ? converted : give_up(walk, node, width, height);
 }
 
 static Texture *mix_plainly(Walk *walk, const DrawNode *node, Texture *const *inputs, uint32_t count, int width,
@@ -193,13 +196,12 @@ static Texture *mix_plainly(Walk *walk, const DrawNode *node, Texture *const *in
                .alpha = (float)draw_number(node, ATTR_ALPHA),
                .sampler = sampler_of(node),
                .bits = bits_of(node, walk->bits),
-               .srgb = node->kind == KIND_RECORD};
+               .srgb = node->kind == KIND_RECORD,
+               .meter = &walk->painter->meter};
     if (mix.how == MIX_UNKNOWN && count > 1)
         return NULL;
     Texture *texture = mix_pictures(&mix);
-    if (!texture)
-        give_up(walk);
-    return texture;
+    return texture ? texture : give_up(walk, node, width, height);
 }
 
 // The GPU, current; NULL, after a report, if there is none.
@@ -208,12 +210,15 @@ static Gl *need_gpu(Walk *walk) {
     const char *problem = painter->gl_problem;
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
+    if (!painter->gl && !problem)
+        arena_exhausted(&walk->frame->arena);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
         walk->gpu = true;
         return painter->gl;
     }
     painter->gl_problem = problem;
-    draw_report(walk->faults, DIAG_WARNING, "needs-gpu", "effects and three dimensions are left out: %s", problem);
+    draw_report(walk->faults, NULL, DIAG_WARNING, "needs-gpu", "effects and three dimensions are left out: %s",
+                problem);
     return NULL;
 }
 
@@ -233,7 +238,7 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
     GlImage *images = arena_alloc_array(&walk->frame->arena, count, sizeof *images);
     for (uint32_t i = 0; i < count; i++) {
         if (!texture_send(gl, inputs[i]))
-            give_up(walk);
+            arena_exhausted(&walk->frame->arena);
         images[i] = inputs[i]->image;
     }
     bool again = past && past->picture && past->picture->gl == gl;
@@ -251,9 +256,9 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
                        .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
                        .frame = &frame};
     GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
-    Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
+    Texture *texture = image.texture ? texture_of_image(&walk->painter->meter, gl, image) : NULL;
     if (image.texture && !texture)
-        give_up(walk);
+        arena_exhausted(&walk->frame->arena);
     return texture;
 }
 
@@ -273,7 +278,7 @@ static GlImage find_texture(void *host, Str id) {
     Texture *found = find_known(walk->frame, id);
     found = found ? found : find_known(walk->before, id);
     if (found && !texture_send(walk->painter->gl, found))
-        give_up(walk);
+        arena_exhausted(&walk->frame->arena);
     return found ? found->image : (GlImage){0};
 }
 
@@ -287,12 +292,12 @@ static void prepare(Walk *walk, Made *made, uint32_t count) {
 // What a camera of a scene sees; NULL, after a report, if that cannot be.
 static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *camera) {
     Gl *gl = walk->painter->gl;
-    if (!is_good_size(walk, KIND_CAMERA, (Origin){0}, camera->width, camera->height))
+    if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->place, camera->width, camera->height))
         return NULL;
     GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
-    Texture *texture = image.texture ? texture_of_image(gl, image) : NULL;
+    Texture *texture = image.texture ? texture_of_image(&walk->painter->meter, gl, image) : NULL;
     if (image.texture && !texture)
-        give_up(walk);
+        arena_exhausted(&walk->frame->arena);
     return texture;
 }
 
@@ -321,8 +326,10 @@ static Texture *make_scene(Walk *walk, const DrawNode *node, Made *made, int wid
 
 static void add_record(Walk *walk, const DrawNode *node, Texture *texture) {
     Frame *frame = walk->frame;
-    if (!texture_fetch(walk->painter->gl, texture))
-        give_up(walk);
+    if (!texture_fetch(walk->painter->gl, texture)) {
+        give_up(walk, node, texture->width, texture->height);
+        return;
+    }
     frame->records = arena_grow(&frame->arena, frame->records, frame->record_count * sizeof *frame->records,
                                 (frame->record_count + 1) * sizeof *frame->records);
     frame->records[frame->record_count++] =
@@ -374,7 +381,7 @@ static Texture *make_node(Walk *walk, const DrawNode *node, Made *made, const Ma
                    .file = text_of(arena, node, ATTR_FILENAME)};
     const Made *past = find_past(parent, made);
     if (walk->depth >= DEEPEST) {
-        draw_report(walk->faults, DIAG_WARNING, "too-deep",
+        draw_report(walk->faults, NULL, DIAG_WARNING, "too-deep",
                     "pictures are nested more than %d deep; the innermost are "
                     "left out",
                     DEEPEST);
@@ -419,7 +426,7 @@ static void make_tops(void *context) {
         if (picture->tops[i] == picture->window)
             walk->shown = texture;
         if (texture && texture == walk->shown && !texture_fetch(walk->painter->gl, texture))
-            give_up(walk);
+            walk->shown = give_up(walk, picture->tops[i], texture->width, texture->height);
     }
 }
 
@@ -442,11 +449,12 @@ PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, D
                  .before = before,
                  .beat = pictures->beat};
     pictures->beat = picture->beat;
+    draw_limit(painter, picture);
     forget_old(&walk);
     Arena *arenas[] = {&walk.frame->arena, &painter->arena, faults->arena};
     ArenaEnd end = arena_protect(arenas, 3, make_tops, &walk);
     if (walk.gpu)
         gl_leave(painter->gl);
     *shown = end == ARENA_DONE ? walk.shown : NULL;
-    return end == ARENA_DONE ? PETRI_OK : PETRI_MEMORY;
+    return end == ARENA_DONE ? PETRI_OK : end == ARENA_BUDGET ? draw_tell_limit(faults) : PETRI_MEMORY;
 }

@@ -18,7 +18,8 @@ void pictures_free(PetriPainter *painter); // those of a painter
 void pictures_forget(PetriPainter *painter);
 
 // Makes all pictures of a frame. *shown is the one of the picture's window, or NULL if it has none; it is kept until
-// the next call, as are the records. What cannot be made is reported and left out. PETRI_OK or PETRI_MEMORY.
+// the next call, as are the records. What cannot be made is reported and left out. PETRI_OK,
+// PETRI_MEMORY, or PETRI_INVALID after an error.
 PetriStatus pictures_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults, Texture **shown);
 const Recorded *pictures_records(const Pictures *pictures, uint32_t *count);
 // The picture with this id, as it is known now; NULL: none. Borrowed.

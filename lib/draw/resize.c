@@ -62,12 +62,15 @@ static uint32_t gather(const float *in) {
     return pixel;
 }
 
-Texture *resize_pixels(const uint32_t *pixels, int width, int height, size_t stride, bool alpha, int new_width,
-                       int new_height, int flip) {
+Texture *resize_pixels(Meter *meter, const uint32_t *pixels, int width, int height, size_t stride, bool alpha,
+                       int new_width, int new_height, int flip) {
     size_t most = (size_t)(width > new_width ? width : new_width) * (size_t)(height > new_height ? height : new_height);
-    float *one = malloc(most * 4 * sizeof *one), *other = malloc(most * 4 * sizeof *other);
+    size_t bytes = 2 * most * 4 * sizeof(float); // for a while
+    if (!meter_take(meter, bytes))
+        return NULL;
+    float *one = malloc(bytes / 2), *other = malloc(bytes / 2);
     float *weights = malloc((2 * (size_t)(width > height ? width : height) + 8) * sizeof *weights);
-    Texture *texture = one && other && weights ? texture_new(new_width, new_height, false) : NULL;
+    Texture *texture = one && other && weights ? texture_new(meter, new_width, new_height, false) : NULL;
     if (texture) {
         spread(pixels, width, height, stride, alpha, one);
         resize_lines(one, other, height, width, new_width, false, weights);
@@ -83,5 +86,6 @@ Texture *resize_pixels(const uint32_t *pixels, int width, int height, size_t str
     free(one);
     free(other);
     free(weights);
+    meter_give(meter, bytes);
     return texture;
 }

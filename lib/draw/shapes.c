@@ -77,6 +77,16 @@ static void add_arc(Build *build, ListPath *path, const DrawNode *node) {
     arc(build, path, p[0], p[1], r[0], r[1], start, fmod(sweep, 1), !draw_flag(node, ATTR_MOVE_TO));
 }
 
+static void add_arc_to(Build *build, ListPath *path, const DrawNode *node) {
+    double p[2], r[2], turns = draw_number(node, ATTR_ROTATION) / 360;
+    if (!draw_pair(node, ATTR_POINT, p) || !draw_pair(node, ATTR_RADIUS, r))
+        return;
+    begin(build, path);
+    add(build, path, PIECE_ARC_TO, 7,
+        (const double[]){r[0], r[1], turns - floor(turns), draw_flag(node, ATTR_LARGE), !draw_flag(node, ATTR_CCW),
+                         p[0], p[1]});
+}
+
 void build_rectangle(Build *build, ListPath *path, const double point[2], const double size[2]) {
     move_to(build, path, point[0], point[1]);
     line_to(build, path, point[0] + size[0], point[1]);
@@ -182,6 +192,9 @@ bool build_piece(Build *build, ListPath *path, const DrawNode *node) {
         return true;
     case KIND_ARC:
         add_arc(build, path, node);
+        return true;
+    case KIND_ARC_TO:
+        add_arc_to(build, path, node);
         return true;
     case KIND_RECT:
         add_rect(build, path, node);

@@ -1,5 +1,5 @@
 // show.c: shows a list of commands with Cairo.
-#include "draw/draw.h"
+#include "draw/light.h"
 
 #include <math.h>
 
@@ -9,7 +9,9 @@ static const double MOST_LAYER_PIXELS = 1 << 27;
 typedef struct Layers {
     bool drawn[MOST_LAYERS]; // whether a layer of its own has been begun
     double pixels[MOST_LAYERS];
-    uint32_t depth; // of what is open; beyond MOST_LAYERS all are drawn without
+    Sheet below[MOST_LAYERS]; // of a wide canvas
+    uint32_t depth;           // of what is open; beyond MOST_LAYERS all are drawn without
+    double work;              // pixels of all that were begun
 } Layers;
 
 bool draw_is_invertible(const cairo_matrix_t *m) {
@@ -22,36 +24,53 @@ double draw_scale_of(cairo_t *cr) {
     return sqrt(fabs(m.xx * m.yy - m.xy * m.yx));
 }
 
-// Begins a layer unless there are too many: they take memory.
-static void begin_layer(Canvas *canvas, Layers *layers) {
+// Begins a layer unless there are too many: they take memory, and time.
+static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
+    static const double MOST_WORK = 1e10; // pixels of layers in a canvas
     double x1, y1, x2, y2;
     uint32_t at = layers->depth++;
+    bool wide = canvas->wide.pixels != NULL;
     cairo_save(canvas->cr);
     cairo_identity_matrix(canvas->cr);
     cairo_clip_extents(canvas->cr, &x1, &y1, &x2, &y2);
     cairo_restore(canvas->cr);
-    double pixels = (x2 - x1) * (y2 - y1);
-    if (at >= MOST_LAYERS || canvas->layer_pixels + pixels > MOST_LAYER_PIXELS) {
-        draw_fault(canvas, DIAG_WARNING, "too-many-layers",
-                   "!layer: layers are too many or too large; the innermost are drawn without");
-        if (at < MOST_LAYERS)
-            layers->drawn[at] = false;
+    double pixels = wide ? (double)canvas->wide.width * canvas->wide.height : (x2 - x1) * (y2 - y1);
+    bool many = at >= MOST_LAYERS || canvas->layer_pixels + pixels > MOST_LAYER_PIXELS || layers->work > MOST_WORK;
+    if (at < MOST_LAYERS)
+        layers->drawn[at] = false;
+    if (many) {
+        draw_fault_at(canvas, place, DIAG_WARNING, "too-many-layers",
+                      "!layer: layers are too many or too large; the innermost are drawn without");
         return;
     }
+    if (wide)
+        layers->below[at] = light_begin(canvas);
+    bool lacking =
+        wide ? canvas->wide.pixels == layers->below[at].pixels : !draw_take(canvas, (size_t)pixels * sizeof(uint32_t));
+    draw_lacks(canvas, place, "the layer", lacking);
+    if (lacking)
+        return;
     layers->drawn[at] = true;
     layers->pixels[at] = pixels;
+    layers->work += pixels;
     canvas->layer_pixels += pixels;
-    cairo_push_group(canvas->cr);
+    if (!wide)
+        cairo_push_group(canvas->cr);
 }
 
 static void end_layer(Canvas *canvas, Layers *layers, double alpha) {
     uint32_t at = --layers->depth;
     if (at >= MOST_LAYERS || !layers->drawn[at])
         return;
+    canvas->layer_pixels -= layers->pixels[at];
+    if (canvas->wide.pixels) {
+        light_end(canvas, layers->below[at], alpha);
+        return;
+    }
     cairo_pop_group_to_source(canvas->cr);
     cairo_set_operator(canvas->cr, CAIRO_OPERATOR_OVER);
     cairo_paint_with_alpha(canvas->cr, alpha);
-    canvas->layer_pixels -= layers->pixels[at];
+    draw_give(canvas, (size_t)layers->pixels[at] * sizeof(uint32_t));
 }
 
 // With even-odd, a rectangle around everything turns a figure inside out.
@@ -125,7 +144,7 @@ static void run(Canvas *canvas, const ListCommand *command, Layers *layers) {
         cairo_restore(canvas->cr);
         break;
     case LIST_LAYER:
-        begin_layer(canvas, layers);
+        begin_layer(canvas, layers, &canvas->list->places.at[command->item]);
         break;
     case LIST_LAYER_END:
         end_layer(canvas, layers, command->alpha);

@@ -120,8 +120,9 @@ static void set_font(Canvas *canvas, const ListText *text) {
     PetriPainter *painter = canvas->painter;
     if (painter->family && same_font(&painter->font, text))
         return;
+    const char *family = find_family(canvas, text->family); // from which control may leave
     PangoFontDescription *font = pango_font_description_new();
-    pango_font_description_set_family(font, find_family(canvas, text->family));
+    pango_font_description_set_family(font, family);
     pango_font_description_set_absolute_size(font, text->size * PANGO_SCALE);
     pango_font_description_set_weight(font, (PangoWeight)fmax(text->weight, 1));
     pango_font_description_set_stretch(font, stretch_of(text->width));

@@ -8,28 +8,36 @@
 #include <stdlib.h>
 #include <string.h>
 
-Texture *texture_new(int width, int height, bool linear) {
-    size_t count = (size_t)width * (size_t)height;
+static void *take_pixels(Texture *texture, size_t each, bool cleared) {
+    size_t count = (size_t)texture->width * (size_t)texture->height;
+    if (!meter_take(texture->meter, count * each))
+        return NULL;
+    texture->taken += count * each;
+    return cleared ? calloc(count, each) : malloc(count * each);
+}
+
+Texture *texture_new(Meter *meter, int width, int height, bool linear) {
     Texture *texture = calloc(1, sizeof *texture);
     if (!texture)
         return NULL;
-    *texture = (Texture){.references = 1, .width = width, .height = height};
+    *texture = (Texture){.references = 1, .width = width, .height = height, .meter = meter};
     if (linear)
-        texture->linear = calloc(count, 4 * sizeof(float));
+        texture->linear = take_pixels(texture, 4 * sizeof(float), true);
     else
-        texture->bytes = calloc(count, sizeof(uint32_t));
+        texture->bytes = take_pixels(texture, sizeof(uint32_t), true);
     if (texture->linear || texture->bytes)
         return texture;
-    free(texture);
+    texture_free(texture);
     return NULL;
 }
 
-Texture *texture_of_image(Gl *gl, GlImage image) {
+Texture *texture_of_image(Meter *meter, Gl *gl, GlImage image) {
     Texture *texture = calloc(1, sizeof *texture);
     if (!texture)
         gl_image_free(gl, image);
     else
-        *texture = (Texture){.references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl};
+        *texture = (Texture){
+            .references = 1, .width = image.width, .height = image.height, .image = image, .gl = gl, .meter = meter};
     return texture;
 }
 
@@ -49,14 +57,13 @@ bool texture_send(Gl *gl, Texture *texture) {
 }
 
 bool texture_fetch(Gl *gl, Texture *texture) {
-    size_t count = (size_t)texture->width * (size_t)texture->height;
     if (texture->bytes || texture->linear)
         return true;
     if (texture->image.format == GL_FORMAT_SRGB8) {
-        texture->bytes = malloc(count * sizeof *texture->bytes);
+        texture->bytes = take_pixels(texture, sizeof *texture->bytes, false);
         return texture->bytes && gl_read_bytes(gl, texture->image, texture->bytes);
     }
-    texture->linear = malloc(count * 4 * sizeof *texture->linear);
+    texture->linear = take_pixels(texture, 4 * sizeof *texture->linear, false);
     return texture->linear && gl_read_linear(gl, texture->image, texture->linear);
 }
 
@@ -72,6 +79,7 @@ void texture_free(Texture *texture) {
         gl_image_free(texture->gl, texture->image);
     free(texture->bytes);
     free(texture->linear);
+    meter_give(texture->meter, texture->taken);
     free(texture);
 }
 
@@ -219,8 +227,8 @@ void texture_linear_row(const Texture *texture, int y, uint32_t *row) {
     }
 }
 
-Texture *texture_of_linear(const Texture *bytes) {
-    Texture *texture = texture_new(bytes->width, bytes->height, true);
+Texture *texture_of_linear(Meter *meter, const Texture *bytes) {
+    Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
     size_t count = texture ? (size_t)bytes->width * (size_t)bytes->height : 0;
     for (size_t i = 0; i < count; i++)
         for (unsigned k = 0; k < 4; k++)

@@ -14,13 +14,15 @@ typedef struct Texture {
     uint32_t *bytes; // an sRGB picture: ARGB32, rows from the top, as Cairo has it
     float *linear;   // linear light: r, g, b, a, rows from the top
     GlImage image;
-    Gl *gl; // of the image; NULL: there is none
+    Gl *gl;       // of the image; NULL: there is none
+    Meter *meter; // that what it takes in memory is charged to
+    size_t taken;
 } Texture;
 
-// A cleared one, with one reference; NULL if memory is used up.
-Texture *texture_new(int width, int height, bool linear);
+// A cleared one, with one reference; NULL if memory is used up. The meter outlives it.
+Texture *texture_new(Meter *meter, int width, int height, bool linear);
 // One that is only on the GPU, and takes the image over; NULL if memory is used up.
-Texture *texture_of_image(Gl *gl, GlImage image);
+Texture *texture_of_image(Meter *meter, Gl *gl, GlImage image);
 // Sees to it that it is on the GPU, which is current; false if there is no room.
 bool texture_send(Gl *gl, Texture *texture);
 // Sees to it that it is in memory; false if that is used up. For an sRGB picture `bytes`, else `linear`.
@@ -42,7 +44,7 @@ void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
 // Such pixels as a picture; NULL if memory is used up.
-Texture *texture_of_linear(const Texture *bytes);
+Texture *texture_of_linear(Meter *meter, const Texture *bytes);
 
 // How a picture is read beyond its edges, and between its pixels (pictures.md 1.5).
 typedef struct Sampler {

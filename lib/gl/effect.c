@@ -129,7 +129,7 @@ static void add_source(Text *text, const GlEffect *effect, bool merged, bool red
 static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect *kind, Str common, Pass pass,
                       DiagSink *faults) {
     Text text = text_new(arena);
-    Str problem;
+    GlFault fault;
     bool merged = kind->merges && effect->count > 1;
     if (!gl_add_merge(&text, effect, gl_edge(effect->node, kind->edge)))
         return 0;
@@ -139,9 +139,9 @@ static unsigned build(Gl *gl, Arena *arena, const GlEffect *effect, const Effect
     text_add_c(&text, gl_text_common);
     text_add(&text, common);
     text_add(&text, pass.text);
-    unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &problem);
+    unsigned program = gl_program(gl, arena, str_from(gl_quad), text_str(&text), &fault);
     if (!program)
-        gl_report(faults, effect->node, "bad-shader", problem);
+        gl_report(faults, effect->node, "bad-shader", fault.text);
     return program;
 }
 

@@ -63,10 +63,9 @@ static void look_at_limits(Gl *gl) {
 
 Gl *gl_open(const char **problem) {
     Gl *gl = calloc(1, sizeof *gl);
-    if (!gl) {
-        *problem = "not enough memory";
+    *problem = NULL;
+    if (!gl)
         return NULL;
-    }
     gl->display = EGL_NO_DISPLAY;
     gl->context = EGL_NO_CONTEXT;
     // A driver that is not there says so at length on standard error; *problem is enough.

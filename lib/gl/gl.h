@@ -14,7 +14,7 @@
 
 typedef struct Gl Gl;
 
-// NULL, with the reason, if there is no OpenGL ES 3 here or memory is used up.
+// NULL, with the reason, if there is no OpenGL ES 3 here; with none if memory is used up.
 Gl *gl_open(const char **problem);
 void gl_close(Gl *gl); // NULL is fine; not between enter and leave
 // False, with the reason, if the context was lost.
@@ -49,9 +49,15 @@ bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
 // What is drawn next goes to this image; the viewport is all of it. It is not cleared.
 void gl_target(Gl *gl, GlImage image);
 
-// A program of two shaders; kept by its text, so that asking again costs a look-up. 0, with what the compiler said (in
-// the arena), if it does not compile; that is kept, too. Texts begin with the version line.
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, Str *problem);
+// What is wrong with a program.
+typedef struct GlFault {
+    Str text;       // the compiler's words
+    bool in_vertex; // shader; else in the other, or in how they fit
+} GlFault;
+
+// A program of two shaders; kept by its text, so that asking again costs a look-up. 0, with what is wrong (in the
+// arena), if it does not compile; that is kept, too. Texts begin with the version line.
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlFault *fault);
 extern const char gl_header[]; // version and precision lines: what ${HEADER} stands for
 extern const char gl_quad[];   // vertex shader of a strip over the whole target: out vec2 coord, 0 to 1, v up
 // Runs a program that has gl_quad's inputs over the whole target.

@@ -17,6 +17,7 @@ struct GlProgram {
     char *vertex;
     char *fragment;
     char *problem; // or NULL
+    bool in_vertex;
     GLuint program;
 };
 
@@ -63,8 +64,8 @@ static bool attach(GLuint program, GLenum kind, const char *text, char **problem
 static void build(GlProgram *program) {
     GLint good = 0, length = 0;
     program->program = glCreateProgram();
-    if (attach(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem) &&
-        attach(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
+    program->in_vertex = !attach(program->program, GL_VERTEX_SHADER, program->vertex, &program->problem);
+    if (!program->in_vertex && attach(program->program, GL_FRAGMENT_SHADER, program->fragment, &program->problem)) {
         glBindAttribLocation(program->program, 0, "position");
         glLinkProgram(program->program);
         glGetProgramiv(program->program, GL_LINK_STATUS, &good);
@@ -85,7 +86,7 @@ static GlProgram *find(Gl *gl, Str vertex, Str fragment) {
     return NULL;
 }
 
-unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, Str *problem) {
+unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlFault *fault) {
     enum { MOST_PROGRAMS = 200 }; // a script may write another text in each frame
     GlProgram *program = find(gl, vertex, fragment);
     if (!program) {
@@ -107,7 +108,9 @@ unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, Str *problem
         gl->programs = program;
         build(program);
     }
-    *problem = program->program ? (Str){0} : str_copy(arena, str_from(program->problem ? program->problem : "?"));
+    *fault = (GlFault){.in_vertex = program->in_vertex};
+    if (!program->program)
+        fault->text = str_copy(arena, str_from(program->problem ? program->problem : "?"));
     return program->program;
 }
 

@@ -88,6 +88,7 @@ struct SceneGroup {
 };
 
 typedef struct SceneCamera {
+    const DrawNode *node;
     Str id;
     bool secondary;
     Look3D look;
@@ -100,6 +101,7 @@ typedef struct SceneCamera {
 
 typedef struct Scene {
     Arena *arena;
+    const DrawNode *node; // the `!canvas3d`
     const Reach *reach;
     DiagSink *faults;
     SceneGroup **groups; // in the order in which they are drawn
@@ -129,12 +131,14 @@ Eye scene_eye(const Scene *scene, const SceneCamera *camera);
 // The triangles of a model, in the arena; none, after a report, if they cannot be made.
 struct Mesh;
 bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, struct Mesh *mesh);
+// What the triangles of a `!model` are made from: a hash, never 0.
+uint64_t scene_source(const Scene *scene, const DrawNode *node);
 bool scene_same_model(const SceneModel *a, const SceneModel *b);
 // The lights that shine in a group, up to `most`; how many.
 uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most);
 
-// Reports what is wrong with nodes of a kind.
-void scene_report(const Scene *scene, const char *code, NodeKind kind, const char *problem);
+// Reports what is wrong with a node.
+void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem);
 
 // Where textures come from: the picture of an id as it is known now, texture 0 for none.
 typedef struct ScenePictures {

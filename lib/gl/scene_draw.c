@@ -168,7 +168,7 @@ static void add_variant(Text *text, unsigned variant) {
 static GLuint use_program(const Drawing *drawing, unsigned variant) {
     const Scene *scene = drawing->scene;
     Text vertex = text_new(scene->arena), fragment = text_new(scene->arena);
-    Str problem;
+    GlFault fault;
     text_add_c(&vertex, gl_header);
     add_variant(&vertex, variant);
     text_add_c(&vertex, gl_text_scene_vertex);
@@ -180,9 +180,9 @@ static GLuint use_program(const Drawing *drawing, unsigned variant) {
     text_add_c(&fragment, variant & TEXTURED ? gl_text_scene_texture : "");
     text_add_c(&fragment, variant & TRANSLUCENT ? gl_text_scene_through : "");
     text_add_c(&fragment, gl_text_scene);
-    GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &problem);
+    GLuint program = gl_program(drawing->gl, scene->arena, text_str(&vertex), text_str(&fragment), &fault);
     if (!program) {
-        scene_report(scene, "bad-shader", KIND_CANVAS3D, str_to_c(scene->arena, problem));
+        scene_report(scene, "bad-shader", scene->node, str_to_c(scene->arena, fault.text));
         return 0;
     }
     glUseProgram(program);
@@ -394,7 +394,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
         boxes[i] = gl_store_shape(drawing.store, scene, &scene->models[i])->box;
     drawing.order = scene_order(scene, &drawing.eye, &drawing.view, &drawing.projection, camera->width, boxes);
     if (drawing.order.cut)
-        scene_report(scene, "too-many-triangles", KIND_CANVAS3D,
+        scene_report(scene, "too-many-triangles", scene->node,
                      "a picture can show 50 million triangles; the others are left out");
     while (glGetError() != GL_NO_ERROR)
         ;
@@ -402,7 +402,7 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     GlImage image = gl_image_new(gl, camera->width, camera->height, gl_format(gl, bits_of(scene, camera)));
     if (image.texture && draw_to(&drawing, image))
         return image;
-    scene_report(scene, "bad-size", KIND_CANVAS3D, "the GPU has no room for a picture of this size");
+    scene_report(scene, "bad-size", scene->node, "the GPU has no room for a picture of this size");
     gl_image_free(gl, image);
     return none;
 }

@@ -136,10 +136,19 @@ typedef struct Obj {
     uint32_t count;
     uint32_t room;
     bool normals; // all corners have them
+    const char *problem;
 } Obj;
 
+static bool refuse(Obj *obj, const char *problem) {
+    obj->problem = problem;
+    return false;
+}
+
+static const char corner_form[] = "a corner of a face is written 1, 1/2, 1//3 or 1/2/3";
+static const char too_large[] = "there are more than 12 million corners";
+
 // "a", "a/b", "a//c" or "a/b/c"; numbers below 0 count from the end.
-static bool read_corner(const Obj *obj, Str word, Corner *out) {
+static bool read_corner(Obj *obj, Str word, Corner *out) {
     size_t at = 0;
     *out = (Corner){{0}};
     for (int part = 0; part < 3 && at <= word.len; part++) {
@@ -151,15 +160,17 @@ static bool read_corner(const Obj *obj, Str word, Corner *out) {
         int64_t count = obj->lists[part].count;
         number = minus ? count + 1 - number : number;
         if (at > start && (number < 1 || number > count))
-            return false;
+            return refuse(obj, part == 0   ? "a face has a vertex that is not there"
+                               : part == 1 ? "a face has a place in textures, vt, that is not there"
+                                           : "a face has a normal, vn, that is not there");
         if (at == start && (minus || part == 0))
-            return false;
+            return refuse(obj, corner_form);
         out->parts[part] = at > start ? (uint32_t)number : 0;
         if (at < word.len && word.bytes[at] != '/')
-            return false;
+            return refuse(obj, corner_form);
         at++;
     }
-    return at >= word.len;
+    return at >= word.len || refuse(obj, corner_form);
 }
 
 static void add_corner(Obj *obj, Corner corner) {
@@ -172,8 +183,10 @@ static bool read_face(Obj *obj, Str line) {
     Corner first = {{0}}, before = {{0}}, corner;
     int count = 0;
     for (Str word; (word = next_word(&line)).len > 0; count++) {
-        if (!read_corner(obj, word, &corner) || obj->count > MESH_MOST_CORNERS)
+        if (!read_corner(obj, word, &corner))
             return false;
+        if (obj->count > MESH_MOST_CORNERS)
+            return refuse(obj, too_large);
         if (count == 0)
             first = corner;
         if (count >= 2) {
@@ -183,7 +196,7 @@ static bool read_face(Obj *obj, Str line) {
         }
         before = corner;
     }
-    return count >= 3;
+    return count >= 3 || refuse(obj, "a face has three corners or more");
 }
 
 static bool read_obj_line(Obj *obj, Str line) {
@@ -191,13 +204,19 @@ static bool read_obj_line(Obj *obj, Str line) {
         const char *name;
         int least;
         int size;
-    } lists[] = {{"v", 3, 3}, {"vt", 1, 2}, {"vn", 3, 3}};
+        const char *form;
+    } lists[] = {{"v", 3, 3, "v is followed by three numbers"},
+                 {"vt", 1, 2, "vt is followed by one number or two"},
+                 {"vn", 3, 3, "vn is followed by three numbers"}};
     Str word = next_word(&line);
-    for (int i = 0; i < 3; i++)
-        if (str_equal(word, str_from(lists[i].name)))
-            return obj->lists[i].count < MESH_MOST_CORNERS &&
-                   read_floats(line, lists[i].least, lists[i].size,
-                               add_floats(obj->arena, &obj->lists[i], (uint32_t)lists[i].size));
+    for (int i = 0; i < 3; i++) {
+        if (!str_equal(word, str_from(lists[i].name)))
+            continue;
+        if (obj->lists[i].count >= MESH_MOST_CORNERS)
+            return refuse(obj, too_large);
+        float *out = add_floats(obj->arena, &obj->lists[i], (uint32_t)lists[i].size);
+        return read_floats(line, lists[i].least, lists[i].size, out) || refuse(obj, lists[i].form);
+    }
     return !str_equal(word, STR("f")) || read_face(obj, line);
 }
 
@@ -214,13 +233,14 @@ static void set_vertex(const Obj *obj, const Corner *corner, MeshVertex *vertex)
         memcpy(vertex->normal, obj->lists[2].items + 3 * (size_t)(corner->parts[2] - 1), sizeof vertex->normal);
 }
 
-bool mesh_from_obj(Arena *arena, Str bytes, Mesh *mesh, const char **problem) {
+static bool read_obj(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault) {
     Obj obj = {.arena = arena, .normals = true};
-    *problem = "a line of the OBJ file is malformed, or it is too large";
-    while (bytes.len > 0)
-        if (!read_obj_line(&obj, next_line(&bytes)))
+    for (uint32_t line = 1; bytes.len > 0; line++)
+        if (!read_obj_line(&obj, next_line(&bytes))) {
+            *fault = (MeshFault){obj.problem, line};
             return false;
-    *problem = "it has no triangles";
+        }
+    *fault = (MeshFault){"it has no triangles", 0};
     if (obj.count == 0)
         return false;
     // A vertex for each different corner.
@@ -261,21 +281,25 @@ static bool add_stl_triangle(Arena *arena, Floats *list, const float corners[9])
     return true;
 }
 
-static bool read_stl_text(Arena *arena, Str bytes, Floats *list) {
+static bool read_stl_text(Arena *arena, Str bytes, Floats *list, MeshFault *fault) {
     float corners[9];
     int count = 0;
-    while (bytes.len > 0) {
+    for (fault->line = 1; bytes.len > 0; fault->line++) {
         Str line = next_line(&bytes), word = next_word(&line);
         if (str_equal(word, STR("vertex"))) {
+            fault->text = "vertex is followed by three numbers, and each loop has three of them";
             if (count == 3 || !read_floats(line, 3, 3, corners + 3 * count))
                 return false;
             count++;
         } else if (str_equal(word, STR("endloop"))) {
+            fault->text = count == 3 ? too_large : "a loop has three vertices";
             if (count != 3 || !add_stl_triangle(arena, list, corners))
                 return false;
             count = 0;
         }
     }
+    fault->text = "the file ends within a loop";
+    fault->line--;
     return count == 0;
 }
 
@@ -305,15 +329,15 @@ static bool read_stl_binary(Arena *arena, Str bytes, Floats *list) {
     return true;
 }
 
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, const char **problem) {
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault) {
     Floats list = {0};
     bool binary = is_binary_stl(bytes), text = !binary && str_starts_with(bytes, STR("solid"));
     if (!binary && !text)
-        return mesh_from_obj(arena, bytes, mesh, problem);
-    *problem = "the STL file is damaged, or too large";
-    if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list))
+        return read_obj(arena, bytes, mesh, fault);
+    *fault = (MeshFault){"a triangle is beyond all numbers, or there are more than 4 million", 0};
+    if (binary ? !read_stl_binary(arena, bytes, &list) : !read_stl_text(arena, bytes, &list, fault))
         return false;
-    *problem = "it has no triangles";
+    *fault = (MeshFault){"it has no triangles", 0};
     if (list.count == 0)
         return false;
     *mesh = (Mesh){.vertices = arena_alloc_array(arena, list.count, sizeof(MeshVertex)),

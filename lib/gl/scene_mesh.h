@@ -38,9 +38,14 @@ void mesh_snap(Arena *arena, Mesh *mesh, double turns);
 void mesh_invert(Mesh *mesh);
 void mesh_remap(Arena *arena, Mesh *mesh, int how); // REMAP_…
 
+// Why a file has no triangles.
+typedef struct MeshFault {
+    const char *text;
+    uint32_t line; // of the file; 0: none in particular
+} MeshFault;
+
 // From the bytes of a file: OBJ, STL as text or in binary. False with a reason.
-bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, const char **problem);
-bool mesh_from_obj(Arena *arena, Str bytes, Mesh *mesh, const char **problem);
+bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault);
 // From numbers: of vertices, three each, of faces, three each, of texture places, two each or none.
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem);

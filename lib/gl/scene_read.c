@@ -1,7 +1,6 @@
 // scene_read.c: the nodes of a scene; see scene.h.
 #include "gl/scene.h"
 
-#include "base/file.h"
 #include "base/source.h"
 #include "gl/effect.h"
 #include "gl/scene_mesh.h"
@@ -19,9 +18,12 @@ typedef struct Place {
     SceneGroup *group;
 } Place;
 
-void scene_report(const Scene *scene, const char *code, NodeKind kind, const char *problem) {
-    Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[kind].name, problem);
-    diag_report(scene->faults, &(Diag){.level = DIAG_WARNING, .text = text, .code = code});
+void scene_report(const Scene *scene, const char *code, const DrawNode *node, const char *problem) {
+    Str text = str_format(scene->faults->arena, "!%s: %s", schema_kinds[node->kind].name, problem);
+    diag_report(
+        scene->faults,
+        &(Diag){
+            .level = DIAG_WARNING, .source = node->place.source, .span = node->place.span, .text = text, .code = code});
 }
 
 static double clamp(double x, double low, double high) {
@@ -184,7 +186,7 @@ static void read_light(Scene *scene, const Place *place, const DrawNode *node) {
     if (!triple(node, ATTR_COLOR, color) || vector_dot(color, color) == 0)
         return;
     if (scene->light_count >= SCENE_MOST_LIGHTS) {
-        scene_report(scene, "too-many-lights", KIND_LIGHT, "a scene can have 4000 lights; the others are left out");
+        scene_report(scene, "too-many-lights", node, "a scene can have 4000 lights; the others are left out");
         return;
     }
     SceneLight light = {.falloff = {0, 0, 1, 0}};
@@ -223,11 +225,12 @@ static void read_camera(Scene *scene, const Place *place, const DrawNode *node) 
     if (!id || id->as.text.len == 0)
         return;
     if (scene->camera_count >= MOST) {
-        scene_report(scene, "too-many-cameras", KIND_CAMERA, "a scene can have 100 cameras; the others are left out");
+        scene_report(scene, "too-many-cameras", node, "a scene can have 100 cameras; the others are left out");
         return;
     }
     SceneCamera *camera = add_camera(scene);
     *camera = scene->cameras[0];
+    camera->node = node;
     camera->id = id->as.text;
     camera->secondary = draw_flag(node, ATTR_SECONDARY);
     for (uint32_t i = 0; i < node->attr_count; i++)
@@ -237,31 +240,6 @@ static void read_camera(Scene *scene, const Place *place, const DrawNode *node) 
         camera->width = (int)clamp(size[0], 0, 1e6);
         camera->height = (int)clamp(size[1], 0, 1e6);
     }
-}
-
-static uint64_t hash_list(uint64_t seed, const DrawNode *node, AttrName name) {
-    const AttrValue *attr = draw_attr(node, name);
-    return attr ? hash_bytes(seed, attr->as.list, attr->count * sizeof *attr->as.list) : seed + 1;
-}
-
-static const char *path_of(const Scene *scene, Str name) {
-    return str_to_c(scene->arena, path_join(scene->arena, scene->reach->directory, name));
-}
-
-static uint64_t source_of(const Scene *scene, const DrawNode *node) {
-    const AttrValue *name = draw_attr(node, ATTR_FILENAME);
-    Str version = {0};
-    if (!name || name->as.text.len == 0)
-        return hash_list(hash_list(hash_list(1, node, ATTR_VERTICES), node, ATTR_FACES), node, ATTR_UV) | 1;
-    file_version(scene->arena, scene->reach, path_of(scene, name->as.text), &version);
-    uint64_t seed = hash_bytes(2, name->as.text.bytes, name->as.text.len);
-    return hash_bytes(seed, version.bytes, version.len) | 1;
-}
-
-bool scene_same_model(const SceneModel *a, const SceneModel *b) {
-    return a->kind == b->kind && a->segments == b->segments && a->source == b->source && a->flat == b->flat &&
-           a->invert == b->invert && a->disc == b->disc && a->remap == b->remap && a->uv_map == b->uv_map &&
-           a->snap == b->snap;
 }
 
 // UINT32_MAX, after a report, if there are too many.
@@ -276,18 +254,18 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
     if (kind == KIND_BOX) {
         model.uv_map = (uint8_t)draw_word(node, ATTR_UV_MAP);
     } else if (kind == KIND_MODEL) {
-        model.source = source_of(scene, node);
+        model.source = scene_source(scene, node);
     } else {
         double segments = draw_number(node, ATTR_SEGMENTS);
         if (segments > MESH_MOST_SEGMENTS)
-            scene_report(scene, "too-many-segments", kind, "more than 1024 segments count as 1024");
+            scene_report(scene, "too-many-segments", node, "more than 1024 segments count as 1024");
         model.segments = (uint32_t)clamp(segments, kind == KIND_SPHERE ? 4 : 2, MESH_MOST_SEGMENTS);
     }
     for (uint32_t i = scene->model_count; i-- > 0;)
         if (scene_same_model(&scene->models[i], &model))
             return i;
     if (scene->model_count >= SCENE_MOST_MODELS) {
-        scene_report(scene, "too-many-models", kind, "a scene can have 2000 different models; the others are left out");
+        scene_report(scene, "too-many-models", node, "a scene can have 2000 different models; the others are left out");
         return UINT32_MAX;
     }
     scene->models = arena_room(scene->arena, scene->models, scene->model_count, &scene->model_room, sizeof model);
@@ -298,8 +276,7 @@ static uint32_t number_model(Scene *scene, const DrawNode *node) {
 static void read_model(Scene *scene, const Place *outside, const DrawNode *node) {
     Place place = *outside;
     if (scene->instance_count >= SCENE_MOST_INSTANCES) {
-        scene_report(scene, "too-many-models", (NodeKind)node->kind,
-                     "a scene can have 200000 models; the others are left out");
+        scene_report(scene, "too-many-models", node, "a scene can have 200000 models; the others are left out");
         return;
     }
     take_look(scene, &place, node);
@@ -344,7 +321,7 @@ static void read_inside(Scene *scene, const Place *outside, const DrawNode *node
 Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int bits, const Reach *reach,
                   DiagSink *faults) {
     Scene *scene = arena_alloc(arena, sizeof *scene);
-    *scene = (Scene){.arena = arena, .reach = reach, .faults = faults, .width = width, .bits = bits};
+    *scene = (Scene){.arena = arena, .node = node, .reach = reach, .faults = faults, .width = width, .bits = bits};
     scene->textures = arena_room(arena, NULL, 0, &scene->texture_room, sizeof *scene->textures);
     scene->textures[scene->texture_count++] = (SceneTextures){.border = false};
     Place place = {.matrix = matrix_one};
@@ -352,8 +329,12 @@ Scene *scene_read(Arena *arena, const DrawNode *node, int width, int height, int
     make_material(scene, &place);
     take_look(scene, &place, node);
     SceneCamera *camera = add_camera(scene);
-    *camera = (SceneCamera){
-        .look = place.look, .position = {0, 0, width / 2.0}, .up = {0, 1, 0}, .width = width, .height = height};
+    *camera = (SceneCamera){.node = node,
+                            .look = place.look,
+                            .position = {0, 0, width / 2.0},
+                            .up = {0, 1, 0},
+                            .width = width,
+                            .height = height};
     take_points(camera, &matrix_one, node);
     place.matrix = matrix_transformed(place.matrix, node);
     place.group = add_group(scene, NULL, &place.look);
@@ -383,53 +364,4 @@ uint32_t scene_lights(const SceneGroup *group, SceneLight *lights, uint32_t most
         for (uint32_t i = 0; i < group->light_count && count < wanted; i++)
             lights[count++] = group->lights[i];
     return count;
-}
-
-static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *arena, Mesh *mesh) {
-    const AttrValue *name = draw_attr(node, ATTR_FILENAME), *vertices = draw_attr(node, ATTR_VERTICES),
-                    *faces = draw_attr(node, ATTR_FACES), *uv = draw_attr(node, ATTR_UV);
-    const char *problem = NULL;
-    enum { MOST_BYTES = 256 << 20 };
-    if (name && name->as.text.len > 0) {
-        Str bytes;
-        if (file_read(arena, scene->reach, path_of(scene, name->as.text), true, MOST_BYTES, &bytes, NULL, &problem) &&
-            mesh_from_file(arena, bytes, mesh, &problem))
-            return true;
-        Str text = str_format(scene->faults->arena, "cannot read '%s': %s", name->as.text.bytes, problem);
-        scene_report(scene, "cannot-read", KIND_MODEL, str_to_c(scene->faults->arena, text));
-        return false;
-    }
-    if (!vertices || !faces) {
-        if (vertices)
-            scene_report(scene, "bad-model", KIND_MODEL, "vertices need faces: numbers of three vertices each");
-        return false;
-    }
-    if (mesh_from_lists(arena, vertices->as.list, vertices->count, faces->as.list, faces->count,
-                        uv ? uv->as.list : NULL, uv ? uv->count : 0, mesh, &problem))
-        return true;
-    scene_report(scene, "bad-model", KIND_MODEL, problem);
-    return false;
-}
-
-bool scene_mesh(const Scene *scene, const SceneModel *model, Arena *arena, Mesh *mesh) {
-    *mesh = (Mesh){.vertices = NULL};
-    if (model->kind == KIND_MODEL && !read_triangles(scene, model->node, arena, mesh))
-        return false;
-    if (model->kind != KIND_MODEL)
-        *mesh = model->kind == KIND_BOX        ? mesh_box(arena, model->uv_map == UV_REPEAT)
-                : model->disc                  ? mesh_disc(arena, model->segments)
-                : model->kind == KIND_SPHERE   ? mesh_sphere(arena, model->segments)
-                : model->kind == KIND_CYLINDER ? mesh_cylinder(arena, model->segments)
-                                               : mesh_cone(arena, model->segments);
-    if (mesh->index_count == 0)
-        return false;
-    if (model->flat || model->snap == 0)
-        mesh_flat(arena, mesh);
-    else if (model->snap < 0.5)
-        mesh_snap(arena, mesh, model->snap);
-    if (model->invert)
-        mesh_invert(mesh);
-    if (model->remap != REMAP_NONE)
-        mesh_remap(arena, mesh, model->remap);
-    return true;
 }

@@ -1,6 +1,7 @@
 // shader.c: see shader.h.
 #include "gl/shader.h"
 
+#include "gl/fault.h"
 #include "gl/internal.h"
 #include "gl/merge.h"
 
@@ -13,9 +14,10 @@ static bool expand(Text *out, Str text) {
     size_t line_number = 1, i = 0;
     for (; i < text.len && strchr(" \t\n\r", text.bytes[i]); i++)
         line_number += text.bytes[i] == '\n'; // the version is the first line
+    const size_t start = i;
     for (; i < text.len; i++) {
         Str rest = {text.bytes + i, text.len - i};
-        bool line = i == 0 || text.bytes[i - 1] == '\n';
+        bool line = i == start || text.bytes[i - 1] == '\n';
         line_number += text.bytes[i] == '\n';
         bool own = line && str_starts_with(rest, version);
         if (own || str_starts_with(rest, header)) {
@@ -45,7 +47,7 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
     const DrawNode *node = effect->node;
     const AttrValue *vertex = draw_attr(node, ATTR_VERTEX), *fragment = draw_attr(node, ATTR_FRAGMENT);
     Text texts[2] = {text_new(arena), text_new(arena)};
-    Str problem;
+    GlFault fault;
     bool good = expand(&texts[0], vertex ? vertex->as.text : str_from(gl_quad));
     if (fragment) {
         good = good && expand(&texts[1], fragment->as.text);
@@ -58,9 +60,9 @@ GlImage gl_shader(Gl *gl, Arena *arena, const GlEffect *effect, DiagSink *faults
         gl_report(faults, node, "bad-shader", STR("of templates only ${HEADER} can be used"));
         return (GlImage){0};
     }
-    unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &problem);
+    unsigned program = gl_program(gl, arena, text_str(&texts[0]), text_str(&texts[1]), &fault);
     if (!program) {
-        gl_report(faults, node, "bad-shader", problem);
+        gl_report_shader(faults, node, &fault);
         return (GlImage){0};
     }
     double wanted = draw_number(node, ATTR_PASSES);

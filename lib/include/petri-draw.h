@@ -73,7 +73,7 @@ PETRI_API PetriPainter *petri_painter_open(void);
 PETRI_API void petri_painter_close(PetriPainter **painter);
 
 // Makes the pictures of all nodes of the frame, canvases and effects, unless this painter has just done so. Drawing and
-// saving do it by themselves. PETRI_OK, PETRI_MISSING without Cairo, PETRI_MEMORY.
+// saving do it by themselves. PETRI_OK, PETRI_MISSING without Cairo, PETRI_MEMORY, PETRI_INVALID with a diagnostic.
 PETRI_API PetriStatus petri_picture_make(PetriPicture *picture, PetriPainter *painter);
 
 // What a `!record` node writes.

@@ -422,6 +422,9 @@ typedef struct PetriSystem {
 } PetriSystem;
 // By number from 0 in order of declaration; false beyond the last, and if memory is used up.
 PETRI_API bool petri_system(PetriSession *session, size_t number, PetriSystem *system);
+// For hosts whose users hold columns for longer: from now on those that are no longer valid stay readable, with what
+// they held last or hold by chance, until this is called with false, or the session is closed. Their memory counts.
+PETRI_API void petri_keep_columns(PetriSession *session, bool keep);
 // The id of a particle; null if there is none. Valid until the next petri_id or petri_force, and as the columns are.
 PETRI_API PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle);
 // The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made

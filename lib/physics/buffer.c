@@ -20,7 +20,7 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
     uint64_t capacity = buffer->capacity > needed / 2 ? buffer->capacity * 2 : needed;
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;
-    Buffer larger = {.capacity = capacity};
+    Buffer larger = {.capacity = capacity, .shown = buffer->shown};
     arena_init(&larger.arena, "physics", SIZE_MAX);
     larger.arena.meter = system->options.meter;
     larger.bytes = arena_try_alloc(&larger.arena, capacity); // its only block: without it there is nothing to free
@@ -38,7 +38,10 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
 }
 
 void phys_buffer_free(Buffer *buffer) {
-    arena_free(&buffer->arena);
+    if (buffer->shown)
+        arena_retire(&buffer->arena);
+    else
+        arena_free(&buffer->arena);
     buffer->bytes = NULL;
     buffer->capacity = 0;
 }

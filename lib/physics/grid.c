@@ -187,14 +187,12 @@ static bool reserve_arrays(PhysSystem *system, const PairPass *pass, Neighbours 
 
 // What lies beyond the last place is read but never counts.
 static void fill_up(const PairPass *pass, Neighbours *list, uint32_t dummy) {
-    for (uint32_t place = list->total; place <= dummy; place++) {
+    for (uint32_t place = list->total; place < dummy + PHYS_MOST_LANES; place++) {
         list->view.column[place] = list->ranges.at[0].first;
         for (size_t k = 0; k < pass->dimensions; k++)
             list->view.built[k][place] = 0;
         list->view.radius[place] = 0;
     }
-    for (uint32_t lane = 1; lane < PHYS_MOST_LANES; lane++)
-        list->view.column[dummy + lane] = list->ranges.at[0].first;
     for (int m = 0; m < 4; m++)
         list->view.quads[4 * (size_t)dummy + (size_t)m] = m < (int)pass->dimensions ? NAN : 0;
     if (list->view.sources)

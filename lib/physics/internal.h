@@ -24,6 +24,7 @@ typedef struct Buffer {
     Arena arena;
     void *bytes;
     uint64_t capacity; // in bytes
+    bool shown;        // the host may look at it
 } Buffer;
 
 #define NO_GROUP UINT32_MAX

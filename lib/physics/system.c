@@ -26,6 +26,7 @@ PhysSystem *phys_new(void) {
     PhysSystem *system = &memory->system;
     Neighbours *lists = memory->lists;
     *system = (PhysSystem){.home = home, .lists = lists};
+    system->particles.shown = system->rows.shown = system->last_rows.shown = system->force_rows.shown = true;
     memset(lists, 0, PHYS_MOST_LISTS * sizeof *lists);
     phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_here.level});
     phys_begin(system, 1);

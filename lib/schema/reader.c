@@ -14,6 +14,16 @@ static bool is_in_window(PlaceKind place) {
     return place >= PLACE_TOP;
 }
 
+// Where in by_name the kinds of a name stand, or would.
+static size_t find_name(const Schema *schema, const Symbol *name) {
+    enum { SLOTS = sizeof schema->by_name };
+    _Static_assert(KIND_COUNT < 255 && 2 * KIND_COUNT < SLOTS, "kinds are few");
+    size_t at = ((uintptr_t)name >> 4) * 0x9e3779b1u >> 7 & (SLOTS - 1);
+    while (schema->by_name[at] > 0 && schema->kinds[schema->by_name[at] - 1] != name)
+        at = (at + 1) & (SLOTS - 1);
+    return at;
+}
+
 void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host) {
     *schema = (Schema){.symbols = symbols, .host = host};
     for (int i = 0; i < KIND_COUNT; i++)
@@ -39,19 +49,22 @@ void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host) {
     schema->first_row[KIND_COUNT] = ROW_COUNT;
     while (!is_in_window(schema_kinds[schema->first_in_window].place))
         schema->first_in_window++;
+    for (int kind = KIND_COUNT; kind-- > schema->first_in_window;) {
+        uint8_t *slot = &schema->by_name[find_name(schema, schema->kinds[kind])];
+        schema->next_of_name[kind] = *slot;
+        *slot = (uint8_t)(kind + 1);
+    }
 }
 
 NodeKind schema_window_kind(const Schema *schema, const Node *node) {
-    int kind = schema->first_in_window;
-    while (kind < KIND_COUNT && schema->kinds[kind] != node->kind)
-        kind++;
-    return (NodeKind)kind;
+    int kind = schema->by_name[find_name(schema, node->kind)];
+    return kind > 0 ? (NodeKind)(kind - 1) : KIND_COUNT;
 }
 
 NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children) {
-    for (int kind = schema->first_in_window; kind < KIND_COUNT; kind++)
-        if (schema->kinds[kind] == node->kind && schema_may_stand((NodeKind)kind, children))
-            return (NodeKind)kind;
+    for (int kind = schema->by_name[find_name(schema, node->kind)]; kind > 0; kind = schema->next_of_name[kind - 1])
+        if (schema_may_stand((NodeKind)(kind - 1), children))
+            return (NodeKind)(kind - 1);
     return KIND_COUNT;
 }
 
@@ -391,7 +404,7 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
     case SHAPE_POINTS:
         return read_numbers(reader, v, true, attr);
     case SHAPE_LIST:
-        return read_numbers(reader, v, false, attr);
+        return !(v.len < type->low || v.len > type->high) && read_numbers(reader, v, false, attr);
     case SHAPE_SEED:
         attr->as.numbers[0] = (double)(int64_t)value_exact_hash(reader->arena, v) / 281474976710656.0;
         return true;

@@ -41,6 +41,8 @@ typedef struct Schema {
     double words[WORD_COUNT];           // their values as symbols
     uint16_t first_row[KIND_COUNT + 1]; // by kind
     int first_in_window;                // of the kinds
+    uint8_t by_name[512];               // the first kind in windows of a name, + 1: a hash table, mostly empty
+    uint8_t next_of_name[KIND_COUNT];   // the next one of the same name, + 1
     bool slants[KIND_COUNT];            // some vector of the kind has a default that is not 0
 } Schema;
 

@@ -62,9 +62,7 @@ typedef struct Look {
     // What nodes among those that draw have set: numbers in the list that is built.
     uint32_t source; // in place of the colour
     uint32_t filter;
-    uint32_t dashes;
-    uint32_t dash_count;
-    double dash_offset;
+    uint32_t effect; // on paths
 } Look;
 
 // Of three dimensions (canvas3d_list.h): a material, a render group and a camera, whatever a node has of these.

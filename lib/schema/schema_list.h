@@ -69,6 +69,11 @@ TYPE(AMOUNTS, PAIR, -INFINITY, INFINITY, false, "one number or two")
 TYPE(TRIPLE, TRIPLE, -INFINITY, INFINITY, false, "one number or three")
 TYPE(QUAD, QUAD, -INFINITY, INFINITY, false, "one number or four")
 TYPE(LIST, LIST, -INFINITY, INFINITY, false, "numbers")
+// The limits of these are how many numbers there must be.
+TYPE(FIVE, LIST, 5, 5, false, "five numbers")
+TYPE(NINE, LIST, 9, 9, false, "nine numbers")
+TYPE(TWENTY, LIST, 20, 20, false, "twenty numbers")
+TYPE(NOISE_TYPE, WORD, 0, 0, false, ":fractal, :turbulence or :improved")
 TYPE(SEED, SEED, 0, 0, false, "any")
 TYPE(MIX, WORD, 0, 0, false, ":over, :dest_over, :lighten, :darken, :add, :difference or :multiply")
 TYPE(TONEMAP, WORD, 0, 0, false, ":reinhard, :aces, :agx or :agx_punchy")
@@ -282,6 +287,16 @@ NAME(MOVE_TO, "move_to")
 NAME(IMAGE_ID, "image_id")
 NAME(INTERVALS, "intervals")
 NAME(SHADOW_ONLY, "shadow_only")
+NAME(LARGE, "large")
+NAME(CCW, "ccw")
+NAME(FREQUENCY, "frequency")
+NAME(TYPE, "type")
+NAME(RED, "red")
+NAME(GREEN, "green")
+NAME(BLUE, "blue")
+NAME(COEFFICIENTS, "coefficients")
+NAME(LENGTH, "length")
+NAME(DEVIATION, "deviation")
 NAME(RATIO, "ratio")
 NAME(MODE, "mode")
 
@@ -433,7 +448,7 @@ ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the valu
 NODE(CANVAS, "canvas", PICTURE, DRAWING, "a sheet to draw on: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)
 ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear light, and combine as such")
-ATTR(CANVAS, COLORBITS, INTEGER, NOWHERE, IS(8), "", "of a linear one; always drawn with 8")
+ATTR(CANVAS, COLORBITS, INTEGER, NOWHERE, IS(8), "", "of a linear one; with 16 or 32 light does not end at 1")
 TRANSFORM_ROWS(CANVAS)
 PAINT_ROWS(CANVAS)
 FONT_ROWS(CANVAS)
@@ -486,6 +501,13 @@ ATTR(ARC, START, MEASURE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
 ATTR(ARC, SWEEP, MEASURE, NOWHERE, TOLD(NAN, "end - start"), "turns", "whole turns do not count; this or end is needed")
 ATTR(ARC, END, MEASURE, NOWHERE, NONE, "turns", "sweep goes before it")
 ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another piece of the path in place of the line")
+
+NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "part of an ellipse from where the path ends, at first from 0;0")
+ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "where it goes")
+ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y; enlarged if it does not reach")
+ATTR(ARC_TO, ROTATION, MEASURE, NOWHERE, IS(0), "degrees", "of the ellipse, clockwise")
+ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "more than half of it")
+ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "counter-clockwise")
 
 NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
 ATTR(RECT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "a corner, top left unless the size is negative")
@@ -563,6 +585,13 @@ NODE(BLEND, "blend", SOURCE, SOURCE, "the two sources inside, combined, for what
 ATTR(BLEND, RATIO, MEASURE, NOWHERE, NONE, "", "part of the second one")
 ATTR(BLEND, MODE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second one combines with the first")
 
+NODE(CANVAS_NOISE, "noise", SOURCE, NOTHING, "noise, in all four channels, for what is drawn after it")
+ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "waves a unit, along x and along y; without it it is no source")
+ATTR(CANVAS_NOISE, OCTAVES, INTEGER, NOWHERE, IS(8), "", "each twice as fine as the one before")
+ATTR(CANVAS_NOISE, SEED, MEASURE, NOWHERE, IS(0), "", "another one, other noise")
+ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, TOLD(0, "endless"), "", "of a tile, in whole units, which repeats without a seam")
+ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, TOLD(TURBULENCE_FRACTAL, ":fractal"), "", "turbulence: waves that are folded at 0")
+
 NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur what is drawn after it")
 ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
 
@@ -575,9 +604,53 @@ ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "do not draw what casts 
 NODE(CANVAS_OFFSET, "offset", FILTER, FILTER, "move what is drawn after it")
 ATTR(CANVAS_OFFSET, OFFSET, POINT, NOWHERE, NONE, "", "how far")
 
-NODE(DASH, "dash", DRAWING, NOTHING, "interrupt lines that are drawn after it")
+NODE(DILATE, "dilate", FILTER, FILTER, "let what is drawn after it grow")
+ATTR(DILATE, RADIUS, SIZE, NOWHERE, NONE, "", "the largest value in a box of so much in each direction, channel by channel")
+
+NODE(ERODE, "erode", FILTER, FILTER, "let what is drawn after it shrink")
+ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "the smallest value in a box of so much in each direction, channel by channel")
+
+NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of what is drawn after it")
+ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows of five: what red, green, blue and alpha become of r;g;b;a;1; wins over all others")
+ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, TOLD(0, "1;0;0;0;0"), "", "a row of it; rows win over scale and offset, and these over the rest")
+ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, TOLD(0, "0;1;0;0;0"), "", "")
+ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, TOLD(0, "0;0;1;0;0"), "", "")
+ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, TOLD(0, "0;0;0;1;0"), "", "")
+ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors of red, green and blue")
+ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "what is added to them then")
+ATTR(FILTER_MATRIX, BRIGHTNESS, MEASURE, NOWHERE, IS(0), "", "is added")
+ATTR(FILTER_MATRIX, CONTRAST, MEASURE, NOWHERE, IS(1), "", "around grey")
+ATTR(FILTER_MATRIX, SATURATION, MEASURE, NOWHERE, IS(1), "", "0 is grey")
+
+NODE(DRAWN, "source", FILTER, NOTHING, "what is drawn, as it is: an input of another filter")
+
+NODE(FILTER_PAINT, "paint", FILTER, NOTHING, "a colour, or the source in force, everywhere: an input of another filter")
+PAINT_ROWS(FILTER_PAINT)
+
+NODE(FILTER_BLEND, "blend", FILTER, FILTER, "the two filters inside, combined, for what is drawn after it")
+ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "of both multiplied, of the second, of the first, and what is added")
+ATTR(FILTER_BLEND, RATIO, MEASURE, NOWHERE, NONE, "", "part of the first one")
+ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "without either: how the second one combines with the first")
+
+NODE(DASH, "dash", EFFECT, EFFECT, "interrupt lines that are drawn after it")
 ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "on;off;on;off…, an even number")
 ATTR(DASH, OFFSET, MEASURE, NOWHERE, IS(0), "", "where in the intervals each line begins")
+
+NODE(ROUND_CORNERS, "round_corners", EFFECT, EFFECT, "round the corners of what is drawn after it")
+ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "how far before a corner its curve begins")
+
+NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen what is drawn after it")
+ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "of the pieces that lines are cut into")
+ATTR(JITTER, DEVIATION, MEASURE, NOWHERE, NONE, "", "how far their ends are moved sideways, at most")
+ATTR(JITTER, SEED, MEASURE, NOWHERE, IS(0), "", "another one, other ends")
+
+NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform the figures that are drawn after it, but not their lines' width")
+ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three; wins over all others")
+ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "first")
+ATTR(PATH_MATRIX, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "then, clockwise")
+ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "in the end")
+
+NODE(SUM, "sum", EFFECT, EFFECT, "the figures of all effects inside, for what is drawn after it")
 #include "schema/canvas3d_list.h"
 // clang-format on
 

@@ -72,7 +72,7 @@ bool schema_may_stand(NodeKind kind, PlaceKind children) {
     case PLACE_PICTURES:
         return place == PLACE_PICTURE || place == PLACE_TOP;
     case PLACE_DRAWING:
-        return place == PLACE_DRAWING || place == PLACE_SOURCE || place == PLACE_FILTER;
+        return place == PLACE_DRAWING || place == PLACE_SOURCE || place == PLACE_FILTER || place == PLACE_EFFECT;
     default:
         return place == children;
     }

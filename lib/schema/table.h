@@ -48,6 +48,7 @@ typedef enum PlaceKind {
     PLACE_DRAWING, // sources, too, may stand where one draws
     PLACE_SOURCE,
     PLACE_FILTER, // likewise
+    PLACE_EFFECT, // likewise
     PLACE_STOP,
     PLACE_SCENE3D,
 } PlaceKind;
@@ -65,7 +66,7 @@ typedef enum AttrShape {
     SHAPE_PAIR,    // double[2]; one number stands for both
     SHAPE_TRIPLE,  // double[3]; likewise
     SHAPE_QUAD,    // double[4]; likewise
-    SHAPE_LIST,    // any doubles
+    SHAPE_LIST,    // any doubles, or as many as its limits say
     SHAPE_SEED,    // double: the seed hash of any value, / 2^48
     SHAPE_POINTS,  // an even number of doubles
     SHAPE_COLOR,   // double[4]
@@ -84,6 +85,7 @@ enum { SLANT_UPRIGHT, SLANT_OBLIQUE, SLANT_ITALIC };
 enum { TONEMAP_NONE, TONEMAP_REINHARD, TONEMAP_ACES, TONEMAP_AGX, TONEMAP_AGX_PUNCHY };
 enum { FADE_LINEAR, FADE_QUAD, FADE_CUBIC };
 enum { FLIP_NOT, FLIP_HORIZONTAL, FLIP_VERTICAL, FLIP_BOTH };
+enum { TURBULENCE_FRACTAL, TURBULENCE_FOLDED, TURBULENCE_IMPROVED };
 enum { NOISE_PLANE, NOISE_CYLINDER, NOISE_SPHERE };
 // How pictures combine, in linear light. UNKNOWN: another word was given.
 enum { MIX_OVER, MIX_DEST_OVER, MIX_LIGHTEN, MIX_DARKEN, MIX_ADD, MIX_DIFFERENCE, MIX_MULTIPLY, MIX_UNKNOWN };

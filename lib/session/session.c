@@ -265,6 +265,7 @@ void petri_close(PetriSession **handle) {
                        &session->key_arena,   &session->prompt.arena,        &session->arena};
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
+    arena_drop_kept(&session->meter);
     free(session);
 }
 

@@ -63,6 +63,14 @@ static void find_system(PetriSession *session, void *context) {
     request->found = true;
 }
 
+void petri_keep_columns(PetriSession *session, bool keep) {
+    if (!session)
+        return;
+    session->meter.keeps = keep;
+    if (!keep)
+        arena_drop_kept(&session->meter);
+}
+
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
     return session && system && ask(session, find_system, number, 0, system);
 }

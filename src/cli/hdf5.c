@@ -9,6 +9,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/pass_on.h"
@@ -93,4 +94,20 @@ bool hdf5_end(Hdf5 *writer) {
     bool good = writer->process > 0 && wait_for(writer->process);
     unfinished_end(writer->unfinished);
     return good;
+}
+
+bool hdf5_table(const char *path, const char *csv, size_t length) {
+    Hdf5 writer;
+    Hdf5Head head = {HDF5_ADD, length}, end = {HDF5_KEEP, 0};
+    if (!hdf5_start(&writer, "table", path)) {
+        return false;
+    }
+    bool sent = file_write(writer.stream, (const char *)&head, sizeof head) && file_write(writer.stream, csv, length) &&
+                file_write(writer.stream, (const char *)&end, sizeof end);
+    return hdf5_end(&writer) && sent;
+}
+
+bool hdf5_is_wanted(const char *path) {
+    const char *dot = strrchr(path, '.');
+    return dot != NULL && str_word_number(str_from(dot), ".h5 .hdf5") >= 0;
 }

@@ -16,8 +16,12 @@ typedef struct Hdf5 {
 } Hdf5;
 
 // Starts petri-hdf5 on a file of a kind: "trajectory" takes a stream of Hdf5Head with what it counts, "table" CSV
-// behind one. False after a message.
+// behind one, and then another. False after a message.
 bool hdf5_start(Hdf5 *writer, const char *kind, const char *path);
+// A table as a whole. False after a message.
+bool hdf5_table(const char *path, const char *csv, size_t length);
+// Whether a table is to be in HDF5, by its name.
+bool hdf5_is_wanted(const char *path);
 // Waits until the file has taken its name. False if there is none, which petri-hdf5 has told if it is its fault.
 bool hdf5_end(Hdf5 *writer);
 

@@ -1,5 +1,5 @@
-// main.c: petri-hdf5, which writes files for petri (cli/hdf5.h): `petri-hdf5 trajectory FILE` with a stream on its
-// standard input, a socket.
+// main.c: petri-hdf5, which writes files for petri (cli/hdf5.h): `petri-hdf5 trajectory|table FILE` with a stream on
+// its standard input, a socket.
 #include <errno.h>
 #include <stdlib.h>
 #include <string.h>
@@ -8,6 +8,7 @@
 
 #include "cli/cli.h"
 #include "cli/hdf5.h"
+#include "hdf5/table.h"
 #include "hdf5/trajectory.h"
 
 // False if the stream ends before.
@@ -47,8 +48,20 @@ static bool write_trajectory(Store *store) {
     return head.act == HDF5_KEEP || (any && head.act == HDF5_ADD);
 }
 
+static bool write_table(Store *store) {
+    Hdf5Head head = {0};
+    char *block = NULL;
+    bool whole = receive_block(&block, &head) && head.act == HDF5_ADD;
+    if (whole) {
+        table_store(store, block, head.bytes);
+        whole = receive_block(&block, &head) && head.act == HDF5_KEEP;
+    }
+    free(block);
+    return whole;
+}
+
 int main(int argc, char **argv) {
-    if (argc != 3 || strcmp(argv[1], "trajectory") != 0) {
+    if (argc != 3 || (strcmp(argv[1], "trajectory") != 0 && strcmp(argv[1], "table") != 0)) {
         message("petri-hdf5 writes files for petri run and petri sweep; it is of no use by itself");
         return STATUS_USAGE;
     }
@@ -58,7 +71,7 @@ int main(int argc, char **argv) {
     }
     // MSG_NOSIGNAL: petri may be gone.
     send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
-    bool keep = write_trajectory(&store);
+    bool keep = strcmp(argv[1], "table") == 0 ? write_table(&store) : write_trajectory(&store);
     // Without what runs at the end: it would try again to write what could not be written.
     _exit(store_end(&store, keep) ? STATUS_DONE : STATUS_FAILED);
 }

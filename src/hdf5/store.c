@@ -80,8 +80,7 @@ static void add_attribute(Store *store, hid_t object, const char *name, hid_t ty
     H5Sclose(space);
 }
 
-// Of texts as long as the longest.
-static hid_t text_type(size_t length) {
+hid_t store_text_type(size_t length) {
     hid_t type = H5Tcopy(H5T_C_S1);
     H5Tset_size(type, length + 1);
     H5Tset_cset(type, H5T_CSET_UTF8);
@@ -89,7 +88,7 @@ static hid_t text_type(size_t length) {
 }
 
 void store_text(Store *store, hid_t object, const char *name, const char *text) {
-    hid_t type = text_type(strlen(text));
+    hid_t type = store_text_type(strlen(text));
     add_attribute(store, object, name, type, H5Screate(H5S_SCALAR), text);
     H5Tclose(type);
 }
@@ -100,7 +99,7 @@ void store_texts(Store *store, hid_t object, const char *name, const char *text,
     for (size_t i = 0; i < count; i++) {
         memcpy(texts + i * bytes, text, bytes);
     }
-    hid_t type = text_type(bytes - 1);
+    hid_t type = store_text_type(bytes - 1);
     add_attribute(store, object, name, type, H5Screate_simple(1, &count, NULL), texts);
     H5Tclose(type);
     free(texts);
@@ -197,7 +196,18 @@ void store_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t siz
     }
 }
 
-void store_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count) {
+void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list) {
+    hid_t space = H5Screate_simple(1, &count, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
+    H5Pset_obj_track_times(made, false);
+    hid_t set = checked(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
+    store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, list));
+    H5Dclose(set);
+    H5Pclose(made);
+    H5Sclose(space);
+    H5Tclose(type);
+}
+
+void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count) {
     size_t longest = 0;
     const char *text = texts;
     for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
@@ -208,14 +218,7 @@ void store_list(Store *store, hid_t parent, const char *name, const char *texts,
     for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
         memcpy(all + i * (longest + 1), text, strlen(text));
     }
-    hid_t type = text_type(longest), space = H5Screate_simple(1, &count, NULL), made = H5Pcreate(H5P_DATASET_CREATE);
-    H5Pset_obj_track_times(made, false);
-    hid_t set = checked(store, H5Dcreate2(parent, name, type, space, H5P_DEFAULT, made, H5P_DEFAULT));
-    store_check(store, H5Dwrite(set, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, all));
-    H5Dclose(set);
-    H5Pclose(made);
-    H5Sclose(space);
-    H5Tclose(type);
+    store_list(store, parent, name, store_text_type(longest), count, all);
     free(all);
 }
 

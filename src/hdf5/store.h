@@ -54,8 +54,12 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
 void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
 // Writes the beginning of a row; the column grows to hold it.
 void store_row(Store *store, StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS], const void *numbers);
-// A list of texts, which are one after the other, each ended by NUL.
-void store_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count);
+// The type of texts up to this length.
+hid_t store_text_type(size_t length);
+// A list that is there as a whole. Closes the type.
+void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list);
+// One of texts, which are one after the other, each ended by NUL.
+void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count);
 // A second name for what is there.
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);
 

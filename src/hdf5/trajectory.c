@@ -170,7 +170,7 @@ void way_end(Way *way) {
     }
     if (way->text_count > 0) {
         hid_t parameters = store_group(way->store, way->store->file, "parameters");
-        store_list(way->store, parameters, "id_texts", way->texts.data, way->text_count);
+        store_text_list(way->store, parameters, "id_texts", way->texts.data, way->text_count);
     }
     bytes_free(&way->texts);
     free(way->groups);

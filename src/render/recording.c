@@ -79,7 +79,11 @@ static bool save_picture(Recording *recording, PetriPicture *picture, PetriPaint
 
 bool recording_add(Recording *recording, PetriPicture *picture, PetriPainter *painter) {
     PetriRecord record;
-    bool good = petri_picture_make(picture, painter) == PETRI_OK;
+    PetriStatus status = petri_picture_make(picture, painter);
+    bool good = status == PETRI_OK;
+    if (status == PETRI_MEMORY) {
+        recording->trouble = "out of memory";
+    }
     for (size_t i = 0; good && petri_picture_record(picture, painter, i, &record); i++) {
         if (record.refused) {
             return false;

@@ -166,7 +166,9 @@ static void deal(Crew *crew) {
             int64_t run = hand->count < most && hand->pid > 0 ? next_run(crew) : -1;
             if (run >= 0) {
                 hand->held[hand->count++] = run;
-                file_write(hand->orders, (const char *)&run, sizeof run);
+                if (!file_write(hand->orders, (const char *)&run, sizeof run)) {
+                    kill(hand->pid, SIGKILL); // it would wait for ever for orders, and this process for it
+                }
             }
         }
     }

@@ -32,6 +32,9 @@ bool measure_open(Measure *measure, const Sweep *sweep,
     // Without a script, if it cannot be loaded, or not without definitions: each run will tell.
     petri_load(measure->session, sweep->options->script);
     measure->base = petri_config(measure->session);
+    if (measure->base == NULL) {
+        message("out of memory");
+    }
     measure->silent = false;
     return measure->base != NULL;
 }
@@ -144,11 +147,13 @@ void measure_run(Measure *measure, size_t run) {
     bytes_add(&measure->rows, "", 0);
 }
 
+// Whether it is one. What a session without memory or time has said of it counts in each run.
 static bool try_expression(Measure *measure, const char *option, const char *expression) {
     PetriResult result = {0};
     uint64_t errors = petri_diagnostic_count(measure->session, PETRI_ERROR);
     PetriStatus status = petri_evaluate(measure->session, expression, PETRI_Z, &result, NULL, NULL);
-    if (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors) {
+    bool given_up = status == PETRI_MEMORY || status == PETRI_LIMIT || status == PETRI_INTERRUPTED;
+    if (given_up || (status != PETRI_INVALID && petri_diagnostic_count(measure->session, PETRI_ERROR) == errors)) {
         return true;
     }
     message("option '--%s' expects an expression, not '%s'", option, expression);

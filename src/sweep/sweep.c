@@ -10,6 +10,7 @@
 
 #include "base/file.h"
 #include "cli/args.h"
+#include "cli/hdf5.h"
 #include "cli/mpirun.h"
 #include "cli/pass_on.h"
 #include "cli/script.h"
@@ -207,7 +208,8 @@ static bool write_table(const Sweep *sweep) {
     }
     table_commands(sweep, &commands);
     bytes_format(&path, "%s.runs", output);
-    return write_file(path.data, &commands) && write_file(output, &table);
+    return write_file(path.data, &commands) &&
+           (hdf5_is_wanted(output) ? hdf5_table(output, table.data, table.length) : write_file(output, &table));
 }
 
 static bool write_all(const Sweep *sweep) {
@@ -289,11 +291,20 @@ static int make_runs(Sweep *sweep, Journal *journal) {
     return status;
 }
 
+// Before the work begins: a table that nothing is sent to is dropped.
+static bool can_write(const char *output) {
+    Hdf5 writer;
+    return output == NULL || !hdf5_is_wanted(output) || (hdf5_start(&writer, "table", output) && hdf5_end(&writer));
+}
+
 static int run_sweep(Sweep *sweep) {
     Journal journal = {.file = -1};
     int status = rehearse(sweep);
     if (status != STATUS_DONE) {
         return status;
+    }
+    if (!can_write(sweep->options->output)) {
+        return STATUS_FAILED;
     }
     sweep->results = memory_zeroed(sweep->design.run_count * sizeof *sweep->results);
     if (sweep->options->output != NULL) {
@@ -386,7 +397,7 @@ const Command SWEEP_COMMAND = {
         "\n"
         "A run that fails is a row with its message. With -o FILE, what is done is kept in FILE.part: after Ctrl-C or\n"
         "kill -9 the same command goes on, and the table is the same to the last byte. FILE.runs then has a line for\n"
-        "each run: the command that makes it again.\n"
+        "each run: the command that makes it again. A table whose name ends in .h5 is in HDF5, as its set `table`.\n"
         "\n"
         "A plan is YAML: `script: dish.fl`, options by their names, and `define:` and `metric:` with lines NAME: "
         "VALUE\n"

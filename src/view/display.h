@@ -53,8 +53,11 @@ typedef struct DisplayKind {
     // The script's size has changed; NULL: a display has the size that it has.
     void (*resize)(Display *display, int width, int height);
     void (*toggle_full_screen)(Display *display); // NULL: it cannot
-    double least_seconds;                         // between two pictures
-    bool logs;                                    // standard error may be written to while it is open
+    // `lost` is called when the display has gone and nothing can be shown any more; it ends the process. NULL: its
+    // functions fail then.
+    void (*watch)(Display *display, void (*lost)(void *host), void *host);
+    double least_seconds; // between two pictures
+    bool logs;            // standard error may be written to while it is open
 } DisplayKind;
 
 // A window; NULL if petri was built without SDL.

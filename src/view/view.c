@@ -312,6 +312,16 @@ static void report_summary(const View *view) {
     }
 }
 
+// The screen has gone: what can be saved is saved.
+static void lose_display(void *host) {
+    View *view = host;
+    message("the display has gone");
+    if (!view->world.halted) {
+        world_save(&view->world, true);
+    }
+    exit(STATUS_FAILED);
+}
+
 static int run_view(View *view) {
     view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
@@ -323,6 +333,9 @@ static int run_view(View *view) {
     catch_interrupts();
     bool opened = open_display(view);
     if (opened) {
+        if (view->kind->watch != NULL) {
+            view->kind->watch(view->display, lose_display, view);
+        }
         petri_pointer(view->world.session, &(PetriPointer){.inside = false});
         petri_hold(view->world.session);
         run_loop(view);

@@ -77,6 +77,14 @@ static void window_close(Display *display) {
     free(display);
 }
 
+// What SDL draws with OpenGL leaves its context in this thread, and then petri's, which come from EGL, cannot be used
+// in it. SDL takes its own up again when it next draws.
+static void let_go(const Display *display) {
+    if (SDL_GL_GetCurrentContext() != NULL) {
+        SDL_GL_MakeCurrent(display->window, NULL);
+    }
+}
+
 // Drawing is our own; the renderer only brings the pixels to the screen. Where the graphics card cannot, software does.
 static SDL_Renderer *new_renderer(SDL_Window *window) {
     SDL_Renderer *renderer = SDL_CreateRenderer(window, -1, SDL_RENDERER_PRESENTVSYNC);
@@ -130,6 +138,7 @@ static Display *window_open(const char *title, int width, int height, bool colou
         return NULL;
     }
     SDL_ShowWindow(display->window);
+    let_go(display);
     return display;
 }
 
@@ -245,6 +254,7 @@ static Event window_next_event(Display *display, double seconds) {
         event = translate(display, &found);
         wait = 0;
     }
+    let_go(display);
     return event;
 }
 
@@ -254,6 +264,7 @@ static void window_size(Display *display, int width, int height, int *drawn_widt
     if (SDL_GetRendererOutputSize(display->renderer, drawn_width, drawn_height) != 0) {
         *drawn_width = *drawn_height = LEAST_SIZE;
     }
+    let_go(display);
 }
 
 static bool use_texture(Display *display, int width, int height) {
@@ -282,6 +293,7 @@ static bool window_show(Display *display, uint32_t *pixels, int width, int heigh
     SDL_RenderClear(display->renderer);
     SDL_RenderCopy(display->renderer, display->texture, NULL, NULL);
     SDL_RenderPresent(display->renderer);
+    let_go(display);
     return true;
 }
 
@@ -324,6 +336,10 @@ static void window_toggle_full_screen(Display *display) {
     }
 }
 
+static void window_watch(Display *display, void (*lost)(void *host), void *host) {
+    window_manager_watch(display->window, lost, host);
+}
+
 static const DisplayKind WINDOW = {
     .open = window_open,
     .close = window_close,
@@ -333,6 +349,7 @@ static const DisplayKind WINDOW = {
     .set_title = window_set_title,
     .resize = window_resize,
     .toggle_full_screen = window_toggle_full_screen,
+    .watch = window_watch,
     .least_seconds = 0,
     .logs = true,
 };

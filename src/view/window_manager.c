@@ -80,10 +80,50 @@ bool window_manager_fills_screen(struct SDL_Window *window) {
     }
     return fills;
 }
+// A screen is lost for the whole process.
+static struct {
+    void (*tell)(void *host);
+    void *host;
+} loss;
+
+static int say_nothing(Display *display) {
+    (void)display;
+    return 0;
+}
+
+static void leave(Display *display, void *context) {
+    (void)display;
+    (void)context;
+    loss.tell(loss.host);
+}
+
+void window_manager_watch(struct SDL_Window *window, void (*lost)(void *host), void *host) {
+    SDL_SysWMinfo info;
+    int (*(*set_error)(int (*)(Display *)))(Display *);
+    void (*set_exit)(Display *, void (*)(Display *, void *), void *);
+    SDL_VERSION(&info.version);
+    if (!SDL_GetWindowWMInfo(window, &info) || info.subsystem != SDL_SYSWM_X11) {
+        return;
+    }
+    void *library = SDL_LoadObject(LIBRARY); // for good: SDL has it, too
+    if (library != NULL && find(library, "XSetIOErrorHandler", &set_error) &&
+        find(library, "XSetIOErrorExitHandler", &set_exit)) { // from libX11 1.7 on
+        loss.tell = lost;
+        loss.host = host;
+        set_error(say_nothing);
+        set_exit(info.info.x11.display, leave, NULL);
+    }
+}
 #else
 bool window_manager_fills_screen(struct SDL_Window *window) {
     (void)window;
     return true;
+}
+
+void window_manager_watch(struct SDL_Window *window, void (*lost)(void *host), void *host) {
+    (void)window;
+    (void)lost;
+    (void)host;
 }
 #endif
 #endif

@@ -26,10 +26,11 @@ void fuzz_fail(const char *format, ...) {
     abort();
 }
 
+int fuzz_patience = 80;
+
 static void on_alarm(int number) {
-    enum { MOST = 80 }; // of 50 ms each
     (void)number;
-    if (++alarms > MOST) {
+    if (++alarms > fuzz_patience) {
         static const char text[] = "it does not react to petri_interrupt\n";
         (void)!write(STDERR_FILENO, text, sizeof text - 1);
         abort();

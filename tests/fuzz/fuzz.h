@@ -14,6 +14,9 @@ int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size);
 // Says what is wrong and aborts.
 __attribute__((format(printf, 1, 2), noreturn)) void fuzz_fail(const char *format, ...);
 
+// How many times 50 ms of the processor's time may pass until an interrupt is answered.
+extern int fuzz_patience;
+
 // A session with little memory and stack whose diagnostics are looked at. After two seconds of processor time it is
 // interrupted, again and again, and Ctrl-C is typed (SIGINT); one that goes on for four seconds more is a finding.
 PetriOptions fuzz_options(void);

@@ -17,11 +17,13 @@ typedef struct Drawn {
     int height;
     uint32_t *pixels; // of the frame that was drawn last: rows from the top
     char told[TOLD];  // diagnostics, a line each: LINE [CODE] TEXT
+    unsigned column;  // of the last one
 } Drawn;
 
 static inline void drawn_tell(void *host, const PetriDiagnostic *diagnostic) {
     Drawn *drawn = host;
     size_t at = strlen(drawn->told);
+    drawn->column = diagnostic->column;
     snprintf(drawn->told + at, TOLD - at, "%u [%s] %s\n", diagnostic->line, diagnostic->code, diagnostic->text);
 }
 
@@ -46,9 +48,10 @@ static inline void drawn_close(Drawn *drawn) {
     *drawn = (Drawn){0};
 }
 
-// Draws so many frames; the last one is seen.
-static inline void drawn_open(Drawn *drawn, const char *script, int frames) {
+// Draws so many frames, with so much memory (0: as usual); the last one is seen.
+static inline void drawn_open_with(Drawn *drawn, const char *script, int frames, size_t memory) {
     PetriOptions options = petri_default_options();
+    options.memory_bytes = memory > 0 ? memory : options.memory_bytes;
     *drawn = (Drawn){.pixels = malloc(MOST_DRAWN * sizeof(uint32_t))};
     options.diagnostic = drawn_tell;
     options.host = drawn;
@@ -58,6 +61,10 @@ static inline void drawn_open(Drawn *drawn, const char *script, int frames) {
     assert_int_equal(petri_load_text(drawn->session, "t.fl", script, strlen(script)), PETRI_OK);
     for (int i = 0; i < frames; i++)
         drawn_next(drawn);
+}
+
+static inline void drawn_open(Drawn *drawn, const char *script, int frames) {
+    drawn_open_with(drawn, script, frames, 0);
 }
 
 // One channel: 0 red, 1 green, 2 blue, 3 alpha.

@@ -159,17 +159,46 @@ static void test_bad_programs(void **state) {
                 1, 124, 0, 0);
     check_told("templates", SIZE "    !shader fragment=\"${HEADER} ${more}\"\n    !vignette inset=0\n        " RED,
                "2 [bad-shader] !shader: of templates only ${HEADER} can be used\n", 255, 0, 0);
-    // The compiler's words come from the driver; the line is that of the text.
-    Drawn drawn;
-    drawn_open(&drawn,
-               SIZE "    !canvas\n        !rect size=9;9 fill=true color=1;0;0\n"
-                    "    !shader alpha=1 fragment=\"\"\"${HEADER}\nout vec4 color;\n\nvoid main(( { }\n\"\"\"\n",
-               2);
-    assert_int_equal(at(&drawn, 0), 255);
-    assert_memory_equal(drawn.told, "4 [bad-shader] !shader: ", 23);
-    assert_claim(drawn.told, strstr(drawn.told, ":4") != NULL);
-    assert_claim(drawn.told, strchr(drawn.told, '\n') == drawn.told + strlen(drawn.told) - 1);
-    drawn_close(&drawn);
+    // The compiler's words come from the driver; the line is the script's, where the text stands there.
+    static const struct {
+        const char *row;
+        const char *script;
+        const char *told; // how that begins
+    } bad[] = {
+        {"a literal",
+         "    !shader alpha=1 fragment=\"\"\"${HEADER}\nout vec4 color;\n\nvoid main() { wrong = 1.0; }\n\"\"\"\n",
+         "7:15 [bad-shader] !shader: "},
+        {"indented",
+         "    !shader fragment=\"\"\"\n\n    #version 330\n    out vec4 color;\n    void main() {\n"
+         "        color = wrong;\n    }\n\"\"\"\n",
+         "9:17 [bad-shader] !shader: "},
+        {"named elsewhere",
+         "    let text=\"${HEADER} out vec4 c; void main() { c = wrong; }\"\n    !blur fragment=text\n",
+         "4:55 [bad-shader] !blur: "},
+        {"of vertices", "    !shader vertex=\"\"\"${HEADER}\nvoid main() { gl_Position = wrong; }\"\"\"\n",
+         "5:29 [bad-shader] !shader: "},
+        {"made", "    !shader fragment=concat('${HEADER}';\"\"\"\n\"\"\";'void main() { wrong(); }')\n",
+         "4:13 [bad-shader] !shader: line 2 of its program: "},
+        {"read", "    !shader fragment=read('bad.glsl')\n", "4:13 [bad-shader] !shader: bad.glsl:3: "},
+    };
+    FILE *file = fopen("bad.glsl", "w");
+    fputs("${HEADER}\nout vec4 c;\nvoid main() { c = wrong; }\n", file);
+    fclose(file);
+    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++) {
+        Drawn drawn;
+        char script[1000], told[100];
+        snprintf(script, sizeof script, SIZE "    !canvas\n        !rect size=9;9 fill=true color=1;0;0\n%s",
+                 bad[i].script);
+        drawn_open(&drawn, script, 2);
+        assert_claim(bad[i].row, at(&drawn, 0) == 255);
+        unsigned line = (unsigned)strtoul(drawn.told, NULL, 10);
+        snprintf(told, sizeof told, "%u:%u%s", line, drawn.column, strchr(drawn.told, ' '));
+        told[strlen(bad[i].told)] = 0;
+        assert_text(bad[i].row, told, bad[i].told);
+        assert_claim(bad[i].row, strchr(drawn.told, '\n') == drawn.told + strlen(drawn.told) - 1); // once
+        drawn_close(&drawn);
+    }
+    remove("bad.glsl");
 }
 
 static void test_bad_input(void **state) {

@@ -80,6 +80,29 @@ class Views(unittest.TestCase):
         gc.collect()
         numpy.testing.assert_array_equal(position, copy)
 
+    def test_older_ones_can_be_read(self):
+        session = petri.Session("!physics state=:s dimensions=2 time=time\n"
+                                "    for i in ..40000*(1+frame)\n        !particle id=i position=i;frame radius=i\n")
+        session.step()
+        system, held, copies = session.systems["s"], [], []
+        for _ in range(4):
+            held += [system.position, system.velocity[::2], system.radius, system.anchor]
+            copies += [array.copy() for array in held[-4:]]
+            session.step()
+        for array, copy in zip(held, copies):
+            self.assertEqual(array.shape, copy.shape)
+            self.assertTrue(numpy.isfinite(array).all())
+        numpy.testing.assert_array_equal(held[2], copies[2])
+        before = session._shown.copy()
+        del held, array
+        gc.collect()
+        self.assertLess(len(session._shown), len(before))
+        system.position
+        self.assertEqual(len(session._shown), 1)
+        close = session.close
+        del session, system
+        close()
+
     def test_follow_the_systems(self):
         session = petri.Session("for name in (:a;:b) if frame < 2 else (:b;:c)\n"
                                 "    !physics state=name dimensions=1\n        !particle id=name position=frame\n")
@@ -354,6 +377,34 @@ class Elsewhere(unittest.TestCase):
         self.assertEqual(list(table), ["id", "anchor", "x1", "x2", "v1", "v2", "radius", "mass", "charge"])
         numpy.testing.assert_array_equal(table["x2"], dish.position[:, 1])
         self.assertTrue(table["x2"].flags.owndata)
+
+    def test_atoms(self):
+        try:
+            import ase.io
+        except ImportError:
+            self.skipTest("there is no ase (Debian: python3-ase)")
+        session = petri.Session(DISH)
+        session.step(3)
+        dish = session.systems["dish"]
+        atoms = dish.to_ase()
+        self.assertEqual((len(atoms), str(atoms.symbols)), (4, "X4"))
+        numpy.testing.assert_array_equal(atoms.positions[:, :2], dish.position)
+        numpy.testing.assert_array_equal(atoms.positions[:, 2], 0)
+        numpy.testing.assert_allclose(atoms.get_velocities()[:, :2], dish.velocity, rtol=1e-15)
+        numpy.testing.assert_array_equal(atoms.get_masses(), dish.mass)
+        numpy.testing.assert_array_equal(atoms.get_initial_charges(), dish.charge)
+        numpy.testing.assert_array_equal(atoms.arrays["radius"], dish.radius)
+        self.assertGreater(atoms.get_kinetic_energy(), 0)
+        session.step()
+        self.assertFalse(numpy.array_equal(atoms.positions[:, :2], dish.position))
+        with tempfile.TemporaryDirectory() as folder:  # what petri run writes is read as well
+            script = Path(folder) / "dish.fl"
+            script.write_text(DISH)
+            file = Path(folder) / "way.xyz"
+            subprocess.run([os.environ["PETRI"], "run", script, "--frames", "4", "--trajectory", file], check=True)
+            frames = ase.io.read(file, index=":")
+        self.assertEqual(len(frames), 4)
+        numpy.testing.assert_array_equal(frames[3].positions[:, :2], dish.position)
 
     def test_what_is_not_installed(self):
         dish = petri.Session(DISH)

@@ -90,6 +90,40 @@ if [ "$2" = draws ]; then
     check "and of nothing at all" [ -s empty.png ]
 fi
 
+# --- in HDF5
+
+if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
+    for jobs in 1 3; do
+        sweep sum.fl -D A=1..3 -D 'V=(3;4);(5;6;7)' --frames 2 --every 1 --metric 'half=A/2' --metric 'text="a,b"' \
+            --metric 'part=A/3 if A > 1 else null' --jobs $jobs -o t$jobs.h5
+    done
+    check "a table in HDF5" status_is 0
+    check "the same bytes, whatever the number of processes" same t1.h5 t3.h5
+    check "nothing else stays of it" [ "$(echo t1.h5*)" = "t1.h5 t1.h5.runs" ]
+    sweep sum.fl -D A=1 --frames 1 --metric a=A -o absent/t.h5
+    check "what cannot be written is told before the runs" eval 'status_is 1 && count_is err "cannot write absent/t.h5: No such file" 1'
+    if /usr/bin/python3 -I -c 'import h5py' 2>err; then
+        sweep sum.fl -D A=1..3 -D 'V=(3;4);(5;6;7)' --frames 2 --every 1 --metric 'half=A/2' --metric 'text="a,b"' \
+            --metric 'part=A/3 if A > 1 else null' -o t.csv
+        /usr/bin/python3 -I - t1.h5 t.csv >out 2>&1 <<'END'
+import csv, math, sys, h5py
+table = h5py.File(sys.argv[1])["table"][:]
+lines = list(csv.DictReader(open(sys.argv[2], newline="")))
+assert list(table.dtype.names) == list(lines[0]) and len(table) == len(lines) == 12
+for record, line in zip(table, lines):
+    for name, text in line.items():
+        value = record[name]
+        kind = table.dtype[name].kind
+        if kind == "f":
+            assert math.isnan(value) if text == "" else value == float(text), (name, text)
+        else:
+            assert (str(value) if kind == "i" else value.decode()) == text, (name, text)
+print("".join(table.dtype[name].kind for name in table.dtype.names))
+END
+        check "numbers and texts are those of the CSV" out_is iiSifSfS
+    fi
+fi
+
 # --- the table, whatever happens on the way
 
 cat >dish.fl <<'END'

@@ -136,6 +136,24 @@ check "q closes it" ended 0
 check "nothing is said" [ ! -s err ]
 check "nothing is printed" [ ! -s out ]
 
+# What OpenGL draws, although SDL has a context of its own in the same thread.
+cat >ball.fl <<'END'
+!window size=200;200 title='ball'
+    !bloom radius=4
+        !canvas3d viewpoint=0;0;4 near=0.1 far=9
+            !light color=1
+            !sphere color=1;0.2;0.1
+END
+"$petri" render ball.fl --frames 1 -o ball.png >/dev/null 2>err
+if lacks err needs-gpu; then
+    check "a ball is drawn" [ "$(convert ball.png -depth 8 -crop 1x1+100+100 rgb:- | od -An -tu1 | awk '{ print ($1 > 200) }')" = 1 ]
+    view ball ball.fl
+    check "it is drawn in the window as in files" shows ball.png
+    press q
+    check "q closes it" ended 0
+    check "nothing is said" [ ! -s err ]
+fi
+
 # Those that end by themselves.
 short() { timeout 60 "$petri" view "$@" >out 2>err </dev/null; }
 check "--frames ends it" short still.fl --frames 20
@@ -443,5 +461,18 @@ timeout 60 "$petri" view still.fl >out 2>err </dev/null
 check "one that takes connections and never answers fails" [ $? -eq 1 ]
 kill -CONT "$server"
 check "with a message, too" has err "nothing answers at DISPLAY="
+
+# A screen that goes away.
+view hands hands.fl --state gone.state
+xdotool mousemove --window "$window" 30 20
+check "the script sees the pointer" point 30 20 00ff00
+kill -KILL "$server"
+wait "$server" 2>/dev/null
+server=
+check "a view whose display goes ends" ended 1
+check "and says why" has err "the display has gone"
+check "in one line" [ "$(wc -l <err)" -eq 1 ]
+"$petri" run hands.fl --state gone.state --frames 1 --print state >out 2>err
+check "it has saved its state" has out '$:mouse = 0.1'
 
 finish

@@ -84,6 +84,7 @@ class Session:
         self._lock = threading.Lock()
         self._told: List[Diagnostic] = []
         self._painter: Any = None
+        self._shown: List[None] = []  # one for each array of the session's memory
         self._c = self._open(options or Options())
         self.state = State(self._c, self._lock)
         self.systems = Systems(self)

@@ -15,14 +15,20 @@ if TYPE_CHECKING:
 
 
 class _Memory:
-    """What an array is of, for numpy; keeps the session alive as long as there is an array."""
+    """What an array is of, for numpy; keeps the session and the numbers alive as long as there is an array."""
 
-    __slots__ = ("__array_interface__", "session")
+    __slots__ = ("__array_interface__", "session", "shown")
 
-    def __init__(self, address: int, shape: tuple, strides: tuple, session: Any, kind: str = "<f8"):
+    def __init__(self, address: int, shape: tuple, strides: tuple, owner: Session, kind: str = "<f8"):
         self.__array_interface__ = {"version": 3, "typestr": kind, "data": (address, True), "shape": shape,
                                     "strides": strides}
-        self.session = session
+        self.session = owner._c
+        self.shown = owner._shown
+        self.shown.append(None)
+        lib.petri_keep_columns(self.session, True)
+
+    def __del__(self) -> None:
+        self.shown.pop()
 
 
 def _column(letter: str, doc: str) -> property:
@@ -36,7 +42,8 @@ class System:
     """A particle system, with N particles (anchors are among them) of d dimensions.
 
     Its arrays are views of the session's own memory: nothing is copied, they cannot be written to, and they are to be
-    asked for anew after each step, for the session may have put its particles elsewhere. `.copy()` keeps one.
+    asked for anew after each step. What an older one shows is either of a frame before or of the last one, as the
+    session has or has not put its particles elsewhere; `.copy()` keeps what is there.
     """
 
     def __init__(self, session: Session, number: int, name: bytes):
@@ -55,8 +62,10 @@ class System:
                 raise self._gone()
             place = address, count, width, stride = view.address, view.count, view.width, view.stride
             # What lies where the last array lay is what that array shows.
-            if letter in self._arrays and self._arrays[letter][0] == place:
-                return self._arrays[letter][1]
+            if letter in self._arrays:
+                if self._arrays[letter][0] == place:
+                    return self._arrays[letter][1]
+                self._owner.systems._forget_arrays()
             shape = (count, width) if letter in "pvf" else (count,)
             if address == 0:
                 array = numpy.zeros(shape)
@@ -65,7 +74,7 @@ class System:
                 array.flags.writeable = False
             else:
                 strides = (8 * stride, 8) if letter in "pvf" else (8 * stride,)
-                array = numpy.asarray(_Memory(address, shape, strides, session))
+                array = numpy.asarray(_Memory(address, shape, strides, self._owner))
         self._arrays[letter] = (place, array)
         return array
 
@@ -95,7 +104,8 @@ class System:
         if struct.particle_count == 0:
             return numpy.zeros(0, bool)
         address = int(ffi.cast("uintptr_t", struct.anchor))
-        return numpy.asarray(_Memory(address, (struct.particle_count,), (struct.anchor_stride,), self._owner._c, "|b1"))
+        with self._owner._lock:
+            return numpy.asarray(_Memory(address, (struct.particle_count,), (struct.anchor_stride,), self._owner, "|b1"))
 
     @property
     def name(self) -> str:
@@ -177,6 +187,13 @@ class Systems(Mapping):
             while lib.petri_python_system(self._session._c, len(names), ffi.NULL, struct) >= 0:
                 names.append(ffi.string(struct.name))
         return names
+
+    def _forget_arrays(self) -> None:
+        """Gives back what only this module still holds of where particles were, unless a user does."""
+        for system in self._known.values():
+            system._arrays.clear()
+        if not self._session._shown:
+            lib.petri_keep_columns(self._session._c, False)
 
     def __getitem__(self, name: str) -> System:
         system = self._known.get(name)

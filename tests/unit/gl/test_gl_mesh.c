@@ -176,10 +176,18 @@ static void test_remap(void **state) {
 }
 
 static bool from_file(Arena *arena, const char *text, Mesh *mesh) {
-    const char *problem = NULL;
-    bool good = mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &problem);
-    assert_true(good || problem);
-    return good;
+    MeshFault fault = {0};
+    return mesh_from_file(arena, str_copy(arena, str_from(text)), mesh, &fault);
+}
+
+// What is wrong with a file, and in which line; 0: in none in particular.
+static void check_bad(Arena *arena, const char *text, uint32_t line, const char *problem) {
+    Mesh mesh;
+    MeshFault fault = {0};
+    bool good = mesh_from_file(arena, str_copy(arena, str_from(text)), &mesh, &fault);
+    assert_claim(text, !good && fault.text);
+    assert_claim(text, fault.line == line);
+    assert_claim(text, strstr(fault.text, problem) != NULL);
 }
 
 static void test_obj(void **state) {
@@ -196,26 +204,33 @@ static void test_obj(void **state) {
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
     assert_true(from_file(*state, "v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 1 0 0\nf 1//1 2//1 3//-1", &mesh));
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 1, 0, 0, 0, 0}));
-    static const char *const bad[] = {
-        "",
-        "v 0 0 0\n",
-        "v 0 0\n",
-        "v 0 0 x\n",
-        "v nan 0 0\nf 1 1 1\n",
-        "v 1e300 0 0\nf 1 1 1\n",
-        "f 1 2 3\n",
-        "v 0 0 0\nf 1 1\n",
-        "v 0 0 0\nf 1 1 2\n",
-        "v 0 0 0\nf 1 1 0\n",
-        "v 0 0 0\nf 1 1 -2\n",
-        "v 0 0 0\nf 1/1 1/1 1/1\n",
-        "v 0 0 0\nf 1 1 99999999999999999999\n",
-        "v 0 0 0\nf 1 1 1/1/1/1\n",
-        "v 0 0 0\nf a b c\n",
-        "\x89PNG\r\n\x1a\n",
+    static const struct {
+        const char *text;
+        uint32_t line;
+        const char *problem;
+    } bad[] = {
+        {"", 0, "no triangles"},
+        {"v 0 0 0\n", 0, "no triangles"},
+        {"# a\n\nv 0 0\n", 3, "v is followed by three numbers"},
+        {"v 0 0 x\n", 1, "v is followed by three numbers"},
+        {"v nan 0 0\nf 1 1 1\n", 1, "v is followed"},
+        {"v 1e300 0 0\nf 1 1 1\n", 1, "v is followed"},
+        {"v 0 0 0\nvt\nf 1 1 1\n", 2, "vt is followed by one number or two"},
+        {"v 0 0 0\r\nvn 1\r\nf 1 1 1\n", 2, "vn is followed by three numbers"},
+        {"f 1 2 3\n", 1, "a vertex that is not there"},
+        {"v 0 0 0\nf 1 1\n", 2, "three corners or more"},
+        {"v 0 0 0\nf 1 1 2\n", 2, "a vertex that is not there"},
+        {"v 0 0 0\nf 1 1 0\n", 2, "a vertex that is not there"},
+        {"v 0 0 0\nf 1 1 -2\n", 2, "a vertex that is not there"},
+        {"v 0 0 0\nf 1/1 1/1 1/1\n", 2, "vt, that is not there"},
+        {"v 0 0 0\nf 1//1 1//1 1//1\n", 2, "vn, that is not there"},
+        {"v 0 0 0\nf 1 1 99999999999999999999\n", 2, "not there"},
+        {"v 0 0 0\nf 1 1 1/1/1/1\n", 2, "not there"},
+        {"v 0 0 0\nf a b c\n", 2, "a corner of a face is written"},
+        {"\x89PNG\r\n\x1a\n", 0, "no triangles"},
     };
     for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        assert_false(from_file(*state, bad[i], &mesh));
+        check_bad(*state, bad[i].text, bad[i].line, bad[i].problem);
 }
 
 static void test_stl(void **state) {
@@ -226,15 +241,15 @@ static void test_stl(void **state) {
                           &mesh));
     assert_int_equal(mesh.index_count, 3);
     assert_true(has_vertex(&mesh, (const float[]){1, 0, 0, 0, 0, 1, 0, 0}));
-    static const char *const bad[] = {"solid x\nendsolid x\n", "solid x\nvertex 0 0 0\nendloop\n",
-                                      "solid x\nvertex 0 0 0\n", "solid\nvertex 0 0 inf\nendloop\n"};
-    for (size_t i = 0; i < sizeof bad / sizeof *bad; i++)
-        assert_false(from_file(*state, bad[i], &mesh));
+    check_bad(*state, "solid x\nendsolid x\n", 0, "no triangles");
+    check_bad(*state, "solid x\nvertex 0 0 0\nendloop\n", 3, "a loop has three vertices");
+    check_bad(*state, "solid x\nvertex 0 0 0\n", 2, "ends within a loop");
+    check_bad(*state, "solid\n\nvertex 0 0 inf\nendloop\n", 3, "vertex is followed by three numbers");
     char binary[84 + 50] = "binary";
     binary[80] = 1;
     float corners[9] = {0, 0, 0, 0, 2, 0, 0, 0, 2};
     memcpy(binary + 84 + 12, corners, sizeof corners);
-    const char *problem;
+    MeshFault problem;
     assert_true(mesh_from_file(*state, (Str){binary, sizeof binary}, &mesh, &problem));
     assert_true(has_vertex(&mesh, (const float[]){0, 2, 0, 1, 0, 0, 0, 0}));
     for (size_t cut = 1; cut < sizeof binary; cut++) // any part of it is no model, and does no harm

@@ -182,6 +182,7 @@ static void test_null(void **state) {
     assert_false(petri_drawable(NULL));
     assert_false(petri_key_bound(NULL, "a"));
     assert_false(petri_key_bound(session, NULL));
+    petri_keep_columns(NULL, true);
     assert_false(petri_system(NULL, 0, &system) || petri_system(session, 0, NULL));
     PetriTraffic traffic;
     assert_false(petri_traffic(NULL, 0, &traffic) || petri_traffic(session, 0, NULL));

@@ -134,6 +134,39 @@ static PetriValue one(const double *id) {
     return (PetriValue){.length = 1, .numbers = id};
 }
 
+// What a host still looks at stays where it is, and counts, until it says that it does not.
+static void test_kept_columns(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.keep_forces = true;
+    player_reopen(player, &options);
+    player_run(player,
+               "if frame < 9\n"
+               "    !physics state=:a dimensions=2 time=time\n"
+               "        for i in ..100*(frame*frame+1)\n"
+               "            !particle id=i position=i;i radius=i mass=1+i charge=i\n",
+               2);
+    petri_keep_columns(player->session, true);
+    PetriSystem before = system_of(player, 0);
+    player_step(player, 6);
+    PetriSystem after = system_of(player, 0);
+    assert_ptr_not_equal(before.position.data, after.position.data);
+    for (uint32_t i = 0; i < before.particle_count; i++) {
+        assert_number("position", before.position.data[i * before.position.stride], i);
+        assert_number("velocity", before.velocity.data[i * before.velocity.stride], 0);
+        assert_number("force", before.force.data[i * before.force.stride], 0);
+        assert_number("radius", before.radius.data[i * before.radius.stride], i);
+        assert_number("mass", before.mass.data[i * before.mass.stride], 1 + i);
+        assert_false(before.anchor[i * before.anchor_stride]);
+    }
+    player_step(player, 2); // the system is gone
+    assert_number("charge", after.charge.data[99 * after.charge.stride], 99);
+    petri_keep_columns(player->session, false);
+    petri_keep_columns(player->session, true);
+    player_run(player, SCRIPT, 2);
+    player_run(player, "!a", 1); // closing gives back what is kept now
+}
+
 static void test_ids(void **state) {
     Player *player = *state;
     player_run(player, SCRIPT, 2);
@@ -186,9 +219,9 @@ static void test_forces(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_systems), PLAYER_TEST(test_particles), PLAYER_TEST(test_forces_of_many),
-        PLAYER_TEST(test_rest),    PLAYER_TEST(test_no_copies), PLAYER_TEST(test_ids),
-        PLAYER_TEST(test_forces),
+        PLAYER_TEST(test_systems), PLAYER_TEST(test_particles),    PLAYER_TEST(test_forces_of_many),
+        PLAYER_TEST(test_rest),    PLAYER_TEST(test_no_copies),    PLAYER_TEST(test_ids),
+        PLAYER_TEST(test_forces),  PLAYER_TEST(test_kept_columns),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

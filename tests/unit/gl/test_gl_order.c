@@ -1,4 +1,5 @@
-// test_gl_disc.c: which balls are drawn as discs, and where those are (scene_disc.h), without OpenGL.
+// test_gl_order.c: what is read of a scene and what a camera sees of it: limits, which balls are drawn as discs and
+// where those are; without OpenGL.
 #include "check.h"
 
 #include <math.h>
@@ -179,8 +180,62 @@ static void test_mesh(void **state) {
     arena_free(&arena);
 }
 
+// A scene with so many nodes of a kind, all the same one; what is told.
+static Scene *read_many(Arena *arena, DiagSink *faults, NodeKind kind, AttrValue *attr, uint32_t count) {
+    DrawNode *node = arena_alloc(arena, sizeof *node), *top = arena_alloc(arena, sizeof *top);
+    const DrawNode **children = arena_alloc_array(arena, count, sizeof *children);
+    *node = (DrawNode){.kind = (uint8_t)kind, .attrs = attr, .attr_count = 1};
+    for (uint32_t i = 0; i < count; i++)
+        children[i] = node;
+    *top = (DrawNode){.kind = KIND_CANVAS3D, .children = children, .child_count = count};
+    return scene_read(arena, top, WIDTH, WIDTH, 16, NULL, faults);
+}
+
+// Beyond the limits the rest is drawn, and it is told once.
+static void test_limits(void **state) {
+    (void)state;
+    static const struct {
+        NodeKind kind;
+        AttrName name;
+        uint32_t count;
+        uint32_t most;
+        const char *code;
+    } rows[] = {
+        {KIND_SPHERE, ATTR_SIZE, 1000000, SCENE_MOST_INSTANCES, "too-many-models"},
+        {KIND_LIGHT, ATTR_COLOR, 5000, SCENE_MOST_LIGHTS, "too-many-lights"},
+        {KIND_CAMERA, ATTR_ID, 200, 100, "too-many-cameras"},
+    };
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        Arena arena;
+        arena_init(&arena, "test", SIZE_MAX);
+        DiagSink faults = diag_sink_new(&arena, 100);
+        const SchemaRow *row = schema_row(rows[i].kind, rows[i].name);
+        AttrValue attr = {
+            .name = (uint16_t)rows[i].name, .row = (uint16_t)(row - schema_rows), .as.numbers = {1, 1, 1}};
+        if (rows[i].name == ATTR_ID)
+            attr.as.text = STR("c");
+        Scene *scene = read_many(&arena, &faults, rows[i].kind, &attr, rows[i].count);
+        uint32_t count = rows[i].kind == KIND_SPHERE  ? scene->instance_count
+                         : rows[i].kind == KIND_LIGHT ? scene->light_count
+                                                      : scene->camera_count;
+        assert_int_equal(count, rows[i].most);
+        assert_int_equal(faults.count, 1);
+        assert_string_equal(faults.items[0].code, rows[i].code);
+        if (rows[i].kind == KIND_SPHERE) { // too many triangles, if all are near
+            const SceneBox box = {{-1, -1, -1}, {1, 1, 1}, 2048};
+            Eye eye = scene_eye(scene, &scene->cameras[0]);
+            Matrix view = matrix_view(&eye), projection = matrix_projection(&eye);
+            projection.m[0] *= 1e6, view.m[12] = view.m[13] = 0;
+            SceneOrder order = scene_order(scene, &eye, &view, &projection, WIDTH, &box);
+            assert_true(order.cut && order.triangles <= SCENE_MOST_TRIANGLES && order.count > 10000);
+        }
+        diag_sink_free(&faults);
+        arena_free(&arena);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {cmocka_unit_test(test_choice), cmocka_unit_test(test_rim),
-                                       cmocka_unit_test(test_mesh)};
+                                       cmocka_unit_test(test_mesh), cmocka_unit_test(test_limits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

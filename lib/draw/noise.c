@@ -1,0 +1,200 @@
+// noise.c: the noise of SVG's feTurbulence, and Perlin's improved one, as a source of colours (spec canvas.md 5.5).
+#include "draw/draw.h"
+
+#include <math.h>
+
+enum { LATTICE = 256, CHANNELS = 4 };
+static const double MOST_WORK = 4e9;
+
+typedef struct Noise {
+    const ListSource *source;
+    double frequency[2];
+    int tile[2]; // cells that repeat, in the first octave; 0: none do
+    uint8_t order[LATTICE];
+    double slopes[CHANNELS][LATTICE][2];
+} Noise;
+
+// The numbers of SVG: 1 to 2³¹ − 2.
+static int32_t next_number(int32_t seed) {
+    enum { MODULUS = 2147483647, FACTOR = 16807, QUOTIENT = 127773, REST = 2836 };
+    int32_t result = FACTOR * (seed % QUOTIENT) - REST * (seed / QUOTIENT);
+    return result > 0 ? result : result + MODULUS;
+}
+
+static int32_t first_number(double seed) {
+    enum { MOST = 2147483646 };
+    double whole = trunc(seed);
+    whole = whole <= 0 ? 1 - fmod(whole, MOST) : whole;
+    return (int32_t)(whole < MOST ? whole : MOST);
+}
+
+static void make_lattice(Noise *noise) {
+    int32_t number = first_number(noise->source->ratio);
+    for (int channel = 0; channel < CHANNELS; channel++)
+        for (int i = 0; i < LATTICE; i++) {
+            double *slope = noise->slopes[channel][i], length;
+            for (int k = 0; k < 2; k++) {
+                number = next_number(number);
+                slope[k] = (number % (2 * LATTICE) - LATTICE) / (double)LATTICE;
+            }
+            length = sqrt(slope[0] * slope[0] + slope[1] * slope[1]);
+            for (int k = 0; k < 2; k++)
+                slope[k] = length > 0 ? slope[k] / length : 0;
+        }
+    for (int i = 0; i < LATTICE; i++)
+        noise->order[i] = (uint8_t)i;
+    for (int i = LATTICE - 1; i > 0; i--) {
+        number = next_number(number);
+        int other = number % LATTICE;
+        uint8_t kept = noise->order[i];
+        noise->order[i] = noise->order[other];
+        noise->order[other] = kept;
+    }
+}
+
+// So that a whole number of waves fits into a tile: the nearest such frequency.
+static void fit_tiles(Noise *noise) {
+    for (int k = 0; k < 2; k++) {
+        double side = noise->source->ends[2 + k], frequency = fabs(noise->source->ends[k]);
+        noise->frequency[k] = frequency;
+        if (!(side > 0) || !(noise->source->ends[3 - k] > 0) || !(frequency > 0))
+            continue;
+        double low = floor(side * frequency) / side, high = ceil(side * frequency) / side;
+        noise->frequency[k] = low > 0 && frequency / low < high / frequency ? low : high;
+        noise->tile[k] = (int)fmin(side * noise->frequency[k] + 0.5, 1 << 30);
+    }
+}
+
+// Where a number lies in the lattice.
+typedef struct Place {
+    int cell;
+    int next;
+    double part;
+    double ease;
+} Place;
+
+static int in_lattice(double cell, double tile) {
+    if (tile > 0)
+        cell -= tile * floor(cell / tile);
+    return (int)(cell - LATTICE * floor(cell / LATTICE)) & (LATTICE - 1);
+}
+
+static Place place_of(double x, double tile) {
+    double cell = floor(x), part = x - cell;
+    return (Place){in_lattice(cell, tile), in_lattice(cell + 1, tile), part, part * part * (3 - 2 * part)};
+}
+
+static double mix(double share, double a, double b) {
+    return a + share * (b - a);
+}
+
+static double smooth(const Noise *noise, int channel, const Place *x, const Place *y) {
+    const uint8_t *order = noise->order;
+    const double(*slopes)[2] = noise->slopes[channel];
+    const double *s00 = slopes[order[(order[x->cell] + y->cell) & (LATTICE - 1)]];
+    const double *s10 = slopes[order[(order[x->next] + y->cell) & (LATTICE - 1)]];
+    const double *s01 = slopes[order[(order[x->cell] + y->next) & (LATTICE - 1)]];
+    const double *s11 = slopes[order[(order[x->next] + y->next) & (LATTICE - 1)]];
+    double above = mix(x->ease, x->part * s00[0] + y->part * s00[1], (x->part - 1) * s10[0] + y->part * s10[1]);
+    double below =
+        mix(x->ease, x->part * s01[0] + (y->part - 1) * s01[1], (x->part - 1) * s11[0] + (y->part - 1) * s11[1]);
+    return mix(y->ease, above, below);
+}
+
+// Perlin's of 2002, in the plane z = channel: twelve directions along the edges' middles of a cube, a smoother ease.
+static double slope_along(const Noise *noise, int x, int y, int z, double dx, double dy) {
+    const uint8_t *order = noise->order;
+    int edge = order[(order[(order[x] + y) & (LATTICE - 1)] + z) & (LATTICE - 1)] & 15;
+    double u = edge < 8 ? dx : dy, v = edge < 4 ? dy : edge == 12 || edge == 14 ? dx : 0;
+    return ((edge & 1) ? -u : u) + ((edge & 2) ? -v : v);
+}
+
+static double ease_well(double t) {
+    return t * t * t * (t * (t * 6 - 15) + 10);
+}
+
+static double improved(const Noise *noise, int channel, const Place *x, const Place *y) {
+    double across = ease_well(x->part);
+    double above = mix(across, slope_along(noise, x->cell, y->cell, channel, x->part, y->part),
+                       slope_along(noise, x->next, y->cell, channel, x->part - 1, y->part));
+    double below = mix(across, slope_along(noise, x->cell, y->next, channel, x->part, y->part - 1),
+                       slope_along(noise, x->next, y->next, channel, x->part - 1, y->part - 1));
+    return mix(ease_well(y->part), above, below);
+}
+
+// Four channels, 0 to 1.
+static void noise_at(const Noise *noise, double x, double y, double out[CHANNELS]) {
+    int type = noise->source->mode;
+    double sums[CHANNELS] = {0, 0, 0, 0}, ratio = 1;
+    for (uint32_t octave = 0; octave < noise->source->stop_count && isfinite(ratio); octave++, ratio *= 2) {
+        double at_x = x * noise->frequency[0] * ratio, at_y = y * noise->frequency[1] * ratio;
+        if (!(fabs(at_x) < 1e15) || !(fabs(at_y) < 1e15)) // there are no parts left
+            break;
+        Place place_x = place_of(at_x, noise->tile[0] * ratio), place_y = place_of(at_y, noise->tile[1] * ratio);
+        for (int channel = 0; channel < CHANNELS; channel++) {
+            double wave = type == TURBULENCE_IMPROVED ? improved(noise, channel, &place_x, &place_y)
+                                                      : smooth(noise, channel, &place_x, &place_y);
+            sums[channel] += (type == TURBULENCE_FOLDED ? fabs(wave) : wave) / ratio;
+        }
+    }
+    for (int channel = 0; channel < CHANNELS; channel++) {
+        double sum = type == TURBULENCE_FOLDED ? sums[channel] : (sums[channel] + 1) / 2;
+        out[channel] = fmin(fmax(sum, 0), 1);
+    }
+}
+
+static uint32_t pixel_of(const double c[CHANNELS], double alpha) {
+    double a = c[3] * alpha;
+    uint32_t pixel = (uint32_t)lrint(255 * a) << 24;
+    for (unsigned k = 0; k < 3; k++)
+        pixel |= (uint32_t)lrint(255 * c[k] * a) << (16 - 8 * k);
+    return pixel;
+}
+
+static void fill(const Noise *noise, const cairo_matrix_t *to_units, int left, int top, double alpha,
+                 cairo_surface_t *surface) {
+    int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
+    unsigned char *pixels = cairo_image_surface_get_data(surface);
+    for (int row = 0; pixels && row < height; row++)
+        for (int column = 0; column < width; column++) {
+            double x = left + column + 0.5, y = top + row + 0.5, c[CHANNELS];
+            cairo_matrix_transform_point(to_units, &x, &y);
+            noise_at(noise, x, y, c);
+            ((uint32_t *)(void *)(pixels + (ptrdiff_t)row * cairo_image_surface_get_stride(surface)))[column] =
+                pixel_of(c, alpha);
+        }
+    cairo_surface_mark_dirty(surface);
+}
+
+cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alpha) {
+    cairo_t *cr = canvas->cr;
+    cairo_matrix_t units, to_units, to_pixels;
+    double x1, y1, x2, y2;
+    cairo_get_matrix(cr, &units);
+    cairo_save(cr);
+    cairo_identity_matrix(cr);
+    cairo_clip_extents(cr, &x1, &y1, &x2, &y2);
+    cairo_restore(cr);
+    double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
+    double work = width * height * (10 + 100.0 * source->stop_count);
+    if (canvas->work + work > MOST_WORK) {
+        draw_fault(canvas, DIAG_WARNING, "noise-limit",
+                   "noise on this canvas takes too long; what comes after is drawn without");
+        return cairo_pattern_create_rgba(0, 0, 0, 0);
+    }
+    canvas->work += work;
+    cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
+    Noise noise = {.source = source};
+    make_lattice(&noise);
+    fit_tiles(&noise);
+    to_units = units;
+    cairo_matrix_invert(&to_units);
+    fill(&noise, &to_units, (int)left, (int)top, alpha, surface);
+    cairo_pattern_t *pattern = cairo_pattern_create_for_surface(surface);
+    cairo_surface_destroy(surface);
+    cairo_matrix_init_translate(&to_pixels, -left, -top);
+    cairo_matrix_multiply(&to_pixels, &units, &to_pixels);
+    cairo_pattern_set_matrix(pattern, &to_pixels);
+    cairo_pattern_set_filter(pattern, CAIRO_FILTER_NEAREST);
+    return pattern;
+}

@@ -1,0 +1,603 @@
+// test_canvas.c: canvases against the formulas of the specification (canvas.md 4 to 7), written down here once more,
+// pixel by pixel, in doubles.
+#include "drawn.h"
+
+#include "model.h"
+
+#include <math.h>
+
+// Draws a canvas of 60 x 60 with what is in it: lines that are indented by eight spaces.
+static void draw(Drawn *drawn, const char *canvas, const char *inside) {
+    char script[8000];
+    snprintf(script, sizeof script, "!window size=60;60\n    !canvas %s\n%s", canvas, inside);
+    drawn_open(drawn, script, 1);
+    assert_string_equal(drawn->told, "");
+}
+
+static void check_pixel(const Drawn *drawn, int x, int y, const double c[3], const char *what) {
+    for (int k = 0; k < 3; k++) {
+        int wanted = (int)lround(255 * fmin(fmax(c[k], 0), 1));
+        if (abs(drawn_byte(drawn, x, y, k) - wanted) > 2)
+            fail_msg("%s: channel %d at %d;%d is %d, not %d", what, k, x, y, drawn_byte(drawn, x, y, k), wanted);
+    }
+}
+
+// 4: the blend modes, of colours that are not multiplied by alpha. As W3C's Compositing and Blending 1 has them.
+typedef struct Blending {
+    const char *word;
+    double (*of)(double s, double d); // B(Cb, Cs); NULL: the factors count
+    double fs[3];                     // of s: a + b·dₐ; of d: likewise by sₐ
+    double fd[3];
+} Blending;
+
+static double multiply(double s, double d) {
+    return s * d;
+}
+static double screen(double s, double d) {
+    return 1 - (1 - s) * (1 - d);
+}
+static double hard(double s, double d) {
+    return s <= 0.5 ? multiply(2 * s, d) : screen(2 * s - 1, d);
+}
+static double overlay(double s, double d) {
+    return hard(d, s);
+}
+static double darken(double s, double d) {
+    return s < d ? s : d;
+}
+static double lighten(double s, double d) {
+    return s > d ? s : d;
+}
+static double dodge(double s, double d) {
+    return d == 0 ? 0 : s == 1 ? 1 : fmin(1, d / (1 - s));
+}
+static double burn(double s, double d) {
+    return d == 1 ? 1 : s == 0 ? 0 : 1 - fmin(1, (1 - d) / s);
+}
+static double soft(double s, double d) {
+    double g = d <= 0.25 ? ((16 * d - 12) * d + 4) * d : sqrt(d);
+    return s <= 0.5 ? d - (1 - 2 * s) * d * (1 - d) : d + (2 * s - 1) * (g - d);
+}
+static double difference(double s, double d) {
+    return fabs(s - d);
+}
+static double exclusion(double s, double d) {
+    return s + d - 2 * s * d;
+}
+
+static const Blending blendings[] = {
+    {"clear", NULL, {0, 0}, {0, 0}},   {"source", NULL, {1, 0}, {0, 0}},     {"dest", NULL, {0, 0}, {1, 0}},
+    {"over", NULL, {1, 0}, {1, -1}},   {"dest_over", NULL, {1, -1}, {1, 0}}, {"in", NULL, {0, 1}, {0, 0}},
+    {"dest_in", NULL, {0, 0}, {0, 1}}, {"out", NULL, {1, -1}, {0, 0}},       {"dest_out", NULL, {0, 0}, {1, -1}},
+    {"atop", NULL, {0, 1}, {1, -1}},   {"dest_atop", NULL, {1, -1}, {0, 1}}, {"xor", NULL, {1, -1}, {1, -1}},
+    {"add", NULL, {1, 0}, {1, 0}},     {"multiply", multiply, {0}, {0}},     {"screen", screen, {0}, {0}},
+    {"overlay", overlay, {0}, {0}},    {"darken", darken, {0}, {0}},         {"lighten", lighten, {0}, {0}},
+    {"color_dodge", dodge, {0}, {0}},  {"color_burn", burn, {0}, {0}},       {"hard_light", hard, {0}, {0}},
+    {"soft_light", soft, {0}, {0}},    {"difference", difference, {0}, {0}}, {"exclusion", exclusion, {0}, {0}},
+};
+
+// Of colours with alpha, the last of the four; multiplied by it.
+static void blend(const Blending *how, const double s[4], const double d[4], double out[4]) {
+    for (int k = 0; k < 4; k++) {
+        double cs = k < 3 ? s[k] * s[3] : s[3], cd = k < 3 ? d[k] * d[3] : d[3];
+        if (!how->of)
+            out[k] = cs * (how->fs[0] + how->fs[1] * d[3]) + cd * (how->fd[0] + how->fd[1] * s[3]);
+        else
+            out[k] = k == 3 ? s[3] + d[3] - s[3] * d[3]
+                            : cs * (1 - d[3]) + cd * (1 - s[3]) + s[3] * d[3] * how->of(s[k], d[k]);
+    }
+}
+
+static const double above[4] = {0.9, 0.35, 0.2, 0.7}, below[4] = {0.3, 0.6, 0.95, 0.8};
+
+// On canvases of bytes and of floats, whole pixels and half of one; and as filters.
+static void test_modes(void **state) {
+    (void)state;
+    static const char *const canvases[] = {"", "linear=true", "linear=true colorbits=32", "linear=true colorbits=16"};
+    for (size_t i = 0; i < COUNT_OF(blendings) * COUNT_OF(canvases); i++) {
+        const Blending *how = &blendings[i % COUNT_OF(blendings)];
+        const char *canvas = canvases[i / COUNT_OF(blendings)];
+        char inside[1000];
+        double out[4], whole[3], half[3], cover = 0.5;
+        Drawn drawn;
+        snprintf(inside, sizeof inside,
+                 "        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n"
+                 "        !rect point=10;10 size=20.5;20 fill=true color=0.9;0.35;0.2;0.7 composite=:%s\n",
+                 how->word);
+        draw(&drawn, canvas, inside);
+        blend(how, above, below, out);
+        for (int k = 0; k < 3; k++) {
+            whole[k] = out[k];
+            half[k] = cover * out[k] + (1 - cover) * below[k] * below[3];
+            if (*canvas) {
+                // Steps of bytes in linear light are seen as larger ones.
+                whole[k] = model_enc(out[k]);
+                half[k] = model_enc(half[k]);
+            }
+        }
+        bool bytes = strcmp(canvas, "linear=true") == 0;
+        if (!bytes) {
+            check_pixel(&drawn, 20, 20, whole, how->word);
+            check_pixel(&drawn, 30, 20, half, how->word);
+        } else {
+            for (int k = 0; k < 3; k++) {
+                double light = model_lin(drawn_byte(&drawn, 20, 20, k) / 255.0);
+                assert_true(fabs(light - fmin(fmax(out[k], 0), 1)) < 2.0 / 255);
+            }
+        }
+        drawn_close(&drawn);
+    }
+}
+
+// 6: `blend` as a filter: first d, second s.
+static void test_filter_blend(void **state) {
+    (void)state;
+    for (size_t i = 0; i < COUNT_OF(blendings); i++) {
+        const Blending *how = &blendings[i];
+        char inside[1000];
+        double out[4];
+        Drawn drawn;
+        snprintf(inside, sizeof inside,
+                 "        !blend mode=:%s\n            !source\n            !paint color=0.9;0.35;0.2;0.7\n"
+                 "        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n",
+                 how->word);
+        draw(&drawn, "", inside);
+        blend(how, above, below, out);
+        for (int k = 0; k < 3; k++)
+            out[k] = fmin(out[k], fmin(out[3], 1));
+        check_pixel(&drawn, 20, 20, out, how->word);
+        drawn_close(&drawn);
+    }
+    // These four mix channels: what Cairo makes of them on a canvas of bytes.
+    static const char *const whole[] = {"hue", "saturation", "color", "luminosity"};
+    for (size_t i = 0; i < 2 * COUNT_OF(whole); i++) {
+        const char *word = whole[i / 2], *s = i % 2 ? "1;0.9;0.1" : "0.1;0.35;0.9";
+        char inside[1000];
+        Drawn drawn;
+        snprintf(
+            inside, sizeof inside,
+            "        !group\n            !blend mode=:%s\n                !source\n                !paint color=%s\n"
+            "            !rect size=30;60 fill=true color=0.95;0.6;0.3\n"
+            "        !rect point=30;0 size=30;60 fill=true color=0.95;0.6;0.3\n"
+            "        !rect point=30;0 size=30;60 fill=true color=%s composite=:%s\n",
+            word, s, s, word);
+        draw(&drawn, "", inside);
+        double right[3];
+        for (int k = 0; k < 3; k++)
+            right[k] = drawn_byte(&drawn, 45, 20, k) / 255.0;
+        check_pixel(&drawn, 15, 20, right, word);
+        drawn_close(&drawn);
+    }
+    static const struct {
+        const char *attrs;
+        double k[4];
+    } sums[] = {{"ratio=0.25", {0, 0.75, 0.25, 0}},
+                {"coefficients=0.5;0.25;0.4;-0.05", {0.5, 0.25, 0.4, -0.05}},
+                {"coefficients=0;1;1;0.5", {0, 1, 1, 0.5}}};
+    for (size_t i = 0; i < COUNT_OF(sums); i++) {
+        char inside[1000];
+        double out[4];
+        Drawn drawn;
+        snprintf(inside, sizeof inside,
+                 "        !blend %s\n            !source\n            !paint color=0.9;0.35;0.2;0.7\n"
+                 "        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n",
+                 sums[i].attrs);
+        draw(&drawn, "", inside);
+        for (int c = 3; c >= 0; c--) {
+            double s = c < 3 ? above[c] * above[3] : above[3], d = c < 3 ? below[c] * below[3] : below[3];
+            out[c] = sums[i].k[0] * s * d + sums[i].k[1] * s + sums[i].k[2] * d + sums[i].k[3];
+            out[c] = fmin(fmax(out[c], 0), c == 3 ? 1 : out[3]);
+        }
+        check_pixel(&drawn, 20, 20, out, sums[i].attrs);
+        drawn_close(&drawn);
+    }
+}
+
+// 6.2, and matrices as they stand there.
+static void test_color_matrix(void **state) {
+    (void)state;
+    static const struct {
+        const char *attrs;
+        double m[4][5];
+        double bcs[3]; // if the matrix is 0
+    } cases[] = {
+        {"matrix=0;1;0;0;0;0;0;1;0;0.1;1;0;0;0;0;0;0;0.5;0.5;0",
+         {{0, 1, 0, 0, 0}, {0, 0, 1, 0, 0.1}, {1, 0, 0, 0, 0}, {0, 0, 0.5, 0.5, 0}},
+         {0}},
+        {"red=0.5;0.5;0;0;0.1 alpha=0;0;0;2;-0.5 saturation=0 scale=3",
+         {{0.5, 0.5, 0, 0, 0.1}, {0, 1, 0, 0, 0}, {0, 0, 1, 0, 0}, {0, 0, 0, 2, -0.5}},
+         {0}},
+        {"scale=0.5;1;2 offset=0.2;-0.1;0 contrast=3",
+         {{0.5, 0, 0, 0, 0.2}, {0, 1, 0, 0, -0.1}, {0, 0, 2, 0, 0}, {0, 0, 0, 1, 0}},
+         {0}},
+        {"offset=0.1", {{1, 0, 0, 0, 0.1}, {0, 1, 0, 0, 0.1}, {0, 0, 1, 0, 0.1}, {0, 0, 0, 1, 0}}, {0}},
+        {"brightness=0.1 contrast=1.5 saturation=0.4", {{0}}, {0.1, 1.5, 0.4}},
+        {"saturation=0", {{0}}, {0, 1, 0}},
+        {"contrast=0.5", {{0}}, {0, 0.5, 1}},
+        {"", {{0}}, {0, 1, 1}},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char inside[1000];
+        double out[4], one[5] = {below[0], below[1], below[2], below[3], 1};
+        Drawn drawn;
+        snprintf(inside, sizeof inside,
+                 "        !color_matrix %s\n        !rect size=60 fill=true color=0.3;0.6;0.95;0.8\n", cases[i].attrs);
+        draw(&drawn, "", inside);
+        for (int row = 0; row < 4; row++) {
+            const double *bcs = cases[i].bcs;
+            out[row] = 0;
+            for (int k = 0; k < 5; k++)
+                out[row] += cases[i].m[row][k] * one[k];
+            if (bcs[1] > 0) // the other form
+                out[row] =
+                    row == 3 ? one[3]
+                             : bcs[1] * (bcs[2] * one[row] + (1 - bcs[2]) * model_lum(one)) + bcs[0] + (1 - bcs[1]) / 2;
+            out[row] = fmin(fmax(out[row], 0), 1);
+        }
+        for (int k = 0; k < 3; k++)
+            out[k] *= out[3];
+        check_pixel(&drawn, 20, 20, out, cases[i].attrs);
+        drawn_close(&drawn);
+    }
+}
+
+// A bar from 20 to 40, blurred: the difference of two error functions; narrow and wide ones.
+static void test_blur(void **state) {
+    (void)state;
+    static const double sigmas[] = {0.5, 1, 3, 7.9, 8.1, 12, 20, 40};
+    for (size_t i = 0; i < COUNT_OF(sigmas); i++)
+        for (int across = 0; across < 2; across++) {
+            char inside[1000];
+            Drawn drawn;
+            snprintf(inside, sizeof inside,
+                     "        !blur radius=%s%g%s\n        !rect point=%s size=%s fill=true color=1\n",
+                     across ? "0;" : "", sigmas[i], across ? "" : ";0", across ? "-500;20" : "20;-500",
+                     across ? "1000;20" : "20;1000");
+            draw(&drawn, "", inside);
+            for (int x = 0; x < 60; x++) {
+                double at = x + 0.5, part = sigmas[i] * sqrt(2);
+                double light = (erf((at - 20) / part) - erf((at - 40) / part)) / 2;
+                // A pixel is a box, and so is what a small blur reaches: it is compared as a sum over pixels.
+                if (sigmas[i] < 2) {
+                    double sum = 0, all = 0;
+                    for (int k = -10; k <= 10; k++) {
+                        double weight = exp(-k * k / (2 * sigmas[i] * sigmas[i]));
+                        all += weight;
+                        sum += x + k >= 20 && x + k < 40 ? weight : 0;
+                    }
+                    light = sum / all;
+                }
+                check_pixel(&drawn, across ? 30 : x, across ? x : 30, (double[]){light, light, light}, inside);
+            }
+            drawn_close(&drawn);
+        }
+}
+
+// Shadows: blurred, moved, beneath; boxes that grow and shrink.
+static void test_other_filters(void **state) {
+    (void)state;
+    Drawn drawn;
+    draw(&drawn, "",
+         "        !shadow radius=6;0 offset=10;4 color=0;1;0;0.5\n"
+         "        !rect point=10;-500 size=20;530 fill=true color=1;0;0\n");
+    for (int x = 0; x < 60; x++) {
+        double part = 6 * sqrt(2), at = x + 0.5 - 10;
+        double shade = 0.5 * (erf((at - 10) / part) - erf((at - 30) / part)) / 2;
+        bool covered = x >= 10 && x < 30;
+        check_pixel(&drawn, x, 20, (double[]){covered, covered ? 0 : shade, 0}, "shadow");
+        check_pixel(&drawn, x, 32, (double[]){0, shade, 0}, "shadow below");
+        check_pixel(&drawn, x, 36, (double[]){0, 0, 0}, "no shadow");
+    }
+    drawn_close(&drawn);
+    for (int grows = 0; grows < 2; grows++)
+        for (int r = 1; r < 9; r++) {
+            char inside[300];
+            int by = grows ? r : -r;
+            snprintf(inside, sizeof inside,
+                     "        !%s radius=%d;2\n        !rect point=20;20 size=17;20 fill=true color=0.2;0.4;1\n",
+                     grows ? "dilate" : "erode", r);
+            draw(&drawn, "", inside);
+            for (int x = 0; x < 60; x++) {
+                int high = grows ? 2 : -2, y = 20 - high;
+                double on = x >= 20 - by && x < 37 + by;
+                check_pixel(&drawn, x, 30, (double[]){0.2 * on, 0.4 * on, on}, inside);
+                check_pixel(&drawn, x, y, (double[]){0.2 * on, 0.4 * on, on}, inside);
+                check_pixel(&drawn, x, y - 1, (double[]){0, 0, 0}, inside);
+            }
+            drawn_close(&drawn);
+        }
+}
+
+// 1.5: light that is added does not end at 1; a layer halves it, a picture of it keeps it.
+static void test_wide(void **state) {
+    (void)state;
+    static const char script[] = "!window size=60;60 alpha=0.125\n"
+                                 "    !canvas linear=true colorbits=%d\n"
+                                 "        !group composite=:add\n"
+                                 "            for i in ..1000\n"
+                                 "                !rect point=10;10 size=20.5;20 fill=true color=0.004;0.0005;0.002;1\n"
+                                 "        !layer size=60;60 alpha=0.5\n"
+                                 "            !rect point=40;10 size=10 fill=true color=4;8;12\n"
+                                 "            !blur radius=0.01\n"
+                                 "            !rect point=40;30 size=10 fill=true color=4;8;12\n";
+    for (int bits = 16; bits <= 32; bits += 16) {
+        char text[1000];
+        Drawn drawn;
+        snprintf(text, sizeof text, script, bits);
+        drawn_open(&drawn, text, 1);
+        assert_string_equal(drawn.told, "");
+        check_pixel(&drawn, 20, 20, (double[]){model_enc(0.5), model_enc(0.0625), model_enc(0.25)}, "added");
+        // An edge of half a pixel: 128/255 of it each time.
+        double k = 128.0 / 255;
+        check_pixel(&drawn, 30, 20, (double[]){model_enc(0.5 * k), model_enc(0.0625 * k), model_enc(0.25 * k)}, "half");
+        double alpha = floor(255 * 0.5) / 255 * 0.125;
+        for (int y = 15; y < 40; y += 20)
+            check_pixel(&drawn, 45, y, (double[]){model_enc(4 * alpha), model_enc(8 * alpha), model_enc(12 * alpha)},
+                        "layer");
+        drawn_close(&drawn);
+    }
+}
+
+// 5.5: the noise of SVG's feTurbulence, as Filter Effects 1 describes it.
+typedef struct Turbulence {
+    int lattice[514];
+    double gradient[4][514][2];
+} Turbulence;
+
+static long turbulence_random(long seed) {
+    long result = 16807 * (seed % 127773) - 2836 * (seed / 127773);
+    return result <= 0 ? result + 2147483647 : result;
+}
+
+static void turbulence_init(Turbulence *t, long seed) {
+    if (seed <= 0)
+        seed = -(seed % 2147483646) + 1;
+    for (int k = 0; k < 4; k++)
+        for (int i = 0; i < 256; i++) {
+            t->lattice[i] = i;
+            for (int j = 0; j < 2; j++) {
+                seed = turbulence_random(seed);
+                t->gradient[k][i][j] = (double)((seed % 512) - 256) / 256;
+            }
+            double s = hypot(t->gradient[k][i][0], t->gradient[k][i][1]);
+            t->gradient[k][i][0] /= s;
+            t->gradient[k][i][1] /= s;
+        }
+    for (int i = 255; i > 0; i--) {
+        seed = turbulence_random(seed);
+        int j = (int)(seed % 256), kept = t->lattice[i];
+        t->lattice[i] = t->lattice[j];
+        t->lattice[j] = kept;
+    }
+    for (int i = 0; i < 258; i++) {
+        t->lattice[256 + i] = t->lattice[i];
+        for (int k = 0; k < 4; k++)
+            memcpy(t->gradient[k][256 + i], t->gradient[k][i], sizeof t->gradient[k][i]);
+    }
+}
+
+// `wrap`: cells of a tile in this octave; 0: none.
+static double turbulence_noise(const Turbulence *t, int channel, double x, double y, const int wrap[2]) {
+    double at[2] = {x + 4096, y + 4096}, r0[2], r1[2];
+    int b0[2], b1[2];
+    for (int k = 0; k < 2; k++) {
+        b0[k] = (int)at[k];
+        b1[k] = b0[k] + 1;
+        r0[k] = at[k] - b0[k];
+        r1[k] = r0[k] - 1;
+        if (wrap[k] > 0) {
+            b0[k] -= b0[k] >= 4096 + wrap[k] ? wrap[k] * ((b0[k] - 4096) / wrap[k]) : 0;
+            b1[k] -= b1[k] >= 4096 + wrap[k] ? wrap[k] * ((b1[k] - 4096) / wrap[k]) : 0;
+        }
+        b0[k] &= 255;
+        b1[k] &= 255;
+    }
+    int i = t->lattice[b0[0]], j = t->lattice[b1[0]];
+    const double *g00 = t->gradient[channel][t->lattice[i + b0[1]]], *g10 = t->gradient[channel][t->lattice[j + b0[1]]];
+    const double *g01 = t->gradient[channel][t->lattice[i + b1[1]]], *g11 = t->gradient[channel][t->lattice[j + b1[1]]];
+    double sx = r0[0] * r0[0] * (3 - 2 * r0[0]), sy = r0[1] * r0[1] * (3 - 2 * r0[1]);
+    double u = r0[0] * g00[0] + r0[1] * g00[1], v = r1[0] * g10[0] + r0[1] * g10[1], a = u + sx * (v - u);
+    u = r0[0] * g01[0] + r1[1] * g01[1], v = r1[0] * g11[0] + r1[1] * g11[1];
+    double b = u + sx * (v - u);
+    return a + sy * (b - a);
+}
+
+static void test_noise(void **state) {
+    (void)state;
+    static Turbulence t;
+    static const struct {
+        const char *attrs;
+        double frequency[2];
+        int octaves;
+        long seed;
+        int wrap[2];
+        bool folded;
+    } cases[] = {
+        {"frequency=0.1", {0.1, 0.1}, 8, 0, {0, 0}, false},
+        {"frequency=0.05;0.2 octaves=3 seed=7", {0.05, 0.2}, 3, 7, {0, 0}, false},
+        {"frequency=0.07 octaves=4 seed=-3 type=:turbulence", {0.07, 0.07}, 4, -3, {0, 0}, true},
+        // 20 units have 2.6 waves: 3 are nearer by their ratio; 30 have 3.9, so 4.
+        {"frequency=0.13 octaves=2 seed=2 size=20;30", {3 / 20.0, 4 / 30.0}, 2, 2, {3, 4}, false},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char inside[300];
+        Drawn drawn;
+        snprintf(
+            inside, sizeof inside,
+            "        !noise %s\n        !transform translate=3;-2\n            !rect point=-3;2 size=60 fill=true\n",
+            cases[i].attrs);
+        draw(&drawn, "", inside);
+        turbulence_init(&t, cases[i].seed);
+        for (int p = 0; p < 3600; p += 7) {
+            double c[4];
+            double x = p % 60 + 0.5 - 3, y = p / 60 + 0.5 + 2;
+            if (x < 0 && cases[i].wrap[0]) // the page tells nothing of what is left of the first tile
+                continue;
+            for (int k = 0; k < 4; k++) {
+                double sum = 0;
+                for (int octave = 0; octave < cases[i].octaves; octave++) {
+                    int by = 1 << octave, wrap[2] = {cases[i].wrap[0] * by, cases[i].wrap[1] * by};
+                    double noise =
+                        turbulence_noise(&t, k, x * cases[i].frequency[0] * by, y * cases[i].frequency[1] * by, wrap);
+                    sum += (cases[i].folded ? fabs(noise) : noise) / by;
+                }
+                c[k] = fmin(fmax(cases[i].folded ? sum : (sum + 1) / 2, 0), 1);
+            }
+            check_pixel(&drawn, p % 60, p / 60, (double[]){c[0] * c[3], c[1] * c[3], c[2] * c[3]}, cases[i].attrs);
+        }
+        drawn_close(&drawn);
+    }
+}
+
+// Whether the middle of a pixel is covered.
+static bool is_on(const Drawn *drawn, int x, int y) {
+    return drawn_byte(drawn, x, y, 0) > 127;
+}
+
+// 3.3: of the two circles of radius 20 through 20;30 and 40;30 that are left or right, above or below.
+static void test_arc_to(void **state) {
+    (void)state;
+    for (int which = 0; which < 4; which++) {
+        bool large = which & 1, ccw = which & 2;
+        char inside[300];
+        Drawn drawn;
+        snprintf(inside, sizeof inside,
+                 "        !path\n            !move_to point=20;30\n"
+                 "            !arc_to point=40;30 radius=15;30 large=%s ccw=%s\n            !fill color=1\n",
+                 large ? "true" : "false", ccw ? "true" : "false");
+        draw(&drawn, "", inside);
+        // Clockwise, from left to right, one goes over the top; the middle is below if that is the smaller part.
+        double half = sqrt(1 - 100.0 / 225) * 30, middle = 30 + (large == ccw ? half : -half) * 1;
+        for (int p = 0; p < 3600; p++) {
+            double x = p % 60 + 0.5, y = p / 60 + 0.5;
+            double far = hypot((x - 30) / 15, (y - middle) / 30);
+            bool side = ccw ? y > 30 : y < 30;
+            if (fabs(far - 1) > 0.05 && fabs(y - 30) > 1)
+                assert_int_equal(is_on(&drawn, p % 60, p / 60), far < 1 && side);
+        }
+        drawn_close(&drawn);
+    }
+}
+
+// 7: the curve of a corner, points moved by a matrix, dashes beneath other effects.
+static void test_path_effects(void **state) {
+    (void)state;
+    Drawn drawn;
+    draw(&drawn, "", "        !round_corners radius=16\n        !rect point=10;10 size=40;40 fill=true color=1\n");
+    for (int p = 0; p < 3600; p++) {
+        double x = fmin(p % 60 + 0.5 - 10, 50 - (p % 60 + 0.5)) / 16,
+               y = fmin(p / 60 + 0.5 - 10, 50 - (p / 60 + 0.5)) / 16;
+        if (x < 0 || y < 0) {
+            assert_false(is_on(&drawn, p % 60, p / 60));
+            continue;
+        }
+        // The quadratic from (0, 1) by (0, 0) to (1, 0): √x + √y = 1.
+        double along = sqrt(x) + sqrt(y);
+        if (fabs(along - 1) > 0.08)
+            assert_int_equal(is_on(&drawn, p % 60, p / 60), along > 1);
+    }
+    drawn_close(&drawn);
+    draw(&drawn, "",
+         "        !path_matrix matrix=0;-1;40;2;0;5;0;0;1\n        !rect point=5;10 size=20;10 fill=true color=1\n");
+    for (int p = 0; p < 3600; p++) // x' = 40 − y, y' = 2x + 5
+        assert_int_equal(is_on(&drawn, p % 60, p / 60), p % 60 >= 20 && p % 60 < 30 && p / 60 >= 15 && p / 60 < 55);
+    drawn_close(&drawn);
+    draw(&drawn, "",
+         "        !path_matrix scale=2;1 rotate=0.25 translate=50;5\n            !dash intervals=6;4 offset=2\n"
+         "        !line points=0;20;20;20 stroke=true stroke_width=4 color=1\n");
+    for (int y = 0; y < 60; y++) { // along x: dashes 0 to 4, 8 to 14, 18 to 20; twice as long, and down
+        double x = (y + 0.5 - 5) / 2;
+        bool on = x > 0 && x < 20 && (x < 4 || (x > 8 && x < 14) || x > 18);
+        assert_int_equal(is_on(&drawn, 30, y), on);
+        assert_int_equal(is_on(&drawn, 29, y), on);
+        assert_false(is_on(&drawn, 26, y));
+    }
+    drawn_close(&drawn);
+}
+
+// Jitter: within its deviation, not on the line, the same in each frame, another one with another seed.
+static void test_jitter(void **state) {
+    (void)state;
+    uint32_t *seen[2];
+    for (int i = 0; i < 2; i++) {
+        char inside[300];
+        Drawn drawn;
+        snprintf(inside, sizeof inside,
+                 "        !jitter length=3 deviation=5 seed=%d\n        !line points=-5;30;65;30 stroke=true color=1 "
+                 "stroke_width=2\n",
+                 i);
+        draw(&drawn, "", inside);
+        int off = 0;
+        for (int p = 0; p < 3600; p++) {
+            int from = abs(p / 60 - 30);
+            assert_false(is_on(&drawn, p % 60, p / 60) && from > 8);
+            off += is_on(&drawn, p % 60, p / 60) && from > 2;
+        }
+        assert_true(off > 20);
+        size_t bytes = (size_t)drawn.width * (size_t)drawn.height * sizeof(uint32_t);
+        seen[i] = malloc(bytes);
+        memcpy(seen[i], drawn.pixels, bytes);
+        drawn_next(&drawn);
+        assert_memory_equal(seen[i], drawn.pixels, bytes);
+        drawn_close(&drawn);
+    }
+    assert_true(memcmp(seen[0], seen[1], 3600 * sizeof(uint32_t)) != 0);
+    free(seen[0]);
+    free(seen[1]);
+}
+
+// What takes more memory than the script may have is left out or drawn plainly, is told once, and the rest is there, in
+// each frame; nothing of what was taken stays taken.
+static void test_memory(void **state) {
+    (void)state;
+    static const struct {
+        const char *script; // after a green square at the left; before a blue one at the right
+        const char *told;
+        int red; // of the middle
+    } cases[] = {
+        {"        !group\n            !blur radius=9\n            !rect point=1000;0 size=1000;3000 fill=true "
+         "color=1;0;0\n",
+         "5 [memory-limit] drawing takes more memory than a script may have (--memory); this is drawn without a "
+         "filter\n",
+         255},
+        {"        !group\n            !layer size=3000;3000 alpha=0.5\n                !layer size=3000;3000\n"
+         "                    !rect point=1000;0 size=1000;3000 fill=true color=1;0;0\n",
+         "6 [memory-limit] drawing takes more memory than a script may have (--memory); this is drawn without the "
+         "layer\n",
+         127},
+        {"        !blend ratio=0.5\n            !paint color=1;0;0\n            !paint color=0;1;0\n"
+         "        !rect point=1000;0 size=1000;3000 fill=true color=1;0;0\n        !color color=0\n"
+         "    !canvas size=9000;9000\n        !rect size=9000 fill=true\n    !canvas size=3000\n",
+         "4 [memory-limit] drawing takes more memory than a script may have (--memory); this is drawn without a "
+         "filter\n"
+         "9 [memory-limit] !canvas: a picture of 9000 x 9000 pixels takes more memory than a script may have "
+         "(--memory); "
+         "it is left out\n",
+         255},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char script[2000];
+        Drawn drawn;
+        snprintf(script, sizeof script,
+                 "!window size=60;60\n    !canvas size=3000;3000\n"
+                 "        !rect size=1000;3000 fill=true color=0;1;0\n%s"
+                 "        !rect point=2000;0 size=1000;3000 fill=true color=0;0;1\n",
+                 cases[i].script);
+        drawn_open_with(&drawn, script, i == 0 ? 3 : 1, 100 << 20); // the frame before is kept, too
+        assert_string_equal(drawn.told, cases[i].told);
+        check_pixel(&drawn, 10, 30, (double[]){0, 1, 0}, "before");
+        check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
+        assert_true(abs(drawn_byte(&drawn, 30, 30, 0) - cases[i].red) <= 2);
+        drawn_close(&drawn);
+    }
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_modes),  cmocka_unit_test(test_filter_blend),  cmocka_unit_test(test_color_matrix),
+        cmocka_unit_test(test_blur),   cmocka_unit_test(test_other_filters), cmocka_unit_test(test_wide),
+        cmocka_unit_test(test_noise),  cmocka_unit_test(test_arc_to),        cmocka_unit_test(test_path_effects),
+        cmocka_unit_test(test_jitter), cmocka_unit_test(test_memory),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

@@ -1,0 +1,131 @@
+// test_scene_faults.c: what is wrong in a scene is told once for each place, and the rest is drawn.
+#include "drawn.h"
+
+#include <unistd.h>
+
+// A red ball in the middle of the picture, which is to be seen whatever else is there.
+#define BALL                                                                                                           \
+    "!window size=64;64\n"                                                                                             \
+    "    !canvas3d id=:me viewpoint=0;0;4 near=0.1 far=9\n"                                                            \
+    "        !light color=1\n"                                                                                         \
+    "        !sphere color=1;0;0\n"
+
+static const char *const files[][2] = {
+    {"hole.obj", "v 0 0 0\nv 1 0 0\n\nf 1 2 3\n"},
+    {"cut.stl", "solid cut\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0\n"},
+    {"empty.stl", "solid empty\nendsolid empty\n"},
+    {"damaged.png", "\x89PNG\r\n\x1a\nno picture"},
+};
+
+typedef struct Row {
+    const char *name;
+    const char *script; // after BALL
+    const char *told;   // NULL: that a file cannot be read
+} Row;
+
+static const Row rows[] = {
+    {"missing models", "        !model filename='none.obj' color=1\n        !model filename='none.stl' color=1\n",
+     "5 [cannot-read] !model: cannot read 'none.obj': No such file or directory\n"
+     "6 [cannot-read] !model: cannot read 'none.stl': No such file or directory\n"},
+    {"damaged models",
+     "        for i in ..3\n            !model filename='hole.obj' color=1 position=i\n"
+     "        !model filename='cut.stl' color=1\n        !model filename='empty.stl' color=1\n",
+     "6 [cannot-read] !model: hole.obj:4: a face has a vertex that is not there\n"
+     "7 [cannot-read] !model: cut.stl:5: vertex is followed by three numbers, and each loop has three of them\n"
+     "8 [cannot-read] !model: cannot read 'empty.stl': it has no triangles\n"},
+    {"models of bad numbers",
+     "        !model vertices=0;0;0;1;0;0;0;1;0 faces=0;1;3 color=1\n        !model vertices=0;0;0 color=1\n"
+     "        !model vertices=1;2 faces=0;1;2 color=1\n",
+     "5 [bad-model] !model: faces has a number that is none of a vertex\n"
+     "6 [bad-model] !model: vertices need faces: numbers of three vertices each\n"
+     "7 [bad-model] !model: vertices and faces are three numbers each, uv is two for each vertex\n"},
+    {"textures that are not there", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
+    {"textures in circles",
+     "        !camera id=:a secondary=true size=32;32\n        !camera id=:b secondary=true size=32;32\n"
+     "        !box position=-1.5;0;0 color=1 color_id=:me\n        !box position=-1.5;1;0 color=1 color_id=:a\n"
+     "        !box position=1.5;0;0 color=1 color_id=:b emissive_id=:a transparency_id=:me\n",
+     ""},
+    {"cameras beyond all sizes",
+     "        !camera id=:a secondary=true size=100000;4\n        !camera id=:b secondary=true size=0;4\n",
+     "5 [bad-size] !camera: a picture can have 1 to 16384 pixels in width and height\n"
+     "6 [bad-size] !camera: a picture can have 1 to 16384 pixels in width and height\n"},
+    {"a scene beyond all sizes", "    !canvas3d size=4;100000\n        !light color=1\n",
+     "5 [bad-size] !canvas3d: a picture can have 1 to 16384 pixels in width and height\n"},
+    {"nan and infinity in places",
+     "        !group translate=0/0 rotate=1/0 shear_x=0/0\n            !box position=3;0;0 size=0/0 rotation=1/0\n",
+     "5 [bad-attribute] !group: translate should be one number or three, not nan\n"
+     "5 [bad-attribute] !group: rotate should be numbers, not inf\n"
+     "5 [bad-attribute] !group: shear_x should be one number or two, not nan\n"
+     "6 [bad-attribute] !box: size should be one number or three, not nan\n"
+     "6 [bad-attribute] !box: rotation should be one number or three, not inf\n"},
+    {"nan and infinity in lights",
+     "        !light color=0/0\n        !light color=1e-9 position=0/0 direction=1/0 radius=0/0 falloff=0/0\n",
+     "5 [bad-attribute] !light: color should be one number or three, not nan\n"
+     "6 [bad-attribute] !light: position should be one number or three, not nan\n"
+     "6 [bad-attribute] !light: direction should be one number or three, not inf\n"
+     "6 [bad-attribute] !light: radius should be number, not nan\n"
+     "6 [bad-attribute] !light: falloff should be one number or four, not nan\n"},
+    {"numbers beyond what the GPU has",
+     "        !transform scale=1e300 translate=1e300 rotate_x=1e300 shear_y=1e300 matrix=1e200\n"
+     "            !sphere size=1e300 position=1e300 color=1e300 emissive=-1e300 translucency=1e300\n"
+     "        !sphere position=1.5;0;0 size=1e-300 color=1 translucency=1e-300\n"
+     "        !cone start=0 end=1e300 radius=1e-300\n        !cylinder start=1e300 end=-1e300\n"
+     "        !light color=1e-30 position=1e300 radius=1e300\n        !light color=1e-9 start=-1e300 end=1e300\n"
+     "        !camera id=:c secondary=true size=16;16 position=1e300 focus=-1e300 up=0 near=-1 far=-1 fov=7 "
+     "fog_max=1e300 "
+     "fog_curve=-1 width=0 orthographic=true samples=1e9\n",
+     ""},
+    {"too many segments", "        !sphere segments=5000 position=1.5;0;0 size=0.1 color=1\n",
+     "5 [too-many-segments] !sphere: more than 1024 segments count as 1024\n"},
+    {"damaged images",
+     "        !box position=1.5;0;0 color=1 color_id=:hurt\n    !image id=:hurt filename='damaged.png' hidden=true\n"
+     "    !image filename='none.png' hidden=true\n",
+     NULL},
+    {"nodes that nobody knows", "        !sphere3 color=1\n            !sphere color=0;1;0\n        !rect size=1\n",
+     "5 ["},
+};
+
+static void test_rows(void **state) {
+    (void)state;
+    for (size_t i = 0; i < sizeof rows / sizeof *rows; i++) {
+        char script[4000];
+        Drawn drawn;
+        snprintf(script, sizeof script, "%s%s", BALL, rows[i].script);
+        drawn_open(&drawn, script, 3);
+        if (!rows[i].told)
+            snprintf(drawn.told, sizeof drawn.told, "%s", strstr(drawn.told, "[cannot-read]") ? "" : "nothing");
+        size_t length = rows[i].told ? strlen(rows[i].told) : 0;
+        if (length > 0 && rows[i].told[length - 1] != '\n') // how it begins
+            drawn.told[length] = 0;
+        assert_text(rows[i].name, drawn.told, rows[i].told ? rows[i].told : "");
+        assert_claim(rows[i].name, drawn_byte(&drawn, 32, 32, 0) > 200);
+        assert_claim(rows[i].name, drawn_byte(&drawn, 32, 32, 1) < 100);
+        drawn_close(&drawn);
+    }
+}
+
+static int begin(void **state) {
+    static char folder[] = "/tmp/petri-faults-XXXXXX";
+    *state = folder;
+    if (!mkdtemp(folder) || chdir(folder) != 0)
+        return 1;
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++) {
+        FILE *file = fopen(files[i][0], "wb");
+        fputs(files[i][1], file);
+        fclose(file);
+    }
+    return 0;
+}
+
+static int end(void **state) {
+    for (size_t i = 0; i < sizeof files / sizeof *files; i++)
+        remove(files[i][0]);
+    return rmdir(*state);
+}
+
+int main(void) {
+    if (!drawn_can_run())
+        return 77;
+    const struct CMUnitTest tests[] = {cmocka_unit_test_setup_teardown(test_rows, begin, end)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
