@@ -10,7 +10,7 @@
 #include <unistd.h>
 
 #include "base/cpu.h"
-#include "cli/bytes.h"
+#include "cli/mail.h"
 #include "petri.h"
 
 // A message on its way, which takes its numbers along.
@@ -21,6 +21,7 @@ typedef struct Sending {
 
 typedef struct Ranks {
     PetriRanks as_options;
+    Mail mail;
     Sending *sendings;
     size_t count;
     size_t room;
@@ -147,6 +148,26 @@ static void find_most(void *host, double *numbers, size_t count) {
     }
 }
 
+enum { NUMBERS, LETTER }; // tags
+
+static void send_letter(int to, const void *bytes, size_t length) {
+    MPI_Send(bytes, (int)length, MPI_BYTE, to, LETTER, MPI_COMM_WORLD);
+}
+
+static bool take_letter(int *from, Bytes *letter) {
+    int there = 0, length = 0;
+    MPI_Status status;
+    MPI_Iprobe(MPI_ANY_SOURCE, LETTER, MPI_COMM_WORLD, &there, &status);
+    if (there) {
+        MPI_Get_count(&status, MPI_BYTE, &length);
+        SCOPED_TEXT bytes = memory_zeroed((size_t)length + 1);
+        MPI_Recv(bytes, length, MPI_BYTE, status.MPI_SOURCE, LETTER, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+        bytes_add(letter, bytes, (size_t)length);
+        *from = status.MPI_SOURCE;
+    }
+    return there;
+}
+
 // All do the same, so what the others would write is there already.
 static void be_quiet(void) {
     int nothing = open("/dev/null", O_RDWR);
@@ -171,6 +192,8 @@ void ranks_begin(Host *host) {
     host->cpu = cpu_name((CpuLevel)least);
     host->ranks = options;
     host->leave_ranks = leave;
+    ranks.mail = (Mail){options->rank, options->count, send_letter, take_letter};
+    host->mail = &ranks.mail;
     if (options->rank > 0) {
         be_quiet();
     }

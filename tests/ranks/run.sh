@@ -1,5 +1,5 @@
 #!/bin/sh
-# run.sh: `mpirun petri run`: the bits of one process, once. usage: tests/ranks/run.sh PATH-OF-PETRI. Skipped without mpirun.
+# run.sh: `mpirun petri run` and `sweep`: the bits of one process, once. usage: tests/ranks/run.sh PATH-OF-PETRI. Skipped without mpirun.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -94,5 +94,38 @@ ranks 2 run - --frames 1
 check "no script on standard input" has err 'under mpirun petri takes no script'
 ranks 2 run stars.fl --realtime --frames 1
 check "no --realtime" has err 'no --realtime'
+
+# --- sweeps: rank 0 deals the runs out
+
+cat >dish.fl <<'END'
+let DROPS=DROPS or 20 SEED=SEED or 1
+!physics state=:drops dimensions=2
+    for i in ..DROPS
+        !particle id=i position=9*normal(:start;SEED)[2*i;2*i+1]
+    !gravity strength=50
+END
+# cells COMMAND...: the words of a sweep behind these.
+# shellcheck disable=SC2016 # dollars are for petri
+cells() { "$@" -D 'DROPS=2..20|3' --seeds 10 --frames 300 --every 150 --metric 'far=sum(hypot($(:drops;i)) for i in ..DROPS)'; }
+cells "$petri" sweep dish.fl --quiet -o one.csv
+cells ranks 3 sweep dish.fl -o three.csv
+check "a sweep ends well" status_is 0
+check "… with the table of one process" same one.csv three.csv
+check "… and its commands" same one.csv.runs three.csv.runs
+check "… which one of them tells" count_is err '70 runs in three.csv, 70 of them' 1
+check "… and nothing else stays" [ "$(echo three.csv*)" = "three.csv three.csv.runs" ]
+cells mpirun -n 3 "$petri" sweep dish.fl -o cut.csv 2>err </dev/null &
+job=$!
+while kill -0 $job 2>/dev/null && [ "$(cat cut.csv.part 2>/dev/null | grep -c '^run ')" -lt 20 ]; do :; done
+kill -9 "$(pgrep -P $job | head -n 1)" 2>/dev/null
+wait $job 2>/dev/null
+cells ranks 2 sweep dish.fl -o cut.csv
+check "cut short, it goes on, on another number of ranks" same one.csv cut.csv
+cat >limit.fl <<'END'
+let A=A or 1
+    LONG=sum(i*i for i in ..A*10000) + frame
+END
+ranks 3 sweep limit.fl -D 'A=1;2;1000;4' --work 5M --frames 2 --metric a=A -o limit.csv
+check "a run that fails is a row, wherever it was made" [ "$(cut -d, -f1-4 limit.csv | tail -n 3 | tr '\n' ' ')" = "2,2,1,2 3,1000,0, 4,4,1,4 " ]
 
 finish
