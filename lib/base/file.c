@@ -142,6 +142,14 @@ bool file_write(int file, const char *bytes, size_t len) {
     return true;
 }
 
+bool file_cut(int file, size_t len) {
+    int result;
+    do
+        result = ftruncate(file, (off_t)len);
+    while (result != 0 && errno == EINTR);
+    return result == 0;
+}
+
 const char *file_replace(const char *path, Str bytes, unsigned flags) {
     Replacement replacement;
     if (!replace_begin(&replacement, path, flags))

@@ -18,6 +18,8 @@ const char *file_replace(const char *path, Str bytes, unsigned flags);
 const char *file_finish(Replacement *replacement, Str bytes);
 // Writes all bytes to an open file; false with errno set.
 bool file_write(int file, const char *bytes, size_t len);
+// Cuts off what comes after the first `len` bytes. False with errno if that fails.
+bool file_cut(int file, size_t len);
 // Where the path leads, without links and dots, even if there is nothing yet; false with errno set if its folder is not
 // there.
 bool file_resolve(const char *path, char resolved[PATH_MAX]);

@@ -11,17 +11,22 @@ typedef struct Sorted {
     double depth;
     uint32_t segments;
     uint32_t instance;
-    uint32_t rank; // of its model and textures; UINT32_MAX: transparent, in a group that sorts
+    uint32_t rank; // of its model and textures
+    bool last;     // transparent, in a group that sorts
     bool disc;     // it can be one
 } Sorted;
 
-// Opaque instances by model, nearest first; then transparent ones, farthest first.
+// Opaque instances by model, nearest first; then transparent ones, farthest first, and equally far ones by model.
 static int compare_sorted(const void *a, const void *b) {
     const Sorted *one = a, *two = b;
-    if (one->rank != two->rank)
+    if (one->last != two->last)
+        return two->last ? -1 : 1;
+    if (!one->last && one->rank != two->rank)
         return one->rank < two->rank ? -1 : 1;
     if (one->depth < two->depth || one->depth > two->depth)
-        return (one->depth < two->depth) == (one->rank != UINT32_MAX) ? -1 : 1;
+        return (one->depth < two->depth) != one->last ? -1 : 1;
+    if (one->rank != two->rank)
+        return one->rank < two->rank ? -1 : 1;
     return one->instance < two->instance ? -1 : one->instance > two->instance;
 }
 
@@ -83,7 +88,8 @@ static bool goes_on(const SceneDraw *draw, const SceneDraw *wanted, bool split) 
            draw->disc == wanted->disc && (draw->segments == wanted->segments || !split);
 }
 
-static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count) {
+static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count,
+                      bool deep) {
     enum { MOST_SPLIT = 2000 }; // a draw takes time, too
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
@@ -92,9 +98,10 @@ static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, co
         const SceneDraw wanted = {.group = number,
                                   .model = instance->model,
                                   .textures = instance->material->textures,
-                                  .transparent = sorted[i].rank == UINT32_MAX,
-                                  .translucent = sorted[i].rank == UINT32_MAX && is_translucent(instance),
+                                  .transparent = sorted[i].last,
+                                  .translucent = sorted[i].last && is_translucent(instance),
                                   .disc = sorted[i].disc,
+                                  .deep = deep,
                                   .first = order->count,
                                   .segments = sorted[i].segments};
         if (!draw || !goes_on(draw, &wanted, order->draw_count < MOST_SPLIT)) {
@@ -150,7 +157,7 @@ typedef struct Sight {
     double scale; // pixels of an edge of 1 at a distance of 1
 } Sight;
 
-// Fills all but `rank`; false if the instance is not seen.
+// Fills all but `rank` and `last`; false if the instance is not seen.
 static bool look_at(const Scene *scene, const SceneGroup *group, const Sight *sight, const SceneBox *box,
                     Sorted *sorted) {
     const SceneInstance *instance = &group->instances[sorted->instance];
@@ -170,16 +177,23 @@ static bool look_at(const Scene *scene, const SceneGroup *group, const Sight *si
     return true;
 }
 
-// Transparent ones are discs where nothing has a depth; all discs of a model are drawn at once.
-static void choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool *deep) {
-    for (uint32_t i = 0; i < count; i++)
-        *deep |= group->look.depth_test &&
-                 (sorted[i].rank != UINT32_MAX || is_translucent(&group->instances[sorted[i].instance]));
+// All discs of a model are drawn at once. Where something has a depth, a few balls are better drawn as such: then each
+// sample of a pixel is compared. Whether anything has left its depth until then.
+static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
+    enum { MANY = 50 };
+    uint32_t discs = 0;
     for (uint32_t i = 0; i < count; i++) {
-        sorted[i].disc &= !*deep && sorted[i].rank == UINT32_MAX;
+        bool translucent = is_translucent(&group->instances[sorted[i].instance]);
+        deep |= group->look.depth_test && (!sorted[i].last || translucent);
+        sorted[i].disc &= sorted[i].last && !translucent;
+        discs += sorted[i].disc;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        sorted[i].disc &= !deep || discs >= MANY;
         if (sorted[i].disc)
             sorted[i].segments = scene->models[group->instances[sorted[i].instance].model].segments;
     }
+    return deep;
 }
 
 SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
@@ -202,7 +216,7 @@ SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, c
             size_t pair = (size_t)instance->model * scene->texture_count + instance->material->textures;
             uint32_t rank = rank_of(&ranks, pair, number);
             Sorted *next = &sorted[count];
-            *next = (Sorted){.instance = i, .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
+            *next = (Sorted){.instance = i, .rank = rank, .last = sorts && is_transparent(scene, instance)};
             if (!look_at(scene, group, &sight, box, next))
                 continue;
             double part = next->segments ? (double)next->segments / scene->models[instance->model].segments : 1;
@@ -215,9 +229,9 @@ SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, c
             next->depth = sorts ? next->depth : 0;
             count++;
         }
-        choose_discs(scene, group, sorted, count, &deep);
+        deep = choose_discs(scene, group, sorted, count, deep);
         qsort(sorted, count, sizeof *sorted, compare_sorted);
-        add_draws(scene, &order, number, sorted, count);
+        add_draws(scene, &order, number, sorted, count, deep);
     }
     return order;
 }

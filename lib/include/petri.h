@@ -90,6 +90,7 @@ typedef struct PetriRanks {
     void (*gather)(void *host, double *numbers, const size_t *starts);
     // Each number becomes the largest that a rank has. None is NaN.
     void (*most)(void *host, double *numbers, size_t count);
+    // After petri_interrupt, on all ranks, they need not wait for each other any more: numbers that do not come are 0.
 } PetriRanks;
 
 typedef struct PetriOptions {
@@ -129,8 +130,8 @@ typedef struct PetriOptions {
     // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
     // once when the library is loaded, is the upper limit. Results never depend on it.
     const char *cpu;
-    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included, and none may be
-    // interrupted.
+    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included; if one is
+    // interrupted, all must be, and none may go on.
     const PetriRanks *ranks;
     // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
     // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
@@ -588,6 +589,32 @@ typedef void PetriTakeToken(void *host, const PetriToken *token);
 // of the session.
 PETRI_API PetriStatus petri_tokens(PetriSession *session, const char *text, size_t length, PetriTakeToken *take,
                                    void *host);
+
+// What the names of a text stand for, for editors; built-ins, the engine's names and attributes are not the text's.
+typedef enum PetriNameKind {
+    PETRI_NAME_USE,
+    PETRI_NAME_LET, // of a `where`, too
+    PETRI_NAME_FUNC,
+    PETRI_NAME_PARAMETER,
+    PETRI_NAME_LOOP,
+    PETRI_NAME_IMPORT,
+} PetriNameKind;
+typedef struct PetriTextName {
+    PetriNameKind kind;
+    size_t start; // of the name, in bytes from the text's beginning
+    size_t end;
+    size_t bound;       // of a use: where the name starts that binds it; PETRI_Z: nothing of the text does
+    size_t scope_start; // of others: where it is visible
+    size_t scope_end;
+    size_t value_start; // … and what it is bound to: a value, a function, a file
+    size_t value_end;
+    bool alone;     // … the value is bound to this name alone
+    uint32_t depth; // … in so many blocks and functions
+} PetriTextName;
+typedef void PetriTakeName(void *host, const PetriTextName *name);
+// Gives the names that are bound or used, as petri_tokens gives tokens, PETRI_OK even where the text does not parse.
+PETRI_API PetriStatus petri_names(PetriSession *session, const char *text, size_t length, PetriTakeName *take,
+                                  void *host);
 
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code. PETRI_INVALID without one, or if the writer said stop.

@@ -38,6 +38,7 @@ FIELD(TextList,     read_folders, {0})            // … of scripts
 FIELD(TextList,     write_folders, {0})
 FIELD(bool,         no_files,     false)
 FIELD(const char *, state_file,   NULL)           // NULL: the state is neither taken from a file nor kept in one
+FIELD(int64_t,      save_every,   0)              // … after so many frames; 0: every few seconds
 FIELD(int64_t,      limit,        100000)         // repl: of .run and .until
 FIELD(int64_t,      threads,      0)              // 0: as many as CPUs
 FIELD(uint64_t,     memory,       0)              // bytes; 0: as much as the library allows
@@ -54,6 +55,7 @@ FIELD(Verbosity,    verbosity,    LOG_NORMAL)
 FIELD(bool,         colour,       colour_by_default())
 FIELD(bool,         monochrome,   no_colour())    // not even pictures in the terminal have colours
 FIELD(bool,         werror,       false)
+FIELD(bool,         stdio,        false)
 FIELD(int,          report,       0)              // check: as text, for gcc's readers, as JSON or as SARIF
 FIELD(bool,         only_checks,  false)          // fmt: nothing is written
 FIELD(bool,         parameters,   false)          // they are listed, and nothing is run
@@ -68,6 +70,7 @@ OPTION(FOR_TEST, "update", 0, NULL, read_flag, update, "record what the scripts 
 OPTION(FOR_TEST, "filter", 0, "TEXT", read_text, filter, "only scripts with TEXT in their path below PATH")
 OPTION(FOR_TEST, "junit", 0, "FILE", read_text, junit, "also write the results to FILE, in the form that CI systems read")
 OPTION(FOR_TEST, "jobs", 0, "N", WHOLE(1, 256), jobs, "run N scripts at a time (as many as CPUs)")
+OPTION(FOR_LSP, "stdio", 0, NULL, read_flag, stdio, "by standard input and output, which is the only way")
 OPTION(FOR_FMT, "check", 0, NULL, read_flag, only_checks, "only tell which scripts are to be laid out, and exit with 1 if there are any")
 OPTION(FOR_SWEEP, "define", 'D', "NAME=VALUES", read_definition, axes, "values of a parameter: 1..10, 0..1|0.05, 1;5;20, or one; may be repeated")
 OPTION(FOR_SWEEP, "sample", 0, "latin:N", read_text, sample, "N runs with values spread evenly over all ranges (a Latin hypercube), not all combinations; latin:N:SEED for others")
@@ -99,18 +102,19 @@ OPTION(FOR_VIEW, "realtime", 0, NULL, read_flag, realtime, "follow the wall cloc
 OPTION(FOR_RUN | FOR_GOLDEN, "print", 0, "LIST", ONE_OF(read_sections, "tree", "state", "log", "error", "hash"), sections, "print any of tree, state, log, error, hash (SHA-256 of the state), with commas; logs alone if not given")
 OPTION(FOR_RUN | FOR_GOLDEN, "every", 0, "K", WHOLE(1, INT64_MAX), every, "print and record each K-th frame, starting with frame 0")
 OPTION(FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "define", 'D', "NAME=VALUE", read_definition, definitions, "set a parameter of the script; may be repeated")
-OPTION(FOR_CHECK, "define", 'D', "NAME=VALUE", read_definition, definitions, "define a name for the scripts; may be repeated")
+OPTION(FOR_LSP | FOR_CHECK, "define", 'D', "NAME=VALUE", read_definition, definitions, "define a name for the scripts; may be repeated")
 OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "state", 0, "FILE", read_text, state_file, "go on from the state in FILE, if it exists, and keep it there")
+OPTION(FOR_RUN, "save-every", 0, "K", WHOLE(1, INT64_MAX), save_every, "keep the state of --state after each K-th frame, too, not only every few seconds")
 OPTION(FOR_REPL, "state", 0, "FILE", read_text, state_file, "begin with the state in FILE")
-OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "allow-read", 0, "DIR", read_folder, read_folders, "the script may also read below DIR, not only in its folder and this one; all: everywhere")
-OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "allow-write", 0, "DIR", read_folder, write_folders, "the script may also write pictures (!record) below DIR, not only in its folder")
-OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "no-files", 0, NULL, read_flag, no_files, "the script may neither read nor write files")
+OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "allow-read", 0, "DIR", read_folder, read_folders, "the script may also read below DIR, not only in its folder and this one; all: everywhere")
+OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "allow-write", 0, "DIR", read_folder, write_folders, "the script may also write pictures (!record) below DIR, not only in its folder")
+OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "no-files", 0, NULL, read_flag, no_files, "the script may neither read nor write files")
 OPTION(FOR_REPL, "limit", 0, "N", WHOLE(1, INT64_MAX), limit, "frames that .run and .until make at the most (100000)")
 OPTION(FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "threads", 0, "N", WHOLE(1, 1024), threads, "worker threads (as many as CPUs); results never depend on it")
 OPTION(FOR_SWEEP, "threads", 0, "N", WHOLE(1, 1024), threads, "worker threads of each run (1); results never depend on it")
 OPTION(FOR_TEST, "threads", 0, "N", read_text, as_threads, "as with run, for all scripts")
-OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "memory", 0, "BYTES", read_amount, memory, "bytes that a script may take, such as 512M (2G)")
-OPTION(FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "work", 0, "N", read_amount, work, "steps of work that a frame of a script may take, such as 4G (1G, some ten seconds)")
+OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "memory", 0, "BYTES", read_amount, memory, "bytes that a script may take, such as 512M (2G)")
+OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "work", 0, "N", read_amount, work, "steps of work that a frame of a script may take, such as 4G (1G, some ten seconds)")
 OPTION(FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "neighbours", 0, "WHEN", ONE_OF(read_choice, "auto", "never", "always"), neighbours, "lists of neighbours in physics: auto, never or always; results never depend on it")
 OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "as with run, for all scripts")
 OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate everything in every frame; results never depend on it")

@@ -14,8 +14,11 @@
 #ifdef PETRI_RANKS
 #include "ranks/ranks.h"
 #endif
-#ifdef PETRI_PICTURES
+#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
 #include "sweep/extras.h"
+#endif
+#ifdef PETRI_LSP
+#include "lsp/lsp.h"
 #endif
 
 // A script's name has a dot or a slash in it, or is the name of something that exists.
@@ -61,6 +64,10 @@ static int dispatch(const Host *host, int argc, char **argv) {
     if (pass_on_wanted(first)) {
         return pass_on(argv);
     }
+    int served = strcmp(first, "lsp") == 0 ? pass_on_lsp(argv) : -1;
+    if (served >= 0) {
+        return served;
+    }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         return help_overview(COMMANDS);
     }
@@ -70,7 +77,8 @@ static int dispatch(const Host *host, int argc, char **argv) {
     const Command *command = command_find(first);
     bool is_script = command == NULL && (first[0] == '-' || looks_like_file(first));
 #ifndef PETRI_RANKS
-    int status = command == &RUN_COMMAND || is_script ? pass_on_ranks(argv) : -1;
+    bool sweeps = command == &SWEEP_COMMAND;
+    int status = command == &RUN_COMMAND || is_script || sweeps ? pass_on_ranks(argv, !sweeps) : -1;
     if (status >= 0) {
         return status;
     }
@@ -155,7 +163,10 @@ int main(int argc, char **argv) {
 #ifdef PETRI_RANKS
     ranks_begin(&job.host);
 #endif
-#ifdef PETRI_PICTURES
+#ifdef PETRI_LSP
+    job.host.serve = lsp_serve;
+#endif
+#if defined(PETRI_PICTURES) || defined(PETRI_RANKS)
     job.host.sweep = &SWEEP_EXTRAS;
 #endif
     if (!run_on_large_stack(&job)) {

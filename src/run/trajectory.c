@@ -38,7 +38,7 @@ static void keep_now(void *context) {
     }
     // Of what waits, some may have been written just now: it is written once more.
     if (output->error == 0 && lseek(fd, (off_t)output->written, SEEK_SET) >= 0 &&
-        file_write(fd, output->buffer, output->used) && ftruncate(fd, (off_t)trajectory->whole) == 0) {
+        file_write(fd, output->buffer, output->used) && file_cut(fd, trajectory->whole)) {
         replace_commit(&trajectory->file);
     }
 }

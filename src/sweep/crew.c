@@ -1,5 +1,8 @@
 // crew.c: see crew.h. Each hand is a process that was forked before it had a session; it reads the numbers of runs from
 // a pipe and writes what came of them to another. It has its next run when it ends one, so that it never waits.
+//
+// Under mpirun each process has a crew. That of rank 0 deals runs to the others, too: each of them sends a letter for
+// each run that it wishes for, and then one for each that it has made, which stands for the next wish.
 #include "sweep/crew.h"
 
 #include <errno.h>
@@ -16,9 +19,10 @@
 #endif
 
 #include "base/file.h"
+#include "cli/mail.h"
 #include "sweep/measure.h"
 
-enum { AHEAD = 2, REDRAW = 200 }; // runs that a hand has; milliseconds
+enum { AHEAD = 2, REDRAW = 200, LETTERS = 2 }; // runs that a hand has; milliseconds, of the last two
 
 typedef struct Hand {
     pid_t pid;
@@ -42,12 +46,16 @@ typedef struct Crew {
     Hand *hands;
     int64_t jobs;
     size_t next;   // no run before it is to be dealt out, but for these
-    int64_t *back; // runs of hands that are gone
+    int64_t *back; // runs to be dealt out first: of hands that are gone, or from rank 0
     size_t backs;
-    int64_t wanted; // runs to be made, and how many are
+    const Mail *mail; // NULL: there are no other processes
+    bool ended;       // rank 0 has said so
+    int64_t wanted;   // runs to be made, and how many are
     int64_t done;
     Progress progress;
 } Crew;
+
+static const int64_t NO_MORE = -1; // in place of a run
 
 static volatile sig_atomic_t stopped; // a signal handler can reach nothing else
 
@@ -145,12 +153,16 @@ static bool start_hand(Crew *crew, Hand *hand) {
     return hand->pid > 0;
 }
 
+static bool is_far(const Crew *crew) {
+    return crew->mail != NULL && crew->mail->rank > 0;
+}
+
 // The next run to be made, or -1.
 static int64_t next_run(Crew *crew) {
     if (crew->backs > 0) {
         return crew->back[--crew->backs];
     }
-    for (; crew->next < crew->sweep->design.run_count; crew->next++) {
+    for (; !is_far(crew) && crew->next < crew->sweep->design.run_count; crew->next++) {
         if (sweep_is_ours(crew->sweep, crew->next) && crew->sweep->results[crew->next].rows == NULL) {
             return (int64_t)crew->next++;
         }
@@ -166,38 +178,72 @@ static void deal(Crew *crew) {
             int64_t run = hand->count < most && hand->pid > 0 ? next_run(crew) : -1;
             if (run >= 0) {
                 hand->held[hand->count++] = run;
-                file_write(hand->orders, (const char *)&run, sizeof run);
+                if (!file_write(hand->orders, (const char *)&run, sizeof run)) {
+                    kill(hand->pid, SIGKILL); // it would wait for ever for orders, and this process for it
+                }
             }
         }
     }
 }
 
-static bool keep(Crew *crew, size_t run, int64_t frames, const char *rows, size_t length) {
+// What has come of a run: the rows, then what was told.
+static bool keep(Crew *crew, const News *head, const char *bytes) {
+    size_t length = (size_t)(head->rows + head->told), run = (size_t)head->run;
     crew->done++;
-    sweep_keep(crew->sweep, run, frames, rows, length);
+    if (is_far(crew)) {
+        SCOPED_BYTES letter = {0};
+        bytes_add(&letter, (const char *)head, sizeof *head);
+        bytes_add(&letter, bytes, length);
+        crew->mail->send(0, letter.data, letter.length);
+        return true;
+    }
+    progress_erase(&crew->progress);
+    for (const char *told = bytes + head->rows; told < bytes + length; told += strlen(told) + 1) {
+        sweep_tell(crew->sweep, (PetriLevel)(told[0] - 'a'), told + 1);
+    }
+    sweep_keep(crew->sweep, run, head->frames, bytes, (size_t)head->rows);
     return journal_add(crew->journal, run, &crew->sweep->results[run]);
 }
 
 static bool take_news(Crew *crew, Hand *hand, bool *gone) {
     News head;
-    SCOPED_BYTES text = {0};
     *gone = !read_all(hand->news, &head, sizeof head);
     if (*gone) {
         return true;
     }
     size_t length = (size_t)(head.rows + head.told);
-    char *bytes = text.data = memory_zeroed(length + 1);
+    SCOPED_TEXT bytes = memory_zeroed(length + 1);
     *gone = !read_all(hand->news, bytes, length);
     if (*gone) {
         return true;
     }
-    progress_erase(&crew->progress);
-    for (char *told = bytes + head.rows; told < bytes + length; told += strlen(told) + 1) {
-        sweep_tell(crew->sweep, (PetriLevel)(told[0] - 'a'), told + 1);
-    }
     memmove(hand->held, hand->held + 1, sizeof hand->held - sizeof hand->held[0]);
     hand->count--;
-    return keep(crew, (size_t)head.run, head.frames, bytes, (size_t)head.rows);
+    return keep(crew, &head, bytes);
+}
+
+// Rank 0 takes wishes and what was made, the others runs.
+static bool take_mail(Crew *crew) {
+    SCOPED_BYTES letter = {0};
+    bool good = true;
+    for (int from = 0; good && crew->mail != NULL && crew->mail->take(&from, &letter); letter.length = 0) {
+        if (is_far(crew)) {
+            int64_t run;
+            memcpy(&run, letter.data, sizeof run);
+            crew->ended = crew->ended || run == NO_MORE;
+            crew->back[crew->backs] = run;
+            crew->backs += run != NO_MORE;
+            continue;
+        }
+        News head = {.run = NO_MORE};
+        memcpy(&head, letter.data, letter.length < sizeof head ? letter.length : sizeof head);
+        good = letter.length < sizeof head || keep(crew, &head, letter.data + sizeof head);
+        int64_t run = next_run(crew);
+        if (run >= 0) {
+            crew->mail->send(from, &run, sizeof run);
+        }
+    }
+    return good;
 }
 
 // What ended the process is the row of the run that it made. Only SIGKILL comes from outside, such as a machine that is
@@ -228,7 +274,7 @@ static bool bury(Crew *crew, Hand *hand) {
     } else {
         bytes_format(&row, "the process ended with status %d\n", WEXITSTATUS(status));
     }
-    return result == NULL || keep(crew, (size_t)hand->held[0], 0, row.data, row.length);
+    return result == NULL || keep(crew, &(News){hand->held[0], 0, row.length, 0}, row.data);
 }
 
 // Takes what the hands have to tell, or waits for it. False if there is no going on.
@@ -238,7 +284,8 @@ static bool follow(Crew *crew) {
     for (int64_t i = 0; i < crew->jobs; i++) {
         waits[i] = (struct pollfd){.fd = crew->hands[i].pid > 0 ? crew->hands[i].news : -1, .events = POLLIN};
     }
-    int ready = poll(waits, (nfds_t)crew->jobs, crew->progress.enabled ? REDRAW : -1);
+    int patience = crew->mail != NULL ? LETTERS : crew->progress.enabled ? REDRAW : -1;
+    int ready = poll(waits, (nfds_t)crew->jobs, patience);
     for (int64_t i = 0; good && ready > 0 && i < crew->jobs; i++) {
         bool gone = false;
         if (waits[i].revents != 0) {
@@ -249,7 +296,20 @@ static bool follow(Crew *crew) {
         }
     }
     free(waits);
-    return good;
+    return good && take_mail(crew);
+}
+
+// The first letters, and the last.
+static void wish(const Crew *crew) {
+    for (int64_t i = 0; is_far(crew) && i < crew->jobs * AHEAD; i++) {
+        crew->mail->send(0, "", 1);
+    }
+}
+
+static void say_end(const Crew *crew) {
+    for (int rank = 1; crew->mail != NULL && crew->mail->rank == 0 && rank < crew->mail->count; rank++) {
+        crew->mail->send(rank, &NO_MORE, sizeof NO_MORE);
+    }
 }
 
 static int64_t count_wanted(const Sweep *sweep) {
@@ -279,11 +339,15 @@ static void dismiss(Crew *crew) {
     }
 }
 
+static bool has_work(const Crew *crew) {
+    return is_far(crew) ? !crew->ended : crew->done < crew->wanted;
+}
+
 int crew_work(Sweep *sweep, Journal *journal, int64_t jobs) {
-    Crew crew = {.sweep = sweep, .journal = journal, .wanted = count_wanted(sweep)};
-    crew.jobs = jobs < crew.wanted ? jobs : crew.wanted;
+    Crew crew = {.sweep = sweep, .journal = journal, .wanted = count_wanted(sweep), .mail = sweep->host->mail};
+    crew.jobs = jobs < crew.wanted || is_far(&crew) ? jobs : crew.wanted;
     crew.hands = memory_zeroed((size_t)crew.jobs * sizeof *crew.hands);
-    crew.back = memory_zeroed((size_t)crew.jobs * (AHEAD + 1) * sizeof *crew.back);
+    crew.back = memory_zeroed((size_t)crew.jobs * (2 * AHEAD + 1) * sizeof *crew.back);
     catch_signals();
     bool good = true;
     for (int64_t i = 0; good && i < crew.jobs; i++) {
@@ -291,14 +355,19 @@ int crew_work(Sweep *sweep, Journal *journal, int64_t jobs) {
     }
     progress_start(&crew.progress, sweep->options->verbosity > LOG_QUIET && progress_possible(), crew.wanted);
     crew.progress.things = "runs";
-    while (good && crew.done < crew.wanted && !stopped) {
+    wish(&crew);
+    while (good && has_work(&crew) && !stopped) {
         deal(&crew);
         good = follow(&crew);
         progress_update(&crew.progress, crew.done);
+    }
+    bool done = !has_work(&crew);
+    if (good && done) {
+        say_end(&crew);
     }
     progress_erase(&crew.progress);
     dismiss(&crew);
     free(crew.hands);
     free(crew.back);
-    return !good ? STATUS_FAILED : crew.done < crew.wanted ? STATUS_SIGNAL + (int)stopped : STATUS_DONE;
+    return !good ? STATUS_FAILED : done ? STATUS_DONE : STATUS_SIGNAL + (int)stopped;
 }

@@ -5,8 +5,9 @@
 #include "sweep/journal.h"
 #include "sweep/sweep.h"
 
-// Makes all runs of ours that are not done yet, `jobs` at a time. STATUS_DONE, or the status to exit with: after a
-// message, or 128 plus the number of a signal.
+// Makes all runs of ours that are not done yet, `jobs` at a time in each process that mpirun has started; those but
+// rank 0 have no journal, and keep nothing. STATUS_DONE, or the status to exit with: after a message, or 128 plus the
+// number of a signal.
 int crew_work(Sweep *sweep, Journal *journal, int64_t jobs);
 
 #endif

@@ -77,7 +77,7 @@ static int go_on(Journal *journal, Sweep *sweep) {
                 journal->path);
         return STATUS_USAGE;
     }
-    if (ftruncate(journal->file, (off_t)good) != 0 || lseek(journal->file, (off_t)good, SEEK_SET) < 0 ||
+    if (!file_cut(journal->file, good) || lseek(journal->file, (off_t)good, SEEK_SET) < 0 ||
         (fresh && !file_write(journal->file, head.data, head.length))) {
         message("cannot write %s: %s", journal->path, strerror(errno));
         return STATUS_FAILED;

@@ -11,6 +11,7 @@
 #include "base/file.h"
 #include "cli/args.h"
 #include "cli/hdf5.h"
+#include "cli/mail.h"
 #include "cli/mpirun.h"
 #include "cli/pass_on.h"
 #include "cli/script.h"
@@ -86,7 +87,7 @@ static bool take_metrics(Sweep *sweep) {
     return true;
 }
 
-// `2/4`; without --shard, what mpirun says.
+// `2/4`; without --shard, what mpirun says, where petri has no MPI to deal runs out.
 static bool take_shard(Sweep *sweep) {
     const char *text = sweep->options->shard;
     int shard = 1, shards = 1, rank = 0, count = 0;
@@ -97,7 +98,7 @@ static bool take_shard(Sweep *sweep) {
             return false;
         }
     }
-    if (text == NULL && mpirun_rank(&rank, &count)) {
+    if (text == NULL && sweep->host->mail == NULL && mpirun_rank(&rank, &count)) {
         shard = rank + 1;
         shards = count;
     }
@@ -270,7 +271,7 @@ static int end(Sweep *sweep, Journal *journal, double start, size_t made) {
 static int64_t jobs_of(const Sweep *sweep) {
     long processors = sysconf(_SC_NPROCESSORS_ONLN);
     // Of those that mpirun has started, one for each processor.
-    bool alone = sweep->shards == 1 || sweep->options->shard != NULL;
+    bool alone = sweep->host->mail == NULL && (sweep->shards == 1 || sweep->options->shard != NULL);
     return sweep->options->jobs > 0 ? sweep->options->jobs : alone && processors > 1 ? processors : 1;
 }
 
@@ -302,6 +303,10 @@ static int run_sweep(Sweep *sweep) {
     int status = rehearse(sweep);
     if (status != STATUS_DONE) {
         return status;
+    }
+    if (sweep->host->mail != NULL && sweep->host->mail->rank > 0) {
+        sweep->results = memory_zeroed(sweep->design.run_count * sizeof *sweep->results);
+        return crew_work(sweep, &journal, jobs_of(sweep));
     }
     if (!can_write(sweep->options->output)) {
         return STATUS_FAILED;
@@ -401,8 +406,9 @@ const Command SWEEP_COMMAND = {
         "\n"
         "A plan is YAML: `script: dish.fl`, options by their names, and `define:` and `metric:` with lines NAME: "
         "VALUE\n"
-        "below them; the command line adds to it. On many machines that share a folder, each makes one part of the\n"
-        "runs, and the one that ends last writes the table: --shard I/N, or mpirun.",
+        "below them; the command line adds to it. On many machines mpirun has the runs dealt out; with --shard I/N "
+        "each\n"
+        "makes one part of them in a folder that they share, and the one that ends last writes the table.",
     .examples =
         "  petri sweep dish.fl -D DROPS=20..200|20 -D SPEED='0.1;0.5;1' --frames 300 -o dish.csv \\\n"
         "      --metric spread='mean(hypot($(:drops;i)) for i in ..DROPS)'\n"

@@ -11,6 +11,8 @@ END
 printf '!n a=1\n' >g.fl
 printf '# run --frames 1 --print tree\nold\n' >old.golden
 
+# Of each kind, the first so many calls. PETRI_INJECT=all tries as many of files that are written alike.
+tried='1 2 3 4 5 6 7 8 9 10'
 # sweep NAME FILE OLD GOOD COMMAND...: GOOD is a command that is true of the new file.
 sweep() {
     what=$1 file=$2 old=$3 good=$4
@@ -26,10 +28,11 @@ sweep() {
             EIOwrite | EIOfsync | ENOSPC* | EINTR*) ;;
             *) continue ;;
             esac
-            for n in 1 2 3 4 5 6 7 8 9 10; do
+            for n in $tried; do
                 mkdir -p target
                 rm -f target/* target/.petri*
                 cp "$old" "target/$file"
+                [ $what != golden ] || cp g.fl target
                 # A process that strace looks at cannot look for its own leaks.
                 # shellcheck disable=SC2086
                 ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" timeout 100 strace -f -qq -o trace $paths -e trace=$call -e inject=$call:error=$error:when=$n \
@@ -63,14 +66,26 @@ good_state() { tail -n 1 "$1" | grep -q '^end [0-9a-f]*$'; }
 good_csv() { [ "$(wc -l <"$1")" -eq 61 ]; }
 good_golden() { grep -qx '!n a=1' "$1"; }
 good_png() { tail -c 8 "$1" | grep -q IEND; }
+# The process that makes a run may fail, which is told in its row.
+good_table() { [ "$(sed 's/,0,,\(the process\|crashed\).*/,1,2,/; s/^1,1,1,2,/1,1,1,1,/' "$1")" = "run,A,frame,x,error
+1,1,1,1,
+2,2,1,2," ]; }
+good_film() { grep -q moov "$1"; }
 
 if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     petri run w.fl --frames 2 --state old.state
     sweep state a.state old.state good_state run w.fl --frames 2 --threads 1 --quiet --state target/a.state
     echo old >old.csv
     sweep trajectory a.csv old.csv good_csv run w.fl --frames 2 --threads 1 --trajectory target/a.csv
+    [ "${PETRI_INJECT:-}" = all ] || tried="1 3"
+    echo 'let A=A or 1' >runs.fl
+    sweep golden g.golden old.golden good_golden test --update target/g.fl
+    sweep table t.csv old.csv good_table sweep runs.fl --jobs 1 -D 'A=1;2' --frames 2 --metric x=A -o target/t.csv
     petri render w.fl --frames 1 -o old.png
     if [ "$status" -eq 0 ]; then
         sweep picture a.png old.csv good_png render w.fl --frames 1 --threads 1 -o target/a.png
+        if command -v ffmpeg >/dev/null && [ "${PETRI_INJECT:-}" = all ]; then
+            sweep film a.mp4 old.csv good_film render w.fl --frames 2 --threads 1 -o target/a.mp4
+        fi
     fi
 fi

@@ -21,8 +21,8 @@ check() {
 
 # tell_more: what helps to see why a check has failed; tests may have one of their own.
 tell_more() {
-    for file in out err; do
-        [ ! -s "$file" ] || head -c 600 "$file" | sed "s/^/  $file: /"
+    for told_in in out err; do
+        [ ! -s "$told_in" ] || head -c 600 "$told_in" | sed "s/^/  $told_in: /"
     done
 }
 

@@ -237,8 +237,10 @@ for part in 2 1 3; do
 done
 check "the last part writes the table" same whole.csv parts.csv
 check "no journal stays" [ "$(echo parts.csv*)" = "parts.csv parts.csv.runs" ]
-OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=2 cells -o parts2.csv 2>err
-check "mpirun deals parts out" exists parts2.csv.part-2-of-2
+mkdir bare
+cp "$petri" bare
+(petri=$work/bare/petri && OMPI_COMM_WORLD_RANK=1 OMPI_COMM_WORLD_SIZE=2 cells -o parts2.csv 2>err)
+check "without MPI, mpirun gives each process a part" exists parts2.csv.part-2-of-2
 cells -o parts2.csv
 check "without, what is there is used" same whole.csv parts2.csv
 check "and goes" [ "$(echo parts2.csv*)" = "parts2.csv parts2.csv.runs" ]
