@@ -35,6 +35,7 @@ typedef struct ParseContext {
     Unexpected unexpected;
     bool overflow; // the tree has become too high, or the parser's stack is full
     Span overflow_at;
+    bool loose;      // for editors: as much as there is is read
     ParseSeen *seen; // NULL: nobody wants the tokens
     void *host;
 } ParseContext;

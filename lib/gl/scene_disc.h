@@ -2,8 +2,8 @@
 //
 // Seen from a camera, a ball is the disc that its outline bounds, and where a ray through the disc meets the ball is
 // known: a fragment shader finds place and normal by itself. A disc of 64 corners has 62 triangles, a ball 2048, most
-// of which are smaller than the blocks of pixels in which surfaces are shaded. What a disc has not is the ball's depth:
-// it serves where nothing else in the picture has one.
+// of which are smaller than the blocks of pixels in which surfaces are shaded. The shader tells the ball's depth, too,
+// once for all samples of a pixel, where there is something to compare it with.
 #ifndef PETRI_GL_SCENE_DISC_H
 #define PETRI_GL_SCENE_DISC_H
 

@@ -155,10 +155,10 @@ static void send_lights(Drawing *drawing, const SceneGroup *group) {
 }
 
 // What a program does beside the usual.
-enum { TEXTURED = 1, DISC = 2, BACK = 4, TRANSLUCENT = 8 };
+enum { TEXTURED = 1, DISC = 2, DEEP = 4, BACK = 8, TRANSLUCENT = 16 };
 
 static void add_variant(Text *text, unsigned variant) {
-    static const char *const names[] = {"TEXTURED", "DISC", "BACK", "TRANSLUCENT"};
+    static const char *const names[] = {"TEXTURED", "DISC", "DEEP", "BACK", "TRANSLUCENT"};
     for (unsigned i = 0; i < sizeof names / sizeof *names; i++)
         if (variant & 1u << i)
             text_add_format(text, "#define %s\n", names[i]);
@@ -310,8 +310,8 @@ static bool draw_all(Drawing *drawing) {
     unsigned current = UINT32_MAX;
     for (uint32_t i = 0; i < drawing->order.draw_count; i++) {
         const SceneDraw *draw = &drawing->order.draws[i];
-        unsigned variant =
-            (draw->textures > 0 ? TEXTURED : 0u) | (draw->disc ? DISC : 0u) | (draw->translucent ? TRANSLUCENT : 0u);
+        unsigned variant = (draw->textures > 0 ? TEXTURED : 0u) | (draw->disc ? DISC : 0u) |
+                           (draw->disc && draw->deep ? DEEP : 0u) | (draw->translucent ? TRANSLUCENT : 0u);
         if (draw->group != group) {
             group = draw->group;
             gl_image_free(drawing->gl, drawing->backs);

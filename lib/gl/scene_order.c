@@ -83,7 +83,8 @@ static bool goes_on(const SceneDraw *draw, const SceneDraw *wanted, bool split) 
            draw->disc == wanted->disc && (draw->segments == wanted->segments || !split);
 }
 
-static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count) {
+static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, const Sorted *sorted, uint32_t count,
+                      bool deep) {
     enum { MOST_SPLIT = 2000 }; // a draw takes time, too
     const SceneGroup *group = scene->groups[number];
     for (uint32_t i = 0; i < count; i++) {
@@ -95,6 +96,7 @@ static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, co
                                   .transparent = sorted[i].rank == UINT32_MAX,
                                   .translucent = sorted[i].rank == UINT32_MAX && is_translucent(instance),
                                   .disc = sorted[i].disc,
+                                  .deep = deep,
                                   .first = order->count,
                                   .segments = sorted[i].segments};
         if (!draw || !goes_on(draw, &wanted, order->draw_count < MOST_SPLIT)) {
@@ -170,16 +172,23 @@ static bool look_at(const Scene *scene, const SceneGroup *group, const Sight *si
     return true;
 }
 
-// Transparent ones are discs where nothing has a depth; all discs of a model are drawn at once.
-static void choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool *deep) {
-    for (uint32_t i = 0; i < count; i++)
-        *deep |= group->look.depth_test &&
-                 (sorted[i].rank != UINT32_MAX || is_translucent(&group->instances[sorted[i].instance]));
+// All discs of a model are drawn at once. Where something has a depth, a few balls are better drawn as such: then each
+// sample of a pixel is compared. Whether anything has left its depth until then.
+static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *sorted, uint32_t count, bool deep) {
+    enum { MANY = 50 };
+    uint32_t discs = 0;
     for (uint32_t i = 0; i < count; i++) {
-        sorted[i].disc &= !*deep && sorted[i].rank == UINT32_MAX;
+        bool translucent = is_translucent(&group->instances[sorted[i].instance]);
+        deep |= group->look.depth_test && (sorted[i].rank != UINT32_MAX || translucent);
+        sorted[i].disc &= sorted[i].rank == UINT32_MAX && !translucent;
+        discs += sorted[i].disc;
+    }
+    for (uint32_t i = 0; i < count; i++) {
+        sorted[i].disc &= !deep || discs >= MANY;
         if (sorted[i].disc)
             sorted[i].segments = scene->models[group->instances[sorted[i].instance].model].segments;
     }
+    return deep;
 }
 
 SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, const Matrix *projection, int width,
@@ -215,9 +224,9 @@ SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, c
             next->depth = sorts ? next->depth : 0;
             count++;
         }
-        choose_discs(scene, group, sorted, count, &deep);
+        deep = choose_discs(scene, group, sorted, count, deep);
         qsort(sorted, count, sizeof *sorted, compare_sorted);
-        add_draws(scene, &order, number, sorted, count);
+        add_draws(scene, &order, number, sorted, count, deep);
     }
     return order;
 }

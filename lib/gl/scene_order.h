@@ -21,6 +21,7 @@ typedef struct SceneDraw {
     bool transparent; // drawn last, from back to front
     bool translucent; // likewise; leaves its depth
     bool disc;        // spheres as scene_disc.h has them
+    bool deep;        // discs: something is there that has a depth
     uint32_t first;
     uint32_t count;
     uint32_t segments; // of the model: fewer than it has where that looks the same

@@ -589,6 +589,32 @@ typedef void PetriTakeToken(void *host, const PetriToken *token);
 PETRI_API PetriStatus petri_tokens(PetriSession *session, const char *text, size_t length, PetriTakeToken *take,
                                    void *host);
 
+// What the names of a text stand for, for editors; built-ins, the engine's names and attributes are not the text's.
+typedef enum PetriNameKind {
+    PETRI_NAME_USE,
+    PETRI_NAME_LET, // of a `where`, too
+    PETRI_NAME_FUNC,
+    PETRI_NAME_PARAMETER,
+    PETRI_NAME_LOOP,
+    PETRI_NAME_IMPORT,
+} PetriNameKind;
+typedef struct PetriTextName {
+    PetriNameKind kind;
+    size_t start; // of the name, in bytes from the text's beginning
+    size_t end;
+    size_t bound;       // of a use: where the name starts that binds it; PETRI_Z: nothing of the text does
+    size_t scope_start; // of others: where it is visible
+    size_t scope_end;
+    size_t value_start; // … and what it is bound to: a value, a function, a file
+    size_t value_end;
+    bool alone;     // … the value is bound to this name alone
+    uint32_t depth; // … in so many blocks and functions
+} PetriTextName;
+typedef void PetriTakeName(void *host, const PetriTextName *name);
+// Gives the names that are bound or used, as petri_tokens gives tokens, PETRI_OK even where the text does not parse.
+PETRI_API PetriStatus petri_names(PetriSession *session, const char *text, size_t length, PetriTakeName *take,
+                                  void *host);
+
 typedef enum PetriDump { PETRI_DUMP_AST, PETRI_DUMP_CODE } PetriDump;
 // Writes the loaded script's syntax tree or compiled code. PETRI_INVALID without one, or if the writer said stop.
 PETRI_API PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host);

@@ -344,21 +344,38 @@ static void with_parser(Parsing *parsing, void (*call)(void *parsing)) {
         arena_leave(context->arena, end);
 }
 
+// A statement that breaks off ends with its line, so that the next one and the block around it are not lost.
+static int mend(const Parsing *parsing, int before, const Token *token) {
+    bool begins = before == NEWLINE || before == DEDENT || token->kind == DEDENT || token->kind == END;
+    if (!parsing->context->loose || !begins || token->kind == INDENT || token->kind == NEWLINE ||
+        gr_accepts(parsing->parser, token->kind) || (token->keyword && gr_accepts(parsing->parser, token->keyword)))
+        return YYPUSH_MORE;
+    Token end = {.kind = NEWLINE, .span = {token->span.start, token->span.start}};
+    return push(parsing->context, parsing->layout, parsing->parser, &end);
+}
+
+// After an error with nothing to go back to, as in the first line: looks for more with a fresh parser.
+static void renew(Parsing *parsing) {
+    gr_pstate_delete(parsing->parser);
+    parsing->parser = gr_pstate_new();
+    if (!parsing->parser)
+        arena_exhausted(parsing->context->arena);
+}
+
 static void parse_tokens(void *context) {
     Parsing *parsing = context;
     Layout *layout = parsing->layout;
-    int status = YYPUSH_MORE;
+    int status = YYPUSH_MORE, before = NEWLINE;
     while (status == YYPUSH_MORE && !parsing->context->too_deep) {
         Token token = layout_next(layout);
+        if (mend(parsing, before, &token) == 1)
+            renew(parsing);
+        before = token.kind;
         resolve_keyword(parsing->context, layout, parsing->parser, &token);
         show(parsing->context, &token);
         status = push(parsing->context, layout, parsing->parser, &token);
         if (status == 1 && token.kind != END) {
-            // Nothing to go back to, as with an error in the first line: look for more errors with a fresh parser.
-            gr_pstate_delete(parsing->parser);
-            parsing->parser = gr_pstate_new();
-            if (!parsing->parser)
-                arena_exhausted(parsing->context->arena);
+            renew(parsing);
             status = token.kind == NEWLINE || skip_line(parsing->context, layout) == NEWLINE ? YYPUSH_MORE : 1;
         }
     }
@@ -437,8 +454,13 @@ const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *sourc
 
 const Ast *parse_loosely(Arena *arena, SymbolTable *symbols, const Source *source, ParseSeen *seen, void *host) {
     DiagSink nowhere = diag_sink_new(arena, 0);
-    ParseContext context = {
-        .arena = arena, .symbols = symbols, .source = source, .diags = &nowhere, .seen = seen, .host = host};
+    ParseContext context = {.arena = arena,
+                            .symbols = symbols,
+                            .source = source,
+                            .diags = &nowhere,
+                            .loose = true,
+                            .seen = seen,
+                            .host = host};
     parse(&context);
     return context.program;
 }

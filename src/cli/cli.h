@@ -18,7 +18,7 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128
 // Which commands an option is for.
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
-       FOR_SWEEP = 128, FOR_FMT = 256 };
+       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512 };
 // clang-format on
 
 // One option.
@@ -39,14 +39,16 @@ typedef struct OptionSpec {
 extern const OptionSpec OPTIONS[];
 
 // What main found out about the process, for all commands.
-typedef struct Host {
+typedef struct Host Host;
+struct Host {
     size_t stack_bytes;              // C stack that evaluation may use
     const char *program;             // path of this program, from wherever it is started
     const char *called;              // … as the user called it, for hints
     const char *cpu;                 // PetriOptions.cpu
     const struct SweepExtras *sweep; // what petri sweep takes libraries for; NULL: petri-pictures has it
-    const struct PetriRanks *ranks;  // the processes that share the work, as mpirun has started them; NULL: this alone
-} Host;
+    int (*serve)(const Host *host, struct Options *options); // petri lsp; NULL: petri-lsp has it
+    const struct PetriRanks *ranks; // the processes that share the work, as mpirun has started them; NULL: this alone
+};
 
 typedef struct Command {
     const char *name;
@@ -72,6 +74,7 @@ extern const Command VIEW_COMMAND;
 extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;
 extern const Command FMT_COMMAND;
+extern const Command LSP_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 

@@ -1,4 +1,4 @@
-// pass_on.c: starting the other programs, petri-pictures and petri-ranks, for what this one cannot do.
+// pass_on.c: starting the other programs, petri-pictures, petri-lsp and petri-ranks, for what this one cannot do.
 //
 // They lie beside this one, as in a build folder, or where `meson install` puts what only other programs call.
 #include "cli/pass_on.h"
@@ -76,6 +76,19 @@ int pass_on(char **argv) {
     message("cannot start petri-pictures, which draws and prompts: %s; it belongs in %.*s or in %.*slibexec/",
             strerror(cause), folder, path, above < 0 ? 0 : above, path);
     return STATUS_FAILED;
+}
+
+int pass_on_lsp(char **argv) {
+#ifdef PETRI_LSP
+    (void)argv;
+    return -1;
+#else
+    char path[PATH_MAX + 64];
+    int cause = become("petri-lsp", argv, path);
+    message("cannot start petri-lsp, which serves editors: %s%s", strerror(cause),
+            cause == ENOENT ? "; this petri was built without json-c (Debian: libjson-c-dev)" : "");
+    return STATUS_FAILED;
+#endif
 }
 
 int pass_on_ranks(char **argv) {

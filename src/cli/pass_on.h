@@ -10,6 +10,8 @@ bool pass_on_wanted(const char *first);
 bool pass_on_all(void);
 // Becomes petri-pictures with the same arguments. Returns only if that fails: the status to exit with, after a message.
 int pass_on(char **argv);
+// Becomes petri-lsp, which serves editors; -1: this is petri-lsp.
+int pass_on_lsp(char **argv);
 // Becomes petri-ranks, one of several processes that run a script together, if mpirun has started several. -1 if not.
 int pass_on_ranks(char **argv);
 // Becomes another program of petri's. Returns only if that fails: why, as errno has it.

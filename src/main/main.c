@@ -17,6 +17,9 @@
 #ifdef PETRI_PICTURES
 #include "sweep/extras.h"
 #endif
+#ifdef PETRI_LSP
+#include "lsp/lsp.h"
+#endif
 
 // A script's name has a dot or a slash in it, or is the name of something that exists.
 static bool looks_like_file(const char *word) {
@@ -60,6 +63,10 @@ static int dispatch(const Host *host, int argc, char **argv) {
     const char *first = argv[1];
     if (pass_on_wanted(first)) {
         return pass_on(argv);
+    }
+    int served = strcmp(first, "lsp") == 0 ? pass_on_lsp(argv) : -1;
+    if (served >= 0) {
+        return served;
     }
     if (strcmp(first, "--help") == 0 || strcmp(first, "-h") == 0) {
         return help_overview(COMMANDS);
@@ -154,6 +161,9 @@ int main(int argc, char **argv) {
                .status = STATUS_FAILED};
 #ifdef PETRI_RANKS
     ranks_begin(&job.host);
+#endif
+#ifdef PETRI_LSP
+    job.host.serve = lsp_serve;
 #endif
 #ifdef PETRI_PICTURES
     job.host.sweep = &SWEEP_EXTRAS;

@@ -58,4 +58,9 @@ if nm lib/draw/libpetri-draw.a 2>/dev/null | grep -q ' U cairo_create$'; then
         faults=1
     fi
 fi
+# Nor would it if JSON were nowhere.
+if [ -e src/petri-lsp ] && ! needed src/petri-lsp | grep -q '^libjson-c\.'; then
+    echo "petri-lsp has no JSON"
+    faults=1
+fi
 exit $faults

@@ -5,6 +5,10 @@ void main() {
     float near = towards.w, depth = sqrt(max(1.0 - dot(across, across) / (1.0 - near * near), 0.0));
     N = (across + towards.xyz * (depth + near)) / (1.0 + near * depth);
     world = ball.xyz + ball.w * N;
+#ifdef DEEP
+    vec4 place = projection * (view * vec4(world, 1.0));
+    gl_FragDepth = 0.5 * place.z / place.w + 0.5;
+#endif
 #else
     N = normalize(outwards);
 #endif

@@ -3,6 +3,9 @@
 in vec3 across;                // from the middle of the disc, in radii of the ball
 flat in vec4 ball, towards;    // middle and radius; direction to the camera, radius / distance
 vec3 world;
+#ifdef DEEP
+uniform mat4 view, projection;
+#endif
 #else
 in vec3 world, outwards;
 #endif

@@ -10,21 +10,21 @@
 #include "gl/scene_order.h"
 
 // Three balls of radius 10 in a row before a camera that looks at them from the side; and what a case changes.
+enum { WIDTH = 400, MOST = 60 };
 typedef struct Stage {
     Arena arena;
     Scene scene;
     SceneGroup group;
     SceneGroup *groups[1];
-    SceneInstance instances[3];
+    SceneInstance instances[MOST];
     SceneMaterial material;
     SceneMaterial opaque;
     SceneModel model;
     SceneTextures textures;
     Look3D look;
     Eye eye;
+    bool deep; // discs are compared with depths
 } Stage;
-
-enum { WIDTH = 400 };
 
 static void set_stage(Stage *stage) {
     *stage = (Stage){
@@ -35,11 +35,11 @@ static void set_stage(Stage *stage) {
         .model = {.kind = KIND_SPHERE, .segments = 64, .snap = 0.5}};
     arena_init(&stage->arena, "test", SIZE_MAX);
     stage->eye.look = &stage->look;
-    for (int i = 0; i < 3; i++) {
+    for (int i = 0; i < MOST; i++) {
         Matrix *place = &stage->instances[i].matrix;
         *place = matrix_one;
         place->m[0] = place->m[5] = place->m[10] = 10;
-        place->m[12] = 40.0 * (i - 1);
+        place->m[12] = 40.0 * (i % 3 - 1);
         place->m[14] = -5.0 * i;
         stage->instances[i].material = &stage->material;
     }
@@ -63,9 +63,10 @@ static uint32_t count_discs(Stage *stage) {
     Matrix view = matrix_view(&stage->eye), projection = matrix_projection(&stage->eye);
     SceneOrder order = scene_order(&stage->scene, &stage->eye, &view, &projection, WIDTH, &box);
     uint32_t count = 0;
-    assert_int_equal(order.count, 3);
+    assert_int_equal(order.count, stage->group.instance_count);
     for (uint32_t i = 0; i < order.draw_count; i++) {
         count += order.draws[i].disc ? order.draws[i].count : 0;
+        stage->deep |= order.draws[i].disc && order.draws[i].deep;
         if (order.draws[i].disc)
             assert_int_equal(order.draws[i].segments, stage->model.segments);
     }
@@ -78,8 +79,17 @@ static void test_choice(void **state) {
     Stage stage;
     set_stage(&stage);
     assert_int_equal(count_discs(&stage), 3);
+    assert_false(stage.deep);
     set_stage(&stage); // what is opaque leaves its depth
     stage.instances[1].material = &stage.opaque;
+    assert_int_equal(count_discs(&stage), 0);
+    set_stage(&stage); // which many are compared with
+    stage.group.instance_count = stage.scene.instance_count = MOST;
+    stage.instances[1].material = &stage.opaque;
+    assert_int_equal(count_discs(&stage), MOST - 1);
+    assert_true(stage.deep);
+    set_stage(&stage); // what is translucent, too, and needs its backs
+    stage.material.surface.translucency = 1;
     assert_int_equal(count_discs(&stage), 0);
     set_stage(&stage); // without sorting all leave it
     stage.group.look.depth_sort = false;

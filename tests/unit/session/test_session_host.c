@@ -148,6 +148,42 @@ static void test_tokens(void **state) {
     }
 }
 
+static void note_name(void *host, const PetriTextName *name) {
+    char line[60];
+    int len = name->kind != PETRI_NAME_USE ? snprintf(line, sizeof line, "%c%zu[%zu-%zu] ", "?lfpxi"[name->kind],
+                                                      name -> start, name -> scope_start, name -> scope_end)
+              : name->bound == PETRI_Z     ? snprintf(line, sizeof line, "%zu? ", name->start)
+                                           : snprintf(line, sizeof line, "%zu=%zu ", name->start, name->bound);
+    note(host, line, (size_t)len);
+}
+
+// Each name with what binds it, or where it is visible (language.md L8.2): the rules of the compiler, and where a
+// statement breaks off that one alone is missing.
+static void test_names(void **state) {
+    static const struct {
+        const char *text;
+        const char *names;
+    } rows[] = {
+        {"let a=a\n!n x=a\n", "6? l4[7-15] 13=4 "},
+        {"let a=1 b=a\n", "l4[7-12] 10=4 l8[11-12] "},
+        {"func f(x, y=x)\n    f(x)\nf(1, y=2)\n", "12? f5[19-34] p7[19-24] p10[19-24] 19=5 21=7 24=5 29=10 "},
+        {"for i in i\n    i\ni\n", "9? x4[15-17] 15=4 17? "},
+        {"!n x=a;b where a=b b=1\n", "5? 17? l15[7-8] l19[7-8] 7=19 "},
+        {"if 1\n    let a=1\n    a\na\n", "l13[16-23] 21=13 23? "},
+        {"import a;b from 'f'\nb\n", "i7[20-22] i9[20-22] 20=9 "},
+        {"let a=1\n!n x=)\n!m x=a\n", "l4[7-22] 20=4 "},
+        {"let a=1\nfunc f()\n    let b=\na\n", "l4[7-30] f13[21-30] 28=4 "},
+        {"let a=1\nlet b=\n!m x=a\nlet c=", "l4[7-29] 20=4 "},
+    };
+    Player *player = *state;
+    for (size_t i = 0; i < COUNT_OF(rows); i++) {
+        player->shown.len = 0;
+        note(&player->shown, "", 0);
+        assert_int_equal(petri_names(player->session, rows[i].text, PETRI_Z, note_name, &player->shown), PETRI_OK);
+        assert_string_equal(player->shown.text, rows[i].names);
+    }
+}
+
 static const char profiled_script[] = "let a=frame\n\n!b x=a\n!counter state=:c rate=1\n";
 
 // A row for each line that was evaluated; what is evaluated when the script is loaded takes no time later.
@@ -448,6 +484,7 @@ int main(void) {
         PLAYER_TEST(test_nodes),
         cmocka_unit_test(test_rendered),
         PLAYER_TEST(test_tokens),
+        PLAYER_TEST(test_names),
         cmocka_unit_test(test_places_of_nodes),
         cmocka_unit_test(test_one_place_is_told_once),
         cmocka_unit_test(test_helpers),

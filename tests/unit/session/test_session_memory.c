@@ -254,6 +254,16 @@ static void ignore_token(void *host, const PetriToken *token) {
     (void)token;
 }
 
+static void ignore_name(void *host, const PetriTextName *name) {
+    (void)host;
+    (void)name;
+}
+
+static PetriStatus act_names(Stage *stage) {
+    return petri_names(stage->player.session, "let other_name=(1;'two';:three)\nfunc g(x)\n    x\n", PETRI_Z,
+                       ignore_name, NULL);
+}
+
 static PetriStatus act_tokens(Stage *stage) {
     return petri_tokens(stage->player.session, "let new_name=(1;'two';:three) -- four\n", PETRI_Z, ignore_token, NULL);
 }
@@ -403,6 +413,7 @@ static const Row rows[] = {
     {"print", act_print, false},
     {"dump", act_dump, false},
     {"tokens", act_tokens, false},
+    {"names", act_names, false},
     {"input", act_input, false},
     {"prompt value", act_prompt_value, false},
     {"prompt binding", act_prompt_binding, false},

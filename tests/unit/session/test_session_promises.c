@@ -14,6 +14,11 @@ static const char *const KEYS = "!physics state=:a dimensions=2 time=beat\n    !
                                 "!window\n    !key name=:space state=:space\n    !pointer state=:mouse\n";
 
 // Texts live as long as petri.h says, whatever else is asked meanwhile.
+static void ignore_name(void *host, const PetriTextName *name) {
+    (void)host;
+    (void)name;
+}
+
 static void ignore_token(void *host, const PetriToken *token) {
     (void)host;
     (void)token;
@@ -152,6 +157,9 @@ static void test_null(void **state) {
         petri_tokens(none, "1", 1, ignore_token, NULL),
         petri_tokens(session, NULL, 0, ignore_token, NULL),
         petri_tokens(session, "1", 1, NULL, NULL),
+        petri_names(none, "1", 1, ignore_name, NULL),
+        petri_names(session, NULL, 0, ignore_name, NULL),
+        petri_names(session, "1", 1, NULL, NULL),
         petri_prompt(none, "1", 1, NULL, NULL, &done),
         petri_prompt(session, NULL, 0, NULL, NULL, &done),
         petri_prompt(session, "1", 1, NULL, NULL, NULL),

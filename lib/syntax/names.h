@@ -1,0 +1,27 @@
+// names.h: what the names of a syntax tree stand for, for editors. The rules are those by which programs are compiled
+// (lib/program/compile.c); here they hold for trees with gaps, too.
+#ifndef PETRI_SYNTAX_NAMES_H
+#define PETRI_SYNTAX_NAMES_H
+
+#include "ast/ast.h"
+
+// As PetriNameKind of petri.h.
+typedef enum NameKind { NAME_USE, NAME_LET, NAME_FUNC, NAME_PARAM, NAME_LOOP, NAME_IMPORT } NameKind;
+
+#define NAME_FREE UINT32_MAX
+
+typedef struct NameNote {
+    NameKind kind;
+    Span span;       // of the name
+    uint32_t bound;  // of a use: where the name stands that it means; NAME_FREE: nowhere in the text
+    Span scope;      // of others: where they are visible
+    Span whole;      // … and what they are bound to: a value, a function with its body, a file
+    bool alone;      // … the value is bound to this name alone
+    uint32_t height; // … in so many blocks and functions
+} NameNote;
+
+typedef void NamesTake(void *host, const NameNote *note);
+// Gives each name that binds or is used, in the order in which a program is evaluated.
+void names_read(Arena *arena, const Source *source, const Ast *ast, NamesTake *take, void *host);
+
+#endif

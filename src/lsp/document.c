@@ -1,0 +1,343 @@
+// document.c: see document.h.
+#include "lsp/document.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+#include "base/source.h"
+
+// The length of a character in the units that the editor counts in.
+static size_t units(int32_t c, size_t bytes, bool utf8) {
+    return utf8 ? bytes : c > 0xffff ? 2 : 1;
+}
+
+static void find_lines(Document *document) {
+    Str text = {document->text.data, document->text.length};
+    document->line_count = 1;
+    for (size_t i = 0; i < text.len; i++) {
+        document->line_count += text.bytes[i] == '\n';
+    }
+    document->lines = memory_resized(document->lines, document->line_count * sizeof *document->lines);
+    document->lines[0] = 0;
+    for (size_t i = 0, line = 0; i < text.len; i++) {
+        if (text.bytes[i] == '\n') {
+            document->lines[++line] = i + 1;
+        }
+    }
+}
+
+// Keeps invalid UTF-8 out, which JSON cannot have but files can.
+static void add_clean(Bytes *out, Str text) {
+    for (size_t at = 0; at < text.len;) {
+        size_t start = at;
+        int32_t c = utf8_next(text, &at);
+        bytes_add(out, c < 0 ? "?" : text.bytes + start, c < 0 ? 1 : at - start);
+    }
+}
+
+static void changed(Document *document) {
+    document->text.length = source_unify_lines(document->text.data, document->text.length);
+    document->text.data[document->text.length] = '\0';
+    document->unread = document->unchecked = true;
+    json_object_put(document->values);
+    document->values = NULL;
+    find_lines(document);
+}
+
+void document_set_text(Document *document, Str text) {
+    document->text.length = 0;
+    bytes_add(&document->text, "", 0);
+    add_clean(&document->text, text);
+    changed(document);
+}
+
+Document *document_new(const char *uri, Str text, int64_t version) {
+    Document *document = memory_zeroed(sizeof *document);
+    document->uri = memory_text(uri);
+    document->path = uri_path(uri);
+    document->is_file = document->path != NULL;
+    document->path = document->is_file ? document->path : memory_text(uri);
+    document->version = version;
+    document->published = json_object_new_object();
+    document_set_text(document, text);
+    return document;
+}
+
+void document_forget_told(Document *document) {
+    for (size_t i = 0; i < document->told_count; i++) {
+        free(document->told[i].text);
+        free(document->told[i].hint);
+        free(document->told[i].code);
+    }
+    document->told_count = 0;
+}
+
+void document_free(Document *document) {
+    document_forget_told(document);
+    free(document->told);
+    free(document->uri);
+    free(document->path);
+    free(document->lines);
+    free(document->tokens);
+    free(document->levels);
+    free(document->names);
+    bytes_free(&document->text);
+    json_object_put(document->published);
+    json_object_put(document->values);
+    free(document);
+}
+
+void document_change(Document *document, const Json *change, bool utf8) {
+    const char *text = json_text(change, "text");
+    Json *range = json_get(change, "range");
+    if (text == NULL) {
+        return;
+    }
+    if (range == NULL) {
+        document_set_text(document, str_from(text));
+        return;
+    }
+    size_t start = document_offset(document, json_get(range, "start"), utf8);
+    size_t end = document_offset(document, json_get(range, "end"), utf8);
+    Bytes old = document->text;
+    document->text = (Bytes){0};
+    bytes_add(&document->text, old.data, start < end ? start : end);
+    bytes_add_text(&document->text, text);
+    bytes_add(&document->text, old.data + (start < end ? end : start), old.length - (start < end ? end : start));
+    bytes_free(&old);
+    changed(document);
+}
+
+typedef struct Reading {
+    Document *document;
+    size_t capacity;
+    size_t level;
+    bool begins;
+} Reading;
+
+static void take_token(void *host, const PetriToken *token) {
+    Reading *reading = host;
+    Document *document = reading->document;
+    switch (token->kind) {
+    case PETRI_TOKEN_LINE_END:
+        reading->begins = true;
+        return;
+    case PETRI_TOKEN_INDENT:
+        reading->level++;
+        return;
+    case PETRI_TOKEN_DEDENT:
+        reading->level -= reading->level > 0;
+        return;
+    default:
+        break;
+    }
+    if (document->token_count == reading->capacity) {
+        reading->capacity = reading->capacity == 0 ? 256 : 2 * reading->capacity;
+        document->tokens = memory_resized(document->tokens, reading->capacity * sizeof *document->tokens);
+        document->levels = memory_resized(document->levels, reading->capacity * sizeof *document->levels);
+    }
+    bool begins = reading->begins && token->kind != PETRI_TOKEN_COMMENT;
+    document->levels[document->token_count] = begins ? SIZE_MAX - reading->level : reading->level;
+    document->tokens[document->token_count++] = *token;
+    reading->begins = reading->begins && !begins;
+}
+
+static void take_name(void *host, const PetriTextName *name) {
+    Reading *reading = host;
+    Document *document = reading->document;
+    if (document->name_count == reading->capacity) {
+        reading->capacity = reading->capacity == 0 ? 256 : 2 * reading->capacity;
+        document->names = memory_resized(document->names, reading->capacity * sizeof *document->names);
+    }
+    document->names[document->name_count++] = *name;
+}
+
+static int by_start(const void *a, const void *b) {
+    const PetriTextName *first = a, *second = b;
+    return first->start < second->start ? -1 : first->start > second->start;
+}
+
+void document_read(Document *document, PetriSession *session) {
+    if (!document->unread) {
+        return;
+    }
+    Reading tokens = {.document = document, .begins = true}, names = {.document = document};
+    free(document->tokens);
+    free(document->levels);
+    free(document->names);
+    document->tokens = NULL;
+    document->levels = NULL;
+    document->names = NULL;
+    document->token_count = document->name_count = 0;
+    petri_tokens(session, document->text.data, document->text.length, take_token, &tokens);
+    petri_names(session, document->text.data, document->text.length, take_name, &names);
+    if (document->name_count > 0) {
+        qsort(document->names, document->name_count, sizeof *document->names, by_start);
+    }
+    document->unread = false;
+}
+
+size_t document_offset(const Document *document, const Json *position, bool utf8) {
+    int64_t line = json_number(position, "line", 0), character = json_number(position, "character", 0);
+    if (line < 0 || (uint64_t)line >= document->line_count) {
+        return line < 0 ? 0 : document->text.length;
+    }
+    Str text = {document->text.data, document->text.length};
+    size_t at = document->lines[line];
+    for (int64_t left = character; left > 0 && at < text.len && text.bytes[at] != '\n';) {
+        size_t start = at;
+        int32_t c = utf8_next(text, &at);
+        left -= (int64_t)units(c, at - start, utf8);
+    }
+    return at;
+}
+
+size_t document_offset_at(const Document *document, uint32_t line, uint32_t column) {
+    if (line == 0 || line > document->line_count) {
+        return line == 0 ? 0 : document->text.length;
+    }
+    Str text = {document->text.data, document->text.length};
+    size_t at = document->lines[line - 1];
+    for (uint32_t i = 1; i < column && at < text.len && text.bytes[at] != '\n'; i++) {
+        utf8_next(text, &at);
+    }
+    return at;
+}
+
+void document_place(const Document *document, size_t offset, bool utf8, size_t *line, size_t *character) {
+    size_t low = 0, high = document->line_count - 1;
+    while (low < high) {
+        size_t middle = (low + high + 1) / 2;
+        if (document->lines[middle] <= offset) {
+            low = middle;
+        } else {
+            high = middle - 1;
+        }
+    }
+    *line = low;
+    *character = 0;
+    Str text = {document->text.data, document->text.length};
+    for (size_t at = document->lines[low]; at < offset && at < text.len;) {
+        size_t start = at;
+        int32_t c = utf8_next(text, &at);
+        *character += units(c, at - start, utf8);
+    }
+}
+
+static Json *position(const Document *document, size_t offset, bool utf8) {
+    size_t line, character;
+    document_place(document, offset, utf8, &line, &character);
+    return json_put_number(json_put_number(json_object_new_object(), "line", (int64_t)line), "character",
+                           (int64_t)character);
+}
+
+Json *document_range(const Document *document, size_t start, size_t end, bool utf8) {
+    return json_put(json_put(json_object_new_object(), "start", position(document, start, utf8)), "end",
+                    position(document, end, utf8));
+}
+
+Str document_part(const Document *document, size_t start, size_t end) {
+    size_t most = document->text.length;
+    start = start < most ? start : most;
+    end = end < most ? end : most;
+    return (Str){document->text.data + start, end > start ? end - start : 0};
+}
+
+Str document_token(const Document *document, size_t token) {
+    return document_part(document, document->tokens[token].start, document->tokens[token].end);
+}
+
+bool document_is(const Document *document, size_t token, const char *text) {
+    return token < document->token_count && str_equal(document_token(document, token), str_from(text));
+}
+
+bool document_begins(const Document *document, size_t token) {
+    return document->levels[token] > SIZE_MAX / 2;
+}
+
+size_t document_level(const Document *document, size_t token) {
+    size_t level = document->levels[token];
+    return level > SIZE_MAX / 2 ? SIZE_MAX - level : level;
+}
+
+size_t document_token_at(const Document *document, size_t offset) {
+    size_t low = 0, high = document->token_count;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (document->tokens[middle].end > offset) {
+            high = middle;
+        } else {
+            low = middle + 1;
+        }
+    }
+    return low;
+}
+
+const PetriTextName *document_name_at(const Document *document, size_t offset) {
+    size_t low = 0, high = document->name_count;
+    while (low < high) {
+        size_t middle = (low + high) / 2;
+        if (document->names[middle].end < offset) {
+            low = middle + 1;
+        } else {
+            high = middle;
+        }
+    }
+    return low < document->name_count && document->names[low].start <= offset ? &document->names[low] : NULL;
+}
+
+const PetriTextName *document_binding(const Document *document, const PetriTextName *name) {
+    if (name == NULL || name->kind != PETRI_NAME_USE) {
+        return name;
+    }
+    const PetriTextName *bound = name->bound == PETRI_Z ? NULL : document_name_at(document, name->bound + 1);
+    return bound != NULL && bound->start == name->bound && bound->kind != PETRI_NAME_USE ? bound : NULL;
+}
+
+const PetriTextName *document_meaning(const Document *document, size_t token) {
+    size_t at = document->tokens[token].start;
+    const PetriTextName *name = document_name_at(document, at), *found = NULL;
+    if (document->tokens[token].kind != PETRI_TOKEN_NAME || name != NULL || document_is(document, token + 1, "=")) {
+        return document_binding(document, name);
+    }
+    Str text = document_token(document, token);
+    for (size_t i = 0; i < document->name_count && document->names[i].start < at; i++) {
+        name = &document->names[i];
+        bool visible = name->kind != PETRI_NAME_USE && name->scope_start <= at && at <= name->scope_end;
+        if (visible && str_equal(document_part(document, name->start, name->end), text)) {
+            found = name;
+        }
+    }
+    return found;
+}
+
+char *uri_path(const char *uri) {
+    static const char scheme[] = "file://";
+    if (strncmp(uri, scheme, strlen(scheme)) != 0) {
+        return NULL;
+    }
+    const char *at = strchr(uri + strlen(scheme), '/');
+    Bytes path = {0};
+    for (; at != NULL && *at != '\0'; at++) {
+        int high = *at == '%' ? str_hex_digit(at[1]) : -1, low = high >= 0 ? str_hex_digit(at[2]) : -1;
+        char c = low >= 0 ? (char)(high * 16 + low) : *at;
+        at += low >= 0 ? 2 : 0;
+        bytes_add(&path, &c, 1);
+    }
+    return path.data;
+}
+
+char *uri_of(const char *path) {
+    Bytes uri = {0};
+    bytes_add_text(&uri, path[0] == '/' ? "file://" : "");
+    for (const char *c = path; *c != '\0'; c++) {
+        bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') ||
+                     strchr("/-._~", *c) != NULL;
+        if (plain || path[0] != '/') {
+            bytes_add(&uri, c, 1);
+        } else {
+            bytes_format(&uri, "%%%02X", (unsigned char)*c);
+        }
+    }
+    return uri.data;
+}

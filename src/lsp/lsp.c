@@ -1,0 +1,276 @@
+// lsp.c: `petri lsp`: a server for editors, by the Language Server Protocol 3.17.
+//
+// One thread: it takes a message, answers it, and checks what was changed when no other message waits.
+#include <stdlib.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "lsp/lsp.h"
+#include "lsp/server.h"
+
+enum { MOST_READS = 5000 };
+
+Document *server_document(const Server *server, const char *uri) {
+    for (size_t i = 0; uri != NULL && i < server->document_count; i++) {
+        if (strcmp(server->documents[i]->uri, uri) == 0) {
+            return server->documents[i];
+        }
+    }
+    return NULL;
+}
+
+Document *server_file(Server *server, const char *path, bool *read) {
+    *read = false;
+    for (size_t i = 0; i < server->document_count; i++) {
+        if (strcmp(server->documents[i]->path, path) == 0) {
+            return server->documents[i];
+        }
+    }
+    SCOPED_BYTES text = {0};
+    bytes_add(&text, "", 0);
+    if (!bytes_read_file(&text, path)) {
+        return NULL;
+    }
+    SCOPED_TEXT uri = uri_of(path);
+    *read = true;
+    return document_new(uri, (Str){text.data, text.length}, -1);
+}
+
+bool server_open_session(Server *server) {
+    petri_close(&server->session);
+    server->options->threads = 1;
+    server->reads = 0;
+    return options_open(server->options, server->host, told_take, server, &server->session) == OPTIONS_READ;
+}
+
+// A session knows each symbol that it ever saw.
+void server_read(Server *server, Document *document) {
+    if (document->unread && server->reads++ > MOST_READS) {
+        server_open_session(server);
+    }
+    if (server->session != NULL) {
+        document_read(document, server->session);
+    }
+}
+
+// --- documents
+
+static void open_document(Server *server, const Json *params) {
+    const Json *item = json_get(params, "textDocument");
+    const char *uri = json_text(item, "uri"), *text = json_text(item, "text");
+    if (uri == NULL || text == NULL || server_document(server, uri) != NULL) {
+        return;
+    }
+    server->documents = memory_resized(server->documents, (server->document_count + 1) * sizeof *server->documents);
+    server->documents[server->document_count++] = document_new(uri, str_from(text), json_number(item, "version", 0));
+}
+
+static void change_document(Server *server, const Json *params) {
+    Document *document = server_document(server, json_text(json_get(params, "textDocument"), "uri"));
+    Json *changes = json_get(params, "contentChanges");
+    if (document == NULL || !json_object_is_type(changes, json_type_array)) {
+        return;
+    }
+    document->version = json_number(json_get(params, "textDocument"), "version", document->version + 1);
+    for (size_t i = 0; i < json_object_array_length(changes); i++) {
+        document_change(document, json_object_array_get_idx(changes, i), server->utf8);
+    }
+}
+
+static void close_document(Server *server, const Json *params) {
+    Document *document = server_document(server, json_text(json_get(params, "textDocument"), "uri"));
+    for (size_t i = 0; document != NULL && i < server->document_count; i++) {
+        if (server->documents[i] == document) {
+            server->documents[i] = server->documents[--server->document_count];
+            told_drop(server, document);
+            document_free(document);
+            break;
+        }
+    }
+}
+
+// A file was saved, or changed by another program: it may be one that others import.
+static void check_all(Server *server, const Json *params) {
+    (void)params;
+    for (size_t i = 0; i < server->document_count; i++) {
+        server->documents[i]->unchecked = true;
+    }
+}
+
+static void ignore(Server *server, const Json *params) {
+    (void)server;
+    (void)params;
+}
+
+static const struct {
+    const char *method;
+    void (*take)(Server *server, const Json *params);
+} notes[] = {
+    {"initialized", ignore},
+    {"textDocument/didOpen", open_document},
+    {"textDocument/didChange", change_document},
+    {"textDocument/didClose", close_document},
+    {"textDocument/didSave", check_all},
+    {"workspace/didChangeWatchedFiles", check_all},
+};
+
+// --- requests
+
+static const struct {
+    const char *method;
+    Answer *answer;
+    const char *capability; // that says that there is an answer; NULL: said otherwise
+} requests[] = {
+    {"textDocument/completion", answer_completion, NULL},
+    {"textDocument/hover", answer_hover, "hoverProvider"},
+    {"textDocument/signatureHelp", answer_signature, NULL},
+    {"textDocument/definition", answer_definition, "definitionProvider"},
+    {"textDocument/references", answer_references, "referencesProvider"},
+    {"textDocument/documentHighlight", answer_highlight, "documentHighlightProvider"},
+    {"textDocument/prepareRename", answer_prepare_rename, NULL},
+    {"textDocument/rename", answer_rename, NULL},
+    {"textDocument/documentSymbol", answer_symbols, "documentSymbolProvider"},
+    {"textDocument/foldingRange", answer_folding, "foldingRangeProvider"},
+    {"textDocument/semanticTokens/full", answer_tokens, NULL},
+    {"textDocument/inlayHint", answer_hints, "inlayHintProvider"},
+    {"textDocument/documentColor", answer_colours, "colorProvider"},
+    {"textDocument/colorPresentation", answer_presentations, NULL},
+    {"textDocument/codeAction", answer_actions, "codeActionProvider"},
+    {"textDocument/formatting", answer_format, "documentFormattingProvider"},
+};
+
+static Json *characters(const char *list) {
+    Json *array = json_object_new_array();
+    for (const char *c = list; *c != '\0'; c++) {
+        json_object_array_add(array, json_object_new_string_len(c, 1));
+    }
+    return array;
+}
+
+static Json *capabilities(const Server *server) {
+    Json *all = json_put_text(json_object_new_object(), "positionEncoding", server->utf8 ? "utf-8" : "utf-16");
+    Json *sync = json_put_number(json_put_true(json_object_new_object(), "openClose"), "change", 2);
+    json_put(all, "textDocumentSync", json_put_true(sync, "save"));
+    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++) {
+        if (requests[i].capability != NULL) {
+            json_put_true(all, requests[i].capability);
+        }
+    }
+    json_put(all, "completionProvider", json_put(json_object_new_object(), "triggerCharacters", characters("!$:'\"/")));
+    json_put(all, "signatureHelpProvider", json_put(json_object_new_object(), "triggerCharacters", characters("(,")));
+    json_put(all, "renameProvider", json_put_true(json_object_new_object(), "prepareProvider"));
+    return json_put(all, "semanticTokensProvider",
+                    json_put_true(json_put(json_object_new_object(), "legend", tokens_legend()), "full"));
+}
+
+static Json *initialize(Server *server, const Json *params) {
+    Json *encodings = json_path(params, "capabilities.general.positionEncodings");
+    size_t count = json_object_is_type(encodings, json_type_array) ? json_object_array_length(encodings) : 0;
+    for (size_t i = 0; i < count; i++) {
+        const char *name = json_object_get_string(json_object_array_get_idx(encodings, i));
+        server->utf8 = server->utf8 || (name != NULL && strcmp(name, "utf-8") == 0);
+    }
+    server->begun = true;
+    Json *about = json_put_text(json_put_text(json_object_new_object(), "name", "petri"), "version", petri_version());
+    return json_put(json_put(json_object_new_object(), "capabilities", capabilities(server)), "serverInfo", about);
+}
+
+static bool answer(Server *server, Answer *ask, Json *id, const Json *params) {
+    Place place = {.server = server,
+                   .document = server_document(server, json_text(json_get(params, "textDocument"), "uri")),
+                   .params = params};
+    const char *problem = place.document == NULL ? "the document is not open" : NULL;
+    Json *result = NULL;
+    if (problem == NULL) {
+        server_read(server, place.document);
+        place.offset = document_offset(place.document, json_get(params, "position"), server->utf8);
+        result = ask(&place, &problem);
+    }
+    if (problem != NULL) {
+        json_object_put(result);
+        return rpc_refuse(id, RPC_REQUEST_FAILED, problem);
+    }
+    return rpc_answer(id, result);
+}
+
+static bool request(Server *server, const char *method, Json *id, const Json *params) {
+    if (strcmp(method, "initialize") == 0) {
+        return rpc_answer(id, initialize(server, params));
+    }
+    if (!server->begun || server->ends) {
+        return rpc_refuse(id, server->begun ? RPC_INVALID_REQUEST : RPC_NOT_INITIALIZED,
+                          server->begun ? "the server is shut down" : "the server is not initialized");
+    }
+    if (strcmp(method, "shutdown") == 0) {
+        server->ends = true;
+        return rpc_answer(id, NULL);
+    }
+    for (size_t i = 0; i < sizeof requests / sizeof requests[0]; i++) {
+        if (strcmp(requests[i].method, method) == 0) {
+            return answer(server, requests[i].answer, id, params);
+        }
+    }
+    return rpc_refuse(id, RPC_METHOD_NOT_FOUND, method);
+}
+
+static void notice(Server *server, const char *method, const Json *params) {
+    for (size_t i = 0; server->begun && i < sizeof notes / sizeof notes[0]; i++) {
+        if (strcmp(notes[i].method, method) == 0) {
+            notes[i].take(server, params);
+        }
+    }
+}
+
+// False if the editor is gone.
+static bool take(Server *server, const Json *message) {
+    const char *method = json_text(message, "method");
+    Json *id = json_get(message, "id");
+    if (method == NULL) {
+        return json_get(message, "result") != NULL || json_get(message, "error") != NULL || id == NULL
+                   ? true // an answer, though nothing was asked
+                   : rpc_refuse(id, RPC_INVALID_REQUEST, "a message has a method");
+    }
+    if (id != NULL) {
+        return request(server, method, id, json_get(message, "params"));
+    }
+    notice(server, method, json_get(message, "params"));
+    return true;
+}
+
+static void check_changed(Server *server, const Bytes *input) {
+    for (size_t i = 0; i < server->document_count && !rpc_more(input); i++) {
+        if (server->documents[i]->unchecked) {
+            told_check(server, server->documents[i]);
+        }
+    }
+}
+
+int lsp_serve(const Host *host, Options *options) {
+    Server server = {.host = host, .options = options};
+    SCOPED_BYTES input = {0};
+    int status = STATUS_FAILED;
+    bool reading = server_open_session(&server);
+    while (reading) {
+        Json *message;
+        RpcRead came = rpc_read(&input, &message);
+        const char *method = json_text(message, "method");
+        if (came == RPC_END || (method != NULL && strcmp(method, "exit") == 0)) {
+            status = server.ends ? STATUS_DONE : STATUS_FAILED;
+            reading = false;
+        } else if (came == RPC_WRONG) {
+            reading = rpc_refuse(NULL, RPC_PARSE_ERROR, "this is no JSON");
+        } else {
+            reading = take(&server, message);
+        }
+        json_object_put(message);
+        if (reading) {
+            check_changed(&server, &input);
+        }
+    }
+    for (size_t i = 0; i < server.document_count; i++) {
+        document_free(server.documents[i]);
+    }
+    free(server.documents);
+    petri_close(&server.session);
+    return status;
+}

@@ -1,0 +1,154 @@
+// rpc.c: see rpc.h.
+#include "lsp/rpc.h"
+
+#include <errno.h>
+#include <poll.h>
+#include <stdlib.h>
+#include <string.h>
+#include <strings.h>
+#include <unistd.h>
+
+#include "base/file.h"
+
+enum { MOST_DEPTH = 256, MOST_HEADER = 4096 };
+static const size_t MOST_BYTES = (size_t)64 << 20;
+
+// Reads more input; false at its end.
+static bool read_more(Bytes *input) {
+    char part[1 << 16];
+    ssize_t count;
+    do {
+        count = read(STDIN_FILENO, part, sizeof part);
+    } while (count < 0 && errno == EINTR);
+    if (count > 0) {
+        bytes_add(input, part, (size_t)count);
+    }
+    return count > 0;
+}
+
+static void drop(Bytes *input, size_t count) {
+    memmove(input->data, input->data + count, input->length - count);
+    input->length -= count;
+    input->data[input->length] = '\0';
+}
+
+// The length that a header tells; SIZE_MAX if it tells none.
+static size_t content_length(const char *header) {
+    static const char name[] = "Content-Length:";
+    for (const char *line = header; line != NULL; line = strchr(line, '\n')) {
+        line += *line == '\n';
+        if (strncasecmp(line, name, strlen(name)) == 0) {
+            long long length = atoll(line + strlen(name));
+            return length >= 0 && (size_t)length <= MOST_BYTES ? (size_t)length : SIZE_MAX;
+        }
+    }
+    return SIZE_MAX;
+}
+
+RpcRead rpc_read(Bytes *input, Json **message) {
+    char *end = NULL;
+    *message = NULL;
+    while (input->length == 0 || (end = strstr(input->data, "\r\n\r\n")) == NULL) {
+        if (input->length > MOST_HEADER || !read_more(input)) {
+            return RPC_END;
+        }
+    }
+    *end = '\0';
+    size_t length = content_length(input->data), begin = (size_t)(end - input->data) + 4;
+    if (length == SIZE_MAX) {
+        return RPC_END; // where the next one begins nobody knows
+    }
+    while (input->length - begin < length) {
+        if (!read_more(input)) {
+            return RPC_END;
+        }
+    }
+    json_tokener *tokener = json_tokener_new_ex(MOST_DEPTH);
+    *message = json_tokener_parse_ex(tokener, input->data + begin, (int)length);
+    json_tokener_free(tokener);
+    drop(input, begin + length);
+    return *message != NULL ? RPC_MESSAGE : RPC_WRONG;
+}
+
+bool rpc_more(const Bytes *input) {
+    struct pollfd ready = {.fd = STDIN_FILENO, .events = POLLIN};
+    return input->length > 0 || poll(&ready, 1, 0) > 0;
+}
+
+// Writes a message and frees it.
+static bool write_message(Json *message) {
+    json_put_text(message, "jsonrpc", "2.0");
+    size_t length = 0;
+    const char *text =
+        json_object_to_json_string_length(message, JSON_C_TO_STRING_PLAIN | JSON_C_TO_STRING_NOSLASHESCAPE, &length);
+    SCOPED_BYTES out = {0};
+    bytes_format(&out, "Content-Length: %zu\r\n\r\n", length);
+    bytes_add(&out, text, length);
+    bool written = file_write(STDOUT_FILENO, out.data, out.length);
+    json_object_put(message);
+    return written;
+}
+
+bool rpc_answer(Json *id, Json *result) {
+    Json *message = json_put(json_object_new_object(), "id", json_object_get(id));
+    return write_message(json_put(message, "result", result));
+}
+
+bool rpc_refuse(Json *id, int code, const char *text) {
+    Json *error = json_put_text(json_put_number(json_object_new_object(), "code", code), "message", text);
+    Json *message = json_put(json_object_new_object(), "id", json_object_get(id));
+    return write_message(json_put(message, "error", error));
+}
+
+bool rpc_notify(const char *method, Json *params) {
+    return write_message(json_put(json_put_text(json_object_new_object(), "method", method), "params", params));
+}
+
+Json *json_get(const Json *object, const char *key) {
+    return json_object_is_type(object, json_type_object) ? json_object_object_get(object, key) : NULL;
+}
+
+Json *json_path(const Json *object, const char *keys) {
+    SCOPED_TEXT copy = memory_text(keys);
+    char *rest = copy;
+    Json *at = (Json *)object;
+    for (char *key = strsep(&rest, "."); key != NULL; key = strsep(&rest, ".")) {
+        at = json_get(at, key);
+    }
+    return at;
+}
+
+const char *json_text(const Json *object, const char *key) {
+    Json *value = json_get(object, key);
+    return json_object_is_type(value, json_type_string) ? json_object_get_string(value) : NULL;
+}
+
+int64_t json_number(const Json *object, const char *key, int64_t otherwise) {
+    Json *value = json_get(object, key);
+    return json_object_is_type(value, json_type_int) ? json_object_get_int64(value) : otherwise;
+}
+
+Json *json_put(Json *object, const char *key, Json *value) {
+    json_object_object_add(object, key, value);
+    return object;
+}
+
+Json *json_put_text(Json *object, const char *key, const char *text) {
+    return json_put(object, key, json_object_new_string(text));
+}
+
+Json *json_put_number(Json *object, const char *key, int64_t number) {
+    return json_put(object, key, json_object_new_int64(number));
+}
+
+Json *json_put_true(Json *object, const char *key) {
+    return json_put(object, key, json_object_new_boolean(true));
+}
+
+Json *json_from(Str text) {
+    return json_object_new_string_len(text.bytes, (int)text.len);
+}
+
+Json *json_markdown(const char *text) {
+    return json_put_text(json_put_text(json_object_new_object(), "kind", "markdown"), "value", text);
+}

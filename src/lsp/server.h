@@ -1,0 +1,69 @@
+// server.h: what the parts of the language server share.
+#ifndef PETRI_SRC_LSP_SERVER_H
+#define PETRI_SRC_LSP_SERVER_H
+
+#include "cli/options.h"
+#include "lsp/document.h"
+
+typedef struct Server {
+    const Host *host;
+    Options *options;
+    PetriSession *session; // for tokens, names and checks
+    uint64_t reads;        // since it was opened
+    Document **documents;
+    size_t document_count;
+    bool utf8; // how the editor counts characters: UTF-8 or UTF-16
+    bool begun;
+    bool ends;     // shutdown was asked for
+    bool checking; // diagnostics go to `checked`
+    Document *checked;
+    Json *found; // … and here, by URI
+} Server;
+
+// NULL if the editor has not opened it.
+Document *server_document(const Server *server, const char *uri);
+// The document, or the file read into one that is to be freed if `*read` is set. NULL if there is none.
+Document *server_file(Server *server, const char *path, bool *read);
+// Tokens and names of the present text.
+void server_read(Server *server, Document *document);
+bool server_open_session(Server *server);
+
+// What petri check has to say, to the editor (told.c).
+void told_check(Server *server, Document *document);
+void told_take(void *server, const PetriDiagnostic *diagnostic);
+void told_drop(Server *server, Document *document);
+
+// Where a request asks about something.
+typedef struct Place {
+    Server *server;
+    Document *document;
+    const Json *params;
+    size_t offset; // of params.position, if there is one
+} Place;
+
+// Requests: each gives the result, or NULL for null. An error is a text in *problem.
+typedef Json *Answer(const Place *place, const char **problem);
+Answer answer_completion, answer_hover, answer_signature, answer_definition, answer_references, answer_highlight,
+    answer_prepare_rename, answer_rename, answer_symbols, answer_folding, answer_tokens, answer_hints, answer_colours,
+    answer_presentations, answer_actions, answer_format;
+// Of semantic tokens, for the capabilities.
+Json *tokens_legend(void);
+
+// What is known of a word (explain.c).
+
+// The number of the node kind to which an attribute that begins at the token belongs, or SIZE_MAX.
+size_t explain_node_of(const Document *document, size_t token, const char **name);
+// Kinds of one name stand in several areas: the one in `area`, or any.
+bool explain_kind(Str name, size_t *number, PetriNodeKind *kind);
+bool explain_builtin(Str name, PetriBuiltin *builtin);
+void explain_attribute(Bytes *out, const PetriNodeAttribute *attribute);
+// The statement or value of a name, as a block of code, with its value if it is a constant.
+void explain_binding(Bytes *out, Server *server, Document *document, const PetriTextName *name);
+// The value of a name that is the same in each frame; NULL if it is none, or more than a frame may take.
+const char *explain_value(Server *server, Document *document, const PetriTextName *name);
+// The script of which an import takes the name, read into a document; see server_file.
+Document *explain_module(Server *server, const Document *document, const PetriTextName *name, bool *read);
+// The binding of a name at the top level, the last that counts.
+const PetriTextName *explain_export(const Document *document, Str name);
+
+#endif

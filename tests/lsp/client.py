@@ -1,0 +1,83 @@
+"""client.py: a language client for tests: it starts `petri lsp`, sends messages and reads what comes back."""
+
+import json
+import subprocess
+
+
+class Client:
+    def __init__(self, petri, utf8=False, options=()):
+        self.process = subprocess.Popen([petri, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self.number = 0
+        self.told = {}  # by URI: the last publishDiagnostics
+        self.versions = {}
+        encodings = ["utf-8", "utf-16"] if utf8 else ["utf-16"]
+        self.server = self.ask("initialize", {"processId": None, "rootUri": None, "capabilities": {
+            "general": {"positionEncodings": encodings}}})
+        self.tell("initialized", {})
+
+    def send(self, message):
+        body = json.dumps({"jsonrpc": "2.0", **message}).encode()
+        self.process.stdin.write(b"Content-Length: %d\r\n\r\n" % len(body) + body)
+        self.process.stdin.flush()
+
+    def read(self):
+        length = None
+        while (line := self.process.stdout.readline().strip()):
+            name, value = line.split(b":", 1)
+            if name.lower() == b"content-length":
+                length = int(value)
+        if length is None:
+            raise EOFError(f"the server is gone: exit status {self.process.wait()}")
+        message = json.loads(self.process.stdout.read(length))
+        if message.get("method") == "textDocument/publishDiagnostics":
+            self.told[message["params"]["uri"]] = message["params"]
+        return message
+
+    def tell(self, method, params):
+        self.send({"method": method, "params": params})
+
+    def reply(self, method, params):
+        """The answer as it is, an error among them."""
+        self.number += 1
+        self.send({"id": self.number, "method": method, "params": params})
+        while (message := self.read()).get("id") != self.number or "method" in message:
+            pass
+        return message
+
+    def ask(self, method, params):
+        message = self.reply(method, params)
+        assert "error" not in message, message
+        return message["result"]
+
+    def at(self, method, uri, line, character, **more):
+        return self.ask("textDocument/" + method, {"textDocument": {"uri": uri}, "position": {
+            "line": line, "character": character}, **more})
+
+    def of(self, method, uri, **more):
+        return self.ask("textDocument/" + method, {"textDocument": {"uri": uri}, **more})
+
+    def open(self, uri, text):
+        self.versions[uri] = 1
+        self.tell("textDocument/didOpen", {"textDocument": {
+            "uri": uri, "languageId": "flitter", "version": 1, "text": text}})
+        return self.wait(uri)
+
+    def change(self, uri, *changes):
+        self.versions[uri] += 1
+        self.tell("textDocument/didChange", {"textDocument": {
+            "uri": uri, "version": self.versions[uri]}, "contentChanges": list(changes)})
+
+    def wait(self, uri):
+        """The diagnostics of the present version."""
+        while self.told.get(uri, {}).get("version") != self.versions[uri]:
+            self.read()
+        return self.told[uri]["diagnostics"]
+
+    def close(self, uri):
+        self.tell("textDocument/didClose", {"textDocument": {"uri": uri}})
+
+    def end(self):
+        self.ask("shutdown", None)
+        self.tell("exit", None)
+        self.process.stdin.close()
+        return self.process.wait()
