@@ -32,6 +32,7 @@ PYTHON_NEEDS="
 /usr/bin/python3 -I -c 'import build'      : python3-build
 /usr/bin/python3 -I -c 'import cffi'       : python3-cffi
 /usr/bin/python3 -I -c 'import numpy'      : python3-numpy
+/usr/bin/python3 -I -c 'import pygments'   : python3-pygments
 /usr/bin/python3 -I -c 'import setuptools' : python3-setuptools
 /usr/bin/python3 -I -c 'import wheel'      : python3-wheel
 command -v python3-config : python3-dev

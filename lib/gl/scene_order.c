@@ -11,17 +11,22 @@ typedef struct Sorted {
     double depth;
     uint32_t segments;
     uint32_t instance;
-    uint32_t rank; // of its model and textures; UINT32_MAX: transparent, in a group that sorts
+    uint32_t rank; // of its model and textures
+    bool last;     // transparent, in a group that sorts
     bool disc;     // it can be one
 } Sorted;
 
-// Opaque instances by model, nearest first; then transparent ones, farthest first.
+// Opaque instances by model, nearest first; then transparent ones, farthest first, and equally far ones by model.
 static int compare_sorted(const void *a, const void *b) {
     const Sorted *one = a, *two = b;
-    if (one->rank != two->rank)
+    if (one->last != two->last)
+        return two->last ? -1 : 1;
+    if (!one->last && one->rank != two->rank)
         return one->rank < two->rank ? -1 : 1;
     if (one->depth < two->depth || one->depth > two->depth)
-        return (one->depth < two->depth) == (one->rank != UINT32_MAX) ? -1 : 1;
+        return (one->depth < two->depth) != one->last ? -1 : 1;
+    if (one->rank != two->rank)
+        return one->rank < two->rank ? -1 : 1;
     return one->instance < two->instance ? -1 : one->instance > two->instance;
 }
 
@@ -93,8 +98,8 @@ static void add_draws(const Scene *scene, SceneOrder *order, uint32_t number, co
         const SceneDraw wanted = {.group = number,
                                   .model = instance->model,
                                   .textures = instance->material->textures,
-                                  .transparent = sorted[i].rank == UINT32_MAX,
-                                  .translucent = sorted[i].rank == UINT32_MAX && is_translucent(instance),
+                                  .transparent = sorted[i].last,
+                                  .translucent = sorted[i].last && is_translucent(instance),
                                   .disc = sorted[i].disc,
                                   .deep = deep,
                                   .first = order->count,
@@ -152,7 +157,7 @@ typedef struct Sight {
     double scale; // pixels of an edge of 1 at a distance of 1
 } Sight;
 
-// Fills all but `rank`; false if the instance is not seen.
+// Fills all but `rank` and `last`; false if the instance is not seen.
 static bool look_at(const Scene *scene, const SceneGroup *group, const Sight *sight, const SceneBox *box,
                     Sorted *sorted) {
     const SceneInstance *instance = &group->instances[sorted->instance];
@@ -179,8 +184,8 @@ static bool choose_discs(const Scene *scene, const SceneGroup *group, Sorted *so
     uint32_t discs = 0;
     for (uint32_t i = 0; i < count; i++) {
         bool translucent = is_translucent(&group->instances[sorted[i].instance]);
-        deep |= group->look.depth_test && (sorted[i].rank != UINT32_MAX || translucent);
-        sorted[i].disc &= sorted[i].rank == UINT32_MAX && !translucent;
+        deep |= group->look.depth_test && (!sorted[i].last || translucent);
+        sorted[i].disc &= sorted[i].last && !translucent;
         discs += sorted[i].disc;
     }
     for (uint32_t i = 0; i < count; i++) {
@@ -211,7 +216,7 @@ SceneOrder scene_order(const Scene *scene, const Eye *eye, const Matrix *view, c
             size_t pair = (size_t)instance->model * scene->texture_count + instance->material->textures;
             uint32_t rank = rank_of(&ranks, pair, number);
             Sorted *next = &sorted[count];
-            *next = (Sorted){.instance = i, .rank = sorts && is_transparent(scene, instance) ? UINT32_MAX : rank};
+            *next = (Sorted){.instance = i, .rank = rank, .last = sorts && is_transparent(scene, instance)};
             if (!look_at(scene, group, &sight, box, next))
                 continue;
             double part = next->segments ? (double)next->segments / scene->models[instance->model].segments : 1;

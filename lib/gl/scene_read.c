@@ -70,6 +70,9 @@ static uint32_t number_textures(Scene *scene, const Place *place) {
     for (uint32_t i = scene->texture_count; i-- > 1 && any;)
         if (same_textures(&scene->textures[i], &wanted))
             return i;
+    if (any && scene->texture_count > MOST)
+        scene_report(scene, "too-many-textures", scene->node,
+                     "a scene can have 1000 different sets of textures; the others are left out");
     if (!any || scene->texture_count > MOST)
         return 0;
     scene->textures =

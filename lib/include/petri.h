@@ -90,6 +90,7 @@ typedef struct PetriRanks {
     void (*gather)(void *host, double *numbers, const size_t *starts);
     // Each number becomes the largest that a rank has. None is NaN.
     void (*most)(void *host, double *numbers, size_t count);
+    // After petri_interrupt, on all ranks, they need not wait for each other any more: numbers that do not come are 0.
 } PetriRanks;
 
 typedef struct PetriOptions {
@@ -129,8 +130,8 @@ typedef struct PetriOptions {
     // default) and other words: the best that there are; for the whole process the environment variable PETRI_CPU, read
     // once when the library is loaded, is the upper limit. Results never depend on it.
     const char *cpu;
-    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included, and none may be
-    // interrupted.
+    // NULL (the default): this process alone. All ranks must have the same options, `cpu` included; if one is
+    // interrupted, all must be, and none may go on.
     const PetriRanks *ranks;
     // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
     // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the

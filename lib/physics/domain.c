@@ -128,7 +128,7 @@ bool phys_domain_begin(PhysSystem *system) {
     if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
         return false;
     if (!again && system->touched)
-        phys_domain_reload(system, domain);
+        phys_domain_reload(system, domain, true);
     system->touched = false;
     domain->local->frame = system->frame;
     system->traffic.sharing = PHYS_BY_REGION;
@@ -260,22 +260,26 @@ static void unpack_all(const PhysSystem *system, const Domain *domain, bool forc
     }
 }
 
-void phys_domain_store(PhysSystem *system, bool keep_last_finite) {
+bool phys_domain_store(PhysSystem *system, bool keep_last_finite) {
     Domain *domain = system->domain.bytes;
     const PhysRanks *ranks = &system->options.ranks;
     bool forces = system->options.keep_forces;
     size_t width = (forces ? 3 : 2) * (size_t)system->dimensions, *starts = lay_out(system, domain, width);
+    domain->made = false;
     if (!starts)
-        return;
+        return false;
     double *whole = domain->whole.bytes, *loads = domain->loads.bytes;
     pack_own(domain, forces, whole + starts[ranks->rank]);
     ranks->gather(ranks->host, whole, starts);
     system->traffic.frame_bytes += (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof *whole;
+    if (!phys_goes_on(system))
+        return false;
     for (int r = 0; r < ranks->count; r++)
         loads[r] = whole[starts[r + 1] - 1];
     size_t *next = starts + ranks->count + 1;
     memcpy(next, starts, (size_t)ranks->count * sizeof *next);
     unpack_all(system, domain, forces, next);
     phys_store(system, keep_last_finite);
-    phys_domain_reload(system, domain);
+    phys_domain_reload(system, domain, false);
+    return domain->made = true;
 }

@@ -73,8 +73,8 @@ typedef struct Domain {
 // same. False with system->failed if memory is used up.
 bool phys_domain_begin(PhysSystem *system);
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
-// Makes all particles whole and stores them, as phys_store.
-void phys_domain_store(PhysSystem *system, bool keep_last_finite);
+// Makes all particles whole and stores them, as phys_store; false if it was given up.
+bool phys_domain_store(PhysSystem *system, bool keep_last_finite);
 void phys_domain_free(PhysSystem *system);
 
 // domain_deal.c: deals the plots out to the ranks, by what their particles cost. The columns must be whole. False if
@@ -99,8 +99,8 @@ bool phys_domain_gather(PhysSystem *system, Domain *domain);
 bool phys_domain_take_forces(PhysSystem *system, Domain *domain);
 // Own particles, as they are within a frame, into the system's columns.
 void phys_domain_give_back(PhysSystem *system, const Domain *domain);
-// The system's columns into the local ones.
-void phys_domain_reload(const PhysSystem *system, Domain *domain);
+// The system's columns into the local ones; only positions and velocities unless `all` are wanted.
+void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all);
 
 static inline uint32_t *phys_owners(const Domain *domain) {
     return domain->owners.bytes;

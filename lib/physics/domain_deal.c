@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLOTS_EACH = 512 }; // plots for a rank
+enum { PLOTS_EACH = 1024 }; // plots for a rank
 
 static uint32_t rotated(uint32_t word, uint32_t by, uint32_t bits) {
     by %= bits;
@@ -103,6 +103,17 @@ static void price(const PhysSystem *system, Domain *domain, double *prices) {
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
 
+// As many plots along each axis as the curve has: cut in the middle, it gives halves with a straight border.
+static void round_plots(Grid *grid) {
+    for (size_t k = 0; k < grid->dimensions; k++) {
+        uint32_t cells = 1;
+        while (2 * cells <= grid->cells[k])
+            cells *= 2;
+        grid->scale[k] = cells > 1 ? grid->scale[k] * cells / grid->cells[k] : 0;
+        grid->cells[k] = cells;
+    }
+}
+
 static bool lay_plots(PhysSystem *system, Domain *domain) {
     Neighbours *survey = &domain->survey;
     PairPass pass = phys_columns_pass(&system->columns);
@@ -117,6 +128,7 @@ static bool lay_plots(PhysSystem *system, Domain *domain) {
     double most = (double)PLOTS_EACH * system->options.ranks.count;
     if (!phys_grid_lay(&pass, survey, most, &domain->plots, &domain->widest))
         return false;
+    round_plots(&domain->plots);
     domain->large_count = 0;
     for (uint32_t i = 0; i < system->particle_count; i++)
         if (survey->cell[i] == PHYS_CELL_LARGE)

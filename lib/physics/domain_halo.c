@@ -61,13 +61,19 @@ static void receive(const PhysSystem *system, const Domain *domain, uint32_t fro
 // Tells all how many particles go from each rank to each: row `from`, column `to`.
 static const double *tell_counts(PhysSystem *system, Domain *domain, const Parcels *to) {
     size_t ranks = (size_t)system->options.ranks.count, self = (size_t)system->options.ranks.rank;
-    if (!phys_buffer_reserve(system, &domain->table, 0, ranks * ranks, sizeof(double)))
+    if (!phys_buffer_reserve(system, &domain->table, 0, ranks * ranks, sizeof(double)) ||
+        !phys_buffer_reserve(system, &domain->starts, 0, ranks + 1, sizeof(size_t)))
         return NULL;
     double *table = domain->table.bytes;
-    memset(table, 0, ranks * ranks * sizeof *table);
+    size_t *starts = domain->starts.bytes;
+    memset(table, 0, ranks * ranks * sizeof *table); // should the others never answer
+    for (size_t r = 0; r <= ranks; r++)
+        starts[r] = r * ranks;
     for (size_t r = 0; r < ranks; r++)
         table[self * ranks + r] = (double)phys_parcel_count(to, r);
-    reduce(system, table, ranks * ranks);
+    system->options.ranks.gather(system->options.ranks.host, table, starts);
+    system->traffic.reductions++;
+    system->traffic.step_bytes += ranks * sizeof *table;
     return table;
 }
 
@@ -156,7 +162,7 @@ bool phys_domain_move(PhysSystem *system, Domain *domain) {
     bool done = true;
     for (uint32_t r = 0; r < ranks && done; r++)
         done = r == self || receive_movers(system, domain, table, r, &domain->from);
-    return done;
+    return done && phys_goes_on(system);
 }
 
 // How far a particle with this radius may be from one of its partners, except for large ones.
@@ -324,7 +330,7 @@ bool phys_domain_find_halo(PhysSystem *system, Domain *domain) {
     const double *table;
     return collect_wishes(system, domain) && sort_parcels(system, domain, &domain->to) &&
            (table = tell_counts(system, domain, &domain->to)) && send_halo(system, domain) &&
-           receive_halo(system, domain, table);
+           receive_halo(system, domain, table) && phys_goes_on(system); // else what came is not what was sent
 }
 
 bool phys_domain_exchange(PhysSystem *system, Domain *domain) {

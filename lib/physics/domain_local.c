@@ -73,10 +73,10 @@ static bool count_movers(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-static bool any_random(const PhysSystem *system) {
+static bool is_needed(const PhysSystem *system, ForceNeed need) {
     const Force *forces = system->forces.bytes;
     for (uint32_t f = 0; f < system->force_count; f++)
-        if (phys_force_row(forces[f].given.kind).need == NEED_STREAM)
+        if (phys_force_row(forces[f].given.kind).need == need)
             return true;
     return false;
 }
@@ -84,7 +84,7 @@ static bool any_random(const PhysSystem *system) {
 static bool take_draws(PhysSystem *system, Domain *domain) {
     Columns *own = &domain->local->columns;
     own->draws = NULL;
-    if (!any_random(system))
+    if (!is_needed(system, NEED_STREAM))
         return true;
     if (!phys_buffer_reserve(system, &domain->draws, 0, own->count, sizeof(uint32_t)) || !count_movers(system, domain))
         return false;
@@ -106,29 +106,38 @@ static void take(const uint32_t *column, size_t first, size_t end, const double 
 typedef struct Taking {
     const PhysSystem *system;
     const Domain *domain;
+    bool all; // not only what a frame changes
 } Taking;
 
 static void take_share(void *context, int share, int shares) {
     const Taking *taking = context;
-    const Columns *from = &taking->system->columns, *to = &taking->domain->local->columns;
+    const PhysSystem *system = taking->system;
+    const Columns *from = &system->columns, *to = &taking->domain->local->columns;
     const uint32_t *column = taking->domain->column;
     size_t first = phys_share(to->count, share, shares), end = phys_share(to->count, share + 1, shares);
-    const double *sources[] = {from->radius, from->mass, from->charge, from->section, from->volume, from->ease};
-    double *targets[] = {to->radius, to->mass, to->charge, to->section, to->volume, to->ease};
-    for (size_t k = 0; k < sizeof sources / sizeof *sources; k++)
-        take(column, first, end, sources[k], targets[k]);
     for (size_t k = 0; k < to->dimensions; k++) {
         size_t there = k * from->stride, here = k * to->stride;
         take(column, first, end, from->position + there, to->position + here);
         take(column, first, end, from->velocity + there, to->velocity + here);
-        if (taking->system->has_own_forces)
+        if (taking->all && system->has_own_forces)
             take(column, first, end, from->own_force + there, to->own_force + here);
     }
+    if (!taking->all)
+        return;
+    take(column, first, end, from->radius, to->radius);
+    take(column, first, end, from->mass, to->mass);
+    take(column, first, end, from->charge, to->charge);
+    if (is_needed(system, NEED_SECTION))
+        take(column, first, end, from->section, to->section);
+    if (is_needed(system, NEED_VOLUME))
+        take(column, first, end, from->volume, to->volume);
+    if (system->has_eased_forces)
+        take(column, first, end, from->ease, to->ease);
 }
 
-void phys_domain_reload(const PhysSystem *system, Domain *domain) {
+void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all) {
     PhysSystem *local = domain->local;
-    Taking taking = {system, domain};
+    Taking taking = {system, domain, all};
     local->has_own_forces = system->has_own_forces;
     local->has_eased_forces = system->has_eased_forces;
     phys_parallel(local, phys_shares(local, local->particle_count, PHYS_MIN_FOR_THREADS), take_share, &taking);
@@ -143,7 +152,7 @@ static bool take_particles(PhysSystem *system, Domain *domain) {
         !phys_buffer_reserve(system, &domain->built, 0, (system->dimensions + 1) * (uint64_t)domain->own_count,
                              sizeof(double)))
         return false;
-    phys_domain_reload(system, domain);
+    phys_domain_reload(system, domain, true);
     const uint32_t *owners = phys_owners(domain);
     bool *foreign = domain->foreign.bytes;
     uint32_t *own = domain->own.bytes;

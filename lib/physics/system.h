@@ -92,6 +92,7 @@ typedef struct PhysRanks {
     void (*gather)(void *host, double *numbers, const size_t *starts);
     // Each becomes the largest that a rank has; there is no NaN among them.
     void (*most)(void *host, double *numbers, size_t count);
+    // A wish for an end, which the meter has, too, lets all these return without the others: what comes is zeros then.
 } PhysRanks;
 
 // How the ranks have shared a system, and what this one has sent for it.

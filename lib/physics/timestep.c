@@ -41,6 +41,11 @@ static bool step(PhysSystem *system, bool shared, double clock, double delta, do
                   : phys_step(system, clock, delta, speed_of_light);
 }
 
+static PhysResult give_up(PhysSystem *system, const PhysTime *time) {
+    system->arranged = false; // rows are as they were, columns are not
+    return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
+}
+
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
@@ -63,10 +68,8 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
-        if (!step(system, shared, result.clock, delta, time->speed_of_light)) {
-            system->arranged = false; // rows are as they were, columns are not
-            return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
-        }
+        if (!step(system, shared, result.clock, delta, time->speed_of_light))
+            return give_up(system, time);
         result.clock += delta;
         result.steps++;
         system->traffic.steps++;
@@ -76,9 +79,9 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
-    if (shared)
-        phys_domain_store(system, time->keep_last_finite);
-    else
+    if (!shared)
         phys_store(system, time->keep_last_finite);
+    else if (!phys_domain_store(system, time->keep_last_finite))
+        return give_up(system, time);
     return result;
 }

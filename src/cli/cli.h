@@ -50,6 +50,7 @@ struct Host {
     int (*serve)(const Host *host, struct Options *options); // petri lsp; NULL: petri-lsp has it
     const struct PetriRanks *ranks; // the processes that share the work, as mpirun has started them; NULL: this alone
     const struct Mail *mail;        // … between them; NULL likewise
+    void (*leave_ranks)(void);      // … are no longer waited for, after a signal; a signal handler may call it
 };
 
 typedef struct Command {

@@ -38,6 +38,7 @@ FIELD(TextList,     read_folders, {0})            // … of scripts
 FIELD(TextList,     write_folders, {0})
 FIELD(bool,         no_files,     false)
 FIELD(const char *, state_file,   NULL)           // NULL: the state is neither taken from a file nor kept in one
+FIELD(int64_t,      save_every,   0)              // … after so many frames; 0: every few seconds
 FIELD(int64_t,      limit,        100000)         // repl: of .run and .until
 FIELD(int64_t,      threads,      0)              // 0: as many as CPUs
 FIELD(uint64_t,     memory,       0)              // bytes; 0: as much as the library allows
@@ -103,6 +104,7 @@ OPTION(FOR_RUN | FOR_GOLDEN, "every", 0, "K", WHOLE(1, INT64_MAX), every, "print
 OPTION(FOR_REPL | FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "define", 'D', "NAME=VALUE", read_definition, definitions, "set a parameter of the script; may be repeated")
 OPTION(FOR_LSP | FOR_CHECK, "define", 'D', "NAME=VALUE", read_definition, definitions, "define a name for the scripts; may be repeated")
 OPTION(FOR_RUN | FOR_RENDER | FOR_VIEW, "state", 0, "FILE", read_text, state_file, "go on from the state in FILE, if it exists, and keep it there")
+OPTION(FOR_RUN, "save-every", 0, "K", WHOLE(1, INT64_MAX), save_every, "keep the state of --state after each K-th frame, too, not only every few seconds")
 OPTION(FOR_REPL, "state", 0, "FILE", read_text, state_file, "begin with the state in FILE")
 OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "allow-read", 0, "DIR", read_folder, read_folders, "the script may also read below DIR, not only in its folder and this one; all: everywhere")
 OPTION(FOR_LSP | FOR_CHECK | FOR_REPL | FOR_RUN | FOR_RENDER | FOR_VIEW, "allow-write", 0, "DIR", read_folder, write_folders, "the script may also write pictures (!record) below DIR, not only in its folder")

@@ -87,6 +87,9 @@ static void format(Formatting *formatting, const char *name) {
     SCOPED_BYTES out = {0};
     if (!read_script(name, &text) || !lay_out(formatting, name, &text, &out)) {
         formatting->failed++;
+        if (script_is_stdin(name) && !formatting->only_checks) {
+            write_out(&text); // for editors that take whatever comes
+        }
         return;
     }
     bool changed = text.length != out.length || memcmp(text.data, out.data, out.length) != 0;

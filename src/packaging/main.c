@@ -1,5 +1,5 @@
-// main.c: writes one page of the manual, or what a shell completes, to standard output. The build runs it; nobody has
-// it afterwards.
+// main.c: writes one page of the manual, what a shell completes, or a grammar for editors to standard output. The build
+// runs it; nobody has it afterwards.
 #include <stdio.h>
 #include <string.h>
 
@@ -34,7 +34,8 @@ static bool write_product(Output *output, const char *name) {
 
 int main(int argc, char **argv) {
     Output *output = help_begin();
-    bool known = argc == 2 && write_product(output, argv[1]);
+    bool known = argc == 3 ? strcmp(argv[1], "--fill") == 0 && template_fill(output, argv[2])
+                           : argc == 2 && write_product(output, argv[1]);
     int status = help_end(output);
     return known ? status : STATUS_USAGE;
 }

@@ -20,4 +20,7 @@ void completion_bash(Output *output);
 void completion_zsh(Output *output);
 void completion_fish(Output *output);
 
+// A file of src/editors with the names that its marks stand for (template.c); false if it cannot be read.
+bool template_fill(Output *output, const char *path);
+
 #endif

@@ -4,8 +4,8 @@
 
 #include "petri-draw.h"
 
-// Makes so many frames, until one fails, or a function of Python's sets `stop` (NULL: there are none). `heed`: Ctrl-C interrupts them; for the main thread only, whose handler then
-// tells Python.
+// Makes so many frames, until one fails, or a function of Python's sets `stop` (NULL: there are none). `heed`: Ctrl-C
+// interrupts them; for the main thread only, whose handler then tells Python.
 PetriStatus petri_python_step(PetriSession *session, size_t count, bool heed, const bool *stop);
 
 // The system of this name, looked for first where it was; -1 if there is none. NULL stands for any name.

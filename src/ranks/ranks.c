@@ -3,6 +3,8 @@
 
 #include <fcntl.h>
 #include <mpi.h>
+#include <sched.h>
+#include <signal.h>
 #include <stdlib.h>
 #include <string.h>
 #include <unistd.h>
@@ -27,7 +29,8 @@ typedef struct Ranks {
     size_t numbers_room;
 } Ranks;
 
-static Ranks ranks; // of the process, as MPI is
+static Ranks ranks;                // of the process, as MPI is
+static volatile sig_atomic_t left; // a signal has come: nobody is waited for
 
 static void pack(double *to, const double *numbers, size_t runs, size_t length, size_t stride) {
     for (size_t k = 0; k < runs; k++) {
@@ -51,6 +54,9 @@ static void unpack(double *numbers, size_t runs, size_t length, size_t stride) {
 
 static void send_numbers(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride) {
     (void)host;
+    if (left) {
+        return;
+    }
     if (ranks.count == ranks.room) {
         ranks.room = 2 * ranks.room + 16;
         ranks.sendings = memory_resized(ranks.sendings, ranks.room * sizeof *ranks.sendings);
@@ -61,17 +67,38 @@ static void send_numbers(void *host, int to, const double *numbers, size_t runs,
     MPI_Isend(sending->numbers, (int)(runs * length), MPI_DOUBLE, to, 0, MPI_COMM_WORLD, &sending->request);
 }
 
+static void leave(void) {
+    left = 1;
+}
+
+// Waits for the others, but not for ever. False if the request was given up.
+static bool wait_for(MPI_Request *request) {
+    int done = 0;
+    while (MPI_Test(request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done && !left) {
+        sched_yield();
+    }
+    return done;
+}
+
 static void receive_numbers(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride) {
     (void)host;
-    MPI_Recv(make_room(runs * length), (int)(runs * length), MPI_DOUBLE, from, 0, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
+    double *came = make_room(runs * length);
+    MPI_Request request;
+    if (left == 0) {
+        MPI_Irecv(came, (int)(runs * length), MPI_DOUBLE, from, 0, MPI_COMM_WORLD, &request);
+    }
+    if (left || !wait_for(&request)) {
+        memset(came, 0, runs * length * sizeof *came);
+    }
     unpack(numbers, runs, length, stride);
 }
 
 static void wait_for_sendings(void) {
     while (ranks.count > 0) {
         Sending *sending = &ranks.sendings[--ranks.count];
-        MPI_Wait(&sending->request, MPI_STATUS_IGNORE);
-        free(sending->numbers);
+        if (!left && wait_for(&sending->request)) {
+            free(sending->numbers);
+        }
     }
 }
 
@@ -82,7 +109,13 @@ static void spread_numbers(void *host, int from, double *numbers, size_t runs, s
     if (ranks.as_options.rank == from) {
         pack(all, numbers, runs, length, stride);
     }
-    MPI_Bcast(all, (int)(runs * length), MPI_DOUBLE, from, MPI_COMM_WORLD);
+    MPI_Request request;
+    if (left == 0) {
+        MPI_Ibcast(all, (int)(runs * length), MPI_DOUBLE, from, MPI_COMM_WORLD, &request);
+    }
+    if (left || !wait_for(&request)) {
+        memset(all, 0, runs * length * sizeof *all);
+    }
     if (ranks.as_options.rank != from) {
         unpack(numbers, runs, length, stride);
     }
@@ -96,14 +129,23 @@ static void gather_numbers(void *host, double *numbers, const size_t *starts) {
         lengths[r] = (int)(starts[r + 1] - starts[r]);
         lengths[count + r] = (int)starts[r];
     }
-    MPI_Allgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, numbers, lengths, lengths + count, MPI_DOUBLE, MPI_COMM_WORLD);
+    MPI_Request request;
+    if (left == 0) {
+        MPI_Iallgatherv(MPI_IN_PLACE, 0, MPI_DATATYPE_NULL, numbers, lengths, lengths + count, MPI_DOUBLE,
+                        MPI_COMM_WORLD, &request);
+        wait_for(&request);
+    }
     free(lengths);
 }
 
 static void find_most(void *host, double *numbers, size_t count) {
     (void)host;
     wait_for_sendings();
-    MPI_Allreduce(MPI_IN_PLACE, numbers, (int)count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD);
+    MPI_Request request;
+    if (left == 0) {
+        MPI_Iallreduce(MPI_IN_PLACE, numbers, (int)count, MPI_DOUBLE, MPI_MAX, MPI_COMM_WORLD, &request);
+        wait_for(&request);
+    }
 }
 
 enum { NUMBERS, LETTER }; // tags
@@ -149,6 +191,7 @@ void ranks_begin(Host *host) {
     MPI_Allreduce(&level, &least, 1, MPI_INT, MPI_MIN, MPI_COMM_WORLD);
     host->cpu = cpu_name((CpuLevel)least);
     host->ranks = options;
+    host->leave_ranks = leave;
     ranks.mail = (Mail){options->rank, options->count, send_letter, take_letter};
     host->mail = &ranks.mail;
     if (options->rank > 0) {

@@ -18,6 +18,7 @@ static const double SAME_SIGNAL = 0.2;
 // A signal handler can reach nothing but a global.
 static volatile sig_atomic_t interrupted;
 static PetriSession *volatile working; // the session that makes a frame, which is to be given up
+static void (*leave_ranks)(void);      // if there are others
 
 static pthread_t main_thread;
 
@@ -40,6 +41,9 @@ static void on_signal(int number) {
     interrupted = number;
     if (working != NULL) {
         petri_interrupt(working);
+    }
+    if (leave_ranks != NULL) {
+        leave_ranks();
     }
     if (number == SIGINT && isatty(STDERR_FILENO)) {
         ssize_t ignored = write(STDERR_FILENO, note, sizeof note - 1);
@@ -76,6 +80,7 @@ static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
 int frames_open(Frames *frames, const Host *host, Options *options) {
     frames->options = options;
     frames->ranks = host->ranks;
+    leave_ranks = host->leave_ranks;
     return options_open(options, host, on_diagnostic, frames, &frames->session);
 }
 
@@ -166,7 +171,8 @@ bool frames_step(Frames *frames) {
         return false;
     }
     frames->done++;
-    save_state(frames, false);
+    int64_t every = frames->options->save_every;
+    save_state(frames, every > 0 && (number + 1) % every == 0);
     return true;
 }
 
@@ -174,6 +180,11 @@ void frames_end(Frames *frames, bool going) {
     progress_erase(&frames->progress);
     if (going) {
         save_state(frames, true);
+    }
+    if (interrupted && frames->ranks != NULL) {
+        message("signal %d: a rank has died, or somebody wants an end; %s%s", (int)interrupted,
+                frames->state.name == NULL ? "no --state is kept" : "what there was of whole frames is in ",
+                frames->state.name == NULL ? "" : frames->state.name);
     }
 }
 

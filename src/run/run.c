@@ -269,11 +269,18 @@ static bool fits_ranks(const PetriRanks *ranks, Options *options) {
                                                    : "no script on standard input: the ranks do not share it");
         return false;
     }
-    options->trajectory = ranks->rank == 0 ? options->trajectory : NULL;
+    if (ranks->rank > 0) { // what rank 0 writes is not to be made by all
+        options->trajectory = NULL;
+        options->sections = 0;
+    }
     return true;
 }
 
 static int run_run(const Host *host, Options *options) {
+    if (options->save_every > 0 && options->state_file == NULL) {
+        message("--save-every needs a file to keep the state in: add --state FILE");
+        return STATUS_USAGE;
+    }
     if (!fits_ranks(host->ranks, options)) {
         return STATUS_USAGE;
     }

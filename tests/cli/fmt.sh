@@ -55,6 +55,10 @@ cp wrong.fl before.fl
 petri fmt wrong.fl
 check "a script with an error is not laid out" one_error
 check "… and left as it is" cmp -s wrong.fl before.fl
+"$petri" fmt - <wrong.fl >out 2>err
+status=$?
+check "… of standard input it writes what it was given" cmp -s out before.fl
+check "… with exit status 1" status_is 1
 petri fmt gone.fl
 check "a file that is not there is told" has err "cannot read gone.fl"
 check "… with exit status 1" status_is 1

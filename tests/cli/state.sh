@@ -52,6 +52,19 @@ check "nothing is left beside the files" [ -z "$(find . -name '*.tmp')" ]
 petri run world.fl --frames 2 --state .
 check "a folder is no state file" status_is 1
 
+# a run that is killed leaves what --save-every says
+"$petri" run world.fl --frames 100000000 --state kept.state --save-every 2 --trace >out 2>err </dev/null &
+job=$!
+while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 6 ]; do :; done
+kill -9 $job
+wait $job 2>/dev/null
+petri run world.fl --frames 1 --print state --state kept.state
+next=$(sed -n 's/^@\([0-9]*\) .*/\1/p' out)
+check "--save-every has kept each second frame" [ "${next:-0}" -ge 4 ]
+petri run world.fl --frames 1 --save-every 2
+check "--save-every alone has nothing to keep" status_is 2
+check "… and says what it needs" has err 'add --state FILE'
+
 # ids that are new in each frame must not fill the state
 cat >fresh.fl <<'END'
 !physics state=:s dimensions=1

@@ -52,7 +52,7 @@ def edit(text):
 
 
 def checked(name, text):
-    Path(name).write_text(text, newline="")
+    Path(name).write_bytes(text.encode())
     out = subprocess.run([petri, "check", "--format=json", str(folder / name)], capture_output=True).stdout
     return sorted((d["line"], d["column"], d["level"], d["text"], d["hint"]) for d in json.loads(out)
                   if d["file"] == str(folder / name))

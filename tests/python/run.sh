@@ -17,6 +17,7 @@ PYTHONPATH=$scratch
 PYTHONDONTWRITEBYTECODE=1
 export PYTHONPATH PYTHONDONTWRITEBYTECODE
 "$2" "$here/test_petri.py"
+"$2" "$here/test_lexer.py" "$root/samples"
 cd "$root/samples" # scripts of the tutorial are there
 "$2" -m doctest "$root/src/python/TUTORIAL.md"
 "$2" "$root/tests/bench/python.py" petri.fl 1

@@ -42,21 +42,21 @@ debug('frame';frame)
     !random strength=0.5
     !barrier position=0;0 normal=0;1
 END
-"$petri" run stars.fl --frames 5 --print hash,log --trajectory one.csv --stats >one 2>stats
+"$petri" run stars.fl --frames 5 --print hash,log --every 4 --trajectory one.csv --stats >one 2>stats
 for count in 2 3 4 7; do
-    ranks $count run stars.fl --frames 5 --print hash,log --stats --threads $((count % 2 + 1))
+    ranks $count run stars.fl --frames 5 --print hash,log --every 4 --stats --threads $((count % 2 + 1))
     check "$count ranks come to the bits of one, and say it once" same one out
     check "in one table, too" [ "$(grep momentum err)" = "$(grep momentum stats)" ]
     check "with stars shared by pairs, discs by region" [ "$(grep -c "on $count ranks  *by \(pairs\|region\)" err)" -eq 2 ]
 done
-ranks 2 stars.fl --frames 5 --print hash,log --trajectory two.csv
+ranks 2 stars.fl --frames 5 --print hash,log --every 4 --trajectory two.csv
 check "as does a script without command" same one out
 check "one of them writes the trajectory" same one.csv two.csv
 
 ranks 3 run stars.fl --frames 3 --state world.state
 check "the state is kept" exists world.state
 ranks 2 run stars.fl --frames 2 --print hash --state world.state
-check "another number of ranks goes on from it" [ "$(tail -n 1 out)" = "$(tail -n 2 one | grep =)" ]
+check "another number of ranks goes on from it" [ "$(tail -n 1 out)" = "$(tail -n 2 one | grep '=')" ]
 
 echo 'let X=(' >wrong.fl
 ranks 2 run wrong.fl
@@ -66,13 +66,29 @@ ranks 2 run stars.fl --frames 5 --work 20K
 check "a limit ends all" status_is 1
 check "and is told once, too" count_is err 'stopped in frame' 1
 if command -v pgrep >/dev/null; then
-    mpirun -n 2 "$petri" run stars.fl --frames 100000 --trace >out 2>err </dev/null &
-    job=$!
-    while kill -0 $job && [ "$(grep -c "petri: frame" err)" -lt 3 ]; do :; done # both are at work
-    kill -9 "$(pgrep -P $job | tail -n 1)"
-    wait $job
-    status=$?
-    check "a rank that dies ends all" [ $status -ne 0 ]
+    # end SIGNAL WHICH: once all are at work, ends one rank: the `head` or the `tail` of them.
+    end() {
+        rm -f dead.state
+        mpirun -n 3 "$petri" run stars.fl --frames 100000 --trace --state dead.state --save-every 2 >out 2>err </dev/null &
+        job=$!
+        while kill -0 $job && [ "$(grep -c "petri: frame" err)" -lt 6 ]; do :; done
+        kill "$1" "$(pgrep -P $job | "$2" -n 1)"
+        wait $job
+        ended=$?
+        frames=$(grep -c "petri: frame" err)
+        told=$(grep "signal 15" err)
+        ranks 2 run stars.fl --frames 1 --print hash --state dead.state
+        next=$(sed -n 's/^@\([0-9]*\).*/\1/p' out)
+    }
+    end -KILL tail
+    check "a rank that dies ends all" [ $ended -ne 0 ]
+    check "and some frames are kept" [ "${next:-0}" -ge 4 ]
+    end -TERM head
+    check "a rank that is to end ends all" [ $ended -ne 0 ]
+    check "with a message that says where whole frames are" [ "${told#*a rank has died*in dead.state}" != "$told" ]
+    check "all of them" [ "${next:-0}" -eq "$frames" ]
+    "$petri" run stars.fl --frames $((next + 1)) --print hash --every "$next" >one 2>err
+    check "from which other ranks come to the same bits" [ "$(tail -n 1 out)" = "$(tail -n 1 one)" ]
 fi
 ranks 2 run - --frames 1
 check "no script on standard input" has err 'under mpirun petri takes no script'

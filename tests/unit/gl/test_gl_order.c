@@ -126,6 +126,40 @@ static void test_choice(void **state) {
     assert_true(count_discs(&stage) < 3);
 }
 
+// What is transparent is drawn farthest first, what is equally far in the order in which models first appeared; what is
+// opaque before, by model, nearest first.
+static void test_sorting(void **state) {
+    (void)state;
+    static const struct {
+        double z;
+        bool opaque;
+        uint32_t model;
+    } rows[] = {{0, false, 0}, {0, false, 1}, {0, false, 0}, {-20, false, 1},
+                {5, true, 1},  {-5, true, 0}, {-9, true, 1}, {-3, true, 0}};
+    static const uint32_t wanted[] = {7, 5, 4, 6, 3, 0, 2, 1}; // from the page
+    enum { ROWS = sizeof rows / sizeof *rows };
+    SceneModel models[2] = {{.kind = KIND_BOX}, {.kind = KIND_CONE}};
+    const SceneBox boxes[2] = {{{-1, -1, -1}, {1, 1, 1}, 12}, {{-1, -1, -1}, {1, 1, 1}, 128}};
+    Stage stage;
+    set_stage(&stage);
+    stage.scene.models = models;
+    stage.scene.model_count = 2;
+    stage.group.instance_count = stage.scene.instance_count = ROWS;
+    for (uint32_t i = 0; i < ROWS; i++) {
+        stage.instances[i].matrix.m[12] = 0;
+        stage.instances[i].matrix.m[14] = rows[i].z;
+        stage.instances[i].model = rows[i].model;
+        stage.instances[i].material = rows[i].opaque ? &stage.opaque : &stage.material;
+    }
+    stage.eye.position[0] = stage.eye.position[1] = 0; // so that depth is along z
+    Matrix view = matrix_view(&stage.eye), projection = matrix_projection(&stage.eye);
+    SceneOrder order = scene_order(&stage.scene, &stage.eye, &view, &projection, WIDTH, boxes);
+    assert_int_equal(order.count, ROWS);
+    for (uint32_t i = 0; i < ROWS; i++)
+        assert_int_equal(order.instances[i] - stage.instances, wanted[i]);
+    arena_free(&stage.arena);
+}
+
 static double apart(const double a[3], const double b[3]) {
     double d[3] = {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
     return sqrt(vector_dot(d, d));
@@ -245,7 +279,8 @@ static void test_limits(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_choice), cmocka_unit_test(test_rim),
-                                       cmocka_unit_test(test_mesh), cmocka_unit_test(test_limits)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_choice), cmocka_unit_test(test_sorting),
+                                       cmocka_unit_test(test_rim), cmocka_unit_test(test_mesh),
+                                       cmocka_unit_test(test_limits)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

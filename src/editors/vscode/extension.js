@@ -1,0 +1,99 @@
+// extension.js: what VS Code does with Flitter scripts: it starts `petri lsp`, and runs, views and draws them.
+const childProcess = require("child_process");
+const path = require("path");
+const vscode = require("vscode");
+const { LanguageClient } = require("vscode-languageclient/node");
+
+let client;
+let panel; // the picture beside
+let shown; // the script that it shows
+
+const setting = (name) => vscode.workspace.getConfiguration("petri").get(name);
+
+async function startServer() {
+    await client?.stop();
+    client = new LanguageClient(
+        "petri",
+        "petri",
+        { command: setting("path"), args: ["lsp", ...setting("arguments")] },
+        {
+            documentSelector: [{ language: "flitter" }],
+            synchronize: { fileEvents: vscode.workspace.createFileSystemWatcher("**/*.fl") },
+        },
+    );
+    try {
+        await client.start();
+    } catch (problem) {
+        vscode.window.showErrorMessage(`petri lsp does not start: ${problem.message}. Is "petri.path" right?`);
+    }
+}
+
+// The script that is being edited, saved; undefined, after a message, if there is none.
+async function script() {
+    const document = vscode.window.activeTextEditor?.document;
+    if (document?.languageId !== "flitter" || document.uri.scheme !== "file") {
+        vscode.window.showErrorMessage("No Flitter script is open.");
+        return undefined;
+    }
+    await document.save();
+    return document.fileName;
+}
+
+async function inTerminal(command) {
+    const file = await script();
+    if (file) {
+        const terminal = vscode.window.createTerminal({
+            name: `petri ${command}`,
+            cwd: path.dirname(file),
+            shellPath: setting("path"),
+            shellArgs: [command, file],
+        });
+        terminal.show(true);
+    }
+}
+
+const escaped = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
+
+// Draws a frame with `petri render`; what it says instead of a picture is shown as text.
+function draw() {
+    const args = ["render", shown, "-o", "-", "--format", "png", "--frame", String(setting("frame"))];
+    const options = { encoding: "buffer", maxBuffer: 1 << 28, cwd: path.dirname(shown), timeout: 60000 };
+    const file = shown;
+    childProcess.execFile(setting("path"), args, options, (problem, picture, said) => {
+        if (panel && file === shown) {
+            const body = problem
+                ? `<pre>${escaped(said.toString() || problem.message)}</pre>`
+                : `<img style="max-width: 100%" src="data:image/png;base64,${picture.toString("base64")}">`;
+            panel.webview.html = `<!DOCTYPE html><html><body>${body}</body></html>`;
+        }
+    });
+}
+
+async function showPicture() {
+    const file = await script();
+    if (!file) {
+        return;
+    }
+    shown = file;
+    panel ??= vscode.window.createWebviewPanel("petri.picture", "petri", vscode.ViewColumn.Beside, {});
+    panel.onDidDispose(() => (panel = undefined));
+    panel.title = path.basename(file);
+    draw();
+}
+
+async function activate(context) {
+    context.subscriptions.push(
+        vscode.commands.registerCommand("petri.view", () => inTerminal("view")),
+        vscode.commands.registerCommand("petri.run", () => inTerminal("run")),
+        vscode.commands.registerCommand("petri.picture", showPicture),
+        vscode.commands.registerCommand("petri.restart", startServer),
+        vscode.workspace.onDidSaveTextDocument((document) => {
+            if (panel && document.languageId === "flitter") {
+                draw();
+            }
+        }),
+    );
+    await startServer();
+}
+
+module.exports = { activate, deactivate: () => client?.stop() };

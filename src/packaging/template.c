@@ -1,0 +1,82 @@
+// template.c: fills the names of petri's tables into a file for editors, so that the two cannot drift apart.
+//
+// `@builtins|@` stands for the names of all functions with `|` between them; `nodes` and `values` likewise.
+// The separator may be any text without `@`.
+#include <stdio.h>
+#include <string.h>
+
+#include "cli/bytes.h"
+#include "cli/help.h"
+#include "packaging/packaging.h"
+#include "petri.h"
+
+static void add(TextList *list, const char *name) {
+    if (!texts_hold(list, name)) {
+        texts_add(list, name);
+    }
+}
+
+static void list_builtins(TextList *list) {
+    PetriBuiltin builtin;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        add(list, builtin.name);
+    }
+}
+
+static void list_nodes(TextList *list) {
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        add(list, kind.name);
+    }
+}
+
+// What petri gives to each frame, and constants: the topics before the words of the language.
+static void list_values(TextList *list) {
+    for (size_t i = 0; TOPICS[i].word != NULL && strcmp(TOPICS[i].word, "let") != 0; i++) {
+        add(list, TOPICS[i].word);
+    }
+    add(list, "tau");
+}
+
+static const struct {
+    const char *name;
+    void (*list)(TextList *list);
+} lists[] = {{"builtins", list_builtins}, {"nodes", list_nodes}, {"values", list_values}};
+
+// What stands between two `@`; false if it is no list.
+static bool write_list(Output *output, Str between) {
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        Str name = str_from(lists[i].name);
+        if (!str_starts_with(between, name)) {
+            continue;
+        }
+        TextList words = {0};
+        lists[i].list(&words);
+        for (size_t k = 0; k < words.count; k++) {
+            output_write(output, between.bytes + name.len, k == 0 ? 0 : between.len - name.len);
+            output_format(output, "%s", words.items[k]);
+        }
+        texts_free(&words);
+        return true;
+    }
+    return false;
+}
+
+bool template_fill(Output *output, const char *path) {
+    SCOPED_BYTES text = {0};
+    if (!bytes_read_file(&text, path)) {
+        return false;
+    }
+    for (const char *at = text.data; at != NULL && *at != '\0';) {
+        const char *open = strchr(at, '@'), *close = open == NULL ? NULL : strchr(open + 1, '@');
+        if (close == NULL) {
+            output_format(output, "%s", at);
+            break;
+        }
+        output_write(output, at, (size_t)(open - at));
+        bool filled = write_list(output, (Str){open + 1, (size_t)(close - open - 1)});
+        output_write(output, open, filled ? 0 : 1);
+        at = filled ? close + 1 : open + 1;
+    }
+    return true;
+}

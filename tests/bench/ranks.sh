@@ -1,0 +1,119 @@
+#!/bin/sh
+# ranks.sh: what ranks gain and what they send. `./dev bench --ranks` runs it on a quiet machine.
+# usage: ranks.sh PATH-OF-PETRI [ROUNDS [SIDE]]: rounds of the times (3); discs along an edge (1000).
+#
+# 1. Two ranks of one thread and one rank of two threads take turns; a figure is the median over the rounds.
+# 2. What is sent: by soft discs of three sizes on four ranks, and of one size on up to 16 (they need not run at once).
+# 3. A model of both: a step on R ranks takes N c / R, twice log2 R latencies for each decision, a latency for each
+#    message, its halo's bytes over the bandwidth; a frame besides what each rank does for all N, and 32 N bytes.
+#    LATENCY (microseconds) and BANDWIDTH (GB/s) say for what networks (two of them, if not given), STEP_NS and FRAME_NS
+#    what a particle takes, if that is not to be measured.
+set -eu
+petri=$1 rounds=${2:-3} side=${3:-1000}
+workloads=$(cd "$(dirname "$0")" && pwd)/workloads
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+trap 'exit 130' INT TERM
+OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1 OMPI_MCA_rmaps_base_oversubscribe=1 OMPI_MCA_plm=isolated
+export OMPI_ALLOW_RUN_AS_ROOT OMPI_ALLOW_RUN_AS_ROOT_CONFIRM OMPI_MCA_rmaps_base_oversubscribe OMPI_MCA_plm
+
+discs() { # SIDE
+    sed "s/SIDE=1000/SIDE=$1/" "$workloads/soft2d_n1000000.fl" >"$work/soft$1.fl"
+    echo "$work/soft$1.fl"
+}
+
+# milliseconds COMMAND...: of a frame, without output.
+milliseconds() {
+    "$@" --stats 2>&1 | awk '/^  (evaluation|physics) /{ sum += $2 } END { print sum }'
+}
+
+median() {
+    sort -n | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
+}
+
+# compare NAME SCRIPT OPTIONS...
+compare() {
+    name=$1
+    shift
+    : >"$work/one"
+    : >"$work/two"
+    for _ in $(seq "$rounds"); do
+        milliseconds "$petri" run "$@" --threads 2 >>"$work/one"
+        milliseconds mpirun -n 2 "$petri" run "$@" --threads 1 >>"$work/two"
+    done
+    one=$(median <"$work/one") two=$(median <"$work/two")
+    awk -v name="$name" -v one="$one" -v two="$two" \
+        'BEGIN { printf "%-32s %10.2f %10.2f %8.2f\n", name, one, two, one / two }'
+}
+
+echo "milliseconds a frame              2 threads    2 ranks    ratio"
+soft=$(discs "$side")
+compare "soft discs $((side * side)) x10" "$soft" --fps 5 --frames 13
+compare "gravity 4000" "$workloads/gravity_n4000.fl" --frames 120
+
+# traffic SIDE RANKS: own particles, those of others, bytes and messages of a step, decisions, bytes of a frame: of the
+# rank that has most.
+traffic() {
+    mpirun -n "$2" "$petri" run "$(discs "$1")" --fps 5 --frames 4 --stats 2>&1 | tr -d , | awk '
+        $1 == "particles" { own = $4; halo = $8 }
+        $1 == "sent" { bytes = $7; messages = $10; frame = $14 }
+        $1 == "agreed" { agreed = $3 }
+        END { print own, halo, bytes, messages, agreed, frame }'
+}
+
+echo
+echo "sent by a rank                 particles  of others  bytes a step  of halo  messages  decisions  bytes a frame"
+for size in "$((side / 10)) 4" "$((side * 10 / 32)) 4" "$side 4" "$((side * 10 / 32)) 2" "$((side * 10 / 32)) 8" "$((side * 10 / 32)) 16"; do
+    # shellcheck disable=SC2086 # two numbers
+    traffic $size >"$work/row"
+    # shellcheck disable=SC2086
+    set -- $size
+    awk -v n="$(($1 * $1))" -v ranks="$2" '{
+        printf "soft discs %7d, %2d ranks %12.0f %10.0f %13.0f %8.2f %9.1f %10.2f %14.0f\n",
+            n, ranks, $1, $2, $3, $3 / (16 * $2), $4, $5, $6 }' "$work/row"
+done
+read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which have others on all sides
+
+if [ -z "${STEP_NS:-}" ]; then
+    each=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 5 --frames 13 --threads 1)
+    frame=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 60 --frames 40 --threads 1)
+    # A frame at 5 fps has ten steps, one at 60 has one.
+    STEP_NS=$(echo "$each $frame $side" | awk '{ print ($1 - $2) / 9 / $3 / $3 * 2e6 }')
+    FRAME_NS=$(echo "$each $frame $side" | awk '{ f = (10 * $2 - $1) / 9 / $3 / $3 * 1e6; print (f > 0 ? f : 0) }')
+fi
+echo
+awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v messages="$messages" -v agreed="$agreed" \
+    -v latency="${LATENCY:-2 25}" -v bandwidth="${BANDWIDTH:-10 1}" '
+    # Nanoseconds of a step on so many ranks.
+    function step(n, ranks, steps, us, gb,   log2) {
+        if (ranks == 1) return n * c + n * f / steps
+        log2 = log(ranks) / log(2)
+        return n * c / ranks + (messages + 2 * agreed * log2) * us * 1000 + sent * sqrt(n / ranks) / gb \
+            + (n * f + 32 * n / gb + 2 * log2 * us * 1000) / steps
+    }
+    # The most ranks up to which each doubling makes a step 1.4 times as fast, and how fast it is then.
+    function gain(n, steps, us, gb,   ranks) {
+        for (ranks = 1; ranks < 65536 && step(n, 2 * ranks, steps, us, gb) * 1.4 <= step(n, ranks, steps, us, gb); )
+            ranks *= 2
+        return sprintf("%d: %.0f times", ranks, step(n, 1, steps, us, gb) / step(n, ranks, steps, us, gb))
+    }
+    BEGIN {
+        sent = bytes / sqrt(own)
+        printf "A particle takes %.1f ns a step and %.1f ns a frame; a rank of n particles sends %.0f sqrt(n) bytes.\n\n", c, f, sent
+        networks = split(latency, us, " ")
+        split(bandwidth, gb, " ")
+        head = "| discs | steps a frame |"
+        rule = "|---|---|"
+        for (k = 1; k <= networks; k++) {
+            head = head " ranks and gain at " us[k] " µs, " gb[k] " GB/s |"
+            rule = rule "---|"
+        }
+        print head "\n" rule
+        for (n = 1e5; n < 2e7; n *= 10)
+            for (steps = 10; steps <= 1000; steps *= 10) {
+                row = sprintf("| %d | %d |", n, steps)
+                for (k = 1; k <= networks; k++)
+                    row = row " " gain(n, steps, us[k], gb[k]) " |"
+                print row
+            }
+    }'

@@ -1,0 +1,84 @@
+"""grammar.py: the TextMate grammar gives each token of each script the class that petri's scanner gives it.
+
+usage: grammar.py PATH-OF-PETRI GRAMMAR PATH-OF-PROJECT. Skipped without node and vscode-textmate (`npm ci` in
+src/editors/vscode, or NODE_PATH). Words that are names where a line alone cannot tell are in grammar.txt, a script with
+the number of its tokens that differ each line; `--update` records it."""
+
+import json
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+petri, grammar, root = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2]), Path(sys.argv[3]).resolve()
+sys.path.insert(0, str(root / "tests/lsp"))
+from client import Client  # noqa: E402
+
+modules = root / "src/editors/vscode/node_modules"
+environment = {**os.environ, "NODE_PATH": os.environ.get("NODE_PATH", str(modules))}
+node = shutil.which("node")
+if node is None or subprocess.run([node, "-e", "require('vscode-textmate'); require('vscode-oniguruma')"],
+                                  env=environment, stderr=subprocess.DEVNULL).returncode != 0:
+    print("skipped: node with vscode-textmate and vscode-oniguruma is not there (npm ci in src/editors/vscode)")
+    sys.exit(77)
+
+CLASSES = [("comment", "comment"), ("string", "string"), ("constant.numeric", "number"), ("keyword.operator.word", "keyword"),
+           ("keyword.operator", "operator"), ("keyword", "keyword"), ("entity.name.tag", "class"),
+           ("constant.other.symbol", "enumMember"), ("entity.other.attribute-name", "decorator"),
+           ("variable", "name"), ("support", "name"), ("entity.name.function", "name")]
+NAMES = {"variable", "parameter", "function", "property"}
+
+
+def by_petri(client, path):
+    """Whose token begins where, and of which class."""
+    uri = path.as_uri()
+    client.tell("textDocument/didOpen", {"textDocument": {
+        "uri": uri, "languageId": "flitter", "version": 1, "text": path.read_bytes().decode()}})
+    data = client.of("semanticTokens/full", uri)["data"]
+    client.close(uri)
+    legend = client.server["capabilities"]["semanticTokensProvider"]["legend"]["tokenTypes"]
+    line = start = 0
+    for i in range(0, len(data), 5):
+        line, start = line + data[i], data[i + 1] + (0 if data[i] else start)
+        kind = legend[data[i + 3]]
+        yield line, start, start + data[i + 2], "name" if kind in NAMES else kind
+
+
+def class_of(scope):
+    return next((name for prefix, name in CLASSES if scope.startswith(prefix)), None)
+
+
+rejected = {path.with_suffix(".fl") for folder in ("golden", "conformance") for path in (root / "tests" / folder).rglob("*.err")}
+scripts = sorted(path for folder in ("samples", "tests/golden", "tests/conformance") for path in (root / folder).rglob("*.fl")
+                 if path not in rejected)
+step = int(os.environ.get("GRAMMAR_STEP", 1))
+scripts = [path for i, path in enumerate(scripts) if i % step == 0]
+output = subprocess.run([node, str(root / "tests/editors/tokenise.js"), grammar, *map(str, scripts)], env=environment,
+                        capture_output=True, text=True, check=True).stdout.splitlines()
+client = Client(petri)
+told, tokens, classes = [], 0, set()
+for path, line in zip(scripts, output, strict=True):
+    found = {}  # class by line and character
+    for number, start, end, scope in json.loads(line):
+        found.update({(number, at): class_of(scope) for at in range(start, end)})
+    wrong = []
+    for number, start, end, kind in by_petri(client, path):
+        tokens += 1
+        classes.add(kind)
+        if any(found.get((number, at)) != kind for at in range(start, end)):
+            wrong.append((number + 1, start + 1, kind, found.get((number, start))))
+    if wrong:
+        told.append(f"{path.relative_to(root)} {len(wrong)}")
+        if "--why" in sys.argv:
+            print(path, *wrong, sep="\n    ")
+client.end()
+recorded = root / "tests/editors/grammar.txt"
+if "--update" in sys.argv:
+    recorded.write_text("".join(line + "\n" for line in told))
+known = {line for line in recorded.read_text().splitlines()}
+new = [line for line in told if line not in known]
+print(f"{len(scripts)} scripts, {tokens} tokens, {len(told)} scripts with words that only their context tells; "
+      f"not as recorded: {new or 'none'}")
+assert len(classes) == 9 and tokens > 20000 // step, classes
+sys.exit(bool(new))

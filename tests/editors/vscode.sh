@@ -1,0 +1,45 @@
+#!/bin/sh
+# vscode.sh: the extension for VS Code is bundled and packed, and the client library that it takes talks to the server.
+# Skipped without node and what `npm install` in src/editors/vscode brings.
+# usage: tests/editors/vscode.sh PATH-OF-PETRI GRAMMAR
+
+# shellcheck source=tests/support/check.sh
+. "$(dirname "$0")/../support/check.sh"
+petri=$(program "$1") || exit 2
+grammar=$(realpath "$2")
+folder=$root/src/editors/vscode
+[ -x "$folder/node_modules/.bin/esbuild" ] && command -v node >/dev/null || {
+    echo "skipped: esbuild and vscode-languageclient are not there (npm install in src/editors/vscode)"
+    exit 77
+}
+scratch
+mkdir extension
+cp "$folder"/*.js "$folder"/*.json "$folder"/*.md "$folder"/*.py extension/
+ln -s "$folder/node_modules" extension/node_modules
+(cd extension && npm run bundle) >out 2>err
+status=$?
+check "the extension is bundled" status_is 0
+extension/package.py "$grammar" petri.vsix
+check "… and packed" exists petri.vsix
+extension/package.py "$grammar" again.vsix
+check "… to the same bytes again" cmp -s petri.vsix again.vsix
+python3 -m zipfile -e petri.vsix unpacked
+mkdir -p node_modules/vscode # of which VS Code has its own
+echo 'module.exports = new Proxy(function () {}, { get: (_, name) => (name === "prototype" ? {} : module.exports), construct: () => ({}) });' \
+    >node_modules/vscode/index.js
+node -e '
+const about = require("./unpacked/extension/package.json"), fs = require("fs");
+const { languages, grammars, commands } = about.contributes;
+for (const file of [about.main, languages[0].configuration, grammars[0].path]) fs.accessSync("unpacked/extension/" + file);
+JSON.parse(fs.readFileSync("unpacked/extension/" + grammars[0].path, "utf8"));
+const source = fs.readFileSync("unpacked/extension/" + about.main, "utf8");
+for (const { command } of commands) if (!source.includes(`"${command}"`)) throw new Error(command);
+if (typeof require("./unpacked/extension/" + about.main).activate !== "function") throw new Error("no activate");' >out 2>err
+status=$?
+check "the package has what it names, and can be loaded" status_is 0
+version=$(sed -n 's/.*version: .\([0-9.]*\).,.*/\1/p' "$root/meson.build" | head -n 1)
+check "its version is petri's" has extension/package.json "\"version\": \"$version\""
+NODE_PATH=$folder/node_modules node "$here/client.js" "$petri" >out 2>err
+status=$?
+check "VS Code's client library talks to the server" has out "the client is content"
+finish
