@@ -23,7 +23,7 @@ static void report_misplaced(const Reader *reader, const Node *child, bool known
 // A file out of reach is told here, where the place is known; who is to write it finds out again.
 static bool may_use_file(const Reader *reader, const DrawNode *node) {
     const Reach *reach = reader->schema->reach;
-    const AttrValue *name = reach ? draw_attr(node, ATTR_FILENAME) : NULL;
+    const AttrValue *name = reach && schema_row(reader->kind, ATTR_FILENAME) ? draw_attr(node, ATTR_FILENAME) : NULL;
     bool writes = reader->kind == KIND_RECORD;
     ReachKind kind = writes ? REACH_WRITE : REACH_READ;
     char resolved[PATH_MAX];
@@ -66,6 +66,8 @@ static NodeKind kind_of(const Reader *reader, const Node *node) {
 
 static void read_children(const Reader *reader, DrawNode *out) {
     const Node *node = reader->node;
+    if (node->child_count == 0)
+        return;
     const DrawNode **children = arena_alloc_array(reader->arena, node->child_count, sizeof *children);
     for (uint32_t i = 0; i < node->child_count; i++) {
         NodeKind child = kind_of(reader, node->children[i]);

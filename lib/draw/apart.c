@@ -14,6 +14,16 @@ void draw_give(Canvas *canvas, size_t bytes) {
     canvas->taken -= bytes;
 }
 
+bool draw_spend(Canvas *canvas, const Origin *place, double work, const char *outcome) {
+    static const double MOST = 4e9;
+    if (canvas->work + work <= MOST) {
+        canvas->work += work;
+        return true;
+    }
+    draw_fault_at(canvas, place, DIAG_WARNING, "drawing-limit", "this canvas takes too long to draw: %s", outcome);
+    return false;
+}
+
 static size_t bytes_of(cairo_surface_t *surface) {
     return (size_t)cairo_image_surface_get_stride(surface) * (size_t)cairo_image_surface_get_height(surface);
 }

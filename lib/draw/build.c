@@ -294,9 +294,23 @@ static void add_node(Walk *walk, const DrawNode *node) {
     }
 }
 
-const List *list_build(Arena *arena, const DrawNode *canvas) {
+static void make_room(Arena *arena, List *list, const ListSizes *sizes) {
+    enum { MOST = 1 << 16 }; // others may be short
+    if (sizes->commands == 0 || sizes->commands > MOST || sizes->numbers > 16 * MOST)
+        return;
+#define ROOM(array) list->array.at = list_room(arena, NULL, 0, &list->array.room, sizes->array, sizeof *list->array.at)
+    ROOM(commands);
+    ROOM(matrices);
+    ROOM(paints);
+    ROOM(numbers);
+    ROOM(runs);
+#undef ROOM
+}
+
+const List *list_build(Arena *arena, const DrawNode *canvas, ListSizes *sizes) {
     List *list = arena_alloc(arena, sizeof *list);
     *list = (List){.linear = draw_flag(canvas, ATTR_LINEAR)};
+    make_room(arena, list, sizes);
     Walk walk = {.build = {.arena = arena, .list = list}};
     Level *top = push(&walk, canvas);
     *top = (Level){.node = canvas,
@@ -321,5 +335,7 @@ const List *list_build(Arena *arena, const DrawNode *canvas) {
     }
     if (walk.levels[0].saved)
         add_command(&walk.build, &walk.levels[0], LIST_RESTORE, NULL);
+    *sizes = (ListSizes){list->commands.count, list->matrices.count, list->paints.count, list->numbers.count,
+                         list->runs.count};
     return list;
 }

@@ -19,11 +19,15 @@ static void set_inverse(cairo_pattern_t *pattern, const ListMatrix *m) {
     cairo_pattern_set_matrix(pattern, &matrix);
 }
 
+static double within(double x) {
+    return x > 0 ? x < 1 ? x : 1 : 0;
+}
+
 // What is painted is rounded to bytes, multiplied by alpha as it is, where Cairo would round down.
 static cairo_pattern_t *make_color(const double color[4], double alpha) {
-    double a = floor(255 * fmin(fmax(color[3], 0), 1) * alpha + 0.5) / 255, c[3];
+    double a = (int)(255 * within(color[3]) * alpha + 0.5) / 255.0, c[3];
     for (int k = 0; k < 3; k++)
-        c[k] = a > 0 ? floor(255 * a * fmin(fmax(color[k], 0), 1) + 0.5) / (255 * a) : 0;
+        c[k] = a > 0 ? (int)(255 * a * within(color[k]) + 0.5) / (255 * a) : 0;
     return cairo_pattern_create_rgba(c[0], c[1], c[2], a);
 }
 

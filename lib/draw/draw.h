@@ -25,6 +25,7 @@ struct PetriPainter {
     PangoFontMap *fonts;
     PangoContext *text_context;
     PangoLayout *layout;
+    ListSizes sizes;    // of the list that was built last
     const char *family; // what the layout is set to; NULL at first in each picture
     ListText font;
     Picture *images;
@@ -83,6 +84,9 @@ void draw_give(Canvas *canvas, size_t bytes);
 // Draws on a surface of its own from here on, whose top left corner is at x, y of the target; NULL without memory.
 cairo_surface_t *draw_begin_apart(Canvas *canvas, int width, int height, double x, double y);
 void draw_end_apart(Canvas *canvas);
+// Charges work, about a nanosecond a unit, of what would else have no bounds; false, after a report, if it is too much:
+// then what comes of it is told.
+bool draw_spend(Canvas *canvas, const Origin *place, double work, const char *outcome);
 // If memory was lacking: tells that something is drawn without this, or leaves if it is the machine's.
 void draw_lacks(Canvas *canvas, const Origin *place, const char *what, bool lacking);
 // Gives back whatever is still held.

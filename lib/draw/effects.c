@@ -320,6 +320,7 @@ static void apply_protected(void *context) {
     Outline from = {.arena = &canvas->painter->arena, .fine = 2 / fmax(draw_scale_of(canvas->cr), 1e-6)};
     take_path(&from, task->path);
     Outline outline = apply(list, task->effect, from, task->lines);
+    canvas->work += task->effect == LIST_NONE ? 0 : 800.0 * outline.pieces.count; // to be drawn, too
     for (uint32_t i = 0; i < outline.pieces.count; i++) {
         const Piece *piece = &outline.pieces.at[i];
         double numbers[6];
@@ -338,6 +339,8 @@ bool draw_apply_effect(Canvas *canvas, const ListPaint *paint, const cairo_path_
     Task task = {canvas, effect->kind == EFFECT_DASH ? effect->inner : paint->effect, path, lines};
     ArenaMark mark = arena_mark(arena);
     draw_forget_path(canvas);
+    if (!draw_spend(canvas, &effect->place, 0, "what comes here is drawn without its effect"))
+        task.effect = LIST_NONE;
     bool done = arena_protect(&arena, 1, apply_protected, &task) == ARENA_DONE;
     arena_rewind(arena, mark);
     return done;

@@ -7,7 +7,6 @@
 
 enum { MOST_SHEET = 1 << 26 };       // pixels
 static const double FARTHEST = 2000; // that something is moved, pixels
-static const double MOST_WORK = 4e9; // in a canvas, in numbers of pixels: some seconds
 
 // Where filters are applied.
 typedef struct Room {
@@ -172,14 +171,8 @@ static bool find_box(Canvas *canvas, const ListCommand *command, const ListPaint
 
 // May the picture go through the filter? If not, it is told.
 static bool may_filter(Canvas *canvas, const ListFilter *filter, const Box *box, const Needs *needs) {
-    double work = box->width * box->height * needs->work;
-    if (box->width * box->height <= MOST_SHEET && canvas->work + work <= MOST_WORK) {
-        canvas->work += work;
-        return true;
-    }
-    draw_fault_at(canvas, &filter->place, DIAG_WARNING, "filter-limit",
-                  "filters of this canvas take too long; what comes after is drawn without them");
-    return false;
+    double pixels = box->width * box->height, work = pixels <= MOST_SHEET ? pixels * needs->work : INFINITY;
+    return draw_spend(canvas, &filter->place, work, "what comes here is drawn without a filter");
 }
 
 // The command drawn by itself, as a sheet.

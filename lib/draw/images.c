@@ -213,14 +213,14 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
 }
 
 // The pixels of a file, or NULL after a report.
-static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, const Origin *place,
-                                  DiagSink *faults) {
+static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *picture, Str name, NodeKind kind,
+                                  const Origin *place, DiagSink *faults) {
     Arena *arena = &painter->arena;
     const Reach *reach = &picture->reach;
     const Picture *found = find(painter, reach, str_to_c(arena, path_join(arena, reach->directory, name)));
     if (!found->surface)
-        draw_report(faults, place, DIAG_WARNING, "cannot-read", "!image: cannot read '%s': %s", name.bytes,
-                    found->problem ? found->problem : "");
+        draw_report(faults, place, DIAG_WARNING, "cannot-read", "!%s: cannot read '%s': %s", schema_kinds[kind].name,
+                    name.bytes, found->problem ? found->problem : "");
     return found->surface;
 }
 
@@ -260,7 +260,8 @@ static cairo_surface_t *linear_copy(cairo_surface_t *file) {
 cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
     if (image->file.len == 0)
         return find_picture(canvas, image->id);
-    cairo_surface_t *surface = find_file(canvas->painter, canvas->picture, image->file, &image->place, canvas->faults);
+    cairo_surface_t *surface =
+        find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->faults);
     return !surface ? NULL : canvas->list->linear ? linear_copy(surface) : cairo_surface_reference(surface);
 }
 
@@ -277,8 +278,9 @@ void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint) 
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults) {
     const AttrValue *name = draw_attr(node, ATTR_FILENAME);
-    cairo_surface_t *surface =
-        name && name->as.text.len > 0 ? find_file(painter, picture, name->as.text, &node->place, faults) : NULL;
+    cairo_surface_t *surface = name && name->as.text.len > 0
+                                   ? find_file(painter, picture, name->as.text, KIND_IMAGE, &node->place, faults)
+                                   : NULL;
     if (!surface)
         return NULL;
     int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);

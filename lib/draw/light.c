@@ -47,7 +47,7 @@ static const unsigned char *row_of(const Pixels *pixels, int y) {
 }
 
 // The colour at x, y of the target.
-static void find_color(const Stamp *stamp, const Pixels *colors, int x, int y, float color[4]) {
+static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, int y, float color[4]) {
     const float *from = stamp->color;
     if (stamp->sheet) {
         const Sheet *sheet = stamp->sheet;
@@ -73,7 +73,9 @@ static void lay_stamp(Canvas *canvas, Stamp *stamp) {
     int bottom = wide->y + wide->height, edge = wide->x + wide->width;
     int last = cover.y + cover.height < bottom ? cover.y + cover.height : bottom;
     int right = cover.x + cover.width < edge ? cover.x + cover.width : edge;
-    for (int y = first; cover.at && (!stamp->colors || colors.at) && y < last; y++) {
+    bool good = cover.at && (!stamp->colors || colors.at) && right > left && last > first &&
+                draw_spend(canvas, NULL, 2.0 * (right - left) * (last - first), "what comes now is left out");
+    for (int y = first; good && y < last; y++) {
         const unsigned char *row = row_of(&cover, y) - cover.x;
         for (int x = left; x < right; x++) {
             if (row[x] == 0)
@@ -82,6 +84,12 @@ static void lay_stamp(Canvas *canvas, Stamp *stamp) {
             float *d = wide->pixels + 4 * at, s[4], mixed[4];
             float k = (float)row[x] / 255;
             find_color(stamp, &colors, x, y, s);
+            if (stamp->mode == COMPOSITE_OVER) {
+                float rest = 1 - k * s[3];
+                for (int c = 0; c < 4; c++)
+                    d[c] = k * s[c] + rest * d[c];
+                continue;
+            }
             blend_colors(stamp->mode, s, d, mixed);
             for (int c = 0; c < 4; c++)
                 d[c] = k * mixed[c] + (1 - k) * d[c];

@@ -139,6 +139,7 @@ typedef struct ListImage {
     double point[2];
     double size[2];
     ListFit fit;
+    NodeKind kind; // of its node
     Origin place;
 } ListImage;
 
@@ -200,7 +201,16 @@ ListMatrix list_multiply(ListMatrix m, ListMatrix a);
 // Has it an inverse?
 bool list_invertible(const ListMatrix *m);
 
+// How long the arrays of a list have become: the next one, of the frame after perhaps, begins with as much room.
+typedef struct ListSizes {
+    uint32_t commands;
+    uint32_t matrices;
+    uint32_t paints;
+    uint32_t numbers;
+    uint32_t runs;
+} ListSizes;
+
 // What a canvas shows. In the arena.
-const List *list_build(Arena *arena, const DrawNode *canvas);
+const List *list_build(Arena *arena, const DrawNode *canvas, ListSizes *sizes);
 
 #endif

@@ -4,7 +4,6 @@
 #include <math.h>
 
 enum { LATTICE = 256, CHANNELS = 4 };
-static const double MOST_WORK = 4e9;
 
 typedef struct Noise {
     const ListSource *source;
@@ -177,12 +176,8 @@ cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alp
     cairo_restore(cr);
     double left = floor(x1), top = floor(y1), width = fmax(ceil(x2) - left, 1), height = fmax(ceil(y2) - top, 1);
     double work = width * height * (10 + 100.0 * source->stop_count);
-    if (canvas->work + work > MOST_WORK) {
-        draw_fault(canvas, DIAG_WARNING, "noise-limit",
-                   "noise on this canvas takes too long; what comes after is drawn without");
+    if (!draw_spend(canvas, NULL, work, "noise that comes now is left out"))
         return cairo_pattern_create_rgba(0, 0, 0, 0);
-    }
-    canvas->work += work;
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, (int)width, (int)height);
     Noise noise = {.source = source};
     make_lattice(&noise);

@@ -124,7 +124,7 @@ static bool draw_page(Canvas *canvas, const Page *page, double width, double hei
     if (page->pixels)
         draw_image_of(cr, page->pixels);
     else if (page->canvas)
-        draw_list(canvas, list_build(&canvas->painter->arena, page->canvas));
+        draw_list(canvas, list_build(&canvas->painter->arena, page->canvas, &canvas->painter->sizes));
     else if (page->picture->automatic)
         draw_automatic(canvas, page->picture->automatic);
     cairo_status_t status = cairo_status(cr);

@@ -18,8 +18,8 @@ void pictures_size(const DrawNode *node, int *width, int *height) {
     double size[2];
     if (!draw_pair(node, ATTR_SIZE, size))
         return;
-    *width = size[0] < PETRI_MOST_PIXELS ? (int)size[0] : PETRI_MOST_PIXELS + 1;
-    *height = size[1] < PETRI_MOST_PIXELS ? (int)size[1] : PETRI_MOST_PIXELS + 1;
+    *width = size[0] <= PETRI_MOST_PIXELS ? (int)size[0] : PETRI_MOST_PIXELS + 1;
+    *height = size[1] <= PETRI_MOST_PIXELS ? (int)size[1] : PETRI_MOST_PIXELS + 1;
 }
 
 const DrawNode *pictures_direct(const DrawNode *node, int width, int height) {

@@ -11,7 +11,6 @@ typedef struct Layers {
     double pixels[MOST_LAYERS];
     Sheet below[MOST_LAYERS]; // of a wide canvas
     uint32_t depth;           // of what is open; beyond MOST_LAYERS all are drawn without
-    double work;              // pixels of all that were begun
 } Layers;
 
 bool draw_is_invertible(const cairo_matrix_t *m) {
@@ -26,7 +25,6 @@ double draw_scale_of(cairo_t *cr) {
 
 // Begins a layer unless there are too many: they take memory, and time.
 static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
-    static const double MOST_WORK = 1e10; // pixels of layers in a canvas
     double x1, y1, x2, y2;
     uint32_t at = layers->depth++;
     bool wide = canvas->wide.pixels != NULL;
@@ -35,7 +33,7 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
     cairo_clip_extents(canvas->cr, &x1, &y1, &x2, &y2);
     cairo_restore(canvas->cr);
     double pixels = wide ? (double)canvas->wide.width * canvas->wide.height : (x2 - x1) * (y2 - y1);
-    bool many = at >= MOST_LAYERS || canvas->layer_pixels + pixels > MOST_LAYER_PIXELS || layers->work > MOST_WORK;
+    bool many = at >= MOST_LAYERS || canvas->layer_pixels + pixels > MOST_LAYER_PIXELS;
     if (at < MOST_LAYERS)
         layers->drawn[at] = false;
     if (many) {
@@ -43,6 +41,8 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
                       "!layer: layers are too many or too large; the innermost are drawn without");
         return;
     }
+    if (!draw_spend(canvas, place, pixels, "what is in here is drawn without a layer"))
+        return;
     if (wide)
         layers->below[at] = light_begin(canvas);
     bool lacking =
@@ -52,7 +52,6 @@ static void begin_layer(Canvas *canvas, Layers *layers, const Origin *place) {
         return;
     layers->drawn[at] = true;
     layers->pixels[at] = pixels;
-    layers->work += pixels;
     canvas->layer_pixels += pixels;
     if (!wide)
         cairo_push_group(canvas->cr);

@@ -125,7 +125,7 @@ uint32_t build_image(Build *build, const DrawNode *node) {
         ListFit fit;
     } boxes[] = {{ATTR_FILL, FIT_FILL}, {ATTR_FIT, FIT_INSIDE}, {ATTR_SIZE, FIT_SIZE}};
     const AttrValue *file = draw_attr(node, ATTR_FILENAME), *id = draw_attr(node, ATTR_IMAGE_ID);
-    ListImage image = {.fit = FIT_NONE, .place = node->place};
+    ListImage image = {.fit = FIT_NONE, .kind = (NodeKind)node->kind, .place = node->place};
     if (file && file->as.text.len > 0)
         image.file = file->as.text;
     else if (id && id->as.text.len > 0)

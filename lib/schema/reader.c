@@ -423,6 +423,12 @@ static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, Attr
     }
 }
 
+// Are these as many numbers as are wanted, be they what they may? Otherwise the attribute counts as missing.
+static bool has_shape(const SchemaRow *row, Value v) {
+    AttrShape shape = schema_types[row->type].shape;
+    return value_is_numeric(v) && v.len > 0 && (shape == SHAPE_POINTS || v.len <= (shape == SHAPE_PAIR ? 2u : 1u));
+}
+
 bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
     const Node *node = reader->node;
     const SchemaSlot *slots = reader->schema->slots;
@@ -448,7 +454,7 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
         *attr = (AttrValue){.name = found->alias ? found->alias : found->name, .row = (uint16_t)(slot - slots)};
         if (!read_drawn(reader, found, v, attr)) {
             report_shape(reader, found, v);
-            good &= !schema_types[found->type].vital;
+            good &= !schema_types[found->type].vital || !has_shape(found, v);
             if (found->type == TYPE_MIX) { // such a node shows nothing, which is not what the default means
                 attr->as.word = MIX_UNKNOWN;
                 ++*count;

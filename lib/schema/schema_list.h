@@ -2,8 +2,8 @@
 // tested. Defaults and limits stand here and nowhere else.
 //
 // TYPE(ID, SHAPE, low, high, vital, "what is wanted, in words"): how attributes are read (AttrShape of table.h).
-//     Numbers of systems beyond the limits are moved to them, those of drawings are malformed then. Without something
-//     vital a drawing node is not drawn: where a thing is counts more than how it looks.
+//     Numbers of systems beyond the limits are moved to them, those of drawings are malformed then. If something
+//     vital is beyond all numbers a drawing node is not drawn: where a thing is counts more than how it looks.
 // NAME(ID, "attribute"): all names of attributes, each once.
 // NODE(ID, "kind", PLACE, CHILDREN, "help"), and after it its attributes. PLACE tells where a node may stand and
 //     CHILDREN which may stand in it (PlaceKind). FORCE(ID, "kind", "help"): a node of force_list.h, with the same ID.

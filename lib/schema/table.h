@@ -115,7 +115,7 @@ typedef struct KindRow {
 
 typedef struct TypeRow {
     AttrShape shape;
-    bool vital; // a drawing node is left out if this is malformed
+    bool vital; // a drawing node is left out if these are no finite numbers within limits
     double low;
     double high;
     const char *text;

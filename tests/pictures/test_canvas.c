@@ -592,12 +592,85 @@ static void test_memory(void **state) {
     }
 }
 
+// Bad input: told once for each place, in however many frames; the rest is drawn.
+static void test_bad_input(void **state) {
+    (void)state;
+    static const struct {
+        const char *inside; // of the canvas, between a green square at the left and a blue one at the right
+        const char *told;
+        bool red; // in the middle
+    } cases[] = {
+        {"        !group translate=nan;0\n            !rect size=60 fill=true color=1;0;0\n",
+         "4 [bad-attribute] !group: translate should be x;y, not nan;0\n", false},
+        {"        !group rotate=inf\n            !rect size=60 fill=true color=1;0;0\n",
+         "4 [bad-attribute] !group: rotate should be number, not inf\n", false},
+        {"        !ellipse point=nan radius=9 fill=true color=1;0;0\n",
+         "4 [bad-attribute] !ellipse: point should be x;y, not nan\n", false},
+        // The wrong form counts as missing.
+        {"        !transform translate=1;2;3\n            !rect point=25;0 size=10;60 fill=true color=1;0;0\n",
+         "4 [bad-attribute] !transform: translate should be x;y, not 1;2;3\n", true},
+        {"        !group scale=1e200\n            !group scale=1e200\n                !rect size=60 fill=true\n"
+         "        !group scale=0\n            !rect size=60 fill=true\n",
+         "", false},
+        {"        !group\n            !blur radius=1e9\n            !rect point=25;0 size=10;60 fill=true "
+         "color=1;0;0\n",
+         "5 [blur-limit] !blur: a radius of more than 256 pixels counts as one of so many\n", false},
+        {"        !group\n            !shadow radius=1e300 offset=1e300 color=0\n"
+         "                !dilate radius=1e300\n            !rect point=25;0 size=10;60 fill=true color=1;0;0\n",
+         "5 [drawing-limit] this canvas takes too long to draw: what comes here is drawn without a filter\n", true},
+        {"        !group\n            !jitter length=1e-300 deviation=1e300\n            !line points=1;1;9;9 "
+         "stroke=true\n"
+         "            !dash intervals=1e-300;1e-300\n            !line points=1;1;9;9 stroke=true\n"
+         "            !jitter length=1 deviation=0\n                !dash intervals=1e-300;0\n"
+         "            !line points=1;1;9;9 stroke=true\n            !path_matrix matrix=0\n"
+         "            !rect size=9 fill=true stroke=true\n            !path_matrix scale=0\n"
+         "            !rect size=9 fill=true stroke=true\n            !round_corners radius=1e300\n"
+         "            !rect size=9 fill=true stroke=true\n",
+         "12 [bad-attribute] !path_matrix: matrix should be nine numbers, not 0\n", false},
+        {"        !group\n            !noise frequency=1e300 octaves=1e9 seed=1e300 size=1e300\n            !rect "
+         "size=9 fill=true\n"
+         "        !path\n            !arc_to point=1e300;5 radius=1e-300 rotation=1e300\n"
+         "            !arc_to point=5;1e-300 radius=1e300\n            !stroke\n",
+         "", false},
+        {"        !image filename='none.png'\n        !group\n            !pattern filename='gone.png'\n            "
+         "!rect fill=true size=9\n"
+         "            !rect fill=true size=9\n        !image image_id=:nobody\n",
+         "4 [cannot-read] !image: cannot read 'none.png': No such file or directory\n"
+         "6 [cannot-read] !pattern: cannot read 'gone.png': No such file or directory\n",
+         false},
+        // Pictures of each other and of themselves.
+        {"        !image image_id=:b\n    !canvas id=:b size=60\n        !image image_id=:a\n        !image "
+         "image_id=:b\n"
+         "    !reference id=:c\n    !offscreen id=:c\n        !reference id=:c\n        !reference id=:a\n"
+         "    !canvas size=-5\n    !canvas size=20000\n        !rect size=9\n    !canvas\n",
+         "12 [bad-attribute] !canvas: size should be one number or two, 0 or more, not -5\n"
+         "13 [bad-size] !canvas: a picture can have 1 to 16384 pixels in width and height\n",
+         false},
+    };
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char script[3000];
+        Drawn drawn;
+        snprintf(script, sizeof script,
+                 "!window size=60;60\n    !canvas id=:a\n        !rect size=20;60 fill=true color=0;1;0\n%s"
+                 "        !rect point=40;0 size=20;60 fill=true color=0;0;1\n",
+                 cases[i].inside);
+        drawn_open(&drawn, script, 3);
+        if (strcmp(drawn.told, cases[i].told) != 0)
+            fail_msg("%s\nis told:\n%s", script, drawn.told);
+        check_pixel(&drawn, 50, 30, (double[]){0, 0, 1}, "after");
+        if (i + 1 < COUNT_OF(cases)) // the last one is shown through others
+            check_pixel(&drawn, 15, 30, (double[]){0, 1, 0}, "before");
+        assert_true((drawn_byte(&drawn, 30, 30, 0) == 255) == cases[i].red);
+        drawn_close(&drawn);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_modes),  cmocka_unit_test(test_filter_blend),  cmocka_unit_test(test_color_matrix),
         cmocka_unit_test(test_blur),   cmocka_unit_test(test_other_filters), cmocka_unit_test(test_wide),
         cmocka_unit_test(test_noise),  cmocka_unit_test(test_arc_to),        cmocka_unit_test(test_path_effects),
-        cmocka_unit_test(test_jitter), cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_jitter), cmocka_unit_test(test_memory),        cmocka_unit_test(test_bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
