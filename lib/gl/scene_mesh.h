@@ -46,6 +46,10 @@ typedef struct MeshFault {
 
 // From the bytes of a file: OBJ, STL as text or in binary. False with a reason.
 bool mesh_from_file(Arena *arena, Str bytes, Mesh *mesh, MeshFault *fault);
+// The faces of the convex hull of points, three numbers each: numbers of points, three for a triangle. NULL if all lie
+// in a plane.
+enum { MESH_MOST_HULL = 2000 }; // points
+const double *mesh_hull(Arena *arena, const double *vertices, uint32_t count, uint32_t *numbers);
 // From numbers: of vertices, three each, of faces, three each, of texture places, two each or none.
 bool mesh_from_lists(Arena *arena, const double *vertices, uint32_t vertex_numbers, const double *faces,
                      uint32_t face_numbers, const double *uv, uint32_t uv_numbers, Mesh *mesh, const char **problem);

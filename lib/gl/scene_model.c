@@ -52,14 +52,15 @@ static bool read_triangles(const Scene *scene, const DrawNode *node, Arena *aren
                     *faces = draw_attr(node, ATTR_FACES), *uv = draw_attr(node, ATTR_UV);
     if (name && name->as.text.len > 0)
         return read_file(scene, node, name->as.text, arena, mesh);
-    if (!vertices || !faces) {
-        if (vertices)
-            scene_report(scene, "bad-model", node, "vertices need faces: numbers of three vertices each");
+    if (!vertices)
         return false;
-    }
-    const char *problem = NULL;
-    if (mesh_from_lists(arena, vertices->as.list, vertices->count, faces->as.list, faces->count,
-                        uv ? uv->as.list : NULL, uv ? uv->count : 0, mesh, &problem))
+    const double *corners = faces ? faces->as.list : NULL;
+    uint32_t count = faces ? faces->count : 0;
+    const char *problem = "vertices without faces are 2000 at the most, and do not lie in a plane";
+    if (!faces && vertices->count % 3 == 0 && vertices->count <= 3 * MESH_MOST_HULL)
+        corners = mesh_hull(arena, vertices->as.list, vertices->count / 3, &count);
+    if (corners && mesh_from_lists(arena, vertices->as.list, vertices->count, corners, count, uv ? uv->as.list : NULL,
+                                   uv ? uv->count : 0, mesh, &problem))
         return true;
     scene_report(scene, "bad-model", node, problem);
     return false;

@@ -133,7 +133,7 @@ MODEL_ROWS(CONE)
 NODE(MODEL, "model", SCENE3D, NOTHING, "triangles from an OBJ or STL file, or from vectors")
 ATTR(MODEL, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(MODEL, VERTICES, LIST, NOWHERE, NONE, "", "x;y;z;x;y;z…")
-ATTR(MODEL, FACES, LIST, NOWHERE, NONE, "", "numbers of vertices, three for each triangle, counter-clockwise")
+ATTR(MODEL, FACES, LIST, NOWHERE, NONE, "", "numbers of vertices, three for each triangle, counter-clockwise; without, the convex hull")
 ATTR(MODEL, UV, LIST, NOWHERE, NONE, "", "u;v for each vertex")
 MODEL_ROWS(MODEL)
 

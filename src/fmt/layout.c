@@ -29,6 +29,7 @@ typedef struct Writer {
     Line *lines;
     size_t line_count;
     size_t line_capacity;
+    size_t next;                   // the first word of the statement behind the comment at work
     uint32_t indent;               // of the line at work
     uint32_t level;                // of the statement at work
     uint32_t indents[MOST_LEVELS]; // of each level, as it is in the text
@@ -69,12 +70,14 @@ static void begin_line(Writer *writer, uint32_t indent) {
 
 // The level of a comment that has a line of its own: that of the statement behind it or, if it is further to the right,
 // of a block that ends before it.
-static uint32_t comment_level(const Writer *writer, size_t at) {
+static uint32_t comment_level(Writer *writer, size_t at) {
     const Words *words = writer->words;
-    const Word *comment = &words->items[at], *next = NULL;
-    for (size_t i = at; i < words->count && next == NULL; i++) {
-        next = words->items[i].begins ? &words->items[i] : NULL;
+    const Word *comment = &words->items[at];
+    writer->next = writer->next > at ? writer->next : at;
+    while (writer->next < words->count && !words->items[writer->next].begins) {
+        writer->next++;
     }
+    const Word *next = writer->next < words->count ? &words->items[writer->next] : NULL;
     uint32_t level = next == NULL ? 0 : next->level;
     if (level > writer->level) {
         return comment->indent >= next->indent ? level : writer->level;

@@ -11,7 +11,8 @@ enum { MOST_DEPTH = 2100 }; // brackets within each other; the language allows f
 // What reads the tokens one by one.
 typedef struct Reader {
     Words *words;
-    size_t end; // of the token before
+    size_t end;  // of the token before
+    size_t last; // 1 + the place of the last word that is no comment; 0: none
     uint32_t level;
     bool begins;
     // Of each bracket that is open, and 0 for the statement itself:
@@ -35,15 +36,6 @@ bool word_is(const Word *word, const char *text) {
 
 static bool is_one_of(const Word *word, const char *list) {
     return str_word_number(word->text, list) >= 0;
-}
-
-static const Word *last_word(const Words *words) {
-    for (size_t i = words->count; i > 0; i--) {
-        if (words->items[i - 1].kind != PETRI_TOKEN_COMMENT) {
-            return &words->items[i - 1];
-        }
-    }
-    return NULL;
 }
 
 static bool ends_operand(const Word *word) {
@@ -187,7 +179,7 @@ static void add_word(Reader *reader, const PetriToken *token) {
     };
     word.text = comment ? str_trim(word.text) : word.text;
     word.indent = word.breaks > 0 ? line_indent(words->text, token->start) : 0;
-    const Word *before = last_word(words);
+    const Word *before = reader->last > 0 ? &words->items[reader->last - 1] : NULL;
     word.role = role_of(&word, before);
     if (!comment) {
         find_binding(reader, &word);
@@ -199,6 +191,7 @@ static void add_word(Reader *reader, const PetriToken *token) {
         words->items = memory_resized(words->items, words->capacity * sizeof *words->items);
     }
     words->items[words->count++] = word;
+    reader->last = comment ? reader->last : words->count;
     reader->end = token->end;
 }
 

@@ -45,6 +45,8 @@ ffi.cdef(re.sub(r"^#.*\n", "", helpers, flags=re.M))
 ffi.cdef("""
     extern "Python" void petri_python_diagnostic(void *host, const PetriDiagnostic *diagnostic);
     extern "Python" bool petri_python_write(void *host, const char *text, size_t length);
+    extern "Python+C" void petri_python_called(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count,
+                                               PetriValue *out);
 """)
 ffi.set_source(
     "petri._petri",

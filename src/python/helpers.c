@@ -16,25 +16,38 @@ static void on_interrupt(int number, siginfo_t *info, void *context) {
     }
 }
 
-PetriStatus petri_python_step(PetriSession *session, size_t count, bool heed) {
-    PetriStatus status = PETRI_OK;
+// Ctrl-C is for the session that is being stepped. False if nobody is told: then nobody listens.
+static bool listen(void) {
     struct sigaction ours = {.sa_flags = SA_SIGINFO | SA_RESTART};
     ours.sa_sigaction = on_interrupt;
     interrupted = 0;
+    return outer.sa_handler != SIG_IGN && outer.sa_handler != SIG_DFL && sigaction(SIGINT, &ours, NULL) == 0;
+}
+
+PetriStatus petri_python_step(PetriSession *session, size_t count, bool heed, const bool *stop) {
+    PetriStatus status = session ? PETRI_OK : PETRI_INVALID;
+    PetriSession *before = under_way; // whose script has called a function of Python's, which steps another session
+    struct sigaction now = {0};
+    heed = heed && session && sigaction(SIGINT, NULL, &now) == 0;
+    bool nested = heed && now.sa_flags & SA_SIGINFO && now.sa_sigaction == on_interrupt;
     if (heed) {
         under_way = session;
-        // Nobody is told where nobody listens.
-        heed = sigaction(SIGINT, NULL, &outer) == 0 && outer.sa_handler != SIG_IGN && outer.sa_handler != SIG_DFL &&
-               sigaction(SIGINT, &ours, NULL) == 0;
     }
-    while (status == PETRI_OK && count-- > 0) {
+    if (heed && !nested) {
+        outer = now;
+        heed = listen();
+    }
+    while (status == PETRI_OK && !(stop && *stop) && count-- > 0) {
         status = petri_step(session);
     }
-    if (heed) {
+    if (heed && !nested) {
         sigaction(SIGINT, &outer, NULL);
         if (interrupted && status != PETRI_INTERRUPTED) {
             petri_interrupted(session); // it came too late, and is none of the next step's business
         }
+    }
+    if (nested) {
+        under_way = before;
     }
     return status;
 }
@@ -76,6 +89,14 @@ bool petri_python_state(PetriSession *session, const double *key, uint32_t lengt
 
 bool petri_python_pair(PetriSession *session, double symbol, double number, PetriValue *value) {
     return petri_python_state(session, (const double[]){symbol, number}, 2, value);
+}
+
+void petri_python_called(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count, PetriValue *out);
+
+PetriValue petri_python_call(PetriCall *call, void *host, const PetriValue *arguments, uint32_t count) {
+    PetriValue result = {0};
+    petri_python_called(call, host, arguments, count, &result);
+    return result;
 }
 
 void petri_python_close(PetriSession *session) {

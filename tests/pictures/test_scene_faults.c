@@ -37,7 +37,7 @@ static const Row rows[] = {
      "        !model vertices=0;0;0;1;0;0;0;1;0 faces=0;1;3 color=1\n        !model vertices=0;0;0 color=1\n"
      "        !model vertices=1;2 faces=0;1;2 color=1\n",
      "5 [bad-model] !model: faces has a number that is none of a vertex\n"
-     "6 [bad-model] !model: vertices need faces: numbers of three vertices each\n"
+     "6 [bad-model] !model: vertices without faces are 2000 at the most, and do not lie in a plane\n"
      "7 [bad-model] !model: vertices and faces are three numbers each, uv is two for each vertex\n"},
     {"textures that are not there", "        !box position=-1.5;0;0 color=0;1;0 color_id=:none emissive_id=''\n", ""},
     {"textures in circles",

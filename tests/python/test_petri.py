@@ -259,6 +259,94 @@ class Running(unittest.TestCase):
             self.assertRaises((petri.ScriptError, LookupError, MemoryError, ValueError), use)
 
 
+class Functions(unittest.TestCase):
+    def test_are_called(self):
+        def push(x, angle=2, *more):
+            """A push."""
+            seen.append((x, angle, more))
+            return (x + 1, 2 * angle) if x is not None else petri.Text("none")
+
+        seen = []
+        session = petri.Session("!a b=push(frame) c=push(null;null, 5, :s, 't', 3;4)\n", functions={"push": push})
+        session.step(2)
+        self.assertEqual(seen[-2:], [(1.0, 2.0, ()), (None, 5.0, ("s", petri.Text("t"), (3.0, 4.0)))])
+        self.assertIs(type(seen[-1][2][0]), str)
+        self.assertEqual(session.text("tree").split("\n")[1], "!a b=2;4 c='none'")
+
+    def test_raise(self):
+        def fail(x):
+            if x == 2:
+                raise KeyError("two")
+            return x
+
+        session = petri.Session("!counter state=:n rate=60\n!a b=fail($:n)\n", functions={"fail": fail})
+        with self.assertRaisesRegex(KeyError, "two"):
+            session.step(10)
+        self.assertEqual(session.frame.number, 3)
+        self.assertEqual(session.text("tree").split("\n")[2], "!a")
+        session.step()
+        self.assertEqual(session.text("tree").split("\n")[2], "!a b=3")
+        for wrong, error in ((lambda x: ":symbol", TypeError), (lambda x: object(), TypeError)):
+            with self.assertRaises(error):
+                petri.Session("!a b=f(frame)\n", functions={"f": wrong}).step()
+        with self.assertRaises(petri.ScriptError):
+            petri.Session("!a\n", functions={"sin": fail})
+        with self.assertRaisesRegex(TypeError, "by position"):
+            petri.Session("!a\n", functions={"f": lambda *, x: x})
+
+    def test_cannot_use_their_session(self):
+        def use(x):
+            session.evaluate("1") if x else session.step()
+
+        session = petri.Session("!a b=use(frame)\n", functions={"use": use})
+        for _ in range(2):
+            with self.assertRaisesRegex(RuntimeError, "cannot use its session"):
+                session.step()
+
+
+    def test_may_use_another_session(self):
+        inner = petri.Session("!counter state=:n rate=60\n")
+
+        def inside(x):
+            inner.step(2)
+            return inner.state["n"]
+
+        outer = petri.Session("!a b=inside(frame)\n", functions={"inside": inside})
+        outer.step(3)
+        self.assertEqual(outer.text("tree").split("\n")[1], "!a b=5")
+        killer = threading.Timer(0.05, os.kill, (os.getpid(), signal.SIGINT))
+        killer.start()
+        with self.assertRaises(KeyboardInterrupt):
+            outer.step(10**12)
+        killer.join()
+        self.assertIs(signal.getsignal(signal.SIGINT), signal.default_int_handler)
+
+
+class Sweeps(unittest.TestCase):
+    def test_are_those_of_the_command(self):
+        with tempfile.TemporaryDirectory() as folder:
+            script = Path(folder) / "dish.fl"
+            script.write_text("let SEED=SEED or 1\n" + DISH.replace("velocity=1;0", "velocity=SEED;0"))
+            run = subprocess.run([os.environ["PETRI"], "sweep", script, "-D", "COUNT=3;5", "--seeds", "2", "--frames", "4",
+                                  "--metric", "x=$(:dish;1)[0]", "--metric", "n=COUNT*SEED"], check=True,
+                                 stdout=subprocess.PIPE, text=True)
+            table = petri.sweep(script, {"COUNT": [3, 5]}, {"x": "$(:dish;1)[0]", "n": "COUNT*SEED"}, seeds=2, frames=4)
+        lines = [line.split(",") for line in run.stdout.splitlines()]
+        self.assertEqual(list(table), lines[0][1:])
+        for row, line in enumerate(lines[1:]):
+            self.assertEqual([float(table[name][row]) for name in list(table)[:-1]], [float(cell) for cell in line[1:-1]])
+        self.assertEqual(table["error"], [None] * 4)
+
+    def test_a_run_that_fails_is_a_row(self):
+        table = petri.sweep("let N=N or 1\n    LONG=sum(i*i for i in ..N*10000)+frame\n", {"N": [1, 1000, 2]},
+                            {"twice": "2*N"}, frames=9, until="frame == 3", options=petri.Options(work=5 << 20), jobs=2)
+        self.assertEqual(table["twice"], [2, None, 4])
+        self.assertEqual([table["frame"][0], table["frame"][2]], [3, 3])
+        self.assertIn("takes more than", table["error"][1])
+        with self.assertRaises(ValueError):
+            petri.sweep("!a\n", {"N": [1]}, {"N": "1"})
+
+
 class Threads(unittest.TestCase):
     def test_interrupt_of_another_thread(self):
         session = petri.Session(DISH)

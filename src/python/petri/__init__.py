@@ -16,12 +16,13 @@ from .errors import (Diagnostic, InterruptedStep, LimitError, MissingLibraryErro
 from .picture import Picture
 from .session import Frame, Options, Session, Snapshot
 from .state import State
+from .sweeps import sweep
 from .systems import System, Systems
 from .values import Text
 
 __version__ = _ffi.string(_lib.petri_version()).decode()
 __all__ = ["Diagnostic", "Frame", "InterruptedStep", "LimitError", "MissingLibraryError", "Options", "OutOfMemoryError",
            "PetriError", "PetriWarning", "Picture", "ScriptError", "Session", "Snapshot", "State", "System", "Systems",
-           "Text"]
+           "Text", "sweep"]
 for _name in __all__:
     globals()[_name].__module__ = "petri"  # where people find them

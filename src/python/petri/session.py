@@ -6,11 +6,12 @@ import os
 import threading
 from dataclasses import dataclass
 from itertools import count
-from typing import Any, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union
+from typing import Any, Callable, Iterator, List, Mapping, NamedTuple, Optional, Sequence, Union
 
 from . import values
 from ._petri import ffi, lib
 from .errors import Diagnostic, ScriptError, finish
+from .functions import Functions
 from .picture import Picture
 from .state import State
 from .systems import Systems
@@ -77,13 +78,20 @@ class Session:
     script: `petri.Session("dish.fl", CELLS=20)` is `-D CELLS=20`. What is wrong with the script is raised
     (ScriptError, …), what is hardly meant is a PetriWarning. `given` has names that the script reads like its own, and
     whose values may be others in each frame (give). Several threads may use a session, one after the other.
+
+    `functions` are called by the script like built-in ones: they take and return numbers, Text, tuples of them, and
+    None; symbols they take only. They may not use the session. Where one raises something the script sees null, the
+    frame is made, and then the error comes out of step.
     """
 
     def __init__(self, source: Union[str, os.PathLike], *, options: Optional[Options] = None,
-                 given: Optional[Mapping[str, Any]] = None, **defines: Any):
-        self._lock = threading.Lock()
+                 given: Optional[Mapping[str, Any]] = None, functions: Optional[Mapping[str, Callable]] = None,
+                 **defines: Any):
+        self._lock = threading.RLock()
         self._told: List[Diagnostic] = []
         self._painter: Any = None
+        self._functions: Optional[Functions] = None
+        self._stop: Any = ffi.NULL
         self._shown: List[None] = []  # one for each array of the session's memory
         self._c = self._open(options or Options())
         self.state = State(self._c, self._lock)
@@ -91,6 +99,9 @@ class Session:
         for name, value in defines.items():
             text = value if isinstance(value, str) else self._printed(value)
             self._call(lib.petri_define, f"{name}={text}".encode(), message=f"{name} is no name that can be defined")
+        if functions:
+            self._functions = Functions(self, functions)
+            self._stop = self._functions.stop
         self._given: set[str] = set(given or ())
         for name, value in (given or {}).items():
             self.give(name, value)
@@ -132,8 +143,20 @@ class Session:
     def _call(self, function: Any, *arguments: Any, message: Optional[str] = None) -> None:
         with self._lock:
             status = function(self._c, *arguments)
-        if status or self._told:
-            finish(status, self._told, message)
+        if status or self._told or self._stop and self._stop[0]:
+            self._finish(status, message)
+
+    def _finish(self, status: int, message: Optional[str] = None) -> None:
+        """Raises what came of a call, or what a function raised in it."""
+        if self._functions and self._functions.calling:
+            raise RuntimeError("a function that a script calls cannot use its session")
+        if self._functions and self._functions.raised:
+            error = self._functions.raised[0]
+            self._functions.raised.clear()
+            self._functions.stop[0] = False
+            self._told.clear()
+            raise error
+        finish(status, self._told, message)
 
     def _collect(self, function: Any, *arguments: Any, after: tuple = ()) -> str:
         pieces: List[bytes] = []
@@ -144,9 +167,9 @@ class Session:
     def step(self, n: int = 1) -> None:
         """Makes n frames; another thread may use Python meanwhile. Ctrl-C gives the frame at hand up."""
         with self._lock:
-            status = lib.petri_python_step(self._c, n, threading.get_ident() == _MAIN)
-        if status or self._told:
-            finish(status, self._told)
+            status = lib.petri_python_step(self._c, n, threading.get_ident() == _MAIN, self._stop)
+        if status or self._told or self._stop and self._stop[0]:
+            self._finish(status)
 
     def __iter__(self) -> Iterator[Frame]:
         """The frames, one after the other, without end."""

@@ -273,6 +273,54 @@ static void test_lists(void **state) {
     assert_false(mesh_from_lists(*state, vertices, 9, faces, 3, uv, 5, &mesh, &problem));
 }
 
+// A hull is closed and convex, and has all points within; those inside are no corners.
+static void check_hull(Arena *arena, const char *row, const double *points, uint32_t count, double volume,
+                       uint32_t triangles) {
+    uint32_t numbers = 0;
+    Mesh mesh;
+    const char *problem;
+    const double *faces = mesh_hull(arena, points, count, &numbers);
+    assert_claim(row, faces && mesh_from_lists(arena, points, 3 * count, faces, numbers, NULL, 0, &mesh, &problem));
+    double sum = 0;
+    for (uint32_t i = 0; i < numbers; i += 3) {
+        const double *a = points + 3 * (size_t)faces[i], *b = points + 3 * (size_t)faces[i + 1],
+                     *c = points + 3 * (size_t)faces[i + 2];
+        double u[3], v[3], n[3];
+        for (int k = 0; k < 3; k++)
+            u[k] = b[k] - a[k], v[k] = c[k] - a[k];
+        for (int k = 0; k < 3; k++)
+            n[k] = u[(k + 1) % 3] * v[(k + 2) % 3] - u[(k + 2) % 3] * v[(k + 1) % 3];
+        for (uint32_t p = 0; p < count; p++)
+            assert_claim(row, n[0] * (points[3 * p] - a[0]) + n[1] * (points[3 * p + 1] - a[1]) +
+                                      n[2] * (points[3 * p + 2] - a[2]) <
+                                  1e-6);
+        sum += (n[0] * a[0] + n[1] * a[1] + n[2] * a[2]) / 6;
+    }
+    assert_claim(row, volume < 0 || fabs(sum - volume) < 1e-9);
+    assert_claim(row, triangles == 0 || numbers == 3 * triangles);
+}
+
+static void test_hull(void **state) {
+    enum { MANY = 300 };
+    static const double pyramid[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0.1, 0.1, 0.1, 0.2, 0.2, 0, 0, 0, 0};
+    double cube[27 * 3], ball[MANY * 3], wall[MANY * 3];
+    for (int i = 0; i < 27; i++)
+        cube[3 * i] = i % 3, cube[3 * i + 1] = i / 3 % 3, cube[3 * i + 2] = i / 9;
+    for (int i = 0; i < MANY; i++) {
+        double z = 1 - (2 * i + 1.0) / MANY, angle = 2.399963 * i, r = sqrt(1 - z * z);
+        ball[3 * i] = r * cos(angle), ball[3 * i + 1] = r * sin(angle), ball[3 * i + 2] = z;
+        wall[3 * i] = i % 17, wall[3 * i + 1] = i / 17, wall[3 * i + 2] = i % 17 - 2.0 * (i / 17);
+    }
+    check_hull(*state, "a pyramid", pyramid, 7, 1 / 6.0, 4);
+    check_hull(*state, "a cube", cube, 27, 8, 0);
+    check_hull(*state, "a ball", ball, MANY, -1, 2 * MANY - 4); // Euler
+    uint32_t numbers;
+    assert_null(mesh_hull(*state, wall, MANY, &numbers));
+    assert_null(mesh_hull(*state, pyramid, 3, &numbers));
+    static const double same[12] = {0};
+    assert_null(mesh_hull(*state, same, 4, &numbers));
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_box, begin, end),
@@ -284,6 +332,7 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_obj, begin, end),
         cmocka_unit_test_setup_teardown(test_stl, begin, end),
         cmocka_unit_test_setup_teardown(test_lists, begin, end),
+        cmocka_unit_test_setup_teardown(test_hull, begin, end),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,76 @@
+"""Functions of Python's that scripts call."""
+
+from __future__ import annotations
+
+import inspect
+from typing import Any, Callable, List, Mapping
+
+from . import values
+from ._petri import ffi, lib
+
+
+class Functions:
+    """Those of a session, and what they have raised since it was looked at."""
+
+    def __init__(self, session: Any, functions: Mapping[str, Callable]):
+        self.pointer = session._c  # while a function is called, the session has none
+        self._session = session
+        self._keep: List[Any] = []
+        self.raised: List[BaseException] = []
+        self.stop = ffi.new("bool *")
+        self.calling = False
+        for name, function in functions.items():
+            self._add(name, function)
+
+    def _add(self, name: str, function: Callable) -> None:
+        defaults = [parameter.default for parameter in inspect.signature(function).parameters.values()
+                    if parameter.kind is not parameter.VAR_POSITIONAL]
+        handle = ffi.new_handle((self, function, defaults))
+        texts = [ffi.new("char[]", text.encode())
+                 for text in (name, self._parameters(function), (inspect.getdoc(function) or "").split("\n")[0])]
+        made = ffi.new("PetriFunction *", {
+            "size": ffi.sizeof("PetriFunction"), "name": texts[0], "parameters": texts[1], "help": texts[2],
+            "call": ffi.addressof(lib, "petri_python_call"), "host": handle})
+        self._keep.append(handle)
+        self._session._call(lib.petri_add_function, made, message=f"{name} is no name for a function, or one is taken")
+
+    def _parameters(self, function: Callable) -> str:
+        words = []
+        for parameter in inspect.signature(function).parameters.values():
+            if parameter.kind is parameter.VAR_POSITIONAL:
+                words.append("...")
+            elif parameter.kind not in (parameter.POSITIONAL_ONLY, parameter.POSITIONAL_OR_KEYWORD):
+                raise TypeError(f"scripts give arguments by position only, which {parameter} does not take")
+            elif parameter.default is parameter.empty:
+                words.append(parameter.name)
+            else:
+                default = parameter.default
+                words.append(f"{parameter.name}={'null' if default is None else self._session._printed(default)}")
+        return ", ".join(words)
+
+
+def _result(given: Any) -> tuple:
+    for part in values.elements(given):
+        if isinstance(part, str) and not isinstance(part, values.Text):
+            raise TypeError(f"{part!r} would be a symbol; a function for scripts returns numbers and petri.Text")
+    return values.encode(None, given)
+
+
+@ffi.def_extern()
+def petri_python_called(call: Any, host: Any, arguments: Any, count: int, out: Any) -> None:
+    owner, function, defaults = ffi.from_handle(host)
+    session, pointer = owner._session, owner.pointer
+    session._c = session.state._session = ffi.NULL
+    owner.calling = True
+    try:
+        given = [values.decode(pointer, arguments[i]) for i in range(count)]
+        for i, default in enumerate(defaults):  # null stands for one that was left out
+            given[i] = default if given[i] is None and default is not inspect.Parameter.empty else given[i]
+        out[0], owner.result = _result(function(*given))
+    except BaseException as error:
+        lib.petri_call_fault(call, f"{type(error).__name__}: {error}".encode())
+        owner.raised.append(error)
+        owner.stop[0] = True
+    finally:
+        owner.calling = False
+        session._c = session.state._session = pointer

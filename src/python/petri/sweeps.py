@@ -1,0 +1,48 @@
+"""Many runs of a script with other values."""
+
+from __future__ import annotations
+
+import itertools
+import os
+from concurrent.futures import ThreadPoolExecutor
+from typing import Any, Iterable, List, Mapping, Optional, Union
+
+from .errors import PetriError
+from .session import Options, Session
+
+
+def sweep(source: Union[str, os.PathLike], defines: Mapping[str, Iterable[Any]], metrics: Mapping[str, str], *,
+          frames: int = 600, until: Optional[str] = None, seeds: int = 0, jobs: Optional[int] = None,
+          options: Optional[Options] = None) -> Mapping[str, List[Any]]:
+    """Runs a script once for each combination of values, several at a time, and measures what comes of it.
+
+    `defines` has the values of each name, `metrics` expressions, which are evaluated after the last frame; `seeds`
+    counts a name SEED from 1. A run ends after `frames`, or with the first frame in which `until` is true. The result
+    has lists as long as there are runs, in the order of `petri sweep`: the names, frame, the metrics, error (None, or
+    why the run failed, whose metrics are None). `pandas.DataFrame(petri.sweep(...))` is a table.
+    """
+    axes = {name: list(given) for name, given in defines.items()}
+    if seeds > 0:
+        axes["SEED"] = list(range(1, seeds + 1))
+    taken = [*axes, "frame", "error"]
+    double = [name for name in metrics if name in taken]
+    if double:
+        raise ValueError(f"two columns would be called {double[0]!r}")
+    runs = [dict(zip(axes, chosen)) for chosen in itertools.product(*axes.values())]
+
+    def run(chosen: Mapping[str, Any]) -> dict:
+        row = {**chosen, "frame": None, **dict.fromkeys(metrics), "error": None}
+        try:
+            with Session(source, options=options or Options(threads=1), **chosen) as session:
+                for frame in session.frames(frames):
+                    row["frame"] = frame.number
+                    if until is not None and session.evaluate(until):
+                        break
+                row.update({name: session.evaluate(text) for name, text in metrics.items()})
+        except PetriError as error:
+            row["error"] = str(error)
+        return row
+
+    with ThreadPoolExecutor(jobs or os.cpu_count()) as pool:
+        rows = list(pool.map(run, runs))
+    return {name: [row[name] for row in rows] for name in [*axes, "frame", *metrics, "error"]}
