@@ -68,7 +68,7 @@ func deep(n)
                 !blur radius=1
             !dash intervals=2;1
             !ellipse point=20;20 radius=9;5 fill=true stroke=true
-        !layer alpha=0.5
+        !layer size=60;40 alpha=0.5
             !group
                 !rect size=9;9
                 !clip

@@ -592,6 +592,39 @@ static void test_memory(void **state) {
     }
 }
 
+// 8.2: the picture of any node as an image and as a pattern: plain programs, effects, programs without inputs.
+static void test_pictures_of_nodes(void **state) {
+    (void)state;
+    static const struct {
+        const char *node;
+        bool runs; // needs OpenGL
+        double light;
+    } cases[] = {{"shader alpha=0.5", false, 0.5},
+                 {"record", false, 1},
+                 {"adjust exposure=-1", true, 0.735357}, // enc(1/2)
+                 {"blur", true, 1},
+                 {"noise components=4 multiplier=0 offset=0.25", true, 0.25}}; // its alpha, too
+    bool can = drawn_can_run();
+    for (size_t i = 0; i < COUNT_OF(cases); i++) {
+        char script[1000];
+        Drawn drawn;
+        if (cases[i].runs && !can)
+            continue;
+        snprintf(script, sizeof script,
+                 "!window size=60;60\n    !%s id=:s hidden=true\n        !canvas\n            !rect size=60 fill=true "
+                 "color=1\n"
+                 "    !canvas\n        !image image_id=:s size=30;60\n        !pattern texture_id=:s\n"
+                 "        !rect point=30;0 size=30;60 fill=true\n",
+                 cases[i].node);
+        drawn_open(&drawn, script, 1);
+        assert_string_equal(drawn.told, "");
+        double light = cases[i].light;
+        for (int x = 15; x < 60; x += 30)
+            check_pixel(&drawn, x, 30, (double[]){light, light, light}, cases[i].node);
+        drawn_close(&drawn);
+    }
+}
+
 // Bad input: told once for each place, in however many frames; the rest is drawn.
 static void test_bad_input(void **state) {
     (void)state;
@@ -667,10 +700,13 @@ static void test_bad_input(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_modes),  cmocka_unit_test(test_filter_blend),  cmocka_unit_test(test_color_matrix),
-        cmocka_unit_test(test_blur),   cmocka_unit_test(test_other_filters), cmocka_unit_test(test_wide),
-        cmocka_unit_test(test_noise),  cmocka_unit_test(test_arc_to),        cmocka_unit_test(test_path_effects),
-        cmocka_unit_test(test_jitter), cmocka_unit_test(test_memory),        cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_modes),         cmocka_unit_test(test_filter_blend),
+        cmocka_unit_test(test_color_matrix),  cmocka_unit_test(test_blur),
+        cmocka_unit_test(test_other_filters), cmocka_unit_test(test_wide),
+        cmocka_unit_test(test_noise),         cmocka_unit_test(test_arc_to),
+        cmocka_unit_test(test_path_effects),  cmocka_unit_test(test_jitter),
+        cmocka_unit_test(test_memory),        cmocka_unit_test(test_pictures_of_nodes),
+        cmocka_unit_test(test_bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
