@@ -22,7 +22,8 @@ static void draw(PetriSession *session, PetriPainter *painter, PetriAutomatic au
 int LLVMFuzzerTestOneInput(const uint8_t *data, size_t size) {
     static PetriPainter *painter; // fonts take long to find
     painter = painter ? painter : petri_painter_open();
-    // Drawing one path is one call of Cairo: up to some seconds (MOST_WORK in lib/draw/paints.c), and longer with sanitizers.
+    // Drawing one path is one call of Cairo: up to some seconds (MOST_WORK in lib/draw/paints.c), and longer with
+    // sanitizers.
     fuzz_patience = 600;
     PetriSession *session = fuzz_open(NULL);
     if (petri_load_text(session, fuzz_file("fuzz.fl"), (const char *)data, size) == PETRI_OK)
