@@ -31,11 +31,12 @@ static bool any_far(const PhysSystem *system, Domain *reach) {
     return !any || !(reach->bound < INFINITY);
 }
 
-static bool worth(const PhysSystem *system) {
+// Making particles whole at the end of a frame takes about as long as one step.
+static bool worth(const PhysSystem *system, const PhysTime *time) {
     const PhysOptions *options = &system->options;
+    bool many = system->particle_count >= WORTH_PARTICLES && time->now - time->last > 1.5 * time->resolution;
     return options->ranks.count > 1 && options->neighbours != PHYS_NEIGHBOURS_NEVER &&
-           system->dimensions <= PHYS_VECTOR_DIMENSIONS && system->particle_count &&
-           (options->ranks.least || system->particle_count >= WORTH_PARTICLES);
+           system->dimensions <= PHYS_VECTOR_DIMENSIONS && system->particle_count && (options->ranks.least || many);
 }
 
 static Domain *domain_of(PhysSystem *system) {
@@ -109,9 +110,9 @@ static bool deal(PhysSystem *system, Domain *domain) {
     return domain->made;
 }
 
-bool phys_domain_begin(PhysSystem *system) {
-    Domain reach, *domain;
-    if (!worth(system) || any_far(system, &reach) || !(domain = domain_of(system)))
+static bool begin(PhysSystem *system, const Domain *reach) {
+    Domain *domain = domain_of(system);
+    if (!domain)
         return false;
     bool same = domain->made && domain->arrangement == system->arrangement;
     if (!same) {
@@ -121,18 +122,26 @@ bool phys_domain_begin(PhysSystem *system) {
     bool again = same && uneven(system, domain);
     if (again)
         domain->patience *= 2;
-    again |= !same || domain->contact != reach.contact || domain->bound != reach.bound ||
+    again |= !same || domain->contact != reach->contact || domain->bound != reach->bound ||
              (system->touched && grown(system, domain));
-    domain->contact = reach.contact;
-    domain->bound = reach.bound;
+    domain->contact = reach->contact;
+    domain->bound = reach->bound;
     if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
         return false;
     if (!again && system->touched)
         phys_domain_reload(system, domain, true);
-    system->touched = false;
     domain->local->frame = system->frame;
-    system->traffic.sharing = PHYS_BY_REGION;
     return true;
+}
+
+bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
+    Domain reach, *domain = system->domain.bytes;
+    bool shared = worth(system, time) && !any_far(system, &reach) && begin(system, &reach);
+    if (!shared && domain)
+        domain->made = false; // it does not know of what happens in this frame
+    system->touched = false;
+    system->traffic.sharing = shared ? PHYS_BY_REGION : PHYS_ALONE;
+    return shared;
 }
 
 // Has an own particle left its skin, or grown? For forces that have no lists, which would tell.

@@ -28,8 +28,7 @@ typedef struct Parcels {
 } Parcels;
 
 typedef struct Domain {
-    bool made;   // all that follows is there
-    bool active; // in this frame
+    bool made; // all that follows is there
     PhysSystem *local;
     uint64_t arrangement; // of the system's columns that it is for
     // how far particles see
@@ -71,7 +70,7 @@ typedef struct Domain {
 
 // domain.c: whether the ranks share this frame of the system that way; if so, all is prepared. All ranks come to the
 // same. False with system->failed if memory is used up.
-bool phys_domain_begin(PhysSystem *system);
+bool phys_domain_begin(PhysSystem *system, const PhysTime *time);
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 // Makes all particles whole and stores them, as phys_store; false if it was given up.
 bool phys_domain_store(PhysSystem *system, bool keep_last_finite);

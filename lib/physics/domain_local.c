@@ -115,7 +115,7 @@ static void take_share(void *context, int share, int shares) {
     const Columns *from = &system->columns, *to = &taking->domain->local->columns;
     const uint32_t *column = taking->domain->column;
     size_t first = phys_share(to->count, share, shares), end = phys_share(to->count, share + 1, shares);
-    for (size_t k = 0; k < to->dimensions; k++) {
+    for (size_t k = 0; k < to->dimensions && first < end; k++) {
         size_t there = k * from->stride, here = k * to->stride;
         take(column, first, end, from->position + there, to->position + here);
         take(column, first, end, from->velocity + there, to->velocity + here);
@@ -171,7 +171,7 @@ static void note_places(const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const uint32_t *own = domain->own.bytes;
     double *built = domain->built.bytes;
-    for (size_t k = 0; k < columns->dimensions; k++, built += domain->own_count)
+    for (size_t k = 0; k < columns->dimensions && domain->own_count; k++, built += domain->own_count)
         take(own, 0, domain->own_count, columns->position + k * columns->stride, built);
     take(own, 0, domain->own_count, columns->radius, built);
 }

@@ -50,12 +50,11 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
     system->traffic.frames++;
-    system->traffic.sharing = PHYS_ALONE;
     if (!arrange(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
-    bool shared = phys_domain_begin(system);
+    bool shared = phys_domain_begin(system, time);
     if (system->failed) {
         result.status = PHYS_NO_MEMORY;
         return result;

@@ -30,23 +30,8 @@ static void add_gcc(Report *report, const PetriDiagnostic *diagnostic, const cha
 }
 
 static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
-    Bytes *out = &report->text;
-    const struct {
-        const char *name;
-        const char *text;
-    } fields[] = {{"file", diagnostic->file},
-                  {"level", levels[diagnostic->level]},
-                  {"code", diagnostic->code},
-                  {"text", diagnostic->text},
-                  {"hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL}};
-    bytes_add_text(out, report->count == 0 ? "[\n  {" : ",\n  {");
-    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
-        bytes_format(out, "\"%s\": ", fields[i].name);
-        json_add_text(out, fields[i].text);
-        bytes_add_text(out, ", ");
-    }
-    bytes_format(out, "\"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
-                 diagnostic->column, diagnostic->end_line, diagnostic->end_column);
+    bytes_add_text(&report->text, report->count == 0 ? "[\n  " : ",\n  ");
+    json_add_diagnostic(&report->text, diagnostic);
 }
 
 // A path as a URI reference.

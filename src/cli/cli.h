@@ -78,6 +78,7 @@ extern const Command TEST_COMMAND;
 extern const Command CHECK_COMMAND;
 extern const Command FMT_COMMAND;
 extern const Command LSP_COMMAND;
+extern const Command SEND_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 

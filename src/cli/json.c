@@ -25,3 +25,23 @@ void json_add_text(Bytes *out, const char *text) {
     }
     bytes_add_text(out, "\"");
 }
+
+void json_add_diagnostic(Bytes *out, const PetriDiagnostic *diagnostic) {
+    static const char *const levels[] = {"error", "warning", "note"};
+    const struct {
+        const char *name;
+        const char *text;
+    } fields[] = {{"file", diagnostic->file},
+                  {"level", levels[diagnostic->level]},
+                  {"code", diagnostic->code},
+                  {"text", diagnostic->text},
+                  {"hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL}};
+    bytes_add_text(out, "{");
+    for (size_t i = 0; i < sizeof fields / sizeof fields[0]; i++) {
+        bytes_format(out, "\"%s\": ", fields[i].name);
+        json_add_text(out, fields[i].text);
+        bytes_add_text(out, ", ");
+    }
+    bytes_format(out, "\"line\": %u, \"column\": %u, \"endLine\": %u, \"endColumn\": %u}", diagnostic->line,
+                 diagnostic->column, diagnostic->end_line, diagnostic->end_column);
+}

@@ -55,6 +55,7 @@ FIELD(Verbosity,    verbosity,    LOG_NORMAL)
 FIELD(bool,         colour,       colour_by_default())
 FIELD(bool,         monochrome,   no_colour())    // not even pictures in the terminal have colours
 FIELD(bool,         werror,       false)
+FIELD(const char *, listen,       NULL)           // view: a socket for editors
 FIELD(bool,         stdio,        false)
 FIELD(int,          report,       0)              // check: as text, for gcc's readers, as JSON or as SARIF
 FIELD(bool,         only_checks,  false)          // fmt: nothing is written
@@ -66,6 +67,7 @@ OPTION(FOR_RENDER, "format", 0, "F", read_text, format, "what '-o -' writes: png
 OPTION(FOR_RENDER, "frame", 0, "N", WHOLE(0, INT64_MAX - 1), frame, "draw frame N (0 is the first); the last one if not given")
 OPTION(FOR_VIEW, "terminal", 0, NULL, read_flag, terminal, "show it in the terminal, even if there is a display")
 OPTION(FOR_VIEW, "auto", 0, NULL, read_flag, automatic, "show the particles themselves, not the script's own canvas")
+OPTION(FOR_VIEW, "listen", 0, "SOCKET", read_text, listen, "take texts from petri send on a Unix socket, which its owner alone may use")
 OPTION(FOR_TEST, "update", 0, NULL, read_flag, update, "record what the scripts print now in their goldens")
 OPTION(FOR_TEST, "filter", 0, "TEXT", read_text, filter, "only scripts with TEXT in their path below PATH")
 OPTION(FOR_TEST, "junit", 0, "FILE", read_text, junit, "also write the results to FILE, in the form that CI systems read")

@@ -20,8 +20,8 @@ void stats_count(Stats *stats, PetriSession *session) {
 
 // What ranks sent each other for a system: the most that one of them did.
 static void print_traffic(PetriSession *session, size_t number, const PetriRanks *ranks) {
-    static const char *const how[] = {"not shared, because it is small or ranks cannot share its forces", "by pairs",
-                                      "by region"};
+    static const char *const how[] = {
+        "not shared: it is small, its frames have one step, or nobody can share its forces", "by pairs", "by region"};
     enum { OWN, HALO, BYTES, MESSAGES, FRAME_BYTES, REDUCTIONS, NUMBERS };
     PetriTraffic traffic;
     if (ranks == NULL || !petri_traffic(session, number, &traffic)) {

@@ -242,6 +242,10 @@ static void draw(View *view) {
 }
 
 static void take_changes(View *view) {
+    if (listener_serve(&view->listener, &view->world)) {
+        view->step_once = view->step_once || view->paused; // so that what was sent is seen
+        view_update_trouble(view);
+    }
     if (!world_reload(&view->world)) {
         return;
     }
@@ -359,9 +363,13 @@ static int run_view(View *view) {
 static int view_run(const Host *host, Options *options) {
     View view = {.host = host};
     int status = world_open(&view.world, host, options);
+    if (status == OPTIONS_READ && options->listen != NULL && !listener_open(&view.listener, options->listen)) {
+        status = STATUS_FAILED;
+    }
     if (status == OPTIONS_READ) {
         status = run_view(&view);
     }
+    listener_close(&view.listener);
     world_close(&view.world);
     free(view.pixels);
     return status;

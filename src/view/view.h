@@ -3,12 +3,14 @@
 #define PETRI_SRC_VIEW_VIEW_H
 
 #include "view/display.h"
+#include "view/listen.h"
 #include "view/parameters.h"
 #include "view/world.h"
 
 typedef struct View {
     const Host *host;
     World world;
+    Listener listener; // for editors
     const DisplayKind *kind;
     Display *display;
     Overlay overlay;

@@ -76,10 +76,10 @@ read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which 
 
 if [ -z "${STEP_NS:-}" ]; then
     each=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 5 --frames 13 --threads 1)
-    frame=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 60 --frames 40 --threads 1)
-    # A frame at 5 fps has ten steps, one at 60 has one.
-    STEP_NS=$(echo "$each $frame $side" | awk '{ print ($1 - $2) / 9 / $3 / $3 * 2e6 }')
-    FRAME_NS=$(echo "$each $frame $side" | awk '{ f = (10 * $2 - $1) / 9 / $3 / $3 * 1e6; print (f > 0 ? f : 0) }')
+    frame=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 25 --frames 33 --threads 1)
+    # A frame at 5 fps has ten steps, one at 25 has two.
+    STEP_NS=$(echo "$each $frame $side" | awk '{ print ($1 - $2) / 8 / $3 / $3 * 2e6 }')
+    FRAME_NS=$(echo "$each $frame $side" | awk '{ f = (10 * $2 - 2 * $1) / 8 / $3 / $3 * 1e6; print (f > 0 ? f : 0) }')
 fi
 echo
 awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v messages="$messages" -v agreed="$agreed" \

@@ -12,8 +12,9 @@ complain() {
 }
 
 # Recorded outputs and scripts of tests are what they are.
-for file in $(find lib grammar src tests samples -name '*.c' -o -name '*.h' -o -name '*.re' -o -name '*.y' \
+for file in $(find lib grammar src tests samples -name node_modules -prune -o -name '*.c' -o -name '*.h' -o -name '*.re' -o -name '*.y' \
     -o -name '*.sh' -o -name meson.build -o -name '*.md'); do
+    [ -f "$file" ] || continue
     [ -s "$file" ] || continue
     if grep -n '[[:blank:]]$' "$file"; then
         complain "$file: blanks at the end of a line"

@@ -1,5 +1,6 @@
 // extension.js: what VS Code does with Flitter scripts: it starts `petri lsp`, and runs, views and draws them.
 const childProcess = require("child_process");
+const os = require("os");
 const path = require("path");
 const vscode = require("vscode");
 const { LanguageClient } = require("vscode-languageclient/node");
@@ -7,6 +8,7 @@ const { LanguageClient } = require("vscode-languageclient/node");
 let client;
 let panel; // the picture beside
 let shown; // the script that it shows
+const socket = path.join(os.tmpdir(), `petri-vscode-${process.pid}`); // of the last view
 
 const setting = (name) => vscode.workspace.getConfiguration("petri").get(name);
 
@@ -39,17 +41,29 @@ async function script() {
     return document.fileName;
 }
 
-async function inTerminal(command) {
+async function inTerminal(command, ...options) {
     const file = await script();
     if (file) {
         const terminal = vscode.window.createTerminal({
             name: `petri ${command}`,
             cwd: path.dirname(file),
             shellPath: setting("path"),
-            shellArgs: [command, file],
+            shellArgs: [command, file, ...options],
         });
         terminal.show(true);
     }
+}
+
+// Has the view evaluate the selection, or the line; what comes back is shown.
+function sendSelection() {
+    const editor = vscode.window.activeTextEditor;
+    const text = editor?.document.getText(editor.selection.isEmpty
+        ? editor.document.lineAt(editor.selection.active.line).range : editor.selection);
+    childProcess.execFile(setting("path"), ["send", socket, text ?? ""], { timeout: 10000 }, (problem, out, said) => {
+        const answers = out.split("\n").filter(Boolean).map((line) => JSON.parse(line).text).filter(Boolean);
+        const show = problem ? vscode.window.showErrorMessage : vscode.window.setStatusBarMessage;
+        show(answers.join("; ") || (problem ? said : "done"), problem ? undefined : 10000);
+    });
 }
 
 const escaped = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
@@ -83,7 +97,8 @@ async function showPicture() {
 
 async function activate(context) {
     context.subscriptions.push(
-        vscode.commands.registerCommand("petri.view", () => inTerminal("view")),
+        vscode.commands.registerCommand("petri.view", () => inTerminal("view", "--listen", socket)),
+        vscode.commands.registerCommand("petri.send", sendSelection),
         vscode.commands.registerCommand("petri.run", () => inTerminal("run")),
         vscode.commands.registerCommand("petri.picture", showPicture),
         vscode.commands.registerCommand("petri.restart", startServer),

@@ -1,0 +1,184 @@
+// listen.c: see listen.h.
+#include "view/listen.h"
+
+#include <errno.h>
+#include <fcntl.h>
+#include <stdio.h>
+#include <stdlib.h>
+#include <string.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/time.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "cli/json.h"
+
+static const size_t MOST_BYTES = (size_t)1 << 20;
+
+// A socket that nobody listens on was left by a view that died.
+static void remove_dead(const struct sockaddr_un *address) {
+    struct stat about;
+    int probe = socket(AF_UNIX, SOCK_STREAM, 0);
+    if (probe >= 0 && lstat(address->sun_path, &about) == 0 && S_ISSOCK(about.st_mode) &&
+        connect(probe, (const struct sockaddr *)address, sizeof *address) != 0 && errno == ECONNREFUSED) {
+        unlink(address->sun_path);
+    }
+    if (probe >= 0) {
+        close(probe);
+    }
+}
+
+static void set_flags(int descriptor) {
+    fcntl(descriptor, F_SETFD, FD_CLOEXEC);
+    fcntl(descriptor, F_SETFL, O_NONBLOCK);
+}
+
+bool listener_open(Listener *listener, const char *path) {
+    struct sockaddr_un address = {.sun_family = AF_UNIX};
+    *listener = (Listener){.socket = -1, .client = -1};
+    if (strlen(path) >= sizeof address.sun_path) {
+        message("cannot listen on %s: the name is too long", path);
+        return false;
+    }
+    strcpy(address.sun_path, path);
+    remove_dead(&address);
+    mode_t mask = umask(0177);
+    listener->socket = socket(AF_UNIX, SOCK_STREAM, 0);
+    bool bound =
+        listener->socket >= 0 && bind(listener->socket, (const struct sockaddr *)&address, sizeof address) == 0;
+    bool good = bound && listen(listener->socket, 8) == 0;
+    int cause = errno;
+    umask(mask);
+    if (!good) {
+        message("cannot listen on %s: %s", path, strerror(cause));
+        if (listener->socket >= 0) {
+            close(listener->socket);
+        }
+        return false;
+    }
+    set_flags(listener->socket);
+    listener->path = memory_text(path);
+    return true;
+}
+
+void listener_close(Listener *listener) {
+    if (listener->path == NULL) {
+        return;
+    }
+    unlink(listener->path);
+    free(listener->path);
+    close(listener->socket);
+    if (listener->client >= 0) {
+        close(listener->client);
+    }
+    bytes_free(&listener->text);
+    *listener = (Listener){0};
+}
+
+// --- answers
+
+static void add_diagnostics(PetriSession *session, Bytes *out) {
+    PetriDiagnostic diagnostic;
+    for (size_t i = 0; petri_diagnostic(session, i, &diagnostic); i++) {
+        json_add_diagnostic(out, &diagnostic);
+        bytes_add_text(out, "\n");
+    }
+}
+
+static void add_output(const Bytes *output, Bytes *out) {
+    Str line;
+    for (size_t at = 0; output->length > 0 && bytes_line(output, &at, &line);) {
+        SCOPED_TEXT text = memory_copied(line.bytes, line.len);
+        bytes_add_text(out, "{\"text\": ");
+        json_add_text(out, text);
+        bytes_add_text(out, "}\n");
+    }
+}
+
+static void end_answer(Bytes *out, bool done, const PetriPrompted *prompted) {
+    bytes_format(out, "{\"done\": %s, \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"hidden\": ",
+                 done ? "true" : "false", prompted->values, prompted->bindings, prompted->nodes);
+    json_add_text(out, prompted->hidden);
+    bytes_add_text(out, "}\n");
+}
+
+// `.set NAME VALUE`; the text is cut.
+static bool set_parameter(World *world, char *text) {
+    char *name = text + strspn(text, " "), *value = name + strcspn(name, " ");
+    bool given = *value != '\0' && value[1] != '\0';
+    *value = '\0';
+    return world_set_parameter(world, name, given ? value + 1 : NULL);
+}
+
+static void answer(World *world, char *text, Bytes *out) {
+    static const char set[] = ".set ";
+    PetriPrompted prompted = {0};
+    SCOPED_BYTES output = {0};
+    size_t length = strlen(text);
+    while (length > 0 && strchr(" \n", text[length - 1]) != NULL) {
+        text[--length] = '\0';
+    }
+    petri_forget_diagnostics(world->session);
+    bool done = true;
+    if (strncmp(text, set, strlen(set)) == 0) {
+        done = set_parameter(world, text + strlen(set));
+    } else if (strcmp(text, ".reset") == 0) {
+        world_reset(world);
+    } else if (strcmp(text, ".drop") == 0) {
+        petri_drop(world->session, true);
+    } else {
+        done = petri_prompt(world->session, text, length, bytes_collect, &output, &prompted) == PETRI_OK;
+    }
+    add_output(&output, out);
+    add_diagnostics(world->session, out);
+    end_answer(out, done, &prompted);
+}
+
+// A client that does not read is not waited for.
+static void reply(Listener *listener, World *world) {
+    SCOPED_BYTES out = {0};
+    bytes_add(&listener->text, "", 0);
+    answer(world, listener->text.data, &out);
+    fcntl(listener->client, F_SETFL, 0);
+    setsockopt(listener->client, SOL_SOCKET, SO_SNDTIMEO, &(struct timeval){.tv_sec = 1}, sizeof(struct timeval));
+    (void)file_write(listener->client, out.data, out.length);
+}
+
+static void hang_up(Listener *listener) {
+    close(listener->client);
+    listener->client = -1;
+    listener->text.length = 0;
+}
+
+bool listener_serve(Listener *listener, World *world) {
+    if (listener->path == NULL) {
+        return false;
+    }
+    if (listener->client < 0) {
+        listener->client = accept(listener->socket, NULL, NULL);
+        if (listener->client < 0) {
+            return false;
+        }
+        set_flags(listener->client);
+    }
+    char part[4096];
+    ssize_t count;
+    while ((count = read(listener->client, part, sizeof part)) > 0) {
+        bytes_add(&listener->text, part, (size_t)count);
+        if (listener->text.length > MOST_BYTES) {
+            hang_up(listener);
+            return false;
+        }
+    }
+    if (count < 0) {
+        if (errno != EAGAIN && errno != EINTR) {
+            hang_up(listener);
+        }
+        return false;
+    }
+    reply(listener, world);
+    hang_up(listener);
+    return true;
+}
