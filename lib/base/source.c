@@ -51,9 +51,7 @@ const Source *source_new(Arena *arena, Str name, Str path, Str text) {
     return source;
 }
 
-SourcePlace source_locate(const Source *source, uint32_t offset) {
-    if (offset >= source->text.len)
-        offset = (uint32_t)source->text.len - 1;
+uint32_t source_line(const Source *source, uint32_t offset) {
     uint32_t low = 0, high = source->line_count;
     while (high - low > 1) {
         uint32_t middle = low + (high - low) / 2;
@@ -62,10 +60,16 @@ SourcePlace source_locate(const Source *source, uint32_t offset) {
         else
             high = middle;
     }
-    uint32_t start = source->line_starts[low];
+    return low + 1;
+}
+
+SourcePlace source_locate(const Source *source, uint32_t offset) {
+    if (offset >= source->text.len)
+        offset = (uint32_t)source->text.len - 1;
+    uint32_t number = source_line(source, offset), start = source->line_starts[number - 1];
     const char *line = source->text.bytes + start;
     size_t len = (size_t)((const char *)memchr(line, '\n', source->text.len - start) - line);
-    return (SourcePlace){low + 1, (uint32_t)utf8_length((Str){line, offset - start}) + 1, {line, len}};
+    return (SourcePlace){number, (uint32_t)utf8_length((Str){line, offset - start}) + 1, {line, len}};
 }
 
 Str path_directory(Str path) {

@@ -39,6 +39,8 @@ const Source *source_new(Arena *arena, Str name, Str path, Str text);
 // CR LF and CR become LF, in place; returns the length then.
 size_t source_unify_lines(char *bytes, size_t len);
 SourcePlace source_locate(const Source *source, uint32_t offset);
+// The number of the line alone, which takes no longer where lines are long.
+uint32_t source_line(const Source *source, uint32_t offset);
 // The part of a path up to and including the last slash.
 Str path_directory(Str path);
 // `path` itself if absolute or `directory` is empty, else directory + path.

@@ -76,13 +76,13 @@ static void lay_stamp(Canvas *canvas, Stamp *stamp) {
     bool good = cover.at && (!stamp->colors || colors.at) && right > left && last > first &&
                 draw_spend(canvas, NULL, 2.0 * (right - left) * (last - first), "what comes now is left out");
     for (int y = first; good && y < last; y++) {
-        const unsigned char *row = row_of(&cover, y) - cover.x;
+        const unsigned char *row = row_of(&cover, y);
         for (int x = left; x < right; x++) {
-            if (row[x] == 0)
+            float k = (float)row[x - cover.x] / 255;
+            if (k == 0)
                 continue;
             size_t at = (size_t)(y - wide->y) * (size_t)wide->width + (size_t)(x - wide->x);
             float *d = wide->pixels + 4 * at, s[4], mixed[4];
-            float k = (float)row[x] / 255;
             find_color(stamp, &colors, x, y, s);
             if (stamp->mode == COMPOSITE_OVER) {
                 float rest = 1 - k * s[3];

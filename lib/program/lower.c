@@ -14,7 +14,7 @@ static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     bool ends = op == OP_COMPOSE || op == OP_JUMP || op == OP_RETURN;
     if (ends && last > 0 && lowering->instrs[last - 1].at->source == at->place.source)
         return lowering->lines[last - 1];
-    return source_locate(at->place.source, at->place.span.start).line;
+    return source_line(at->place.source, at->place.span.start);
 }
 
 const Origin *lower_place(Lowering *lowering, const Expr *expr) {

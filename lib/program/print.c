@@ -113,7 +113,7 @@ static void print_part(Text *out, const SymbolTable *symbols, const Code *code, 
 static void print_code(Text *out, const SymbolTable *symbols, const Code *code) {
     for (uint32_t i = 0; i < code->count; i++) {
         const Instr *instr = &code->instrs[i];
-        text_add_format(out, "%4u %4u  %-10s", i, source_locate(instr->at->source, instr->at->span.start).line,
+        text_add_format(out, "%4u %4u  %-10s", i, source_line(instr->at->source, instr->at->span.start),
                         opcodes[instr->op].name);
         for (const char *part = opcodes[instr->op].operands; *part; part++) {
             text_add_char(out, ' ');

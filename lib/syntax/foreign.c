@@ -57,7 +57,7 @@ static Tally count_lines(const Source *source, const DiagSink *diags) {
     Tally tally = {0};
     uint32_t last = 0;
     for (uint32_t i = 0; i < diags->count; i++) { // in the order of the text
-        uint32_t line = source_locate(source, diags->items[i].span.start).line;
+        uint32_t line = source_line(source, diags->items[i].span.start);
         tally.bad += line > last;
         last = line > last ? line : last;
     }

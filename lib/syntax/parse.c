@@ -13,7 +13,7 @@ enum { MOST_EXPECTED = 3 }; // more alternatives than this say nothing
 
 // What is wrong with a line is told once.
 static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
-    uint32_t line = source_locate(context->source, span.start).line;
+    uint32_t line = source_line(context->source, span.start);
     bool follows = context->failed && line == context->faulty_line;
     context->failed = true;
     context->faulty_line = line;
@@ -262,7 +262,7 @@ static void add_paren_hint(ParseContext *context, const Layout *layout, const To
     if (layout->paren_count == 0 || context->diags->count == errors_before)
         return;
     SourcePlace open = source_locate(context->source, layout->parens[layout->paren_count - 1]);
-    if (token->kind == END || source_locate(context->source, token->span.start).line > open.line)
+    if (token->kind == END || source_line(context->source, token->span.start) > open.line)
         context->diags->items[context->diags->count - 1].hint =
             str_format(context->diags->arena, "the parenthesis opened at line %u, column %u is not closed", open.line,
                        open.column);
