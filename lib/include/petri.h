@@ -428,7 +428,8 @@ PETRI_API void petri_keep_columns(PetriSession *session, bool keep);
 // The id of a particle; null if there is none. Valid until the next petri_id or petri_force, and as the columns are.
 PETRI_API PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle);
 // The ids of all particles, if each is one number (as a symbol is); else `data` is NULL, and if memory is used up. Made
-// when they are asked for first and whenever the system has got others. Valid as the columns are.
+// when they are asked for first and whenever the system has got others, and charged as the script's memory is. Valid as
+// the columns are.
 PETRI_API PetriColumn petri_ids(PetriSession *session, size_t system);
 // How ranks (PetriOptions.ranks) share a system, and what this one has sent for it so far. A message to all is one.
 typedef enum PetriSharing {

@@ -31,7 +31,7 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
 }
 
 static void free_system(PhysicsSystem *system) {
-    meter_give(system->meter, PHYSICS_SYSTEM_BYTES);
+    meter_give(system->meter, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
     phys_free(system->engine);
     mirror_free(&system->mirror);
     free(system->nodes);
@@ -203,13 +203,31 @@ static double single_id(const State *state, const SceneView *view, uint32_t part
     return last.type == ITEM_NUMBER ? last.as.number : NAN;
 }
 
+// Room for the ids, which the host has asked for, is charged as what the script has is.
+static bool reserve_ids(PhysicsSystem *system, uint32_t count) {
+    Mirror *mirror = &system->mirror;
+    if (count <= mirror->id_capacity)
+        return true;
+    meter_give(system->meter, mirror->id_capacity * sizeof *mirror->ids);
+    free(mirror->ids);
+    mirror->ids = NULL;
+    mirror->id_capacity = 0;
+    if (!meter_take(system->meter, count * sizeof *mirror->ids))
+        return false;
+    mirror->ids = malloc(count * sizeof *mirror->ids);
+    mirror->id_capacity = mirror->ids ? count : 0;
+    if (!mirror->ids)
+        meter_give(system->meter, count * sizeof *mirror->ids);
+    return mirror->ids;
+}
+
 bool scene_view_ids(const State *state, const SceneView *view, const double **ids) {
     Mirror *mirror = &view->system->mirror;
     *ids = NULL;
     if (!view->particle_count)
         return true;
     if (!mirror->ids_known) {
-        if (!heap_reserve((void **)&mirror->ids, &mirror->id_capacity, view->particle_count - 1, sizeof *mirror->ids))
+        if (!reserve_ids(view->system, view->particle_count))
             return false;
         mirror->ids_single = mirror->ids_known = true;
         for (uint32_t i = 0; i < view->particle_count && mirror->ids_single; i++) {

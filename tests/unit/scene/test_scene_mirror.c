@@ -127,10 +127,49 @@ static void test_forces(void **state) {
     assert_true(broken >= PLACES && broken < MOST / BY);
 }
 
+static size_t held(const Arena *arena) {
+    size_t bytes = 0;
+    for (const ArenaBlock *block = arena->first; block; block = block->next)
+        bytes += sizeof *block + block->capacity;
+    return bytes;
+}
+
+// Ids that are made for a host are charged as all that a script has is.
+static void test_ids_are_charged(void **state) {
+    World *world = *state;
+    Value two = system_of(world, 2, 1), three = system_of(world, 3, 1);
+    Stage stage;
+    SceneView view;
+    const double *ids;
+    Meter meter = {.memory_limit = SIZE_MAX};
+    meter_begin(&meter, UINT64_MAX, NULL);
+    world->arena.meter = &meter;
+    size_t of_world = held(&world->arena);
+    play(&stage, world, two, two, two, 0);
+    world->arena.meter = NULL;
+    assert_true(scene_view(stage.scene, stage.state, 0, &view));
+    size_t before = meter.memory;
+    assert_true(scene_view_ids(stage.state, &view, &ids));
+    assert_true(ids[0] == 1 && ids[1] == 2);
+    assert_int_equal(meter.memory, before + 2 * sizeof *ids);
+    assert_true(update(&stage, three, SIZE_MAX));
+    assert_true(scene_view(stage.scene, stage.state, 0, &view));
+    meter.memory_limit = meter.memory;
+    assert_false(scene_view_ids(stage.state, &view, &ids));
+    assert_null(ids);
+    meter.memory_limit = SIZE_MAX;
+    assert_true(scene_view_ids(stage.state, &view, &ids));
+    assert_true(ids[2] == 3);
+    scene_reset(stage.scene);
+    assert_int_equal(meter.memory, held(&world->arena) - of_world);
+    end(&stage);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         WORLD_TEST(test_vanished),
         WORLD_TEST(test_forces),
+        WORLD_TEST(test_ids_are_charged),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
