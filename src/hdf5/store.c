@@ -216,7 +216,7 @@ void store_text_list(Store *store, hid_t parent, const char *name, const char *t
     char *all = memory_zeroed(count * (longest + 1));
     text = texts;
     for (hsize_t i = 0; i < count; i++, text += strlen(text) + 1) {
-        memcpy(all + i * (longest + 1), text, strlen(text));
+        memcpy(all + i * (longest + 1), text, strlen(text) + 1);
     }
     store_list(store, parent, name, store_text_type(longest), count, all);
     free(all);

@@ -95,7 +95,7 @@ static void write_cell(const Column *column, const char *text, char *out) {
         memcpy(out, &number, sizeof number);
         break;
     default:
-        memcpy(out, text, strlen(text));
+        memcpy(out, text, strlen(text) + 1);
     }
 }
 
