@@ -70,7 +70,7 @@ for size in "$((side / 10)) 4" "$((side * 10 / 32)) 4" "$side 4" "$((side * 10 /
     set -- $size
     awk -v n="$(($1 * $1))" -v ranks="$2" '{
         printf "soft discs %7d, %2d ranks %12.0f %10.0f %13.0f %8.2f %9.1f %10.2f %14.0f\n",
-            n, ranks, $1, $2, $3, $2 > 0 ? $3 / (16 * $2) : 0, $4, $5, $6 }' "$work/row"
+            n, ranks, $1, $2, $3, ($2 > 0 ? $3 / (16 * $2) : 0), $4, $5, $6 }' "$work/row"
 done
 read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which have others on all sides
 
