@@ -150,7 +150,7 @@ static bool stirred(const Domain *domain) {
     const uint32_t *own = domain->own.bytes;
     const double *built = domain->built.bytes;
     size_t n = columns->dimensions, count = domain->own_count;
-    double most = 0.25 * domain->survey.skin * domain->survey.skin * (1 - 1e-6);
+    double most = phys_skin_square(domain->survey.skin);
     bool still = true;
     for (size_t i = 0; i < count && still; i++) {
         double square = 0;
@@ -166,11 +166,7 @@ static bool stirred(const Domain *domain) {
 }
 
 static bool move_on(PhysSystem *system, Domain *domain) {
-    Neighbours *survey = &domain->survey;
-    if (domain->age < 8)
-        survey->skin = fmin(survey->skin * 1.25, 0.6 * survey->base);
-    else if (domain->age > 24)
-        survey->skin = fmax(survey->skin / 1.15, 0.05 * survey->base);
+    phys_adapt_skin(&domain->survey, domain->age);
     phys_domain_give_back(system, domain);
     return phys_domain_move(system, domain) && phys_domain_find_halo(system, domain) &&
            phys_domain_gather(system, domain);

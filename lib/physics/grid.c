@@ -233,8 +233,7 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     list->total = (uint32_t)phys_ranges_total(&list->ranges);
     if (!reserve_arrays(system, pass, list) || !lay(pass, list, INFINITY, &survey, &grid))
         return false;
-    // A little less than half the skin, so that rounding cannot let a pair slip through.
-    list->view.moved = 0.25 * list->skin * list->skin * (1 - 1e-6);
+    list->view.moved = phys_skin_square(list->skin);
     uint64_t cells = (uint64_t)grid.cells[0] * grid.cells[1] * grid.cells[2];
     if (!phys_buffer_reserve(system, &list->cells, 0, cells + 2, sizeof(uint32_t)))
         return false;

@@ -132,12 +132,11 @@ static void large_forces(const ListPass *work) {
     }
 }
 
-// A larger skin makes longer lists that serve more steps. Neither many steps nor few are best.
-static void adapt_skin(Neighbours *list) {
-    list->life = list->age;
-    if (list->life < 8)
+// Neither many steps nor few are best.
+void phys_adapt_skin(Neighbours *list, uint32_t life) {
+    if (life < 8)
         list->skin = fmin(list->skin * 1.25, 0.6 * list->base);
-    else if (list->life > 24)
+    else if (life > 24)
         list->skin = fmax(list->skin / 1.15, 0.05 * list->base);
 }
 
@@ -255,7 +254,8 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
     ListPass work = {.kernels = kernels, .pass = pass, .list = list};
     if (list->built && !system->foreign && !refresh(system, &work)) {
         list->built = false;
-        adapt_skin(list);
+        list->life = list->age;
+        phys_adapt_skin(list, list->life);
     }
     if (!list->built) {
         if (!build(system, kernels, pass, list))

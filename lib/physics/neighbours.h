@@ -62,6 +62,8 @@ PairPass phys_columns_pass(const Columns *columns);
 bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                          uint32_t level);
 void phys_neighbours_free(Neighbours *list);
+// Another skin for what has served `life` steps: a larger one makes longer lists that serve more steps.
+void phys_adapt_skin(Neighbours *list, uint32_t life);
 
 // Those of a system that is part of a larger one (domain.h), which says when lists are made.
 // Brings lists up to date that have served `age` steps; false if new ones are needed.
@@ -75,6 +77,12 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
 
 // neighbours.c: with more entries than this a list costs more than all pairs.
 uint64_t phys_max_useful_entries(const Neighbours *list);
+
+// The square of how far a particle may move until lists with the skin no longer hold: a little less than half of it, so
+// that rounding cannot let a pair slip through.
+static inline double phys_skin_square(double skin) {
+    return 0.25 * skin * skin * (1 - 1e-6);
+}
 
 static inline uint64_t phys_ranges_total(const PassRanges *ranges) {
     uint64_t total = 0;

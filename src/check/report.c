@@ -1,15 +1,8 @@
 // report.c: see report.h.
 #include "check/report.h"
 
-#include <ctype.h>
-#include <stdlib.h>
-#include <string.h>
-#include <unistd.h>
-
 #include "cli/json.h"
 #include "cli/output.h"
-
-static const char *const levels[] = {"error", "warning", "note"};
 
 // Text and hint as one: they are two sentences of one remark.
 static void remark(const PetriDiagnostic *diagnostic, Bytes *out) {
@@ -22,7 +15,7 @@ static void add_gcc(Report *report, const PetriDiagnostic *diagnostic, const cha
     if (diagnostic->file != NULL) {
         bytes_format(out, "%s:%u:%u: ", diagnostic->file, diagnostic->line, diagnostic->column);
     }
-    bytes_format(out, "%s: %s", levels[diagnostic->level], said);
+    bytes_format(out, "%s: %s", level_word(diagnostic->level), said);
     if (diagnostic->code != NULL) {
         bytes_format(out, " [%s]", diagnostic->code);
     }
@@ -34,19 +27,9 @@ static void add_json(Report *report, const PetriDiagnostic *diagnostic) {
     json_add_diagnostic(&report->text, diagnostic);
 }
 
-// A path as a URI reference.
-static void add_uri(Bytes *out, const char *path) {
-    bytes_add_text(out, path[0] == '/' ? "\"file://" : "\"");
-    for (const char *c = path; *c != '\0'; c++) {
-        bool plain = isalnum((unsigned char)*c) || strchr("/-._~", *c) != NULL;
-        bytes_format(out, plain ? "%c" : "%%%02X", (unsigned char)*c);
-    }
-    bytes_add_text(out, "\"");
-}
-
 static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const char *said) {
     Bytes *out = &report->text;
-    bytes_format(out, "%s\n      {\"level\": \"%s\"", report->count == 0 ? "" : ",", levels[diagnostic->level]);
+    bytes_format(out, "%s\n      {\"level\": \"%s\"", report->count == 0 ? "" : ",", level_word(diagnostic->level));
     if (diagnostic->code != NULL) {
         bytes_format(out, ", \"ruleId\": \"%s\"", diagnostic->code);
         if (!texts_hold(&report->codes, diagnostic->code)) {
@@ -58,9 +41,10 @@ static void add_sarif(Report *report, const PetriDiagnostic *diagnostic, const c
     bytes_add_text(out, "}");
     if (diagnostic->file != NULL) {
         bytes_add_text(out, ", \"locations\": [{\"physicalLocation\": {\"artifactLocation\": {\"uri\": ");
-        add_uri(out, diagnostic->file);
+        bytes_add_text(out, "\"");
+        bytes_add_uri(out, diagnostic->file);
         bytes_format(out,
-                     "}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
+                     "\"}, \"region\": {\"startLine\": %u, \"startColumn\": %u, \"endLine\": %u, \"endColumn\": %u}}}]",
                      diagnostic->line, diagnostic->column, diagnostic->end_line, diagnostic->end_column);
     }
     bytes_add_text(out, "}");
@@ -103,11 +87,7 @@ int report_end(Report *report, int status) {
     if (report->form == REPORT_JSON) {
         bytes_add_text(&all, report->count == 0 ? "[]\n" : "\n]\n");
     }
-    Output *output = memory_zeroed(sizeof *output);
-    output_start(output, STDOUT_FILENO);
-    output_write(output, all.data, all.length);
-    status = output_finish(output, status);
-    free(output);
+    status = output_text(all.data, all.length, status);
     bytes_free(&report->text);
     texts_free(&report->codes);
     return status;

@@ -119,6 +119,15 @@ bool bytes_read_file(Bytes *text, const char *path) {
     return done;
 }
 
+void bytes_add_uri(Bytes *text, const char *path) {
+    bytes_add_text(text, path[0] == '/' ? "file://" : "");
+    for (const char *c = path; *c != '\0'; c++) {
+        bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') ||
+                     strchr("/-._~", *c) != NULL;
+        bytes_format(text, plain ? "%c" : "%%%02X", (unsigned char)*c);
+    }
+}
+
 void bytes_free(Bytes *text) {
     free(text->data);
     *text = (Bytes){0};

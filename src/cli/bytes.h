@@ -27,6 +27,8 @@ bool bytes_line(const Bytes *text, size_t *at, Str *line);
 // Adds all that can be read from the descriptor, or little more than `most`; or from the file. False with errno set.
 bool bytes_read(Bytes *text, int fd, size_t most);
 bool bytes_read_file(Bytes *text, const char *path);
+// Adds a path as a URI reference, `file:` if it is absolute.
+void bytes_add_uri(Bytes *text, const char *path);
 void bytes_free(Bytes *text);
 void memory_drop(char **text);
 

@@ -26,13 +26,17 @@ void json_add_text(Bytes *out, const char *text) {
     bytes_add_text(out, "\"");
 }
 
+const char *level_word(PetriLevel level) {
+    static const char *const words[] = {"error", "warning", "note"};
+    return words[level];
+}
+
 void json_add_diagnostic(Bytes *out, const PetriDiagnostic *diagnostic) {
-    static const char *const levels[] = {"error", "warning", "note"};
     const struct {
         const char *name;
         const char *text;
     } fields[] = {{"file", diagnostic->file},
-                  {"level", levels[diagnostic->level]},
+                  {"level", level_word(diagnostic->level)},
                   {"code", diagnostic->code},
                   {"text", diagnostic->text},
                   {"hint", diagnostic->hint[0] != '\0' ? diagnostic->hint : NULL}};

@@ -7,6 +7,7 @@
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
 #include "base/file.h"
 #include "cli/bytes.h"
@@ -75,4 +76,13 @@ int output_finish(Output *output, int status) {
     }
     message("cannot write standard output: %s", strerror(output->error));
     return STATUS_FAILED;
+}
+
+int output_text(const char *text, size_t length, int status) {
+    Output *output = memory_zeroed(sizeof *output);
+    output_start(output, STDOUT_FILENO);
+    output_write(output, text, length);
+    status = output_finish(output, status);
+    free(output);
+    return status;
 }

@@ -23,5 +23,7 @@ bool output_flush(Output *output);
 // Flushes and turns a failure into an exit status: a closed pipe is no failure, for the reader has what it wanted.
 // Gives the message otherwise.
 int output_finish(Output *output, int status);
+// Writes a text to standard output, and that is all: output_finish of it.
+int output_text(const char *text, size_t length, int status);
 
 #endif

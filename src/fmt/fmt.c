@@ -74,12 +74,7 @@ static bool write_script(const char *name, const Bytes *out) {
 
 // What came from standard input goes to standard output, whether it changes or not.
 static int write_out(const Bytes *out) {
-    Output *output = memory_zeroed(sizeof *output);
-    output_start(output, STDOUT_FILENO);
-    output_write(output, out->data, out->length);
-    int status = output_finish(output, STATUS_DONE);
-    free(output);
-    return status;
+    return output_text(out->data, out->length, STATUS_DONE);
 }
 
 static void format(Formatting *formatting, const char *name) {

@@ -329,15 +329,10 @@ char *uri_path(const char *uri) {
 
 char *uri_of(const char *path) {
     Bytes uri = {0};
-    bytes_add_text(&uri, path[0] == '/' ? "file://" : "");
-    for (const char *c = path; *c != '\0'; c++) {
-        bool plain = (*c >= 'a' && *c <= 'z') || (*c >= 'A' && *c <= 'Z') || (*c >= '0' && *c <= '9') ||
-                     strchr("/-._~", *c) != NULL;
-        if (plain || path[0] != '/') {
-            bytes_add(&uri, c, 1);
-        } else {
-            bytes_format(&uri, "%%%02X", (unsigned char)*c);
-        }
+    if (path[0] == '/') {
+        bytes_add_uri(&uri, path);
+    } else { // the editor's own name of what is no file
+        bytes_add_text(&uri, path);
     }
     return uri.data;
 }

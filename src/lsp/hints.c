@@ -13,13 +13,17 @@ static Json *text_edit(const Place *place, size_t start, size_t end, Str text) {
     return json_put(json_put(json_object_new_object(), "range", range), "newText", json_from(text));
 }
 
+// Where in the text a position is that the editor asks for.
+static size_t asked(const Place *place, const char *position) {
+    return document_offset(place->document, json_path(place->params, position), place->server->utf8);
+}
+
 // --- values of constants
 
 Json *answer_hints(const Place *place, const char **problem) {
     (void)problem;
     Document *document = place->document;
-    size_t from = document_offset(document, json_path(place->params, "range.start"), place->server->utf8);
-    size_t to = document_offset(document, json_path(place->params, "range.end"), place->server->utf8);
+    size_t from = asked(place, "range.start"), to = asked(place, "range.end");
     Json *list = json_object_new_array();
     for (size_t i = 0; i < document->name_count; i++) {
         const PetriTextName *name = &document->names[i];
@@ -125,8 +129,7 @@ Json *answer_presentations(const Place *place, const char **problem) {
     (void)problem;
     static const char *const names[] = {"red", "green", "blue"};
     const Document *document = place->document;
-    size_t start = document_offset(document, json_path(place->params, "range.start"), place->server->utf8);
-    size_t end = document_offset(document, json_path(place->params, "range.end"), place->server->utf8);
+    size_t start = asked(place, "range.start"), end = asked(place, "range.end");
     const Json *colour = json_get(place->params, "color");
     double rgb[3], hsv[3], alpha = json_object_get_double(json_get(colour, "alpha"));
     for (int i = 0; i < 3; i++) {
@@ -226,8 +229,7 @@ static void add_action(const Place *place, Json *list, const Told *told) {
 Json *answer_actions(const Place *place, const char **problem) {
     (void)problem;
     Document *document = place->document;
-    size_t from = document_offset(document, json_path(place->params, "range.start"), place->server->utf8);
-    size_t to = document_offset(document, json_path(place->params, "range.end"), place->server->utf8);
+    size_t from = asked(place, "range.start"), to = asked(place, "range.end");
     Json *list = json_object_new_array();
     if (document->unchecked) {
         told_check(place->server, document);

@@ -1,6 +1,5 @@
 // send.c: `petri send`: a text for a running view, and its answer.
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
 #include <sys/un.h>
@@ -40,11 +39,7 @@ static int send_text(const char *path, const Bytes *text) {
         message("the view gives no answer");
         return STATUS_FAILED;
     }
-    Output *output = memory_zeroed(sizeof *output);
-    output_start(output, STDOUT_FILENO);
-    output_write(output, reply.data, reply.length);
-    int status = output_finish(output, STATUS_DONE);
-    free(output);
+    int status = output_text(reply.data, reply.length, STATUS_DONE);
     return status == STATUS_DONE && strstr(reply.data, "\n{\"done\": false") == NULL &&
                    strncmp(reply.data, "{\"done\": false", 14) != 0
                ? STATUS_DONE
