@@ -303,6 +303,19 @@ class Functions(unittest.TestCase):
             with self.assertRaisesRegex(RuntimeError, "cannot use its session"):
                 session.step()
 
+    def test_ctrl_c_on_the_way_into_it(self):
+        def interrupt(frame, event, _):
+            if frame.f_code.co_name == "petri_python_called":
+                raise KeyboardInterrupt
+
+        session = petri.Session("!a b=f(frame)\n", functions={"f": lambda x: x})
+        sys.settrace(interrupt)
+        try:
+            with self.assertRaises(KeyboardInterrupt):
+                session.step(10)
+        finally:
+            sys.settrace(None)
+        session.step()
 
     def test_may_use_another_session(self):
         inner = petri.Session("!counter state=:n rate=60\n")

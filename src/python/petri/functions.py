@@ -22,6 +22,11 @@ class Functions:
         for name, function in functions.items():
             self._add(name, function)
 
+    def lend(self, calling: bool) -> None:
+        """Takes the session away while a function is called, and gives it back."""
+        self.calling = calling
+        self._session._c = self._session.state._session = ffi.NULL if calling else self.pointer
+
     def _add(self, name: str, function: Callable) -> None:
         defaults = [parameter.default for parameter in inspect.signature(function).parameters.values()
                     if parameter.kind is not parameter.VAR_POSITIONAL]
@@ -56,21 +61,22 @@ def _result(given: Any) -> tuple:
     return values.encode(None, given)
 
 
-@ffi.def_extern()
+def _failed(_: Any, error: BaseException, trace: Any) -> None:
+    """Whatever was raised, be it Ctrl-C on the way into the function or out of it, comes out of the session's call."""
+    arguments = trace.tb_frame.f_locals
+    owner = ffi.from_handle(arguments["host"])[0]
+    lib.petri_call_fault(arguments["call"], f"{type(error).__name__}: {error}".encode())
+    owner.raised.append(error)
+    owner.stop[0] = True
+    owner.lend(False)
+
+
+@ffi.def_extern(onerror=_failed)
 def petri_python_called(call: Any, host: Any, arguments: Any, count: int, out: Any) -> None:
     owner, function, defaults = ffi.from_handle(host)
-    session, pointer = owner._session, owner.pointer
-    session._c = session.state._session = ffi.NULL
-    owner.calling = True
-    try:
-        given = [values.decode(pointer, arguments[i]) for i in range(count)]
-        for i, default in enumerate(defaults):  # null stands for one that was left out
-            given[i] = default if given[i] is None and default is not inspect.Parameter.empty else given[i]
-        out[0], owner.result = _result(function(*given))
-    except BaseException as error:
-        lib.petri_call_fault(call, f"{type(error).__name__}: {error}".encode())
-        owner.raised.append(error)
-        owner.stop[0] = True
-    finally:
-        owner.calling = False
-        session._c = session.state._session = pointer
+    owner.lend(True)
+    given = [values.decode(owner.pointer, arguments[i]) for i in range(count)]
+    for i, default in enumerate(defaults):  # null stands for one that was left out
+        given[i] = default if given[i] is None and default is not inspect.Parameter.empty else given[i]
+    out[0], owner.result = _result(function(*given))
+    owner.lend(False)
