@@ -32,6 +32,9 @@ struct PetriPainter {
     Pictures *pictures;
     Gl *gl;                 // opened when it is needed
     const char *gl_problem; // why it cannot be; borrowed
+    bool on_window;         // gl draws on a host's window
+    uint32_t *window;       // pixels for it
+    size_t window_room;
     uint64_t made;          // serial number of the picture whose tree was made last
     Texture *shown;         // of its window; or NULL
 };

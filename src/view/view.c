@@ -218,26 +218,40 @@ static void make_opaque(uint32_t *pixels, size_t count) {
     }
 }
 
-static void draw(View *view) {
+// Draws into pixels, and shows those.
+static PetriStatus show_pixels(View *view, PetriPicture *picture) {
     int width, height;
+    PetriStatus status = PETRI_OK;
     view->kind->size(view->display, view->width, view->height, &width, &height);
     size_t count = (size_t)width * (size_t)height;
     if (count == 0) {
-        return;
+        return PETRI_OK;
     }
     view->pixels = memory_resized(view->pixels, count * sizeof *view->pixels);
-    if (view->world.picture != NULL && !view->world.unseen) {
-        PetriStatus status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
-                                                (size_t)width * sizeof *view->pixels);
-        world_drawn(&view->world, status);
-        petri_picture_tell(view->world.session, view->world.picture);
-        view_update_trouble(view); // what drawing has found wrong
+    if (picture != NULL) {
+        status = petri_picture_draw(picture, view->world.painter, view->pixels, width, height,
+                                    (size_t)width * sizeof *view->pixels);
     } else {
         memset(view->pixels, 0, count * sizeof *view->pixels);
     }
     make_opaque(view->pixels, count);
     view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
+    return status;
+}
+
+static void draw(View *view) {
+    PetriPicture *picture = view->world.unseen ? NULL : view->world.picture;
+    PetriStatus status;
     view->redraw = false;
+    if (view->kind->show_directly == NULL ||
+        !view->kind->show_directly(view->display, picture, &view->overlay, &status)) {
+        status = show_pixels(view, picture);
+    }
+    world_drawn(&view->world, status);
+    if (picture != NULL) {
+        petri_picture_tell(view->world.session, picture);
+        view_update_trouble(view); // what drawing has found wrong, which is seen next
+    }
     view->drawn = clock_seconds();
 }
 
@@ -292,11 +306,11 @@ static bool open_display(View *view) {
     }
     view->kind = window ? window_display() : terminal_display();
     view->world.mute = !window && isatty(STDERR_FILENO);
-    view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
+    view->display = view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
     if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
         view->world.mute = isatty(STDERR_FILENO);
-        view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
+        view->display = view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
     }
     return view->display != NULL;
 }
@@ -308,6 +322,10 @@ static void report_summary(const View *view) {
     if (verbosity >= LOG_VERBOSE || (verbosity == LOG_NORMAL && isatty(STDERR_FILENO))) {
         message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
+    }
+    if (view->world.options->verbosity >= LOG_VERBOSE) {
+        message("%" PRIu64 " pictures were read back from the graphics card",
+                petri_painter_read_backs(view->world.painter));
     }
     if (view->world.options->terminal && verbosity == LOG_VERBOSE) {
         hint_pictures(view->host, view->world.options->script);
@@ -330,6 +348,7 @@ static int run_view(View *view) {
     view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
     view->redraw = true;
+    view->world.waits = true;
     if (view->world.options->frames > 0) {
         step(view); // before anything opens: it tells the size
     }
@@ -340,6 +359,7 @@ static int run_view(View *view) {
         if (view->kind->watch != NULL) {
             view->kind->watch(view->display, lose_display, view);
         }
+        world_begin(&view->world);
         petri_pointer(view->world.session, &(PetriPointer){.inside = false});
         petri_hold(view->world.session);
         run_loop(view);
