@@ -35,8 +35,8 @@ struct PetriPainter {
     bool on_window;         // gl draws on a host's window
     uint32_t *window;       // pixels for it
     size_t window_room;
-    uint64_t made;          // serial number of the picture whose tree was made last
-    Texture *shown;         // of its window; or NULL
+    uint64_t made;  // serial number of the picture whose tree was made last
+    Texture *shown; // of its window; or NULL
 };
 
 // A picture being drawn.

@@ -78,8 +78,8 @@ static void show(void *context) {
         showing->done = gl_show_image(painter->gl, &painter->arena, showing->texture->image, &box, showing->width,
                                       showing->height, texture_thresholds(), picture->opaque);
     } else {
-        showing->done = gl_show_pixels(painter->gl, &painter->arena, painter->window, 0, 0, showing->width,
-                                       showing->height, false);
+        showing->done =
+            gl_show_pixels(painter->gl, &painter->arena, painter->window, 0, 0, showing->width, showing->height, false);
     }
     for (size_t i = 0; i < showing->count; i++)
         showing->done = showing->done && show_label(showing, &showing->labels[i]);

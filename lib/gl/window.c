@@ -54,11 +54,12 @@ bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, 
     if (!image.texture)
         return false;
     // Alpha comes first or last, as this machine orders bytes.
-    Str text = str_format(arena,
-                          "uniform sampler2D picture;\nuniform ivec2 corner;\nout vec4 color;\nvoid main() {\n"
-                          "    ivec2 p = ivec2(gl_FragCoord.xy) - corner;\n"
-                          "    color = texelFetch(picture, ivec2(p.x, textureSize(picture, 0).y - 1 - p.y), 0).%s;\n%s}\n",
-                          *(const unsigned char *)&ONE ? "bgra" : "gbar", over ? "" : "    color.a = 1.0;\n");
+    Str text =
+        str_format(arena,
+                   "uniform sampler2D picture;\nuniform ivec2 corner;\nout vec4 color;\nvoid main() {\n"
+                   "    ivec2 p = ivec2(gl_FragCoord.xy) - corner;\n"
+                   "    color = texelFetch(picture, ivec2(p.x, textureSize(picture, 0).y - 1 - p.y), 0).%s;\n%s}\n",
+                   *(const unsigned char *)&ONE ? "bgra" : "gbar", over ? "" : "    color.a = 1.0;\n");
     GLuint program = need_program(gl, arena, str_to_c(arena, text));
     use_texture(program, "picture", 0, image.texture);
     glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);

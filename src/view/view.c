@@ -270,9 +270,31 @@ static void take_changes(View *view) {
     view_update_trouble(view);
 }
 
+// Whether anything comes of a run that nobody sees.
+static bool has_purpose(const View *view) {
+    const Options *options = view->world.options;
+    return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file != NULL ||
+           options->listen != NULL || (view->world.picture != NULL && petri_picture_looks_back(view->world.picture));
+}
+
+// If the screen has gone, what the display has of it can neither be used nor closed any more.
+static void look_after_display(View *view) {
+    if (view->kind->gone == NULL || !view->kind->gone(view->display)) {
+        return;
+    }
+    view->broken = !has_purpose(view);
+    message(view->broken ? "the display has gone" : "the display has gone; the run goes on without it");
+    view->kind = nowhere_display();
+    view->display = NULL;
+    view->paused = false; // by a key that is gone, too
+    petri_pointer(view->world.session, NULL);
+    petri_hold(view->world.session);
+}
+
 static void run_loop(View *view) {
     while (!view->closing && !view->broken && !interrupted && !at_end(view)) {
         take_events(view);
+        look_after_display(view);
         take_changes(view);
         if (clock_seconds() >= view->notice_ends) {
             view_settle_notice(view);
@@ -290,6 +312,7 @@ static void run_loop(View *view) {
         view_measure_rate(view);
         if (view->redraw && clock_seconds() - view->drawn >= view->kind->least_seconds) {
             draw(view);
+            look_after_display(view);
         }
     }
 }
@@ -310,7 +333,8 @@ static bool open_display(View *view) {
     if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
         view->world.mute = isatty(STDERR_FILENO);
-        view->display = view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
+        view->display =
+            view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
     }
     return view->display != NULL;
 }
@@ -324,24 +348,13 @@ static void report_summary(const View *view) {
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
     }
     if (view->world.options->verbosity >= LOG_VERBOSE) {
-        message("%" PRIu64 " pictures were read back from the graphics card",
-                petri_painter_read_backs(view->world.painter));
+        message("pictures read back from the graphics card: %" PRIu64, petri_painter_read_backs(view->world.painter));
     }
     if (view->world.options->terminal && verbosity == LOG_VERBOSE) {
         hint_pictures(view->host, view->world.options->script);
     } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
         message("it was shown in the terminal, for this petri was built without SDL; './dev build' adds windows");
     }
-}
-
-// The screen has gone: what can be saved is saved.
-static void lose_display(void *host) {
-    View *view = host;
-    message("the display has gone");
-    if (!view->world.halted) {
-        world_save(&view->world, true);
-    }
-    exit(STATUS_FAILED);
 }
 
 static int run_view(View *view) {
@@ -356,14 +369,13 @@ static int run_view(View *view) {
     catch_interrupts();
     bool opened = open_display(view);
     if (opened) {
-        if (view->kind->watch != NULL) {
-            view->kind->watch(view->display, lose_display, view);
-        }
         world_begin(&view->world);
         petri_pointer(view->world.session, &(PetriPointer){.inside = false});
         petri_hold(view->world.session);
         run_loop(view);
-        view->kind->close(view->display);
+        if (view->display != NULL) {
+            view->kind->close(view->display);
+        }
     }
     world_unmute(&view->world);
     if (!opened) {
@@ -392,6 +404,10 @@ static int view_run(const Host *host, Options *options) {
     listener_close(&view.listener);
     world_close(&view.world);
     free(view.pixels);
+    if (view.kind == nowhere_display()) {
+        fflush(NULL);
+        _exit(status); // libraries would look for the screen, for ever
+    }
     return status;
 }
 
@@ -403,7 +419,8 @@ const Command VIEW_COMMAND = {
     .details =
         "Shows what a script draws, or its particles, as it runs: in a window, or in the terminal where there is no\n"
         "display. Saving the script loads it anew and keeps its state; while it has mistakes they are shown, and the\n"
-        "last good version goes on.\n"
+        "last good version goes on. When the display goes away, a run that has an end, a state, a socket or pictures\n"
+        "to record goes on without it.\n"
         "\n"
         "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
         "rate and clocks, w lists warnings, whose number a corner shows, q or Escape quits. Tab or ] and [ choose a\n"

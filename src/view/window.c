@@ -34,12 +34,13 @@ static const double MOST_OF_SCREEN = 0.9;
 
 struct Display {
     SDL_Window *window;
-    SDL_GLContext context; // in which the painter draws on the window; or NULL
+    SDL_GLContext context;  // in which the painter draws on the window; or NULL
     SDL_Renderer *renderer; // … and then this brings its pixels there
     SDL_Texture *texture;
     int texture_width;
     int texture_height;
     PetriPainter *painter; // borrowed
+    bool gone;             // the screen is
     bool filled;           // the screen, by ourselves
     SDL_Rect usual;        // … where the window was before
 };
@@ -90,9 +91,8 @@ static void let_go(const Display *display) {
 
 // Shown when it has its context or renderer: SDL may replace the window for that.
 static bool create(Display *display, const char *title, int width, int height, Uint32 flags) {
-    display->window =
-        SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
-                         SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
+    display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
+                                       SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
     if (display->window != NULL) {
         SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
     }
@@ -186,6 +186,7 @@ static Display *window_open(const char *title, int width, int height, PetriPaint
     }
     SDL_ShowWindow(display->window);
     let_go(display);
+    window_manager_watch(display->window, &display->gone);
     return display;
 }
 
@@ -272,10 +273,17 @@ static Event window_event(const SDL_WindowEvent *event) {
     }
 }
 
-static Event translate(const Display *display, const SDL_Event *event) {
+// To quit without having closed the window is what SDL asks for when Wayland has gone.
+static Event quit_event(Display *display) {
+    const char *driver = SDL_GetCurrentVideoDriver();
+    display->gone = driver != NULL && strcmp(driver, "wayland") == 0;
+    return (Event){.kind = display->gone ? EVENT_NONE : EVENT_CLOSE};
+}
+
+static Event translate(Display *display, const SDL_Event *event) {
     switch (event->type) {
     case SDL_QUIT:
-        return (Event){.kind = EVENT_CLOSE};
+        return quit_event(display);
     case SDL_WINDOWEVENT:
         return window_event(&event->window);
     case SDL_KEYDOWN:
@@ -305,7 +313,8 @@ static Event window_next_event(Display *display, double seconds) {
     SDL_Event found;
     int wait = (int)(seconds * 1000);
     Event event = {.kind = EVENT_NONE};
-    while (event.kind == EVENT_NONE && (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
+    while (event.kind == EVENT_NONE && !display->gone &&
+           (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
         event = translate(display, &found);
         wait = 0;
     }
@@ -402,8 +411,8 @@ static void window_toggle_full_screen(Display *display) {
     }
 }
 
-static void window_watch(Display *display, void (*lost)(void *host), void *host) {
-    window_manager_watch(display->window, lost, host);
+static bool window_gone(const Display *display) {
+    return display->gone;
 }
 
 static const DisplayKind WINDOW = {
@@ -416,7 +425,7 @@ static const DisplayKind WINDOW = {
     .set_title = window_set_title,
     .resize = window_resize,
     .toggle_full_screen = window_toggle_full_screen,
-    .watch = window_watch,
+    .gone = window_gone,
     .least_seconds = 0,
     .logs = true,
 };

@@ -15,9 +15,18 @@ static struct {
 } egl;
 
 static bool open_window(void) {
-    static const EGLint wanted[] = {EGL_SURFACE_TYPE, EGL_PBUFFER_BIT,       EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT,
-                                    EGL_RED_SIZE,     8,                     EGL_GREEN_SIZE,      8,
-                                    EGL_BLUE_SIZE,    8,                     EGL_ALPHA_SIZE,      8,
+    static const EGLint wanted[] = {EGL_SURFACE_TYPE,
+                                    EGL_PBUFFER_BIT,
+                                    EGL_RENDERABLE_TYPE,
+                                    EGL_OPENGL_ES3_BIT,
+                                    EGL_RED_SIZE,
+                                    8,
+                                    EGL_GREEN_SIZE,
+                                    8,
+                                    EGL_BLUE_SIZE,
+                                    8,
+                                    EGL_ALPHA_SIZE,
+                                    8,
                                     EGL_NONE};
     static const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
     static const EGLint size[] = {EGL_WIDTH, WIDTH, EGL_HEIGHT, HEIGHT, EGL_NONE};
@@ -100,9 +109,9 @@ static int show(const char *script, int frames, size_t labels) {
     }
     for (int i = 0; i < WIDTH * HEIGHT; i++)
         wanted[i] |= 0xff000000u;
-    assert_int_equal(petri_painter_labels(drawn.painter, &label, labels, 1.5, wanted, WIDTH, HEIGHT,
-                                          WIDTH * sizeof *wanted),
-                     PETRI_OK);
+    assert_int_equal(
+        petri_painter_labels(drawn.painter, &label, labels, 1.5, wanted, WIDTH, HEIGHT, WIDTH * sizeof *wanted),
+        PETRI_OK);
     assert_string_equal(drawn.told, "");
     petri_painter_close(&painter);
     use_window(false);
@@ -188,9 +197,8 @@ static void test_too_late(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_same_bytes),      cmocka_unit_test(test_canvases), cmocka_unit_test(test_other_sizes),
-        cmocka_unit_test(test_labels),          cmocka_unit_test(test_without_picture),
-        cmocka_unit_test(test_too_late),
+        cmocka_unit_test(test_same_bytes), cmocka_unit_test(test_canvases),        cmocka_unit_test(test_other_sizes),
+        cmocka_unit_test(test_labels),     cmocka_unit_test(test_without_picture), cmocka_unit_test(test_too_late),
     };
     enum { SKIPPED = 77 };
     if (!drawn_can_run())
