@@ -1,4 +1,5 @@
 // physics_read.c: a `!physics` tree to the engine's terms (spec physics.md sections 1, 3 and 4.2).
+#include "base/heap.h"
 #include "maths/random.h"
 #include "physics/forces.h"
 #include "scene/systems.h"

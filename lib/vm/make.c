@@ -1,9 +1,9 @@
 // make.c: instructions that make vectors and nodes or look something up; see machine.h.
 #include "vm/machine.h"
 
+#include "base/heap.h"
 #include "value/seed.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_ON_STACK = 8 };
@@ -193,7 +193,7 @@ Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) 
 
 void vm_memo_begin(Vm *vm, uint32_t count) {
     if (count > vm->memo_count) {
-        Memo *memos = realloc(vm->memos, count * sizeof *memos);
+        Memo *memos = heap_resize(vm->memos, count * sizeof *memos);
         if (memos) {
             memset(memos + vm->memo_count, 0, (count - vm->memo_count) * sizeof *memos);
             vm->memos = memos;
@@ -206,8 +206,8 @@ void vm_memo_begin(Vm *vm, uint32_t count) {
 
 void vm_memo_free(Vm *vm) {
     for (uint32_t i = 0; i < vm->memo_count; i++)
-        free(vm->memos[i].slots);
-    free(vm->memos);
+        heap_give(vm->memos[i].slots);
+    heap_give(vm->memos);
     vm->memos = NULL;
     vm->memo_count = 0;
 }
