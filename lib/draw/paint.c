@@ -1,17 +1,17 @@
 // paint.c: see paint.h: surfaces to draw on, and the canvases of a window one over the other.
 #include "draw/paint.h"
 
+#include "base/heap.h"
 #include "draw/draw.h"
 #include "draw/encode.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 PetriPainter *petri_painter_open(void) {
-    PetriPainter *painter = calloc(1, sizeof *painter);
+    PetriPainter *painter = heap_zeroed(1, sizeof *painter);
     if (!painter)
         return NULL;
     arena_init(&painter->arena, "painter", SIZE_MAX);
@@ -36,9 +36,9 @@ void petri_painter_close(PetriPainter **handle) {
     draw_images_close(painter);
     pictures_free(painter);
     gl_close(painter->gl);
-    free(painter->window);
+    heap_give(painter->window);
     arena_free(&painter->arena);
-    free(painter);
+    heap_give(painter);
 }
 
 static void report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,

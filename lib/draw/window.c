@@ -1,9 +1,10 @@
 // window.c: pictures on a host's window, by its own OpenGL.
 #include "draw/draw.h"
+
+#include "base/heap.h"
 #include "draw/picture.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 PetriStatus petri_painter_use_gl(PetriPainter *painter) {
@@ -35,8 +36,8 @@ typedef struct Showing {
 static uint32_t *window_pixels(PetriPainter *painter, int width, int height) {
     size_t size = (size_t)width * (size_t)height * sizeof(uint32_t);
     if (size > painter->window_room) {
-        free(painter->window);
-        painter->window = malloc(size);
+        heap_give(painter->window);
+        painter->window = heap_take(size);
         painter->window_room = painter->window ? size : 0;
     }
     return painter->window;

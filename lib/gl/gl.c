@@ -1,6 +1,8 @@
 // gl.c: the context; see gl.h.
 #include "gl/internal.h"
 
+#include "base/heap.h"
+
 #include <epoxy/egl.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -72,7 +74,7 @@ static bool adopt_context(Gl *gl, const char **problem) {
 }
 
 static Gl *open_with(bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
-    Gl *gl = calloc(1, sizeof *gl);
+    Gl *gl = heap_zeroed(1, sizeof *gl);
     *problem = NULL;
     if (!gl)
         return NULL;
@@ -122,7 +124,7 @@ void gl_close(Gl *gl) {
             eglDestroyContext(gl->display, gl->context);
         pthread_mutex_unlock(&one_thread);
     }
-    free(gl);
+    heap_give(gl);
 }
 
 bool gl_enter(Gl *gl, const char **problem) {
