@@ -186,7 +186,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
 }
 
 // Some file systems cannot do it, which is no failure.
-static bool sync_file(int file) {
+bool replace_sync(int file) {
     int result;
     do
         result = fsync(file);
@@ -227,7 +227,7 @@ static bool put_in_place(Replacement *r, bool exists) {
 bool replace_commit(Replacement *r) {
     struct stat info;
     if (r->direct) {
-        sync_file(r->file);
+        replace_sync(r->file);
         int file = r->file;
         r->file = -1;
         return close(file) == 0 || errno == EINTR;
@@ -239,9 +239,9 @@ bool replace_commit(Replacement *r) {
         (void)!fchown(r->file, info.st_uid, info.st_gid);
         (void)!fchmod(r->file, info.st_mode & 07777);
     }
-    if (!sync_file(r->file) || !put_in_place(r, exists))
+    if (!replace_sync(r->file) || !put_in_place(r, exists))
         return give_up(r, errno);
-    if (!sync_file(r->folder)) // the name, too, must reach the disk
+    if (!replace_sync(r->folder)) // the name, too, must reach the disk
         return give_up(r, errno);
     replace_abandon(r);
     return true;

@@ -33,6 +33,8 @@ bool replace_begin_in(Replacement *replacement, int folder, const char *name, un
 // Puts the new file in its place, once all is on the disk; the old file is untouched if that fails.
 bool replace_commit(Replacement *replacement);
 void replace_abandon(Replacement *replacement);
-// The last two may be called from a signal handler.
+// Brings a file or folder to the disk. True where the file system cannot do that.
+bool replace_sync(int file);
+// The last three may be called from a signal handler.
 
 #endif
