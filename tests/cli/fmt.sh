@@ -64,16 +64,18 @@ check "a file that is not there is told" has err "cannot read gone.fl"
 check "… with exit status 1" status_is 1
 petri fmt --check "$root/samples"
 check "all samples have the layout" status_is 0
+grep -v '^#' "$root/tests/layouts.txt" | sed "s|^\\([^ ]*\\) .*|$root/\\1|" >listed
+xargs "$petri" fmt --check <listed 2>&1 >/dev/null |
+    sed -n 's/^petri: \(.*\) is not laid out by petri fmt$/\1/p; s/^\(.*\.fl\):[0-9:]* error: .*/\1/p' >unlike
+check "what tests/layouts.txt lists has another (./dev format looks at the rest)" cmp -s listed unlike
 
-# Every seventh script of the corpora, or all of them.
+# Every seventh script of the corpora, or all of them, indented by two, with more spaces.
 mkdir corpus
-find "$root/tests/golden" "$root/tests/conformance" -name '*.fl' ! -path '*bad*' | sort |
-    awk -v step="${FMT_STEP:-7}" 'NR % step == 0' >list
-n=0
-while read -r script; do
-    n=$((n + 1))
-    [ -e "${script%.fl}.err" ] || cp "$script" "corpus/$n.fl"
-done <list
+find "$root/tests/golden" "$root/tests/conformance" -name '*.fl' | sort | awk -v step="${FMT_STEP:-7}" 'NR % step == 0' |
+    while read -r script; do
+        [ -e "${script%.fl}.err" ] ||
+            sed -e 's/    /  /g' -e "/[\"']/!{s/ /  /g; s/[;,]/ & /g}" "$script" >"corpus/$(basename "$script")"
+    done
 petri fmt corpus
 check "scripts of the corpora are laid out" grep -Eq 'petri: [0-9]{3,} files: [0-9]{2,} laid out' err
 check "… each with the same code" lacks err "it would not be the same program"
