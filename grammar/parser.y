@@ -33,8 +33,12 @@ bool gr_accepts(const gr_pstate *parser, int token);
 }
 
 %code {
+#include "base/heap.h"
+
 #include <string.h>
 
+#define YYMALLOC heap_take
+#define YYFREE heap_give
 #define YYMAXDEPTH 200000
 #define YYLLOC_DEFAULT(current, rhs, count)                                                                            \
     do {                                                                                                               \

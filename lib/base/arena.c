@@ -1,6 +1,8 @@
 // arena.c: see arena.h.
 #include "base/arena.h"
 
+#include "base/heap.h"
+
 #include <assert.h>
 #include <stdio.h>
 #include <stdlib.h>
@@ -31,7 +33,7 @@ static void free_blocks(Meter *meter, ArenaBlock *block) {
         next = block->next;
         UNPOISON(block->bytes, block->capacity);
         meter_give(meter, sizeof *block + block->capacity);
-        free(block);
+        heap_give(block);
     }
 }
 
@@ -176,7 +178,7 @@ static void arena_next_block(Arena *arena, size_t size) {
         capacity = size;
     if (!meter_take(arena->meter, sizeof(ArenaBlock) + capacity))
         arena_leave(arena, ARENA_BUDGET);
-    ArenaBlock *block = malloc(sizeof(ArenaBlock) + capacity);
+    ArenaBlock *block = heap_take(sizeof(ArenaBlock) + capacity);
     if (!block) {
         meter_give(arena->meter, sizeof(ArenaBlock) + capacity);
         arena_exhausted(arena);

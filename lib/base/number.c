@@ -1,6 +1,8 @@
 // number.c: see number.h.
 #include "base/number.h"
 
+#include "base/heap.h"
+
 #include <locale.h>
 #include <math.h>
 #include <stdio.h>
@@ -21,7 +23,7 @@ static void replace_char(char *text, char from, char to) {
 
 double number_parse(Str digits) {
     char local[128];
-    char *copy = digits.len < sizeof local ? local : malloc(digits.len + 1);
+    char *copy = digits.len < sizeof local ? local : heap_take(digits.len + 1);
     if (!copy)
         return NAN;
     size_t len = 0;
@@ -32,7 +34,7 @@ double number_parse(Str digits) {
     replace_char(copy, '.', decimal_point());
     double x = strtod(copy, NULL);
     if (copy != local)
-        free(copy);
+        heap_give(copy);
     return x;
 }
 

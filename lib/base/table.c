@@ -1,7 +1,7 @@
 // table.c: see table.h. Open addressing with linear probing; at most 3/4 full.
 #include "base/table.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
 
 #ifdef PETRI_STRESS
 enum { FIRST_SLOTS = 2 };
@@ -24,7 +24,7 @@ uint64_t hash_bytes(uint64_t seed, const void *bytes, size_t len) {
 }
 
 void index_free(Index *index) {
-    free(index->slots);
+    heap_give(index->slots);
     *index = (Index){0};
 }
 
@@ -53,7 +53,7 @@ uint32_t index_find(const Index *index, uint64_t hash, IndexMatch *match, const 
 }
 
 static bool index_resize(Index *index, uint32_t count) {
-    IndexSlot *slots = calloc(count, sizeof *slots);
+    IndexSlot *slots = heap_zeroed(count, sizeof *slots);
     if (!slots)
         return false;
     for (uint32_t i = 0; index->slots && i <= index->mask; i++) {
@@ -65,7 +65,7 @@ static bool index_resize(Index *index, uint32_t count) {
             at = (at + 1) & (count - 1);
         slots[at] = slot;
     }
-    free(index->slots);
+    heap_give(index->slots);
     index->slots = slots;
     index->mask = count - 1;
     index->used = index->live;
@@ -95,16 +95,4 @@ void index_remove(Index *index, uint64_t hash, uint32_t entry) {
         at = (at + 1) & index->mask;
     index->slots[at].entry = DELETED;
     index->live--;
-}
-
-bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size) {
-    if (count < *capacity)
-        return true;
-    uint32_t wanted = count < 16 ? 16 : count + count / 2;
-    void *larger = realloc(*array, wanted * size);
-    if (!larger)
-        return false;
-    *array = larger;
-    *capacity = wanted;
-    return true;
 }

@@ -26,9 +26,6 @@ typedef struct Index {
 // Does entry number `entry` have the key that is looked for?
 typedef bool IndexMatch(const void *owner, uint32_t entry, const void *key);
 
-// Makes room for element number `count` of a heap array; false if memory is used up (then nothing has changed).
-bool heap_reserve(void **array, uint32_t *capacity, uint32_t count, size_t size);
-
 void index_free(Index *index);
 void index_clear(Index *index);
 // Position of the entry with this key, or INDEX_NONE.

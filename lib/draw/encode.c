@@ -1,10 +1,11 @@
 // encode.c: see encode.h.
 #include "draw/encode.h"
 
+#include "base/heap.h"
+
 #include <png.h>
 #include <setjmp.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 #include <jpeglib.h>
@@ -12,7 +13,7 @@
 bool encode_add(Encoded *out, const void *bytes, size_t length) {
     if (length > out->room - out->length) {
         size_t room = out->length + length > 2 * out->room ? out->length + length : 2 * out->room;
-        unsigned char *grown = realloc(out->bytes, room);
+        unsigned char *grown = heap_resize(out->bytes, room);
         if (!grown)
             return false;
         out->bytes = grown;
@@ -86,11 +87,11 @@ bool encode_png_pixels(Encoded *out, const uint32_t *pixels, int width, int heig
     if (!file.png)
         return false;
     file.info = png_create_info_struct(file.png);
-    file.row = malloc((size_t)width * 4);
+    file.row = heap_take((size_t)width * 4);
     png_set_write_fn(file.png, out, add_bytes, be_done);
     bool good = write_png(&file, pixels, width, height, alpha);
     png_destroy_write_struct(&file.png, &file.info);
-    free(file.row);
+    heap_give(file.row);
     return good;
 }
 
@@ -142,13 +143,13 @@ static bool compress(JpegFile *file, unsigned char *rows, int width, int height,
 bool encode_jpeg_pixels(Encoded *out, const uint32_t *pixels, int width, int height, int quality) {
     JpegFile file = {.bytes = NULL};
     size_t count = (size_t)width * (size_t)height;
-    unsigned char *rows = malloc(count * 3);
+    unsigned char *rows = heap_take(count * 3);
     if (rows)
         spread(pixels, count, false, rows);
     bool good = rows && compress(&file, rows, width, height, quality < 1 ? 1 : quality > 100 ? 100 : quality);
     jpeg_destroy_compress(&file.jpeg);
     good = good && encode_add(out, file.bytes, file.length);
-    free(file.bytes);
-    free(rows);
+    heap_give(file.bytes);
+    heap_give(rows);
     return good;
 }

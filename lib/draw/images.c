@@ -2,12 +2,12 @@
 #include "draw/draw.h"
 
 #include "base/file.h"
+#include "base/heap.h"
 #include "base/source.h"
 #include "draw/light.h"
 #include "draw/resize.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_BYTES = 64 << 20, MOST_SIDE = 16384, MOST_PIXELS = 1 << 26, MOST_KEPT = 64 };
@@ -26,10 +26,10 @@ static void picture_free(Picture *picture) {
     if (picture->surface)
         cairo_surface_destroy(picture->surface);
     meter_give(picture->meter, picture->taken);
-    free(picture->path);
-    free(picture->version);
-    free(picture->problem);
-    free(picture);
+    heap_give(picture->path);
+    heap_give(picture->version);
+    heap_give(picture->problem);
+    heap_give(picture);
 }
 
 void draw_images_close(PetriPainter *painter) {
@@ -111,11 +111,11 @@ static Picture *load(PetriPainter *painter, const Reach *reach, const char *path
     Str bytes;
     const char *problem = NULL;
     bool read = file_read(&painter->arena, reach, path, true, MOST_BYTES, &bytes, NULL, &problem);
-    Picture *picture = calloc(1, sizeof *picture); // from here on nothing else escapes
+    Picture *picture = heap_zeroed(1, sizeof *picture); // from here on nothing else escapes
     if (!picture)
         arena_exhausted(&painter->arena);
-    picture->path = strdup(path);
-    picture->version = strndup(version.bytes, version.len);
+    picture->path = heap_text(path, strlen(path));
+    picture->version = heap_text(version.bytes, version.len);
     picture->meter = &painter->meter;
     if (read)
         picture->surface = decode(bytes, &problem);
@@ -124,7 +124,7 @@ static Picture *load(PetriPainter *painter, const Reach *reach, const char *path
         picture->surface = NULL;
         problem = "it takes more memory than a script may have (--memory)";
     }
-    picture->problem = problem ? strdup(problem) : NULL;
+    picture->problem = problem ? heap_text(problem, strlen(problem)) : NULL;
     if (!picture->path || !picture->version || (!picture->surface && !picture->problem)) {
         picture_free(picture);
         arena_exhausted(&painter->arena);

@@ -1,13 +1,14 @@
 // jpeg.c: reads JPEG files.
 #include "draw/draw.h"
 
+#include "base/heap.h"
+
 #include <stdio.h>
 
 #include <jpeglib.h>
 
 #include <jerror.h>
 #include <setjmp.h>
-#include <stdlib.h>
 
 enum { MOST_SIDE = 16384, MOST_PIXELS = 1 << 26 };
 
@@ -64,7 +65,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
         } else {
             jpeg_start_decompress(&jpeg);
             surface = cairo_image_surface_create(CAIRO_FORMAT_RGB24, (int)jpeg.output_width, (int)jpeg.output_height);
-            line = malloc((size_t)jpeg.output_width * 3);
+            line = heap_take((size_t)jpeg.output_width * 3);
             if (line && cairo_surface_status(surface) == CAIRO_STATUS_SUCCESS) {
                 read_rows(&jpeg, surface, line);
                 done = true;
@@ -76,7 +77,7 @@ cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem) {
     if (trouble.manager.msg_code == JERR_OUT_OF_MEMORY)
         *problem = NULL;
     jpeg_destroy_decompress(&jpeg);
-    free(line);
+    heap_give(line);
     if (done)
         return surface;
     if (surface)

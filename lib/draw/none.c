@@ -1,20 +1,20 @@
 // none.c: paint.h in a build without Cairo.
 #include "draw/paint.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
 
 struct PetriPainter {
     char nothing;
 };
 
 PetriPainter *petri_painter_open(void) {
-    return calloc(1, sizeof(PetriPainter));
+    return heap_zeroed(1, sizeof(PetriPainter));
 }
 
 void petri_painter_close(PetriPainter **handle) {
     if (!handle)
         return;
-    free(*handle);
+    heap_give(*handle);
     *handle = NULL;
 }
 

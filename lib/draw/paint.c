@@ -1,17 +1,17 @@
 // paint.c: see paint.h: surfaces to draw on, and the canvases of a window one over the other.
 #include "draw/paint.h"
 
+#include "base/heap.h"
 #include "draw/draw.h"
 #include "draw/encode.h"
 
 #include <cairo-pdf.h>
 #include <cairo-svg.h>
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 PetriPainter *petri_painter_open(void) {
-    PetriPainter *painter = calloc(1, sizeof *painter);
+    PetriPainter *painter = heap_zeroed(1, sizeof *painter);
     if (!painter)
         return NULL;
     arena_init(&painter->arena, "painter", SIZE_MAX);
@@ -37,7 +37,7 @@ void petri_painter_close(PetriPainter **handle) {
     pictures_free(painter);
     gl_close(painter->gl);
     arena_free(&painter->arena);
-    free(painter);
+    heap_give(painter);
 }
 
 static void report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,

@@ -2,10 +2,10 @@
 #include "draw/picture.h"
 
 #include "base/file.h"
+#include "base/heap.h"
 #include "draw/pictures.h"
 
 #include <errno.h>
-#include <stdlib.h>
 #include <string.h>
 
 PetriStatus petri_picture_draw(PetriPicture *picture, PetriPainter *painter, uint32_t *pixels, int width, int height,
@@ -94,7 +94,7 @@ static PetriStatus save_picture(Saving *saving) {
     Arena *arenas[] = {&saving->picture->arena};
     bool known = find_format(saving->file, saving->record != NULL, &saving->format);
     ArenaEnd end = arena_protect(arenas, 1, known ? save : report_name, saving);
-    free(saving->bytes.bytes);
+    heap_give(saving->bytes.bytes);
     return end == ARENA_DONE ? saving->status : PETRI_MEMORY;
 }
 

@@ -1,6 +1,7 @@
 // picture.c: what the last frame shows, chosen and copied so that it can be drawn later and elsewhere (painter.c).
 #include "draw/picture.h"
 
+#include "base/heap.h"
 #include "base/number.h"
 #include "draw/pictures.h"
 #include "maths/maths.h"
@@ -8,7 +9,6 @@
 #include "value/format.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { USUAL_SIZE = 512, AUTO_SIDE = 1080, MOST_FAULTS = 100 };
@@ -359,7 +359,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     if (!take_options(&wanted, options))
         return PETRI_INVALID;
     Shown shown = session_shown(session);
-    PetriPicture *picture = calloc(1, sizeof *picture);
+    PetriPicture *picture = heap_zeroed(1, sizeof *picture);
     if (!picture)
         return session_tell_end(session, PETRI_MEMORY, "the picture");
     arena_init(&picture->arena, "picture", shown.memory_bytes);
@@ -397,7 +397,7 @@ void petri_picture_free(PetriPicture **handle) {
         return;
     diag_sink_free(&picture->faults);
     arena_free(&picture->arena);
-    free(picture);
+    heap_give(picture);
 }
 
 void petri_picture_size(const PetriPicture *picture, int *width, int *height) {

@@ -1,13 +1,13 @@
 // pictures.c: see pictures.h.
 #include "draw/pictures.h"
 
+#include "base/heap.h"
 #include "draw/draw.h"
 #include "draw/mix.h"
 #include "gl/effect.h"
 #include "gl/scene.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { DEEPEST = 100, USUAL_SIZE = 512 };
@@ -62,7 +62,7 @@ typedef struct Walk {
 } Walk;
 
 Pictures *pictures_new(void) {
-    Pictures *pictures = calloc(1, sizeof *pictures);
+    Pictures *pictures = heap_zeroed(1, sizeof *pictures);
     for (int i = 0; pictures && i < 2; i++)
         arena_init(&pictures->frames[i].arena, "pictures", SIZE_MAX);
     return pictures;
@@ -94,7 +94,7 @@ void pictures_free(PetriPainter *painter) {
     pictures_forget(painter);
     for (int i = 0; painter->pictures && i < 2; i++)
         arena_free(&painter->pictures->frames[i].arena);
-    free(painter->pictures);
+    heap_give(painter->pictures);
     painter->pictures = NULL;
 }
 

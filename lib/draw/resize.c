@@ -1,10 +1,10 @@
 // resize.c: see resize.h.
 #include "draw/resize.h"
 
+#include "base/heap.h"
 #include "schema/table.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 // The share of each old place in a new one: a triangle, as wide as a new place if that is more than an old one.
@@ -68,8 +68,8 @@ Texture *resize_pixels(Meter *meter, const uint32_t *pixels, int width, int heig
     size_t bytes = 2 * most * 4 * sizeof(float); // for a while
     if (!meter_take(meter, bytes))
         return NULL;
-    float *one = malloc(bytes / 2), *other = malloc(bytes / 2);
-    float *weights = malloc((2 * (size_t)(width > height ? width : height) + 8) * sizeof *weights);
+    float *one = heap_take(bytes / 2), *other = heap_take(bytes / 2);
+    float *weights = heap_take((2 * (size_t)(width > height ? width : height) + 8) * sizeof *weights);
     Texture *texture = one && other && weights ? texture_new(meter, new_width, new_height, false) : NULL;
     if (texture) {
         spread(pixels, width, height, stride, alpha, one);
@@ -83,9 +83,9 @@ Texture *resize_pixels(Meter *meter, const uint32_t *pixels, int width, int heig
                     gather(one + 4 * ((size_t)from_y * (size_t)new_width + (size_t)from_x));
             }
     }
-    free(one);
-    free(other);
-    free(weights);
+    heap_give(one);
+    heap_give(other);
+    heap_give(weights);
     meter_give(meter, bytes);
     return texture;
 }

@@ -1,6 +1,7 @@
 // sheets.c: see sheets.h.
 #include "draw/sheets.h"
 
+#include "base/heap.h"
 #include "draw/blend.h"
 #include "maths/maths.h"
 
@@ -25,7 +26,7 @@ static size_t count_of(const Sheet *sheet) {
 
 Sheet sheet_new(Canvas *canvas, int width, int height) {
     size_t bytes = sizeof(SheetMemory) + (size_t)width * (size_t)height * 4 * sizeof(float);
-    SheetMemory *memory = draw_take(canvas, bytes) ? calloc(1, bytes) : NULL;
+    SheetMemory *memory = draw_take(canvas, bytes) ? heap_zeroed(1, bytes) : NULL;
     if (!memory)
         return (Sheet){.width = width, .height = height};
     memory->bytes = bytes;
@@ -45,7 +46,7 @@ void sheet_free(Canvas *canvas, Sheet *sheet) {
     if (memory->next)
         memory->next->link = memory->link;
     draw_give(canvas, memory->bytes);
-    free(memory);
+    heap_give(memory);
     sheet->pixels = NULL;
 }
 

@@ -1,11 +1,11 @@
 // texture.c: see texture.h.
 #include "draw/texture.h"
 
+#include "base/heap.h"
 #include "maths/maths.h"
 
 #include <math.h>
 #include <pthread.h>
-#include <stdlib.h>
 #include <string.h>
 
 static void *take_pixels(Texture *texture, size_t each, bool cleared) {
@@ -13,11 +13,11 @@ static void *take_pixels(Texture *texture, size_t each, bool cleared) {
     if (!meter_take(texture->meter, count * each))
         return NULL;
     texture->taken += count * each;
-    return cleared ? calloc(count, each) : malloc(count * each);
+    return cleared ? heap_zeroed(count, each) : heap_take(count * each);
 }
 
 Texture *texture_new(Meter *meter, int width, int height, bool linear) {
-    Texture *texture = calloc(1, sizeof *texture);
+    Texture *texture = heap_zeroed(1, sizeof *texture);
     if (!texture)
         return NULL;
     *texture = (Texture){.references = 1, .width = width, .height = height, .meter = meter};
@@ -32,7 +32,7 @@ Texture *texture_new(Meter *meter, int width, int height, bool linear) {
 }
 
 Texture *texture_of_image(Meter *meter, Gl *gl, GlImage image) {
-    Texture *texture = calloc(1, sizeof *texture);
+    Texture *texture = heap_zeroed(1, sizeof *texture);
     if (!texture)
         gl_image_free(gl, image);
     else
@@ -77,10 +77,10 @@ void texture_free(Texture *texture) {
         return;
     if (texture->gl)
         gl_image_free(texture->gl, texture->image);
-    free(texture->bytes);
-    free(texture->linear);
+    heap_give(texture->bytes);
+    heap_give(texture->linear);
     meter_give(texture->meter, texture->taken);
-    free(texture);
+    heap_give(texture);
 }
 
 // The sRGB curve at its 256 bytes, and half way between them.

@@ -1,6 +1,8 @@
 // gl.c: the context; see gl.h.
 #include "gl/internal.h"
 
+#include "base/heap.h"
+
 #include <epoxy/egl.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -62,7 +64,7 @@ static void look_at_limits(Gl *gl) {
 }
 
 Gl *gl_open(const char **problem) {
-    Gl *gl = calloc(1, sizeof *gl);
+    Gl *gl = heap_zeroed(1, sizeof *gl);
     *problem = NULL;
     if (!gl)
         return NULL;
@@ -102,7 +104,7 @@ void gl_close(Gl *gl) {
         eglDestroyContext(gl->display, gl->context);
         pthread_mutex_unlock(&one_thread);
     }
-    free(gl);
+    heap_give(gl);
 }
 
 bool gl_enter(Gl *gl, const char **problem) {

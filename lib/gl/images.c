@@ -1,8 +1,9 @@
 // images.c: pictures on the GPU.
 #include "gl/internal.h"
 
+#include "base/heap.h"
+
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 static const struct {
@@ -68,7 +69,7 @@ void gl_images_close(Gl *gl) {
 void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels) {
     (void)gl;
     size_t width = (size_t)image.width;
-    unsigned char *row = malloc(width * 4);
+    unsigned char *row = heap_take(width * 4);
     glBindTexture(GL_TEXTURE_2D, image.texture);
     for (int y = 0; row && y < image.height; y++) {
         const uint32_t *from = pixels + (size_t)(image.height - 1 - y) * width;
@@ -80,7 +81,7 @@ void gl_upload_bytes(Gl *gl, GlImage image, const uint32_t *pixels) {
         }
         glTexSubImage2D(GL_TEXTURE_2D, 0, 0, y, image.width, 1, GL_RGBA, GL_UNSIGNED_BYTE, row);
     }
-    free(row);
+    heap_give(row);
 }
 
 void gl_upload_linear(Gl *gl, GlImage image, const float *pixels) {

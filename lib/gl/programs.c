@@ -1,7 +1,8 @@
 // programs.c: shaders, compiled once for each text.
 #include "gl/internal.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
+
 #include <string.h>
 
 const char gl_quad[] = "#version 300 es\n"
@@ -22,7 +23,7 @@ struct GlProgram {
 };
 
 static char *copy(Str text) {
-    char *out = malloc(text.len + 1);
+    char *out = heap_take(text.len + 1);
     if (out) {
         memcpy(out, text.bytes, text.len);
         out[text.len] = 0;
@@ -32,10 +33,10 @@ static char *copy(Str text) {
 
 static void free_program(GlProgram *program) {
     glDeleteProgram(program->program);
-    free(program->vertex);
-    free(program->fragment);
-    free(program->problem);
-    free(program);
+    heap_give(program->vertex);
+    heap_give(program->fragment);
+    heap_give(program->problem);
+    heap_give(program);
 }
 
 void gl_programs_close(Gl *gl) {
@@ -54,7 +55,7 @@ static bool attach(GLuint program, GLenum kind, const char *text, char **problem
     glCompileShader(shader);
     glGetShaderiv(shader, GL_COMPILE_STATUS, &good);
     glGetShaderiv(shader, GL_INFO_LOG_LENGTH, &length);
-    if (!good && (*problem = calloc((size_t)length + 1, 1)) != NULL)
+    if (!good && (*problem = heap_zeroed((size_t)length + 1, 1)) != NULL)
         glGetShaderInfoLog(shader, length, NULL, *problem);
     glAttachShader(program, shader);
     glDeleteShader(shader); // lives on with the program
@@ -70,7 +71,7 @@ static void build(GlProgram *program) {
         glLinkProgram(program->program);
         glGetProgramiv(program->program, GL_LINK_STATUS, &good);
         glGetProgramiv(program->program, GL_INFO_LOG_LENGTH, &length);
-        if (!good && (program->problem = calloc((size_t)length + 1, 1)) != NULL)
+        if (!good && (program->problem = heap_zeroed((size_t)length + 1, 1)) != NULL)
             glGetProgramInfoLog(program->program, length, NULL, program->problem);
     }
     if (!good) {
@@ -95,7 +96,7 @@ unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlFault *fau
             count++;
         if (count >= MOST_PROGRAMS)
             gl_programs_close(gl);
-        program = calloc(1, sizeof *program);
+        program = heap_zeroed(1, sizeof *program);
         if (!program)
             arena_exhausted(arena);
         program->vertex = copy(vertex);

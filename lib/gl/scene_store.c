@@ -1,9 +1,9 @@
 // scene_store.c: see scene_store.h.
 #include "gl/scene_store.h"
 
+#include "base/heap.h"
 #include "gl/scene_mesh.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { KEEP_FOR = 30 }; // scenes after the last that had a model
@@ -18,7 +18,7 @@ struct SceneKept {
 GlStore *gl_store(Gl *gl) {
     if (gl->store)
         return gl->store;
-    GlStore *store = gl->store = calloc(1, sizeof *store);
+    GlStore *store = gl->store = heap_zeroed(1, sizeof *store);
     if (!store)
         return NULL;
     glGenBuffers(1, &store->instances);
@@ -34,7 +34,7 @@ static void free_kept(SceneKept *kept) {
     glDeleteVertexArrays(1, &kept->shape.array);
     glDeleteBuffers(1, &kept->shape.corners);
     glDeleteBuffers(1, &kept->shape.indices);
-    free(kept);
+    heap_give(kept);
 }
 
 static void free_target(SceneTarget *target) {
@@ -57,7 +57,7 @@ void gl_store_close(Gl *gl) {
     glDeleteBuffers(1, &store->instances);
     glDeleteBuffers(1, &store->light_block);
     glDeleteTextures(1, &store->light_texture);
-    free(store);
+    heap_give(store);
     gl->store = NULL;
 }
 
@@ -109,7 +109,7 @@ const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, const Scene
         }
     ArenaMark mark = arena_mark(scene->arena);
     Mesh mesh;
-    SceneKept *kept = calloc(1, sizeof *kept);
+    SceneKept *kept = heap_zeroed(1, sizeof *kept);
     if (!kept)
         arena_exhausted(scene->arena);
     *kept = (SceneKept){.next = store->kept, .model = *model, .used = store->now};

@@ -54,6 +54,35 @@ typedef enum PetriStatus {
 // A status in words, for messages; "unknown status" for other numbers. Lives as long as the library.
 PETRI_API const char *petri_status_text(PetriStatus status);
 
+// Where the library's memory comes from, for hosts that count it, limit it or have a heap of their own. It is one for
+// the whole process and not for each session, because some memory is no session's: pictures that outlive it, programs
+// of the GPU that painters share, what functions without a handle need. What a script may take is limited for each
+// session (PetriOptions.memory_bytes).
+//
+// - The functions are called by whatever thread uses a session, picture or painter, by several at once if several do,
+//   and by the workers of systems; they call nothing of the library and return: no longjmp, no exception.
+// - They are called until the last session, picture and painter is closed; all blocks have been released by then.
+// - A frame that is like the one before it takes no memory.
+// - What the C library takes for itself (threads, folders, sorting) and Cairo, Pango, libpng, libjpeg and OpenGL take
+//   does not come from here.
+typedef struct PetriAllocator {
+    size_t size; // sizeof(PetriAllocator)
+    // A block of so many bytes, 1 or more, aligned to 16; NULL if there is none: what is under way ends with
+    // PETRI_MEMORY then.
+    void *(*allocate)(void *host, size_t bytes);
+    // The block with another size, 1 or more, and what was in it as far as that fits, at the same place or another
+    // (aligned to 16); NULL, and the block is as it was, if that cannot be.
+    void *(*resize)(void *host, void *block, size_t bytes);
+    // Takes a block back; it is never NULL.
+    void (*release)(void *host, void *block);
+    void *host; // for the three, which are called with it
+} PetriAllocator;
+// To be called before anything else; the struct is copied. NULL: the C library, as it is from the start. PETRI_INVALID,
+// and nothing is changed, if a function is missing, if `size` is another, or while the library holds memory: from the
+// first petri_open or petri_painter_open until all sessions, pictures and painters are closed again. No other thread
+// may use the library meanwhile.
+PETRI_API PetriStatus petri_set_allocator(const PetriAllocator *allocator);
+
 typedef enum PetriLevel { PETRI_ERROR, PETRI_WARNING, PETRI_NOTE } PetriLevel;
 
 // One diagnostic. A callback must copy the texts that it keeps.

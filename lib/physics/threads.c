@@ -1,12 +1,14 @@
 // threads.c: see threads.h.
 #include "physics/threads.h"
+
+#include "base/heap.h"
 #include "physics/internal.h"
 
 #include <pthread.h>
 #include <sched.h>
 #include <signal.h>
 #include <stdatomic.h>
-#include <stdlib.h>
+#include <stdint.h>
 #include <unistd.h>
 
 // What there is to claim, in one word: number of the job, whether it must be begun in order, its shares, and those
@@ -17,6 +19,7 @@ enum { JOB_SHIFT = ORDER_SHIFT + 1 };
 _Static_assert(PHYS_MOST_SHARES < 1 << COUNT_BITS, "the number of claimed shares must fit");
 
 enum {
+    LINE_BYTES = 64, // of the cache
     PATIENCE = 4000, // looks for new work before a thread goes to sleep, and at others before it leaves the processor
 };
 
@@ -26,14 +29,15 @@ struct PhysThreads {
     pthread_t threads[PHYS_MOST_THREADS];
     pid_t process; // which they are of: a child that was forked off has none of them
     bool started;
+    void *block; // that this lies in
     int wanted;
     // the job
     PhysWork *work;
     void *context;
-    _Alignas(64) atomic_uint_fast64_t ticket;
-    _Alignas(64) atomic_int done;
+    _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
+    _Alignas(LINE_BYTES) atomic_int done;
     // sleep
-    _Alignas(64) atomic_int sleeping;
+    _Alignas(LINE_BYTES) atomic_int sleeping;
     bool stop;
     pthread_mutex_t mutex;
     pthread_cond_t wake;
@@ -111,10 +115,11 @@ static void *serve(void *argument) {
 }
 
 PhysThreads *phys_threads_new(int count) {
-    PhysThreads *threads = aligned_alloc(64, sizeof *threads);
-    if (!threads)
+    unsigned char *block = heap_take(sizeof(PhysThreads) + LINE_BYTES);
+    if (!block)
         return NULL;
-    *threads = (PhysThreads){.process = getpid(), .wanted = count <= 0 ? cpu_count() : count};
+    PhysThreads *threads = (PhysThreads *)(block + LINE_BYTES - (uintptr_t)block % LINE_BYTES);
+    *threads = (PhysThreads){.block = block, .process = getpid(), .wanted = count <= 0 ? cpu_count() : count};
     if (threads->wanted > PHYS_MOST_THREADS)
         threads->wanted = PHYS_MOST_THREADS;
     pthread_mutex_init(&threads->mutex, NULL);
@@ -138,7 +143,7 @@ void phys_threads_free(PhysThreads *threads) {
     if (!threads)
         return;
     if (threads->process != getpid()) {
-        free(threads);
+        heap_give(threads->block);
         return;
     }
     pthread_mutex_lock(&threads->mutex);
@@ -149,7 +154,7 @@ void phys_threads_free(PhysThreads *threads) {
         pthread_join(threads->threads[i], NULL);
     pthread_cond_destroy(&threads->wake);
     pthread_mutex_destroy(&threads->mutex);
-    free(threads);
+    heap_give(threads->block);
 }
 
 static void publish(PhysThreads *threads, bool in_order, int shares, PhysWork *work, void *context) {

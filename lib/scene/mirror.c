@@ -1,17 +1,17 @@
 // mirror.c: see mirror.h (and spec physics.md section 2, steps 5 and 6).
 #include "scene/mirror.h"
 
+#include "base/heap.h"
 #include "base/number.h"
 #include "scene/systems.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 void mirror_free(Mirror *mirror) {
-    free(mirror->slots);
-    free(mirror->last_slots);
-    free(mirror->anchors);
-    free(mirror->ids);
+    heap_give(mirror->slots);
+    heap_give(mirror->last_slots);
+    heap_give(mirror->anchors);
+    heap_give(mirror->ids);
 }
 
 bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count) {

@@ -1,8 +1,9 @@
 // physics_bind.c: one frame of a `!physics` system, between tree, state and engine (spec physics.md section 2).
 #include "scene/systems.h"
 
+#include "base/heap.h"
+
 #include <math.h>
-#include <stdlib.h>
 
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
     Vector key = vector_new(arena);
@@ -33,7 +34,7 @@ static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t
 }
 
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
-    PhysicsSystem *system = meter_take(scene->meter, PHYSICS_SYSTEM_BYTES) ? calloc(1, sizeof *system) : NULL;
+    PhysicsSystem *system = meter_take(scene->meter, PHYSICS_SYSTEM_BYTES) ? heap_zeroed(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
     PhysicsSystem **end = &scene->systems;
@@ -129,7 +130,7 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
 
 // Number of nodes below, up to a limit: decides whether vectors of so many dimensions can be held at all.
 static uint64_t count_nodes(Arena *arena, const Node *node) {
-    uint64_t count = node->child_count;
+    uint64_t count = node_child_count(node);
     arena_charge(arena, 1 + count);
     for (uint32_t i = 0; i < node->child_count; i++)
         count += count_nodes(arena, node->children[i]);

@@ -5,7 +5,8 @@
 // before.
 #include "scene/systems.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
+
 #include <string.h>
 
 Value physics_key(const PhysicsTree *tree, Value id, bool velocity, double numbers[PHYSICS_KEY_NUMBERS]) {
@@ -46,7 +47,7 @@ bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
     Scene *scene = tree->scene;
     if (slot >= scene->body_capacity) {
         uint32_t capacity = slot < 128 ? 256 : slot + slot / 2;
-        uint32_t *larger = realloc(scene->bodies, capacity * sizeof *larger);
+        uint32_t *larger = heap_resize(scene->bodies, capacity * sizeof *larger);
         if (!larger)
             return false;
         memset(larger + scene->body_capacity, 0, (capacity - scene->body_capacity) * sizeof *larger);
@@ -81,7 +82,7 @@ void physics_forget_slots(const PhysicsTree *tree) {
     if (!tree->root->program_lifetime_children || scene->body_capacity < MANY)
         return;
     physics_clear_marks(tree);
-    free(scene->bodies);
+    heap_give(scene->bodies);
     scene->bodies = NULL;
     scene->body_capacity = 0;
 }

@@ -1,10 +1,10 @@
 // scene.c: see scene.h.
 #include "scene/scene.h"
 
+#include "base/heap.h"
 #include "scene/systems.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 Scene *scene_new(Arena *arena, Schema *schema) {
@@ -34,10 +34,10 @@ static void free_system(PhysicsSystem *system) {
     meter_give(system->meter, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
     phys_free(system->engine);
     mirror_free(&system->mirror);
-    free(system->nodes);
-    free(system->randoms);
-    free(system->links);
-    free(system);
+    heap_give(system->nodes);
+    heap_give(system->randoms);
+    heap_give(system->links);
+    heap_give(system);
 }
 
 void scene_free_systems(PhysicsSystem *systems) {
@@ -68,7 +68,7 @@ void scene_free(Scene *scene) {
         return;
     scene_reset(scene);
     phys_threads_free(scene->physics.pool);
-    free(scene->bodies);
+    heap_give(scene->bodies);
     input_free(&scene->input);
 }
 
@@ -209,12 +209,12 @@ static bool reserve_ids(PhysicsSystem *system, uint32_t count) {
     if (count <= mirror->id_capacity)
         return true;
     meter_give(system->meter, mirror->id_capacity * sizeof *mirror->ids);
-    free(mirror->ids);
+    heap_give(mirror->ids);
     mirror->ids = NULL;
     mirror->id_capacity = 0;
     if (!meter_take(system->meter, count * sizeof *mirror->ids))
         return false;
-    mirror->ids = malloc(count * sizeof *mirror->ids);
+    mirror->ids = heap_take(count * sizeof *mirror->ids);
     mirror->id_capacity = mirror->ids ? count : 0;
     if (!mirror->ids)
         meter_give(system->meter, count * sizeof *mirror->ids);

@@ -6,7 +6,8 @@
 // strings are padded. Slots keep their numbers, so that what comes after is the same in every respect.
 #include "session/session.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
+
 #include <string.h>
 
 typedef struct Writer {
@@ -19,7 +20,7 @@ static void put_bytes(Writer *writer, const void *bytes, size_t size) {
     size_t padded = (size + 7) & ~(size_t)7;
     if (to->size + padded > to->capacity) {
         size_t capacity = 2 * to->capacity > to->size + padded ? 2 * to->capacity : to->size + padded;
-        unsigned char *larger = realloc(to->bytes, capacity);
+        unsigned char *larger = heap_resize(to->bytes, capacity);
         if (!larger) {
             writer->failed = true;
             return;
@@ -250,7 +251,7 @@ PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *make, void *
 PetriSnapshot *petri_snapshot(PetriSession *session) {
     if (!session || (session->torn && !session_heal(session)))
         return NULL;
-    PetriSnapshot *snapshot = calloc(1, sizeof *snapshot);
+    PetriSnapshot *snapshot = heap_zeroed(1, sizeof *snapshot);
     if (!snapshot)
         return NULL;
     snapshot->config = petri_config(session);
@@ -258,7 +259,7 @@ PetriSnapshot *petri_snapshot(PetriSession *session) {
         petri_snapshot_free(snapshot);
         return NULL;
     }
-    unsigned char *exact = realloc(snapshot->at.bytes, snapshot->at.size); // many are kept
+    unsigned char *exact = heap_resize(snapshot->at.bytes, snapshot->at.size); // many are kept
     snapshot->at.bytes = exact ? exact : snapshot->at.bytes;
     return snapshot;
 }
@@ -267,8 +268,8 @@ void petri_snapshot_free(PetriSnapshot *snapshot) {
     if (!snapshot)
         return;
     petri_config_free(snapshot->config);
-    free(snapshot->at.bytes);
-    free(snapshot);
+    heap_give(snapshot->at.bytes);
+    heap_give(snapshot);
 }
 
 size_t petri_snapshot_bytes(const PetriSnapshot *snapshot) {

@@ -1,7 +1,7 @@
 // config.c: a session's configuration as one shared thing (petri.h).
 #include "session/session.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
 
 void session_change_config(PetriSession *session, bool frame_stays) {
     petri_config_free(session->shared);
@@ -31,7 +31,7 @@ PetriConfig *petri_config(PetriSession *session) {
         return NULL;
     PetriConfig *shared = session->shared;
     if (!shared) {
-        shared = session->shared = malloc(sizeof *shared);
+        shared = session->shared = heap_take(sizeof *shared);
         if (!shared)
             return NULL;
         *shared = (PetriConfig){1, session->config_number, session->config, session->clock.rates};
@@ -46,7 +46,7 @@ void petri_config_free(PetriConfig *shared) {
         return;
     prompt_list_free(shared->config.prompts);
     unit_free(shared->config.program);
-    free(shared);
+    heap_give(shared);
 }
 
 void petri_config_use(PetriSession *session, PetriConfig *shared) {

@@ -1,15 +1,16 @@
 // diagnostics.c: see diagnostics.h.
 #include "session/session.h"
 
+#include "base/heap.h"
+
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_TOLD = 1000 };
 
 static void forget_kept(Diagnostics *diagnostics) {
     for (uint32_t i = 0; i < MOST_KEPT; i++) {
-        free(diagnostics->kept[i]);
+        heap_give(diagnostics->kept[i]);
         diagnostics->kept[i] = NULL;
     }
     diagnostics->kept_first = diagnostics->kept_count = 0;
@@ -30,8 +31,8 @@ static size_t text_size(const char *text) {
 // One that there is no memory for is not kept.
 static void keep(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
     PetriDiagnostic *copy =
-        malloc(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) + text_size(diagnostic->code) +
-               text_size(diagnostic->rendered) + text_size(diagnostic->hint));
+        heap_take(sizeof *copy + text_size(diagnostic->file) + text_size(diagnostic->text) +
+                  text_size(diagnostic->code) + text_size(diagnostic->rendered) + text_size(diagnostic->hint));
     if (!copy)
         return;
     char *end = (char *)(copy + 1);
@@ -43,7 +44,7 @@ static void keep(Diagnostics *diagnostics, const PetriDiagnostic *diagnostic) {
     copy->hint = add_text(&end, diagnostic->hint);
     bool full = diagnostics->kept_count == MOST_KEPT;
     PetriDiagnostic **place = &diagnostics->kept[(diagnostics->kept_first + diagnostics->kept_count) % MOST_KEPT];
-    free(*place);
+    heap_give(*place);
     *place = copy;
     diagnostics->kept_first = (diagnostics->kept_first + full) % MOST_KEPT;
     diagnostics->kept_count += !full;
@@ -64,7 +65,7 @@ void petri_forget_diagnostics(PetriSession *session) {
 void diagnostics_free(Diagnostics *diagnostics) {
     forget_kept(diagnostics);
     index_free(&diagnostics->told_index);
-    free(diagnostics->told);
+    heap_give(diagnostics->told);
 }
 
 void diagnostics_begin_load(Diagnostics *diagnostics) {

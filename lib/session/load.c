@@ -2,16 +2,16 @@
 #include "session/session.h"
 
 #include "base/file.h"
+#include "base/heap.h"
 #include "syntax/parse.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 #define MAX_SOURCE_BYTES ((size_t)256 << 20)
 enum { MOST_ERRORS = 50 };
 
 static Unit *unit_new(PetriSession *session) {
-    Unit *unit = calloc(1, sizeof *unit);
+    Unit *unit = heap_zeroed(1, sizeof *unit);
     if (!unit)
         arena_exhausted(&session->arena);
     unit->references = 1;
@@ -33,7 +33,7 @@ void unit_free(Unit *unit) {
     diag_sink_free(&unit->sink);
     arena_free(&unit->scratch);
     arena_free(&unit->arena);
-    free(unit);
+    heap_give(unit);
 }
 
 static void tell_and_free(PetriSession *session, DiagSink *sink) {

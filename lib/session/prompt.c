@@ -5,11 +5,11 @@
 // in an arena of their own and leave nothing behind.
 #include "session/session.h"
 
+#include "base/heap.h"
 #include "syntax/parse.h"
 #include "value/format.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_LINES = 10000 };
@@ -40,7 +40,7 @@ typedef struct Job {
 // Room for so many statements, with the names before and those of a program.
 static PromptList *make_list(Names before, uint32_t count, const Program *program) {
     uint32_t old = before.count, more = program ? program->export_count : 0;
-    PromptList *list = malloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
+    PromptList *list = heap_take(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
     if (!list)
         return NULL;
     const Symbol **names = (const Symbol **)(void *)(list->statements + count);
@@ -75,7 +75,7 @@ void prompt_list_free(PromptList *list) {
         return;
     for (uint32_t i = 0; i < list->count; i++)
         unit_free(list->statements[i].unit);
-    free(list);
+    heap_give(list);
 }
 
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,

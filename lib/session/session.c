@@ -2,12 +2,12 @@
 #include "session/session.h"
 
 #include "ast/literal.h"
+#include "base/heap.h"
 #include "base/unicode.h"
 
 #include <inttypes.h>
 #include <math.h>
 #include <stdio.h>
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_LINES = 100000 };
@@ -207,7 +207,7 @@ PetriSession *petri_open(const PetriOptions *options) {
     if (!take_options(&wanted, options))
         return NULL;
     options = &wanted;
-    PetriSession *session = calloc(1, sizeof *session);
+    PetriSession *session = heap_zeroed(1, sizeof *session);
     if (!session)
         return NULL;
     SessionFrame *frame = &session->frame;
@@ -250,7 +250,7 @@ void petri_close(PetriSession **handle) {
         next = unit->next;
         unit_free(unit);
     }
-    free(session->undo.bytes);
+    heap_give(session->undo.bytes);
     scene_free(session->scene);
     state_free(session->state);
     file_cache_free(session->files);
@@ -267,7 +267,7 @@ void petri_close(PetriSession **handle) {
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
     arena_drop_kept(&session->meter);
-    free(session);
+    heap_give(session);
 }
 
 // One part of a -D value (L16.3).

@@ -2,12 +2,12 @@
 #include "state/state.h"
 
 #include "base/arena.h"
+#include "base/heap.h"
 #include "base/number.h"
 #include "base/table.h"
 #include "maths/random.h"
 
 #include <math.h>
-#include <stdlib.h>
 #include <string.h>
 
 typedef struct StateEntry {
@@ -39,7 +39,7 @@ static void start_keys(Arena *keys, Meter *meter) {
 }
 
 State *state_new(Meter *meter) {
-    State *state = calloc(1, sizeof(State));
+    State *state = heap_zeroed(1, sizeof(State));
     if (!state)
         return NULL;
     state->meter = meter;
@@ -49,7 +49,7 @@ State *state_new(Meter *meter) {
 
 // A block for a value, within the budget.
 static void *take(State *state, size_t bytes) {
-    void *block = meter_take(state->meter, bytes) ? malloc(bytes) : NULL;
+    void *block = meter_take(state->meter, bytes) ? heap_take(bytes) : NULL;
     if (!block)
         state->exhausted = true;
     return block;
@@ -140,7 +140,7 @@ static void disown(State *state, StateEntry *entry) {
     size_t size = entry->lender ? 0 : block_size(*v);
     if (size) {
         meter_give(state->meter, size);
-        free((void *)v->as.numbers);
+        heap_give((void *)v->as.numbers);
     }
     entry->lender = 0;
     *v = VALUE_NULL;
@@ -163,9 +163,9 @@ void state_free(State *state) {
     state_clear(state);
     index_free(&state->index);
     arena_free(&state->keys);
-    free(state->disturbed);
-    free(state->entries);
-    free(state);
+    heap_give(state->disturbed);
+    heap_give(state->entries);
+    heap_give(state);
 }
 
 bool state_key_valid(Value key) {
@@ -290,7 +290,7 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
 }
 
 StateLender state_add_lender(State *state) {
-    bool *larger = realloc(state->disturbed, (state->lender_count + 1) * sizeof *larger);
+    bool *larger = heap_resize(state->disturbed, (state->lender_count + 1) * sizeof *larger);
     if (!larger)
         return exhausted(state), 0;
     state->disturbed = larger;
@@ -367,11 +367,11 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
     Index index = {0};
     Arena keys;
     start_keys(&keys, state->meter);
-    Value *copies = malloc((state->count + 1) * sizeof *copies);
+    Value *copies = heap_take((state->count + 1) * sizeof *copies);
     if (!copies || !index_kept(state, used, moved, &index, &keys, copies)) {
         index_free(&index);
         arena_free(&keys);
-        free(copies);
+        heap_give(copies);
         return false;
     }
     uint32_t count = 0;
@@ -382,7 +382,7 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
         state->entries[moved[i]].key = copies[moved[i]];
         count++;
     }
-    free(copies);
+    heap_give(copies);
     index_free(&state->index);
     arena_free(&state->keys);
     state->index = index;

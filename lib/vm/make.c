@@ -1,9 +1,9 @@
 // make.c: instructions that make vectors and nodes or look something up; see machine.h.
 #include "vm/machine.h"
 
+#include "base/heap.h"
 #include "value/seed.h"
 
-#include <stdlib.h>
 #include <string.h>
 
 enum { MOST_ON_STACK = 8 };
@@ -84,12 +84,14 @@ typedef struct NodeValue {
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
                            Attr *attrs) {
     uint32_t count = 0, height = node->height;
+    bool has_runs = false;
     for (uint32_t i = 0; i < instr->count; i++) {
         const Value *value = &slots[list[i]];
         if (value->len == 0)
             continue;
         if (value->kind == VALUE_MIXED && value_height(*value) >= height)
             height = value_height(*value) + 1;
+        has_runs |= value->kind == VALUE_MIXED && value_has_runs(*value);
         attrs[count++] = (Attr){instr->as.node->names[i], *value};
     }
     if (height > NODE_MAX_HEIGHT) {
@@ -99,6 +101,7 @@ static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, cons
     node->attrs = attrs;
     node->attr_count = count;
     node->height = (uint16_t)height;
+    node->has_runs = has_runs;
 }
 
 static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList *list) {
@@ -111,6 +114,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
     node->children = list->nodes;
     node->child_count = list->count;
     node->program_lifetime_children = list->program_lifetime;
+    node->has_runs |= list->has_runs;
     if (list->height >= node->height)
         node->height = (uint16_t)(list->height + 1);
 }
@@ -189,7 +193,7 @@ Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) 
 
 void vm_memo_begin(Vm *vm, uint32_t count) {
     if (count > vm->memo_count) {
-        Memo *memos = realloc(vm->memos, count * sizeof *memos);
+        Memo *memos = heap_resize(vm->memos, count * sizeof *memos);
         if (memos) {
             memset(memos + vm->memo_count, 0, (count - vm->memo_count) * sizeof *memos);
             vm->memos = memos;
@@ -202,8 +206,8 @@ void vm_memo_begin(Vm *vm, uint32_t count) {
 
 void vm_memo_free(Vm *vm) {
     for (uint32_t i = 0; i < vm->memo_count; i++)
-        free(vm->memos[i].slots);
-    free(vm->memos);
+        heap_give(vm->memos[i].slots);
+    heap_give(vm->memos);
     vm->memos = NULL;
     vm->memo_count = 0;
 }

@@ -1,7 +1,8 @@
 // profile.c: see profile.h.
 #include "vm/profile.h"
 
-#include <stdlib.h>
+#include "base/heap.h"
+
 #include <string.h>
 #include <time.h>
 
@@ -12,7 +13,7 @@ static uint64_t now(void) {
 }
 
 Profile *vm_profile_new(void) {
-    Profile *profile = calloc(1, sizeof *profile);
+    Profile *profile = heap_zeroed(1, sizeof *profile);
     if (profile)
         arena_init(&profile->arena, "profile", SIZE_MAX);
     return profile;
@@ -21,7 +22,7 @@ Profile *vm_profile_new(void) {
 void vm_profile_free(Profile *profile) {
     if (profile)
         arena_free(&profile->arena);
-    free(profile);
+    heap_give(profile);
 }
 
 void vm_profile_clear(Profile *profile) {

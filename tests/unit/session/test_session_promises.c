@@ -119,6 +119,7 @@ static void test_null(void **state) {
     double x;
     player_run(player, KEYS, 2);
     const PetriStatus statuses[] = {
+        petri_set_allocator(NULL), // while there is a session
         petri_define(none, "A=1"),
         petri_define(session, NULL),
         petri_load(none, "s.fl"),

@@ -1,0 +1,328 @@
+// test_session_allocator.c: a host's own heap (petri_set_allocator): all that libpetri and libpetri-draw hold comes
+// from it and goes back to it, whichever of its blocks cannot be had.
+#include "folder.h"
+#include "petri-draw.h"
+#include "player.h"
+
+#include <pthread.h>
+#include <stdatomic.h>
+#include <stdint.h>
+
+// In front of each block; what is given back without it was never given out, or twice.
+typedef struct Head {
+    size_t bytes;
+    uint64_t mark;
+} Head;
+enum { ALIGNMENT = 16, JUNK = 0xa5 };
+static const uint64_t GIVEN = 0x7065747269, TAKEN_BACK = 1;
+
+typedef struct Host {
+    atomic_long asked;
+    atomic_long blocks; // that are out
+    atomic_long bytes;
+    atomic_bool strayed; // a block came back that was not out, or a size of 0 was asked for
+    long fail_at;        // the number of the call that fails; 0: none
+    bool all;            // … and those after it
+} Host;
+
+static bool refuses(Host *host, size_t bytes) {
+    long number = ++host->asked;
+    host->strayed = host->strayed || bytes == 0;
+    return number == host->fail_at || (host->all && host->fail_at > 0 && number > host->fail_at);
+}
+
+static void *give_out(Host *host, Head *head, size_t bytes) {
+    *head = (Head){bytes, GIVEN};
+    host->bytes += (long)bytes;
+    return head + 1;
+}
+
+static bool take_back(Host *host, Head *head) {
+    if (head->mark != GIVEN) {
+        host->strayed = true;
+        return false;
+    }
+    host->bytes -= (long)head->bytes;
+    head->mark = TAKEN_BACK;
+    return true;
+}
+
+static void *host_allocate(void *context, size_t bytes) {
+    Host *host = context;
+    Head *head = refuses(host, bytes) ? NULL : malloc(sizeof *head + bytes);
+    if (!head)
+        return NULL;
+    host->blocks++;
+    memset(head + 1, JUNK, bytes); // nobody may think that blocks are clear
+    return give_out(host, head, bytes);
+}
+
+static void *host_resize(void *context, void *block, size_t bytes) {
+    Host *host = context;
+    Head *head = (Head *)block - 1, *moved = NULL;
+    if (refuses(host, bytes) || !take_back(host, head) || !(moved = malloc(sizeof *head + bytes))) {
+        if (head->mark == TAKEN_BACK)
+            give_out(host, head, head->bytes);
+        return NULL;
+    }
+    size_t kept = head->bytes < bytes ? head->bytes : bytes;
+    memcpy(moved + 1, head + 1, kept);
+    memset((unsigned char *)(moved + 1) + kept, JUNK, bytes - kept);
+    free(head);
+    return give_out(host, moved, bytes);
+}
+
+static void host_release(void *context, void *block) {
+    Host *host = context;
+    Head *head = (Head *)block - 1;
+    if (!take_back(host, head))
+        return;
+    host->blocks--;
+    memset(block, JUNK, head->bytes);
+    free(head);
+}
+
+static Host host;
+
+static PetriAllocator allocator_of(Host *its) {
+    *its = (Host){0};
+    return (PetriAllocator){sizeof(PetriAllocator), host_allocate, host_resize, host_release, its};
+}
+
+static void use_host(void) {
+    PetriAllocator allocator = allocator_of(&host);
+    assert_int_equal(petri_set_allocator(&allocator), PETRI_OK);
+}
+
+// All is back, and nothing came that was not out.
+static void check_back(const char *when) {
+    assert_number(when, (double)host.blocks, 0);
+    assert_number(when, (double)host.bytes, 0);
+    assert_false(host.strayed);
+}
+
+static const char *const SCRIPT =
+    "import twice from 'module.fl'\n"
+    "let N=N or 5 -- 1..9 how many\n"
+    "func area(x)\n    twice(x)*x\n"
+    "!physics state=:cells dimensions=2 resolution=0.1\n"
+    "    for i in ..(N if frame < 2 else 400)\n"
+    "        !particle id=i position=9*uniform(:a)[i];9*uniform(:b)[i] radius=0.1\n"
+    "    !anchor id='hub' position=0;0\n"
+    "    !distance from=0 to='hub' fixed=2 strength=9\n    !collision\n"
+    "!counter state=:count rate=2;3\n"
+    "!shown value=area($:count) text=read('module.fl') x=debug(frame) y=noise(:n, frame)\n"
+    "!exact z=0.12345678901234567890123456789012345678901234567890123456789012345678901234567\n"
+    "!window size=40;40\n    !key name=:space state=:space\n"
+    "    !canvas size=40;40\n        !fill color=0;1;0\n            !rect size=20;20\n"
+    "        !shadow radius=2\n            !text text='text' point=20;30\n"
+    "            !image filename='missing.jpg' point=0;0\n";
+
+// What a host does, from one end to the other. True if nothing was short of memory.
+typedef struct Life {
+    Folder *folder;
+    bool simplify;
+    Notebook written;
+    bool short_of;
+} Life;
+
+static bool take_note(void *context, const char *text, size_t length) {
+    return note(&((Life *)context)->written, text, length);
+}
+
+static void expect(Life *life, PetriStatus status) {
+    if (status != PETRI_OK)
+        assert_int_equal(status, PETRI_MEMORY);
+    life->short_of |= status == PETRI_MEMORY;
+}
+
+static void use_session(Life *life, PetriSession *session) {
+    PetriPrompted done;
+    PetriResult result;
+    PetriParameter parameter;
+    PetriValue seven = {1, &(double){7}, NULL};
+    expect(life, petri_give(session, "given", seven));
+    expect(life, petri_load(session, folder_file(life->folder, "s.fl")));
+    if (life->short_of)
+        return;
+    for (int i = 0; i < 2; i++)
+        expect(life, petri_step(session));
+    petri_parameter(session, 0, &parameter);
+    expect(life, petri_prompt(session, "let more=area(2)", PETRI_Z, take_note, life, &done));
+    expect(life, petri_evaluate(session, "uniform(:x)[..3];'t'", PETRI_Z, &result, take_note, life));
+    PetriSnapshot *snapshot = petri_snapshot(session);
+    PetriConfig *config = petri_config(session);
+    life->short_of |= !snapshot || !config;
+    expect(life, petri_set_parameter(session, "N", "3"));
+    expect(life, petri_step(session));
+    expect(life, petri_save(session, folder_file(life->folder, "state")));
+    expect(life, petri_restore(session, folder_file(life->folder, "state")));
+    if (snapshot)
+        expect(life, petri_rewind(session, snapshot));
+    expect(life, petri_step(session));
+    petri_ids(session, 0);
+    expect(life, petri_print(session, PETRI_PRINT_TREE | PETRI_PRINT_STATE | PETRI_PRINT_LOG, take_note, life));
+    petri_config_free(config);
+    petri_snapshot_free(snapshot);
+}
+
+// Pictures and painters may outlive the session.
+static void use_picture(Life *life, PetriSession **session) {
+    static uint32_t pixels[40 * 40];
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    PetriPainter *painter = petri_painter_open();
+    expect(life, painter ? PETRI_OK : PETRI_MEMORY);
+    expect(life, petri_picture(*session, &options, &picture));
+    petri_close(session);
+    if (picture && painter) {
+        PetriStatus status = petri_picture_draw(picture, painter, pixels, 40, 40, 160);
+        if (status != PETRI_MISSING) { // a build without Cairo
+            expect(life, status);
+            expect(life, petri_picture_save(picture, painter, folder_file(life->folder, "a.png")));
+        }
+    }
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
+static void live(Life *life) {
+    PetriOptions options = petri_default_options();
+    options.simplify = life->simplify;
+    options.profile = true;
+    options.threads = 2;
+    life->short_of = false;
+    life->written.len = 0;
+    PetriSession *session = petri_open(&options);
+    expect(life, session ? PETRI_OK : PETRI_MEMORY);
+    if (!session)
+        return;
+    use_session(life, session);
+    if (!life->short_of)
+        use_picture(life, &session);
+    petri_close(&session);
+}
+
+static void test_all_comes_back(void **state) {
+    Life own = {.folder = *state, .simplify = true}, theirs = own;
+    live(&own);
+    use_host();
+    live(&theirs);
+    assert_false(own.short_of || theirs.short_of);
+    assert_true(host.asked > 100);
+    check_back("a whole life");
+    assert_string_equal(theirs.written.text, own.written.text);
+    free(own.written.text);
+    free(theirs.written.text);
+}
+
+// So many are tried in each way; all of them with TRIES=1000000.
+static void test_each_fails(void **state) {
+    const char *tries = getenv("TRIES");
+    Life life = {.folder = *state, .simplify = true};
+    use_host();
+    live(&life);
+    long total = host.asked, stride = 1 + total / (tries ? strtol(tries, NULL, 10) : 40), short_of = 0;
+    for (long number = 1; number <= total; number += stride)
+        for (int all = 0; all < 2; all++) {
+            char when[60];
+            snprintf(when, sizeof when, "call %ld%s fails", number, all ? " and all later ones" : "");
+            use_host();
+            host.fail_at = number;
+            host.all = all;
+            live(&life);
+            short_of += life.short_of;
+            check_back(when);
+        }
+    assert_true(short_of > 20);
+    free(life.written.text);
+}
+
+// Blocks go back to where they come from: nothing is changed while one is out.
+static void test_refusals(void **state) {
+    (void)state;
+    Host other;
+    PetriAllocator allocator = allocator_of(&other), wrong = allocator;
+    use_host();
+    wrong.size--;
+    assert_int_equal(petri_set_allocator(&wrong), PETRI_INVALID);
+    wrong = allocator;
+    wrong.resize = NULL;
+    assert_int_equal(petri_set_allocator(&wrong), PETRI_INVALID);
+    PetriSession *session = petri_open(&(PetriOptions){0});
+    assert_null(session);
+    PetriOptions options = petri_default_options();
+    session = petri_open(&options);
+    assert_int_equal(petri_set_allocator(&allocator), PETRI_INVALID);
+    assert_int_equal(petri_set_allocator(NULL), PETRI_INVALID);
+    assert_int_equal(petri_load_text(session, "t.fl", "!a x=1\n", PETRI_Z), PETRI_OK);
+    petri_close(&session);
+    PetriPainter *painter = petri_painter_open();
+    assert_int_equal(petri_set_allocator(NULL), PETRI_INVALID);
+    petri_painter_close(&painter);
+    check_back("refused");
+    assert_true(host.asked > 0);
+    assert_int_equal(other.asked, 0);
+    assert_int_equal(petri_set_allocator(&allocator), PETRI_OK);
+    session = petri_open(&options);
+    petri_close(&session);
+    assert_true(other.asked > 0);
+    assert_int_equal(petri_set_allocator(NULL), PETRI_OK);
+    long asked = other.asked;
+    session = petri_open(&options);
+    petri_close(&session);
+    assert_int_equal(other.asked, asked);
+}
+
+// Sessions of several threads have the heap in common.
+static void *live_apart(void *context) {
+    Player player;
+    player_open(&player);
+    for (int i = 0; i < 20; i++)
+        player_run(&player, "!physics state=:s dimensions=1\n    for i in ..50\n        !particle id=i position=i\n",
+                   2);
+    player_close(&player);
+    return context;
+}
+
+static void test_threads(void **state) {
+    (void)state;
+    pthread_t threads[4];
+    use_host();
+    for (size_t i = 0; i < COUNT_OF(threads); i++)
+        assert_int_equal(pthread_create(&threads[i], NULL, live_apart, NULL), 0);
+    for (size_t i = 0; i < COUNT_OF(threads); i++)
+        pthread_join(threads[i], NULL);
+    assert_true(host.asked > 100);
+    check_back("four threads");
+}
+
+static int set_up(void **state) {
+    static Folder folder;
+    folder_open(&folder);
+    folder_write(&folder, "module.fl", "func twice(x)\n    x*2\n");
+    folder_write(&folder, "s.fl", SCRIPT);
+    *state = &folder;
+    return 0;
+}
+
+static int tear_down(void **state) {
+    folder_close(*state);
+    return 0;
+}
+
+// What the heap of one test has given out is back before the next one's.
+static int own_heap(void **state) {
+    (void)state;
+    return petri_set_allocator(NULL) == PETRI_OK ? 0 : -1;
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test_teardown(test_all_comes_back, own_heap),
+        cmocka_unit_test_teardown(test_each_fails, own_heap),
+        cmocka_unit_test_teardown(test_refusals, own_heap),
+        cmocka_unit_test_teardown(test_threads, own_heap),
+    };
+    return cmocka_run_group_tests(tests, set_up, tear_down);
+}
