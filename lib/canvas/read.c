@@ -2,6 +2,7 @@
 #include "canvas/read.h"
 
 #include "base/source.h"
+#include "value/run.h"
 
 #include <errno.h>
 
@@ -65,18 +66,18 @@ static NodeKind kind_of(const Reader *reader, const Node *node) {
 }
 
 static void read_children(const Reader *reader, DrawNode *out) {
-    const Node *node = reader->node;
-    if (node->child_count == 0)
+    uint32_t count;
+    const Node *const *nodes = node_children(reader->arena, reader->node, &count);
+    if (count == 0)
         return;
-    const DrawNode **children = arena_alloc_array(reader->arena, node->child_count, sizeof *children);
-    for (uint32_t i = 0; i < node->child_count; i++) {
-        NodeKind child = kind_of(reader, node->children[i]);
+    const DrawNode **children = arena_alloc_array(reader->arena, count, sizeof *children);
+    for (uint32_t i = 0; i < count; i++) {
+        NodeKind child = kind_of(reader, nodes[i]);
         if (child == KIND_COUNT) {
-            report_misplaced(reader, node->children[i],
-                             schema_window_kind(reader->schema, node->children[i]) != KIND_COUNT);
+            report_misplaced(reader, nodes[i], schema_window_kind(reader->schema, nodes[i]) != KIND_COUNT);
             continue;
         }
-        const DrawNode *read = read_node(reader->schema, reader->arena, node->children[i], child);
+        const DrawNode *read = read_node(reader->schema, reader->arena, nodes[i], child);
         if (read)
             children[out->child_count++] = read;
     }
@@ -96,9 +97,10 @@ enum { NODE_WORK = 8, STOPS_A_UNIT = 16 };
 static const DrawNode *read_node(Schema *schema, Arena *arena, const Node *node, NodeKind kind) {
     Reader reader = {schema, arena, node, kind, 1};
     schema->at = node;
-    arena_charge(arena, NODE_WORK + node->attr_count + node->child_count / 4);
+    uint64_t count = node_child_count(node);
+    arena_charge(arena, NODE_WORK + node->attr_count + count / 4);
     if (kind == KIND_GRADIENT) // drawing libraries sort its stops one by one
-        arena_charge(arena, (uint64_t)node->child_count * node->child_count / STOPS_A_UNIT);
+        arena_charge(arena, count * count / STOPS_A_UNIT);
     DrawNode *out = arena_alloc(arena, sizeof *out);
     AttrValue *attrs = arena_alloc_array(arena, node->attr_count, sizeof *attrs);
     const Symbol *program = schema->slots[ROW_SHADER_FRAGMENT].name;

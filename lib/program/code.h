@@ -71,7 +71,7 @@ typedef struct DecorateCode {
 typedef struct Instr {
     uint16_t op;
     uint16_t loop;
-    int32_t d; // register written, or the first that is bound
+    int32_t d; // register written, or the first that is bound; ADD_ROW: whether nothing else of the round stays
     union {
         int32_t a;
         uint32_t list; // position of the first operand in `operands`
@@ -81,7 +81,7 @@ typedef struct Instr {
         int32_t c;
         uint32_t count; // of the list, or of the registers bound
     };
-    uint32_t target; // instruction to jump to; number of a capture or a place
+    uint32_t target; // instruction to jump to; number of a capture or a place; ADD_ROW: the register of the loop's name
     const Origin *at;
     union {
         const NodeCode *node;

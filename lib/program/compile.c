@@ -27,26 +27,37 @@ void compile_report(Compiler *compiler, Span span, DiagLevel level, const char *
     diag_report(compiler->diags, &(Diag){level, compiler->source, span, text, hint, code});
 }
 
+// Is part number i of an expression what the expression is, or a part of that? Then it becomes children if that does.
+static bool is_part(ExprKind kind, uint32_t i, uint32_t count) {
+    return kind == EXPR_COMPOSE || (kind == EXPR_IF && (i % 2 == 1 || i + 1 == count));
+}
+
+static const Expr *compile_part(Compiler *compiler, const Ast *ast, bool in_children) {
+    compiler->in_children = in_children;
+    return compile_expr(compiler, ast);
+}
+
 // All children in order, as one expression.
-static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast) {
+static Expr *compile_children(Compiler *compiler, ExprKind kind, const Ast *ast, bool in_children) {
     const Expr **children = arena_alloc_array(compiler->scratch, ast->count, sizeof *children);
     for (uint32_t i = 0; i < ast->count; i++)
-        children[i] = compile_expr(compiler, ast->children[i]);
+        children[i] = compile_part(compiler, ast->children[i],
+                                   kind == EXPR_APPEND ? i == 1 : in_children && is_part(kind, i, ast->count));
     return compile_expr_new(compiler, kind, ast, children, ast->count);
 }
 
 // All children in order, where the expression is of the same kind as the syntax tree.
-static Expr *compile_same(Compiler *compiler, const Ast *ast) {
+static Expr *compile_same(Compiler *compiler, const Ast *ast, bool in_children) {
     static const ExprKind kinds[] = {
 #define EXPR(kind)
 #define SAME(kind) [AST_##kind] = EXPR_##kind,
 #include "program/expr_list.h"
     };
-    return compile_children(compiler, kinds[ast->kind], ast);
+    return compile_children(compiler, kinds[ast->kind], ast, in_children);
 }
 
 static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
-    const Expr *expr = compile_same(compiler, ast);
+    const Expr *expr = compile_same(compiler, ast, false);
     lint_arith(compiler, ast, expr);
     return expr;
 }
@@ -54,7 +65,7 @@ static const Expr *compile_arith(Compiler *compiler, const Ast *ast) {
 // A name compared with itself is one object, of which not even a nan is out of order (L5.5).
 static const Expr *compile_order(Compiler *compiler, const Ast *ast) {
     const Ast *left = ast->children[0], *right = ast->children[1];
-    Expr *expr = compile_same(compiler, ast);
+    Expr *expr = compile_same(compiler, ast, false);
     expr->slot = left->kind == AST_NAME && right->kind == AST_NAME && left->name == right->name;
     return expr;
 }
@@ -74,11 +85,11 @@ static const Expr *compile_node(Compiler *compiler, const Ast *ast) {
 }
 
 // `then if test else other`: the IF of one branch.
-static const Expr *compile_cond(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_cond(Compiler *compiler, const Ast *ast, bool in_children) {
     const Expr *test = compile_expr(compiler, ast->children[1]);
-    const Expr *parts[3] = {test, compile_expr(compiler, ast->children[0])};
+    const Expr *parts[3] = {test, compile_part(compiler, ast->children[0], in_children)};
     if (ast->children[2])
-        parts[2] = compile_expr(compiler, ast->children[2]);
+        parts[2] = compile_part(compiler, ast->children[2], in_children);
     const Expr *expr = compile_expr_new(compiler, EXPR_IF, ast, parts, ast->children[2] ? 3 : 2);
     lint_branches(compiler, expr);
     return expr;
@@ -105,33 +116,34 @@ static const Expr *compile_let(Compiler *compiler, const Ast *ast) {
     return ast->count == 1 ? binds[0] : compile_expr_new(compiler, EXPR_LET, ast, binds, ast->count);
 }
 
-static const Expr *compile_where(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_where(Compiler *compiler, const Ast *ast, bool in_children) {
     ScopeMark mark = compile_scope_open(compiler);
     const Expr **parts = arena_alloc_array(compiler->scratch, ast->count, sizeof *parts);
     for (uint32_t i = 1; i < ast->count; i++)
         parts[i - 1] = compile_binding(compiler, ast->children[i]);
-    parts[ast->count - 1] = compile_expr(compiler, ast->children[0]);
+    parts[ast->count - 1] = compile_part(compiler, ast->children[0], in_children);
     compile_scope_close(compiler, mark);
     return compile_expr_new(compiler, EXPR_COMPOSE, ast, parts, ast->count);
 }
 
-static const Expr *compile_for(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_for(Compiler *compiler, const Ast *ast, bool in_children) {
     const Expr *parts[2] = {compile_expr(compiler, ast->children[1])};
     ScopeMark mark = compile_scope_open(compiler);
     uint32_t slot = compile_bind_names(compiler, BINDING_LOOP, ast->children[0], NULL);
     compiler->repeats++;
-    parts[1] = compile_expr(compiler, ast->children[2]);
+    parts[1] = compile_part(compiler, ast->children[2], in_children);
     compiler->repeats--;
     compile_scope_close(compiler, mark);
     Expr *expr = compile_expr_new(compiler, EXPR_FOR, ast, parts, 2);
+    expr->may_run = in_children;
     expr->slot = slot;
     expr->slot_count = ast->children[0]->count;
     return expr;
 }
 
-static const Expr *compile_suite(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_suite(Compiler *compiler, const Ast *ast, bool in_children) {
     ScopeMark mark = compile_scope_open(compiler);
-    const Expr *expr = compile_children(compiler, EXPR_COMPOSE, ast);
+    const Expr *expr = compile_children(compiler, EXPR_COMPOSE, ast, in_children);
     compile_scope_close(compiler, mark);
     return expr;
 }
@@ -301,7 +313,7 @@ static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file
 }
 
 // Puts the statements of another file in the place of the directive.
-static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_children) {
     compiler->fixed = true;
     const Expr *file = compile_expr(compiler, ast->children[0]);
     compiler->fixed = false;
@@ -317,13 +329,13 @@ static const Expr *compile_include(Compiler *compiler, const Ast *ast) {
     const Source *outer = compiler->source;
     compiler->source = include.source;
     compiler->depth--; // its statements stand at the depth of the directive
-    const Expr *expr = compile_suite(compiler, include.ast);
+    const Expr *expr = compile_suite(compiler, include.ast, in_children);
     compiler->depth++;
     compiler->source = outer;
     return expr;
 }
 
-static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_children) {
     switch (ast->kind) {
     case AST_LITERAL:
         return compile_constant(compiler, ast, value_copy(compiler->arena, ast->value)); // the syntax tree goes
@@ -332,7 +344,7 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     case AST_NAME:
         return compile_name(compiler, ast);
     case AST_SUITE:
-        return compile_suite(compiler, ast);
+        return compile_suite(compiler, ast, in_children);
     case AST_LET:
     case AST_LET_STABLE:
         return compile_let(compiler, ast);
@@ -341,13 +353,13 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     case AST_IMPORT:
         return compile_import(compiler, ast);
     case AST_INCLUDE:
-        return compile_include(compiler, ast);
+        return compile_include(compiler, ast, in_children);
     case AST_FOR:
-        return compile_for(compiler, ast);
+        return compile_for(compiler, ast, in_children);
     case AST_COND:
-        return compile_cond(compiler, ast);
+        return compile_cond(compiler, ast, in_children);
     case AST_WHERE:
-        return compile_where(compiler, ast);
+        return compile_where(compiler, ast, in_children);
     case AST_DECORATE:
         return compile_decorate(compiler, ast);
     case AST_CALL:
@@ -366,12 +378,12 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
         return compile_arith(compiler, ast);
     case AST_APPEND:
         compiler->subject = ast->children[0];
-        return compile_same(compiler, ast);
+        return compile_same(compiler, ast, false);
     case AST_LOOKUP:
         compiler->key = ast->children[0];
-        return compile_same(compiler, ast);
+        return compile_same(compiler, ast, false);
     case AST_IF: {
-        const Expr *expr = compile_same(compiler, ast);
+        const Expr *expr = compile_same(compiler, ast, in_children);
         lint_branches(compiler, expr);
         return expr;
     }
@@ -381,22 +393,24 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast) {
     case AST_NOT:
         for (uint32_t i = 0; i < ast->count; i++)
             lint_negation(compiler, ast->children[i]);
-        return compile_same(compiler, ast);
+        return compile_same(compiler, ast, false);
     case AST_LT:
     case AST_GT:
     case AST_LE:
     case AST_GE:
         return compile_order(compiler, ast);
     default:
-        return compile_same(compiler, ast);
+        return compile_same(compiler, ast, in_children);
     }
 }
 
 const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     uint32_t mark = compiler->function->next_slot;
+    bool in_children = compiler->in_children;
+    compiler->in_children = false;
     compiler->depth++;
     arena_charge(compiler->scratch, 2);
-    const Expr *expr = fold_expr(compiler, (Expr *)compile_kind(compiler, ast), mark);
+    const Expr *expr = fold_expr(compiler, (Expr *)compile_kind(compiler, ast, in_children), mark);
     compiler->depth--;
     if (ast == compiler->fallback)
         compile_note_fallback(compiler, expr);
@@ -456,7 +470,7 @@ static const Program *compile_file(Compiler *compiler, const Ast *ast) {
     collect_pragmas(compiler, ast, program);
     uint32_t skip = program->pragma_count;
     Ast *body = ast_new(compiler->scratch, AST_SUITE, ast->span, NULL, ast->children + skip, ast->count - skip);
-    const Expr *expr = compile_children(compiler, EXPR_COMPOSE, body);
+    const Expr *expr = compile_children(compiler, EXPR_COMPOSE, body, false);
     collect_exports(compiler, program, params);
     lint_unused(compiler, compiler->function->scope, params);
     program->code = compile_code(compiler, expr, function.frame_size);

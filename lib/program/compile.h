@@ -55,6 +55,7 @@ struct Compiler {
     bool fixed;       // compiling the file of an %include, where a test is meant to be known
     uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
     uint32_t places;  // look-ups so far
+    bool in_children; // what is compiled next becomes children of a node, as it is or as a part of them
     bool is_module;   // the file only binds names: they are for others, so none is unused
     uint32_t depth;   // expressions around this place; 1: a statement of the top level
     DefineUse *define_uses;

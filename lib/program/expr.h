@@ -28,6 +28,7 @@ struct Expr {
     // For the simplifier (fold.c): what the value depends on.
     bool dynamic;    // something that may change from frame to frame
     bool enclosed;   // the running closure: its captures or itself
+    bool may_run;    // FOR: what it makes becomes children, so it may be in runs (value/run.h)
     uint32_t lowest; // the lowest slot that is read, UINT32_MAX if none
     Origin place;
     union {

@@ -35,6 +35,8 @@ typedef struct Lowering {
     int32_t register_count;
     uint32_t loop_depth;
     uint32_t loop_count;
+    const Expr *row;   // the node that each round of a loop makes, which may go into a run; NULL: there is no such node
+    uint32_t row_loop; // … and the instruction that begins that loop
 } Lowering;
 
 // Where the value of an expression goes.

@@ -1,6 +1,82 @@
 // lower_node.c: loops and nodes; see lower.h.
 #include "program/lower.h"
 
+#include "value/run.h"
+
+// --- nodes
+
+// The node that an expression is without being evaluated, or NULL.
+static const Node *constant_node(const Expr *expr) {
+    bool is_node = expr->kind == EXPR_CONST && expr->as.value.kind == VALUE_MIXED && expr->as.value.len == 1 &&
+                   expr->as.value.as.items[0].type == ITEM_NODE;
+    return is_node ? expr->as.value.as.items[0].as.node : NULL;
+}
+
+// The node that an expression is before anything has been added to it, or NULL if it is something else.
+static const Node *bare_node(const Expr *expr, Arena *arena) {
+    if (expr->kind == EXPR_NODE) {
+        NodeOrigin origin = {.place = expr->place};
+        Node *node = node_new(arena, expr->as.name);
+        node->origin = arena_copy(arena, &origin, sizeof origin);
+        return node;
+    }
+    const Node *node = constant_node(expr);
+    return node && node->attr_count == 0 && node->child_count == 0 ? node : NULL;
+}
+
+static bool names_differ(const Decoration *code) {
+    for (uint32_t i = 0; i < code->attr_count; i++)
+        for (uint32_t k = 0; k < i; k++)
+            if (code->code.names[i] == code->code.names[k])
+                return false;
+    return true;
+}
+
+// The node with the places of the attributes that are written with it, for messages.
+static const Node *with_places(Arena *arena, const Node *node, const Expr *decorate) {
+    const Decoration *code = decorate->as.decorate;
+    if (!node->origin || node->origin->place.source != decorate->place.source)
+        return node;
+    struct AttrOrigin *attrs = arena_alloc_array(arena, code->attr_count, sizeof *attrs);
+    for (uint32_t i = 0; i < code->attr_count; i++)
+        attrs[i] = (struct AttrOrigin){code->code.names[i], code->spans[i]};
+    NodeOrigin origin = {node->origin->place, attrs, code->attr_count};
+    Node *placed = arena_copy(arena, node, sizeof *node);
+    placed->program_lifetime = false;
+    placed->origin = arena_copy(arena, &origin, sizeof origin);
+    return placed;
+}
+
+enum { MOST_DISTINCT = 64 }; // attributes that are compared with each other
+
+// The instruction for a node with attributes and children that can be made at once; false if it cannot.
+static bool whole_node(Lowering *lowering, const Expr *expr, Instr *instr) {
+    Arena *values = lowering->options->values;
+    const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
+    const Expr *inner = append ? append->children[0] : expr;
+    const Expr *decorate = inner->kind == EXPR_DECORATE ? inner : NULL;
+    const Node *base = bare_node(decorate ? decorate->children[0] : inner, values);
+    const Decoration *code = decorate ? decorate->as.decorate : NULL;
+    if (!base || (code && (code->attr_count > MOST_DISTINCT || !names_differ(code))))
+        return false;
+    if (decorate)
+        base = with_places(values, base, decorate);
+    for (uint32_t i = 0; code && i < code->code.tag_count; i++)
+        base = node_add_tag(values, base, code->code.tags[i]);
+    NodeCode *node = arena_alloc(lowering->options->arena, sizeof *node);
+    uint32_t count = code ? code->attr_count : 0;
+    *node = (NodeCode){.base = base,
+                       .names = code ? lower_names(lowering, code->code.names, count) : NULL,
+                       .decorated = decorate ? lower_place(lowering, decorate) : NULL,
+                       .kept = append ? append->as.kept : NULL};
+    uint32_t list = code ? lower_operands(lowering, decorate->children + 1, count) : 0;
+    int32_t children = CODE_NO_OPERAND;
+    if (append && !node->kept)
+        children = lower_operand(lowering, append->children[1]);
+    *instr = (Instr){.op = OP_NODE, .list = list, .count = count, .b = children, .as.node = node};
+    return true;
+}
+
 // --- loops
 
 void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
@@ -35,6 +111,46 @@ static bool has_small_parts(const Expr *expr) {
     return true;
 }
 
+// Do instructions keep nothing that was made in the round of the loop that they belong to?
+static bool leave_nothing(const Instr *instrs, uint32_t count) {
+    static const bool kept[OP_COUNT] = {[OP_CLOSURE] = true,  [OP_IMPORT] = true,  [OP_NODE] = true, [OP_APPEND] = true,
+                                        [OP_DECORATE] = true, [OP_ADD_ROW] = true, [OP_CALL] = true};
+    for (uint32_t i = 0; i < count; i++)
+        if (kept[instrs[i].op] || (instrs[i].op == OP_BUILTIN && !instrs[i].as.builtin->pure))
+            return false;
+    return true;
+}
+
+// The node of a round, as a row of a run; false if it can be none.
+static bool lower_row(Lowering *lowering, const Expr *expr, uint16_t loop) {
+    Instr row;
+    if (expr != lowering->row || !whole_node(lowering, expr, &row))
+        return false;
+    const Instr *start = &lowering->instrs[lowering->row_loop];
+    row.op = OP_ADD_ROW;
+    row.loop = loop;
+    row.target = (uint32_t)start->d;
+    row.d = leave_nothing(start + 1, lowering->instr_count - lowering->row_loop - 1);
+    lower_emit(lowering, expr, row);
+    return true;
+}
+
+// The one node that a loop's body comes to, if that may be one of very many; else NULL.
+static const Expr *only_node(const Expr *expr) {
+    while (expr->kind == EXPR_COMPOSE && expr->slot == 1)
+        for (uint32_t i = 0, count = expr->count; i < count; i++)
+            if (!expr_only_binds(expr->children[i])) {
+                expr = expr->children[i];
+                break;
+            }
+    if (expr->kind != EXPR_DECORATE || expr->as.decorate->attr_count > NODE_RUN_ATTRS)
+        return NULL;
+    const Expr *bare = expr->children[0];
+    const Node *known = constant_node(bare);
+    const Symbol *kind = bare->kind == EXPR_NODE ? bare->as.name : known ? known->kind : NULL;
+    return kind && kind->many ? expr : NULL;
+}
+
 void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop) {
     int32_t mark = lowering->next_register;
     bool single = expr->kind == EXPR_COMPOSE && expr->slot == 1;
@@ -46,7 +162,7 @@ void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop) {
                 lower_statement(lowering, expr->children[i]);
             else
                 lower_part(lowering, expr->children[i], loop);
-    } else {
+    } else if (!lower_row(lowering, expr, loop)) {
         lower_add_part(lowering, lower_operand(lowering, expr), loop, expr);
     }
     lowering->next_register = mark;
@@ -60,7 +176,13 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     Instr round = {.op = OP_FOR, .a = source, .d = (int32_t)expr->slot, .count = expr->slot_count, .loop = loop};
     uint32_t start = lowering->instr_count;
     lower_emit(lowering, expr, round);
+    const Expr *outer_row = lowering->row;
+    uint32_t outer_loop = lowering->row_loop;
+    lowering->row = expr->may_run && expr->slot_count == 1 ? only_node(expr->children[1]) : NULL;
+    lowering->row_loop = start;
     lower_part(lowering, expr->children[1], loop);
+    lowering->row = outer_row;
+    lowering->row_loop = outer_loop;
     round.op = OP_NEXT;
     round.target = start + 1;
     lower_emit(lowering, expr, round);
@@ -69,80 +191,13 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     lowering->loop_depth--;
 }
 
-// --- nodes
-
-// The node that an expression is before anything has been added to it, or NULL if it is something else.
-static const Node *bare_node(const Expr *expr, Arena *arena) {
-    if (expr->kind == EXPR_NODE) {
-        NodeOrigin origin = {.place = expr->place};
-        Node *node = node_new(arena, expr->as.name);
-        node->origin = arena_copy(arena, &origin, sizeof origin);
-        return node;
-    }
-    if (expr->kind != EXPR_CONST || expr->as.value.kind != VALUE_MIXED || expr->as.value.len != 1 ||
-        expr->as.value.as.items[0].type != ITEM_NODE)
-        return NULL;
-    const Node *node = expr->as.value.as.items[0].as.node;
-    return node->attr_count == 0 && node->child_count == 0 ? node : NULL;
-}
-
-static bool names_differ(const Decoration *code) {
-    for (uint32_t i = 0; i < code->attr_count; i++)
-        for (uint32_t k = 0; k < i; k++)
-            if (code->code.names[i] == code->code.names[k])
-                return false;
-    return true;
-}
-
-// The node with the places of the attributes that are written with it, for messages.
-static const Node *with_places(Arena *arena, const Node *node, const Expr *decorate) {
-    const Decoration *code = decorate->as.decorate;
-    if (!node->origin || node->origin->place.source != decorate->place.source)
-        return node;
-    struct AttrOrigin *attrs = arena_alloc_array(arena, code->attr_count, sizeof *attrs);
-    for (uint32_t i = 0; i < code->attr_count; i++)
-        attrs[i] = (struct AttrOrigin){code->code.names[i], code->spans[i]};
-    NodeOrigin origin = {node->origin->place, attrs, code->attr_count};
-    Node *placed = arena_copy(arena, node, sizeof *node);
-    placed->program_lifetime = false;
-    placed->origin = arena_copy(arena, &origin, sizeof origin);
-    return placed;
-}
-
-enum { MOST_DISTINCT = 64 }; // attributes that are compared with each other
-
-// A node with attributes and children that can be made at once; false if it cannot.
-static bool whole_node(Lowering *lowering, const Expr *expr, int32_t d) {
-    Arena *values = lowering->options->values;
-    const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
-    const Expr *inner = append ? append->children[0] : expr;
-    const Expr *decorate = inner->kind == EXPR_DECORATE ? inner : NULL;
-    const Node *base = bare_node(decorate ? decorate->children[0] : inner, values);
-    const Decoration *code = decorate ? decorate->as.decorate : NULL;
-    if (!base || (code && (code->attr_count > MOST_DISTINCT || !names_differ(code))))
-        return false;
-    if (decorate)
-        base = with_places(values, base, decorate);
-    for (uint32_t i = 0; code && i < code->code.tag_count; i++)
-        base = node_add_tag(values, base, code->code.tags[i]);
-    NodeCode *node = arena_alloc(lowering->options->arena, sizeof *node);
-    uint32_t count = code ? code->attr_count : 0;
-    *node = (NodeCode){.base = base,
-                       .names = code ? lower_names(lowering, code->code.names, count) : NULL,
-                       .decorated = decorate ? lower_place(lowering, decorate) : NULL,
-                       .kept = append ? append->as.kept : NULL};
-    uint32_t list = code ? lower_operands(lowering, decorate->children + 1, count) : 0;
-    int32_t children = CODE_NO_OPERAND;
-    if (append && !node->kept)
-        children = lower_operand(lowering, append->children[1]);
-    lower_emit(lowering, expr,
-               (Instr){.op = OP_NODE, .d = d, .list = list, .count = count, .b = children, .as.node = node});
-    return true;
-}
-
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
-    if (whole_node(lowering, expr, d))
+    Instr whole;
+    if (whole_node(lowering, expr, &whole)) {
+        whole.d = d;
+        lower_emit(lowering, expr, whole);
         return;
+    }
     int32_t subject = lower_operand(lowering, expr->children[0]);
     if (expr->kind == EXPR_APPEND) {
         int32_t children = expr->as.kept ? CODE_NO_OPERAND : lower_operand(lowering, expr->children[1]);

@@ -35,7 +35,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     text_add_char(out, '(');
     for (uint32_t i = 0; i < instr->count; i++) {
         text_add_c(out, i ? ", " : "");
-        if (instr->op == OP_NODE)
+        if (instr->op == OP_NODE || instr->op == OP_ADD_ROW)
             text_add_format(out, "%.*s=", STR_ARGS(instr->as.node->names[i]->name));
         print_operand(out, symbols, code, code->operands[instr->list + i]);
     }
@@ -56,6 +56,7 @@ static void print_extra(Text *out, const Instr *instr) {
         name = instr->as.function->name;
         break;
     case OP_NODE:
+    case OP_ADD_ROW:
         name = instr->as.node->base->kind->name;
         break;
     case OP_BUILTIN:

@@ -2,6 +2,7 @@
 #include "scene/input_bind.h"
 
 #include "value/format.h"
+#include "value/run.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -142,9 +143,11 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
         const Node *window = tree.as.items[i].type == ITEM_NODE ? tree.as.items[i].as.node : NULL;
         if (!window || window->kind != schema->kinds[KIND_WINDOW])
             continue;
-        for (uint32_t j = 0; j < window->child_count; j++) {
-            NodeKind kind = schema_window_kind(schema, window->children[j]);
-            Reader reader = {schema, arena, window->children[j], kind, 1};
+        uint32_t count;
+        const Node *const *children = node_children(arena, window, &count);
+        for (uint32_t j = 0; j < count; j++) {
+            NodeKind kind = schema_window_kind(schema, children[j]);
+            Reader reader = {schema, arena, children[j], kind, 1};
             if (kind == KIND_POINTER || kind == KIND_KEY)
                 bind_node(bindings, &reader);
         }

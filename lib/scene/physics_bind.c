@@ -130,7 +130,7 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
 
 // Number of nodes below, up to a limit: decides whether vectors of so many dimensions can be held at all.
 static uint64_t count_nodes(Arena *arena, const Node *node) {
-    uint64_t count = node->child_count;
+    uint64_t count = node_child_count(node);
     arena_charge(arena, 1 + count);
     for (uint32_t i = 0; i < node->child_count; i++)
         count += count_nodes(arena, node->children[i]);

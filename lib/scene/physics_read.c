@@ -42,9 +42,9 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
         }
 }
 
-void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node) {
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool lasts) {
     PhysicsSystem *system = tree->system;
-    if (tree->root->program_lifetime_children || !node->program_lifetime)
+    if (tree->root->program_lifetime_children || !lasts)
         return; // the whole tree is known by its address, or the node does not last
     if (!heap_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
@@ -54,7 +54,7 @@ void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node)
 }
 
 // Remembers a body under its slots. False if memory is used up.
-static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, StateSlot position, StateSlot velocity) {
+static bool remember_body(PhysicsTree *tree, bool anchor, StateSlot position, StateSlot velocity) {
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
     tree->scene->body_count = body + 1; // at once: however the reading ends, its marks are old ones to the next tree
     if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
@@ -62,7 +62,6 @@ static bool remember_body(PhysicsTree *tree, const Node *node, bool anchor, Stat
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
         return false;
     tree->shared |= physics_mark(tree, velocity) != mark + 1;
-    physics_keep_node(tree, body, node);
     tree->body_count++;
     return true;
 }
@@ -85,18 +84,21 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
     check_reserved(tree, &reader, id);
     tree->shared |= physics_mark(tree, slot) != 0; // the velocity of another
     StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
-    if (remember_body(tree, node, anchor, slot, velocity))
+    if (remember_body(tree, anchor, slot, velocity))
         return true;
     tree->failed = true;
     return false;
 }
 
-__attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, bool anchor, uint32_t group) {
+// `known` is what the node is remembered by.
+__attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, const Node *known, bool anchor,
+                                                uint32_t group) {
     BodyAttrs body;
     double position, velocity;
     physics_read_particle(tree, node, anchor, &body);
     if (!add_body(tree, node, body.id, anchor))
         return;
+    physics_keep_node(tree, tree->body_count - 1, known, node->program_lifetime);
     PhysParticle *numbers = &body.numbers;
     if (!anchor) {
         const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)(tree->body_count - 1);
@@ -108,17 +110,30 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
     phys_add_particle(tree->engine, group, numbers);
 }
 
+enum { BODY_WORK = 16 };
+
+__attribute__((noinline)) static void read_run(PhysicsTree *tree, const NodeRun *run, bool anchor, uint32_t group) {
+    NodeRow row;
+    node_run_open(run, &row);
+    for (uint32_t i = 0; i < run->count; i++) {
+        arena_charge(tree->frame->arena, BODY_WORK);
+        node_run_row(run, i, &row);
+        read_body(tree, &row.node, node_run_identity(run, i), anchor, group);
+    }
+}
+
 static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t group) {
-    enum { NODE_WORK = 16 };
     for (uint32_t i = 0; i < parent->child_count; i++) {
-        arena_charge(tree->frame->arena, NODE_WORK);
+        arena_charge(tree->frame->arena, BODY_WORK);
         const Node *child = parent->children[i];
-        switch (schema_kind(tree->scene->schema, child)) {
+        NodeKind kind = schema_kind(tree->scene->schema, child);
+        switch (kind) {
         case KIND_PARTICLE:
-            read_body(tree, child, false, group);
-            break;
         case KIND_ANCHOR:
-            read_body(tree, child, true, group);
+            if (child->is_run)
+                read_run(tree, node_run(child), kind == KIND_ANCHOR, group);
+            else
+                read_body(tree, child, child, kind == KIND_ANCHOR, group);
             break;
         case KIND_GROUP:
             read_group_bodies(tree, child, phys_add_group(tree->engine, group));
@@ -253,7 +268,7 @@ static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t gr
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
         NodeKind kind = schema_kind(tree->scene->schema, child);
-        arena_charge(tree->frame->arena, 1);
+        arena_charge(tree->frame->arena, child->is_run ? node_run(child)->count : 1);
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {

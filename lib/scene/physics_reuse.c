@@ -6,15 +6,17 @@
 // particle if its id and group are those of the particle that stood here in the last frame.
 #include "scene/systems.h"
 
-// Takes the numbers of the next particle. False if it is not the one that was here in the last frame.
-__attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, bool anchor, uint32_t group) {
+// Takes the numbers of the next particle. False if it is not the one that was here in the last frame. `known` is what
+// the node is remembered by.
+__attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, const Node *known, bool anchor,
+                                                 uint32_t group) {
     PhysicsSystem *system = tree->system;
     uint32_t body = tree->body_count++;
     if (2 * (uint64_t)body >= system->mirror.slot_count || phys_is_anchor(tree->engine, body) != anchor ||
         phys_particle_group(tree->engine, body) != group)
         return false;
     bool comparable = node->program_lifetime && system->generation == tree->frame->generation;
-    if (comparable && body < system->node_count && system->nodes[body] == node)
+    if (comparable && body < system->node_count && system->nodes[body] == known)
         return true;
     BodyAttrs read;
     physics_read_particle(tree, node, anchor, &read);
@@ -28,7 +30,19 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)
         system->nodes[body] = NULL;
-    physics_keep_node(tree, body, node);
+    physics_keep_node(tree, body, known, node->program_lifetime);
+    return true;
+}
+
+__attribute__((noinline)) static bool reuse_run(PhysicsTree *tree, const NodeRun *run, bool anchor, uint32_t group) {
+    NodeRow row;
+    node_run_open(run, &row);
+    arena_charge(tree->frame->arena, run->count);
+    for (uint32_t i = 0; i < run->count; i++) {
+        node_run_row(run, i, &row);
+        if (!reuse_body(tree, &row.node, node_run_identity(run, i), anchor, group))
+            return false;
+    }
     return true;
 }
 
@@ -43,7 +57,8 @@ static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
                 !reuse_group(tree, child, number))
                 return false;
         } else if ((kind == KIND_PARTICLE || kind == KIND_ANCHOR) &&
-                   !reuse_body(tree, child, kind == KIND_ANCHOR, group)) {
+                   !(child->is_run ? reuse_run(tree, node_run(child), kind == KIND_ANCHOR, group)
+                                   : reuse_body(tree, child, child, kind == KIND_ANCHOR, group))) {
             return false;
         }
     }

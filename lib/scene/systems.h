@@ -6,6 +6,7 @@
 #include "scene/input_bind.h"
 #include "scene/mirror.h"
 #include "scene/scene.h"
+#include "value/run.h"
 
 // A force whose key changes from frame to frame.
 typedef struct RandomForce {
@@ -109,8 +110,8 @@ void physics_read_bodies(PhysicsTree *tree);
 void physics_read_forces(PhysicsTree *tree);
 // The key of the stream of a random force in this frame.
 uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before);
-// Remembers the node of a particle, if that can help in the next frame.
-void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node);
+// Remembers the node of a particle, if that can help in the next frame: if it `lasts` as long as the program.
+void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool lasts);
 
 // physics_slots.c
 enum { PHYSICS_NO_BODY = -1, PHYSICS_KEY_NUMBERS = 24 };

@@ -27,7 +27,8 @@ static size_t find_name(const Schema *schema, const Symbol *name) {
 void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host) {
     *schema = (Schema){.symbols = symbols, .host = host};
     for (int i = 0; i < KIND_COUNT; i++)
-        schema->kinds[i] = symbol_intern(symbols, str_from(schema_kinds[i].name));
+        schema->kinds[i] =
+            (i == KIND_PARTICLE ? symbol_of_many : symbol_intern)(symbols, str_from(schema_kinds[i].name));
     for (int i = 0; i < WORD_COUNT; i++)
         schema->words[i] = symbol_number(schema_words[i].text);
     for (int i = 0, row = 0; i < KIND_COUNT; i++) {

@@ -1,14 +1,27 @@
 // tree.c: the tree of the last frame, as petri.h shows it.
 #include "session/session.h"
 
+#include "value/run.h"
+
 #include <string.h>
 
 static const Node *node_of(const PetriNode *node) {
     return (const Node *)node;
 }
 
+static void write_out_runs(PetriSession *session, void *context) {
+    (void)context;
+    session->frame.tree = value_without_runs(&session->frame.systems_arena, session->frame.tree);
+}
+
+// Whoever goes through the tree wants nodes, one by one.
 PetriValue petri_tree(const PetriSession *session) {
-    return session ? session_show(&session->frame.tree) : (PetriValue){0};
+    if (!session)
+        return (PetriValue){0};
+    if (value_has_runs(session->frame.tree) &&
+        session_protect((PetriSession *)session, NULL, write_out_runs, NULL) != PETRI_OK)
+        return (PetriValue){0};
+    return session_show(&session->frame.tree);
 }
 
 const char *petri_tree_kind(const PetriNode *node) {

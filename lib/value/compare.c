@@ -2,6 +2,7 @@
 //
 // Nodes are shared: a script can make a tree of 2^60 nodes of which it has 60. So after a number of them pairs that
 // were found equal are remembered, and each is charged for, which bounds what is left.
+#include "value/run.h"
 #include "value/walk.h"
 
 typedef struct Comparison {
@@ -30,7 +31,7 @@ static bool equal_nodes(Comparison *comparison, const Node *a, const Node *b) {
     if (a == b && a->attr_count == 0 && a->child_count == 0)
         return true;
     if (a->kind != b->kind || a->tag_count != b->tag_count || a->attr_count != b->attr_count ||
-        a->child_count != b->child_count)
+        node_child_count(a) != node_child_count(b))
         return false;
     uint64_t known;
     if (walk_knows(&comparison->walk, comparison->arena, a, b, &known))
@@ -40,8 +41,11 @@ static bool equal_nodes(Comparison *comparison, const Node *a, const Node *b) {
             return false;
     if (!equal_attrs(comparison, a, b))
         return false;
-    for (uint32_t i = 0; i < a->child_count; i++)
-        if (!equal_nodes(comparison, a->children[i], b->children[i]))
+    uint32_t count;
+    const Node *const *ours = node_children(comparison->arena, a, &count);
+    const Node *const *theirs = node_children(comparison->arena, b, &count);
+    for (uint32_t i = 0; i < count; i++)
+        if (!equal_nodes(comparison, ours[i], theirs[i]))
             return false;
     walk_learn(&comparison->walk, a, b, true);
     return true;

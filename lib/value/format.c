@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "base/unicode.h"
+#include "value/run.h"
 
 #include <math.h>
 #include <string.h>
@@ -116,8 +117,10 @@ bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int de
     format_head(out, symbols, node, format_value);
     text_add_char(out, '\n');
     bool goes_on = !line || line(host, out);
-    for (uint32_t i = 0; goes_on && i < node->child_count; i++)
-        goes_on = format_tree(out, symbols, node->children[i], depth + 1, line, host);
+    uint32_t count;
+    const Node *const *children = node_children(out->arena, node, &count);
+    for (uint32_t i = 0; goes_on && i < count; i++)
+        goes_on = format_tree(out, symbols, children[i], depth + 1, line, host);
     return goes_on;
 }
 
@@ -126,9 +129,11 @@ static void format_debug_node(Text *out, const SymbolTable *symbols, const Node 
     for (int i = 0; i < depth; i++)
         text_add_char(out, ' ');
     format_head(out, symbols, node, format_debug);
-    for (uint32_t i = 0; i < node->child_count; i++) {
+    uint32_t count;
+    const Node *const *children = node_children(out->arena, node, &count);
+    for (uint32_t i = 0; i < count; i++) {
         text_add_char(out, '\n');
-        format_debug_node(out, symbols, node->children[i], depth + 1);
+        format_debug_node(out, symbols, children[i], depth + 1);
     }
 }
 

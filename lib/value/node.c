@@ -1,5 +1,5 @@
 // node.c: see node.h.
-#include "value/node.h"
+#include "value/run.h"
 
 #include <string.h>
 
@@ -46,11 +46,20 @@ uint32_t value_height(Value v) {
     return height;
 }
 
+bool value_has_runs(Value v) {
+    for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
+        if (v.as.items[i].type == ITEM_NODE && v.as.items[i].as.node->has_runs)
+            return true;
+    return false;
+}
+
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t set_count) {
     uint32_t height = node->height;
+    bool has_runs = node->has_runs;
     for (uint32_t i = 0; i < set_count; i++) {
         uint32_t inner = value_height(set[i].value) + 1;
         height = inner > height ? inner : height;
+        has_runs |= inner > 1 && value_has_runs(set[i].value);
     }
     if (height > NODE_MAX_HEIGHT)
         return NULL;
@@ -72,6 +81,7 @@ Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t s
     copy->attrs = attrs;
     copy->attr_count = count;
     copy->height = (uint16_t)height;
+    copy->has_runs = has_runs;
     return copy;
 }
 
@@ -83,6 +93,7 @@ NodeList node_list_in(const Node **nodes, Value children) {
         const Node *node = children.as.items[i].as.node;
         if (node->height > list.height)
             list.height = node->height;
+        list.has_runs |= node->has_runs;
         nodes[list.count++] = node;
     }
     return list;
@@ -111,6 +122,7 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
         copy->program_lifetime_children = false;
     }
     copy->child_count += list->count;
+    copy->has_runs |= list->has_runs;
     if (list->height >= copy->height)
         copy->height = (uint16_t)(list->height + 1);
     return copy;
@@ -149,6 +161,8 @@ Value node_get(const Node *node, const Symbol *name) {
 }
 
 const Node *node_copy(Arena *arena, const Node *node) {
+    if (node->is_run)
+        return node_run_copy(arena, node_run(node));
     Node *copy = node_clone(arena, node);
     copy->program_lifetime_children = false;
     copy->tags = arena_copy(arena, node->tags, node->tag_count * sizeof *node->tags);

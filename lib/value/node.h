@@ -1,6 +1,7 @@
 // node.h: immutable tree nodes (spec language.md L7), and functions as values.
 //
-// Every operation returns a new node and leaves its operand alone; children and attribute values are shared.
+// Every operation returns a new node and leaves its operand alone; children and attribute values are shared. Who goes
+// through the children of any node takes node_children (value/run.h), as some may be kept as rows.
 #ifndef PETRI_VALUE_NODE_H
 #define PETRI_VALUE_NODE_H
 
@@ -37,11 +38,13 @@ struct Node {
     // Lives as long as the program that made it, not only for a frame: as long as no program is dropped, the same
     // address means the same node with everything in it. The children may live so long though the node does not: then
     // the same `children` and `child_count` mean the same children.
-    bool program_lifetime;
-    bool program_lifetime_children;
+    bool program_lifetime : 1;
+    bool program_lifetime_children : 1;
+    bool is_run : 1;   // stands for several children of its parent: value/run.h
+    bool has_runs : 1; // there is such a node below, or in an attribute
 };
 
-_Static_assert(sizeof(Node) == 56, "scripts make thousands of nodes a frame");
+_Static_assert(sizeof(Node) <= 56, "scripts make thousands of nodes a frame");
 
 enum { NODE_MAX_HEIGHT = 12000 }; // deeper trees are refused, so that walking one never exhausts the stack
 
@@ -62,12 +65,14 @@ typedef struct NodeList {
     uint32_t count;
     uint16_t height;       // the greatest of a node
     bool program_lifetime; // as in Node
+    bool has_runs;         // one of them is a run, or has some
 } NodeList;
 NodeList node_list(Arena *arena, Value children);
 // The same in an array that has room for as many nodes as there are elements.
 NodeList node_list_in(const Node **nodes, Value children);
-// The greatest height of the nodes in a vector, 0 if there are none.
+// The greatest height of the nodes in a vector, 0 if there are none; and whether one of them has runs.
 uint32_t value_height(Value v);
+bool value_has_runs(Value v);
 // NULL if the tree would be too high.
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Marks the nodes of a value that lives as long as its program, and all that are in them.

@@ -3,6 +3,7 @@
 
 #include "base/number.h"
 #include "maths/random.h"
+#include "value/run.h"
 #include "value/walk.h"
 
 #include <math.h>
@@ -40,8 +41,10 @@ static uint64_t hash_node(Hashing *hashing, const Node *node) {
         hash = random_hash_step(hash, hash_vector(hashing, next->value, false));
         last = next->name;
     }
-    for (uint32_t i = 0; i < node->child_count; i++)
-        hash = random_hash_step(hash, hash_node(hashing, node->children[i]));
+    uint32_t count;
+    const Node *const *children = node_children(hashing->arena, node, &count);
+    for (uint32_t i = 0; i < count; i++)
+        hash = random_hash_step(hash, hash_node(hashing, children[i]));
     walk_learn(&hashing->walk, node, NULL, hash);
     return hash;
 }

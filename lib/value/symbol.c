@@ -55,6 +55,12 @@ const Symbol *symbol_intern(SymbolTable *table, Str name) {
     return table->items[entry];
 }
 
+const Symbol *symbol_of_many(SymbolTable *table, Str name) {
+    uint32_t entry = intern(table, name);
+    table->items[entry]->many = true;
+    return table->items[entry];
+}
+
 const Symbol *symbol_know(SymbolTable *table, Str name) {
     uint32_t entry = intern(table, name);
     Symbol *symbol = table->items[entry];

@@ -14,6 +14,7 @@ typedef struct Symbol {
     Str name;
     double number; // the value of `:name`
     bool known;    // has occurred as a symbol, not only as a name
+    bool many;     // nodes of this kind may be very many, so that a loop keeps them as rows (value/run.h)
 } Symbol;
 
 typedef struct SymbolTable {
@@ -36,6 +37,8 @@ void symbol_table_free(SymbolTable *table);
 const Symbol *symbol_intern(SymbolTable *table, Str name);
 // The same, marked as having occurred as a symbol. NULL if another known symbol has the same number (a collision).
 const Symbol *symbol_know(SymbolTable *table, Str name);
+// The same as symbol_intern, marked as the kind of very many nodes.
+const Symbol *symbol_of_many(SymbolTable *table, Str name);
 // The known symbol with this number, or NULL.
 const Symbol *symbol_of_number(const SymbolTable *table, double number);
 

@@ -211,6 +211,9 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
         case OP_ADD_PART:
             vector_add_part(&frame->loops[instr->loop].result, &A);
             break;
+        case OP_ADD_ROW:
+            vm_add_row(vm, code->operands + instr->list, slots, instr, &frame->loops[instr->loop]);
+            break;
         case OP_NEXT: {
             Loop *loop = &frame->loops[instr->loop];
             loop->at += instr->count;

@@ -4,6 +4,7 @@
 
 #include "program/code.h"
 #include "value/ops.h"
+#include "value/run.h"
 #include "vm/vm.h"
 
 // A user function as a value: its code with what it captured. Lives as long as the frame, or the program if it was made
@@ -23,6 +24,12 @@ typedef struct Loop {
     Value source;
     uint32_t at;
     Vector result;
+    // rows.c
+    NodeRun *run;          // that the next row may belong to
+    uint32_t tries;        // runs that came to little
+    bool counts_otherwise; // its name does not count up
+    ArenaMark mark;        // after the last row
+    uint32_t reported;     // faults by then
 } Loop;
 
 // The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program
@@ -49,6 +56,8 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
 // make.c: the instructions that make or look up something. `slots` are the registers, `list` the numbers of operands.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+// rows.c: the node of a round of a loop, as a row of a run or by itself.
+void vm_add_row(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Loop *loop);
 Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
 Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children);
 Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at);

@@ -29,7 +29,7 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
         len += part->len;
     }
     if (numeric && len > 1 && len <= VALUE_MAX_LEN) {
-        double *numbers = arena_alloc_array(vm->arena, len, sizeof *numbers);
+        double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
         uint32_t filled = 0;
         for (uint32_t i = 0; i < instr->count; i++)
             filled = add_numbers(numbers, filled, &slots[list[i]]);
@@ -84,12 +84,14 @@ typedef struct NodeValue {
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
                            Attr *attrs) {
     uint32_t count = 0, height = node->height;
+    bool has_runs = false;
     for (uint32_t i = 0; i < instr->count; i++) {
         const Value *value = &slots[list[i]];
         if (value->len == 0)
             continue;
         if (value->kind == VALUE_MIXED && value_height(*value) >= height)
             height = value_height(*value) + 1;
+        has_runs |= value->kind == VALUE_MIXED && value_has_runs(*value);
         attrs[count++] = (Attr){instr->as.node->names[i], *value};
     }
     if (height > NODE_MAX_HEIGHT) {
@@ -99,6 +101,7 @@ static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, cons
     node->attrs = attrs;
     node->attr_count = count;
     node->height = (uint16_t)height;
+    node->has_runs = has_runs;
 }
 
 static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList *list) {
@@ -111,6 +114,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
     node->children = list->nodes;
     node->child_count = list->count;
     node->program_lifetime_children = list->program_lifetime;
+    node->has_runs |= list->has_runs;
     if (list->height >= node->height)
         node->height = (uint16_t)(list->height + 1);
 }
@@ -176,7 +180,7 @@ Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) 
             (double)(uint32_t)to == to) {
             uint32_t len = (uint32_t)to - (uint32_t)from;
             vm->at = at;
-            double *numbers = arena_alloc_array(vm->arena, len, sizeof *numbers);
+            double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
             memcpy(numbers, vector.as.numbers + (uint32_t)from, len * sizeof *numbers);
             return (Value){.len = len, .as.numbers = numbers};
         }

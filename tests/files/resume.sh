@@ -107,3 +107,4 @@ check "a trajectory that the disk cannot hold ends the run" status_is 1
 check "… and no state is later than it" eval '[ "$(made)" -gt 3 ] && [ "$(made)" -lt 100 ]'
 rest full.csv
 check "… the same command goes on when there is room" eval 'status_is 0 && same full.csv'
+cd "$work" || exit 1

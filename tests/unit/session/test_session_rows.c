@@ -1,0 +1,123 @@
+// test_session_rows.c: what a loop makes under a node may be kept as rows of numbers (lib/value/run.h): nothing shows
+// it but the memory that it takes.
+#include "player.h"
+
+#include "session/session.h"
+
+enum { VARIANTS = 4, LOOPS = 5 };
+
+// What is made in each round.
+static const char *const nodes[] = {
+    "!particle id=i position=i;2*i mass=3",
+    "!particle #one #two id=i position=(i;1) radius=i*2 mass=1/(i-7)",
+    "!particle id=i position=(i;1 if i<25 else i;2;3)",
+    "!particle id=i radius=(null if i==30 else 1)",
+    "!particle id=(i if i%9 else 'text') v=i",
+    "!particle id=-i x=(..3) s='text' y=:a;'b'",
+    "!particle id=i%7 x=(!inner v=i)",
+    "!particle id=i x=(!inner v=1)",
+    "!particle id=k x=sum(j*k for j in ..3) where k=i+1",
+    "!particle id=i if i%2 else !particle x=i",
+    "!particle id=i x=uniform(i)[0] y=hypot(i;'a')",
+    "!particle id=i x=i x=i+1",
+};
+static const char *const loops[LOOPS] = {"..40", "(5;..40)", "..20|0.5", "(x/3 for x in ..100)", "..3"};
+
+// A script with loops under nodes, or with the vector of what such a loop makes, which has no rows.
+static const char *script(char *text, size_t size, bool in_place, bool dynamic, const char *node, const char *loop) {
+    const char *zero = dynamic ? "+0*frame" : "";
+    char made[1000] = "many", line[1000] = "many";
+    if (in_place) {
+        snprintf(made, sizeof made, "((%s) for i in %s%s)", node, loop, zero);
+        snprintf(line, sizeof line, "for i in %s%s\n                %s", loop, zero, node);
+    }
+    snprintf(text, size,
+             "let many=((%s) for i in %s%s)\n"
+             "    a=(!top << %s)\n"
+             "    b=(!top << many)\n"
+             "!top\n    !first\n    for j in ..2\n        !group\n            %s\n            !last\n"
+             "!same v=(a==b);(a<b);(a in b) w=uniform(a)[..2] x=len(a) y=str(a) z=debug(a)\n"
+             "!holder n=a\n",
+             node, loop, zero, made, line);
+    return text;
+}
+
+static const char *run(Player *player, bool in_place, bool dynamic, int node, int loop, bool simplify) {
+    char text[4000];
+    PetriOptions options = player_options(player);
+    options.simplify = simplify;
+    player_reopen(player, &options);
+    player_run(player, script(text, sizeof text, in_place, dynamic, nodes[node], loops[loop]), 2);
+    return player_print(player, PETRI_PRINT_TREE | PETRI_PRINT_LOG);
+}
+
+// Where nodes are rows and where they are not, trees are the same.
+static void test_same(void **state) {
+    Player *player = *state;
+    for (int node = 0; node < (int)COUNT_OF(nodes); node++)
+        for (int loop = 0; loop < LOOPS; loop++) {
+            char *plain = strdup(run(player, false, true, node, loop, false));
+            assert_true(strstr(plain, "!same v=1;") != NULL);
+            for (int variant = 0; variant < VARIANTS; variant++)
+                assert_text(nodes[node], run(player, true, variant & 1, node, loop, variant & 2), plain);
+            free(plain);
+        }
+}
+
+// Adds up what petri_tree_* shows of a node.
+static void count(const PetriNode *node, int *kinds, double *sum) {
+    PetriValue v = petri_tree_get(node, "id");
+    *kinds += strcmp(petri_tree_kind(node), "particle") == 0;
+    *sum += v.length == 1 ? v.numbers[0] : 0;
+    const PetriNode *child;
+    for (uint32_t i = 0; (child = petri_tree_child(node, i)) != NULL; i++)
+        count(child, kinds, sum);
+}
+
+// A host sees nodes, each with its own numbers; systems go on from frame to frame whether it looks or not.
+static void test_host(void **state) {
+    Player *player = *state;
+    player_run(player,
+               "!physics state=:p dimensions=1\n    !group\n        for i in ..1000\n            !particle id=i "
+               "position=i velocity=1\n    for i in ..1000+0*frame\n        !particle id=1000+i position=2*i\n",
+               1);
+    for (int frame = 0; frame < 3; frame++) {
+        PetriValue top = petri_tree(player->session);
+        int kinds = 0;
+        double sum = 0;
+        assert_int_equal(top.length, 1);
+        count(top.items[0].as.node, &kinds, &sum);
+        assert_int_equal(kinds, 2000);
+        assert_number("ids", sum, 1999 * 1000);
+        player_step(player, 1);
+    }
+    assert_true(strstr(player_state(player), "$(:p;999) = 999.05\n") != NULL);
+}
+
+// All that a session holds, script, state and engine, by particle.
+static void test_bytes(void **state) {
+    enum { COUNT = 100000, EACH = 750 };
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.threads = 1;
+    player_reopen(player, &options);
+    size_t before = player->session->meter.memory;
+    player_run(
+        player,
+        "!physics state=:p dimensions=2 time=time resolution=1/60\n    for i in ..100000\n        !particle id=i "
+        "radius=0.5 position=i%300;i//300 velocity=normal(:x)[i];normal(:y)[i]\n    !collision strength=100\n",
+        3);
+    size_t bytes = player->session->meter.memory - before;
+    if (bytes > (size_t)COUNT * EACH)
+        print_error("%zu bytes a particle\n", bytes / COUNT);
+    assert_true(bytes > (size_t)COUNT * 100 && bytes <= (size_t)COUNT * EACH);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        PLAYER_TEST(test_same),
+        PLAYER_TEST(test_host),
+        PLAYER_TEST(test_bytes),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
