@@ -32,8 +32,11 @@ struct PetriPainter {
     Pictures *pictures;
     Gl *gl;                 // opened when it is needed
     const char *gl_problem; // why it cannot be; borrowed
-    uint64_t made;          // serial number of the picture whose tree was made last
-    Texture *shown;         // of its window; or NULL
+    bool on_window;         // gl draws on a host's window
+    uint32_t *window;       // pixels for it
+    size_t window_room;
+    uint64_t made;  // serial number of the picture whose tree was made last
+    Texture *shown; // of its window; or NULL
 };
 
 // A picture being drawn.

@@ -67,3 +67,18 @@ PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels
     (void)painter, (void)labels, (void)count, (void)scale, (void)pixels, (void)width, (void)height, (void)stride;
     return PETRI_MISSING;
 }
+
+PetriStatus petri_painter_use_gl(PetriPainter *painter) {
+    return painter ? PETRI_MISSING : PETRI_INVALID;
+}
+
+PetriStatus petri_painter_show(PetriPainter *painter, PetriPicture *picture, const PetriLabel *labels, size_t count,
+                               double scale, int width, int height) {
+    (void)painter, (void)picture, (void)labels, (void)count, (void)scale, (void)width, (void)height;
+    return PETRI_INVALID;
+}
+
+uint64_t petri_painter_read_backs(const PetriPainter *painter) {
+    (void)painter;
+    return 0;
+}

@@ -36,6 +36,7 @@ void petri_painter_close(PetriPainter **handle) {
     draw_images_close(painter);
     pictures_free(painter);
     gl_close(painter->gl);
+    heap_give(painter->window);
     arena_free(&painter->arena);
     heap_give(painter);
 }
@@ -255,6 +256,45 @@ PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagS
     return PETRI_OK;
 }
 
+const Texture *draw_made(const PetriPainter *painter, const CanvasPicture *picture) {
+    return picture->window && painter->made == picture->serial ? painter->shown : NULL;
+}
+
+typedef struct Fetching {
+    PetriPainter *painter;
+    const CanvasPicture *picture;
+    DiagSink *faults;
+} Fetching;
+
+// Reads what was made of the window back. If the script may not have the memory it has no picture.
+static void fetch(void *context) {
+    Fetching *fetching = context;
+    PetriPainter *painter = fetching->painter;
+    Texture *shown = painter->shown;
+    const char *problem;
+    bool good = gl_enter(painter->gl, &problem);
+    if (good) {
+        good = texture_fetch(painter->gl, shown);
+        gl_leave(painter->gl);
+    }
+    if (good)
+        return;
+    painter->shown = NULL;
+    if (!draw_is_refused(painter, &fetching->picture->window->place, "!window", shown->width, shown->height,
+                         fetching->faults))
+        arena_exhausted(fetching->faults->arena);
+}
+
+// Makes the pictures, and has the window's in memory if it is made of them.
+static PetriStatus make_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
+    PetriStatus result = draw_make(painter, picture, faults);
+    const Texture *made = result == PETRI_OK ? draw_made(painter, picture) : NULL;
+    Fetching fetching = {painter, picture, faults};
+    if (made && !made->bytes && !made->linear && arena_protect(&faults->arena, 1, fetch, &fetching) != ARENA_DONE)
+        result = PETRI_MEMORY;
+    return result;
+}
+
 static void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride) {
     for (int y = 0; y < texture->height; y++) {
         uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
@@ -287,10 +327,10 @@ static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, b
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults) {
     clear(pixels, width, height, stride);
-    PetriStatus result = draw_make(painter, picture, faults);
+    PetriStatus result = make_pixels(painter, picture, faults);
     if (result != PETRI_OK)
         return result;
-    const Texture *shown = painter->made == picture->serial ? painter->shown : NULL;
+    const Texture *shown = draw_made(painter, picture);
     if (shown && shown->width == width && shown->height == height) {
         draw_texture(shown, picture->opaque, pixels, stride);
         return PETRI_OK;
@@ -348,7 +388,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
 
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
                         Encoded *out, DiagSink *faults) {
-    PetriStatus result = draw_make(painter, picture, faults);
+    PetriStatus result = make_pixels(painter, picture, faults);
     if (result == PETRI_OK && format == CANVAS_PNG) {
         result = encode_png(painter, picture, width, height, out, faults);
     } else if (result == PETRI_OK) {

@@ -47,6 +47,8 @@ typedef struct Recorded {
 
 // Makes the tree of pictures if that is needed, once for each picture: then the painter has its records.
 PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
+// What was made of the picture's window; NULL: nothing, or it is drawn otherwise.
+const Texture *draw_made(const PetriPainter *painter, const CanvasPicture *picture);
 // Draws into premultiplied ARGB32 pixels. Whatever is wrong is reported to `faults`; after PETRI_INVALID one of them
 // is an error.
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,

@@ -425,8 +425,6 @@ static void make_tops(void *context) {
             make_node(walk, picture->tops[i], &top->children[i], &walk->before->top, USUAL_SIZE, USUAL_SIZE);
         if (picture->tops[i] == picture->window)
             walk->shown = texture;
-        if (texture && texture == walk->shown && !texture_fetch(walk->painter->gl, texture))
-            walk->shown = give_up(walk, picture->tops[i], texture->width, texture->height);
     }
 }
 

@@ -117,6 +117,11 @@ static void need_tables(void) {
     pthread_once(&once, make_tables);
 }
 
+const float *texture_thresholds(void) {
+    need_tables();
+    return thresholds;
+}
+
 float texture_decode(unsigned byte) {
     need_tables();
     return decoded[byte & 255];

@@ -33,6 +33,8 @@ void texture_free(Texture *texture);
 
 // The byte round(255 enc(c)) of a linear c (pictures.md 1.4).
 unsigned texture_encode(float c);
+// For each byte the linear c from which on texture_encode gives a larger one; 256 of them.
+const float *texture_thresholds(void);
 // lin(byte/255).
 float texture_decode(unsigned byte);
 

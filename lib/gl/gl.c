@@ -63,7 +63,17 @@ static void look_at_limits(Gl *gl) {
     glEnableVertexAttribArray(0);
 }
 
-Gl *gl_open(const char **problem) {
+static bool adopt_context(Gl *gl, const char **problem) {
+    *problem = "no context of EGL is current";
+    gl->context = eglGetCurrentContext();
+    gl->adopted = true;
+    if (gl->context == EGL_NO_CONTEXT)
+        return false;
+    *problem = "the window's context is not one of OpenGL ES 3";
+    return !epoxy_is_desktop_gl() && epoxy_gl_version() >= 30;
+}
+
+static Gl *open_with(bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
     Gl *gl = heap_zeroed(1, sizeof *gl);
     *problem = NULL;
     if (!gl)
@@ -74,7 +84,7 @@ Gl *gl_open(const char **problem) {
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
     pthread_mutex_lock(&one_thread);
-    bool good = open_context(gl, problem);
+    bool good = find_context(gl, problem);
     pthread_mutex_unlock(&one_thread);
     if (good && gl_enter(gl, problem)) {
         look_at_limits(gl);
@@ -83,6 +93,14 @@ Gl *gl_open(const char **problem) {
     }
     gl_close(gl);
     return NULL;
+}
+
+Gl *gl_open(const char **problem) {
+    return open_with(open_context, problem);
+}
+
+Gl *gl_adopt(const char **problem) {
+    return open_with(adopt_context, problem);
 }
 
 void gl_close(Gl *gl) {
@@ -98,10 +116,12 @@ void gl_close(Gl *gl) {
             glDeleteVertexArrays(1, &gl->strip);
             glDeleteBuffers(1, &gl->corners);
             glDeleteTextures(1, &gl->nothing);
+            glDeleteTextures(1, &gl->curve);
             gl_leave(gl);
         }
         pthread_mutex_lock(&one_thread);
-        eglDestroyContext(gl->display, gl->context);
+        if (!gl->adopted)
+            eglDestroyContext(gl->display, gl->context);
         pthread_mutex_unlock(&one_thread);
     }
     heap_give(gl);
@@ -110,7 +130,8 @@ void gl_close(Gl *gl) {
 bool gl_enter(Gl *gl, const char **problem) {
     *problem = "OpenGL's context cannot be used";
     pthread_mutex_lock(&one_thread);
-    if (eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context))
+    if (gl->adopted ? eglGetCurrentContext() == gl->context
+                    : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context))
         return true;
     pthread_mutex_unlock(&one_thread);
     return false;
@@ -118,7 +139,8 @@ bool gl_enter(Gl *gl, const char **problem) {
 
 void gl_leave(Gl *gl) {
     glFinish();
-    eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    if (!gl->adopted)
+        eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     pthread_mutex_unlock(&one_thread);
 }
 

@@ -1,4 +1,4 @@
-// gl.h: OpenGL ES 3 without a window: a context, pictures on the GPU, programs.
+// gl.h: OpenGL ES 3, with a context of its own or in that of a window: pictures on the GPU, programs.
 //
 // A Gl belongs to one painter; between gl_enter and gl_leave it is current in the calling thread, and the other
 // functions may be called; other threads wait in gl_enter meanwhile. Files that need more include <epoxy/gl.h> and call
@@ -16,6 +16,9 @@ typedef struct Gl Gl;
 
 // NULL, with the reason, if there is no OpenGL ES 3 here; with none if memory is used up.
 Gl *gl_open(const char **problem);
+// The same in the context that is current in this thread, which stays the host's: it has to be current whenever the Gl
+// is used.
+Gl *gl_adopt(const char **problem);
 void gl_close(Gl *gl); // NULL is fine; not between enter and leave
 // False, with the reason, if the context was lost.
 bool gl_enter(Gl *gl, const char **problem);
@@ -45,6 +48,7 @@ void gl_upload_linear(Gl *gl, GlImage image, const float *pixels);
 // To rows that begin at the top: ARGB32, encoded; over black if `opaque`, else as Texture rows are (draw/texture.h).
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels);
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels);
+uint64_t gl_reads(const Gl *gl); // how often that was done
 
 // What is drawn next goes to this image; the viewport is all of it. It is not cleared.
 void gl_target(Gl *gl, GlImage image);
@@ -62,5 +66,18 @@ extern const char gl_header[]; // version and precision lines: what ${HEADER} st
 extern const char gl_quad[];   // vertex shader of a strip over the whole target: out vec2 coord, 0 to 1, v up
 // Runs a program that has gl_quad's inputs over the whole target.
 void gl_draw_quad(Gl *gl, unsigned program);
+
+// What follows draws on the window of a context that was adopted; boxes are in its pixels, from its bottom left. False
+// if the GPU's memory is used up. The arena takes what is needed meanwhile.
+typedef struct GlBox {
+    double x, y, width, height;
+} GlBox;
+// The part of a window of that size in which the picture lies, with black around it. Its bytes are those that are
+// encoded by the table: from which linear value on a byte is larger than its number. `opaque`: over black; else its
+// colours are encoded without their alpha, which then multiplies them.
+bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
+                   const float thresholds[256], bool opaque);
+// ARGB32 multiplied by alpha, rows from the top: as they are, or over what is there.
+bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over);
 
 #endif

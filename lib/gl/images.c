@@ -100,6 +100,7 @@ void gl_target(Gl *gl, GlImage image) {
 
 bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels) {
     size_t width = (size_t)image.width;
+    gl->reads++;
     gl_target(gl, image);
     glReadPixels(0, 0, image.width, image.height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
     for (size_t i = 0; i < width * (size_t)image.height; i++) {
@@ -119,9 +120,14 @@ bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels) {
 }
 
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels) {
+    gl->reads++;
     gl_target(gl, image);
     for (int y = 0; y < image.height; y++)
         glReadPixels(0, image.height - 1 - y, image.width, 1, GL_RGBA, GL_FLOAT,
                      pixels + (size_t)y * (size_t)image.width * 4);
     return glGetError() == GL_NO_ERROR;
+}
+
+uint64_t gl_reads(const Gl *gl) {
+    return gl->reads;
 }

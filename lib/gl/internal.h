@@ -14,6 +14,7 @@ enum { GL_SPARE_IMAGES = 32 };
 struct Gl {
     void *display; // EGLDisplay
     void *context; // EGLContext
+    bool adopted;  // it is the host's
     int largest;
     bool floats; // can be drawn to
     bool halves;
@@ -22,6 +23,8 @@ struct Gl {
     GLuint strip; // vertex array of four corners: attribute 0
     GLuint corners;
     GLuint nothing; // a texture of one transparent pixel
+    GLuint curve;   // a texture of the table that windows' bytes are encoded by; 0: none yet
+    uint64_t reads;
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;

@@ -7,6 +7,10 @@ Gl *gl_open(const char **problem) {
     return NULL;
 }
 
+Gl *gl_adopt(const char **problem) {
+    return gl_open(problem);
+}
+
 void gl_close(Gl *gl) {
     (void)gl;
 }
@@ -54,6 +58,22 @@ bool gl_read_bytes(Gl *gl, GlImage image, uint32_t *pixels) {
 
 bool gl_read_linear(Gl *gl, GlImage image, float *pixels) {
     (void)gl, (void)image, (void)pixels;
+    return false;
+}
+
+uint64_t gl_reads(const Gl *gl) {
+    (void)gl;
+    return 0;
+}
+
+bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
+                   const float thresholds[256], bool opaque) {
+    (void)gl, (void)arena, (void)image, (void)box, (void)width, (void)height, (void)thresholds, (void)opaque;
+    return false;
+}
+
+bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
+    (void)gl, (void)arena, (void)pixels, (void)x, (void)y, (void)width, (void)height, (void)over;
     return false;
 }
 

@@ -122,6 +122,18 @@ typedef struct PetriLabel {
 // Cairo, PETRI_MEMORY.
 PETRI_API PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
                                            uint32_t *pixels, int width, int height, size_t stride);
+// A host whose window has OpenGL ES 3 shows pictures there without reading them back from the graphics card. The
+// painter draws with the context of EGL that is current in this thread, which has to be current whenever the painter is
+// used and is for nothing else. PETRI_MISSING if there is none, or no OpenGL in this build; PETRI_INVALID if the
+// painter has made pictures already; PETRI_MEMORY. The painter is then as it was.
+PETRI_API PetriStatus petri_painter_use_gl(PetriPainter *painter);
+// Draws a picture (NULL: black) and labels, with their scale, on that context's window, width x height pixels large:
+// what petri_picture_draw and petri_painter_labels draw. The host then swaps the buffers. PETRI_INVALID, too, without
+// petri_painter_use_gl; what petri_picture_draw says of the picture, which is black then.
+PETRI_API PetriStatus petri_painter_show(PetriPainter *painter, PetriPicture *picture, const PetriLabel *labels,
+                                         size_t count, double scale, int width, int height);
+// How many pictures the painter has read back from the graphics card.
+PETRI_API uint64_t petri_painter_read_backs(const PetriPainter *painter);
 // Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
 PETRI_API bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the

@@ -126,8 +126,9 @@ static void find_blocks(void *context, int worker, int workers) {
     const Neighbours *list = search->list;
     Finder finder = {.search = search, .query = {.bound = list->bound, .skin = list->skin}};
     size_t blocks = (list->view.regular + list->lanes - 1) / list->lanes;
-    uint64_t begin = phys_share(search->capacity, worker, workers), used = begin;
-    uint64_t end = phys_share(search->capacity, worker + 1, workers);
+    size_t capacity = (size_t)search->capacity; // entries are in memory
+    uint64_t begin = phys_share(capacity, worker, workers), used = begin;
+    uint64_t end = phys_share(capacity, worker + 1, workers);
     size_t stop = phys_share(blocks, worker + 1, workers);
     search->crowded[worker] = search->full[worker] = false;
     for (size_t block = phys_share(blocks, worker, workers); block < stop && !finder.crowded; block++) {

@@ -7,6 +7,7 @@
 #include <stdbool.h>
 #include <stdint.h>
 
+#include "petri-draw.h"
 #include "view/overlay_text.h"
 
 typedef struct Display Display;
@@ -38,14 +39,18 @@ typedef struct Event {
 const char *key_of_character(char character);
 
 typedef struct DisplayKind {
-    // `width` x `height` is the script's size. NULL after a message.
-    Display *(*open)(const char *title, int width, int height, bool colour);
+    // `width` x `height` is the script's size. The painter, which has made nothing yet and is closed first, draws what
+    // is shown; `colour` is for terminals. NULL after a message.
+    Display *(*open)(const char *title, int width, int height, PetriPainter *painter, bool colour);
     // NULL is fine.
     void (*close)(Display *display);
     // The next event, waited for no longer than `seconds`; EVENT_NONE if there was none.
     Event (*next_event)(Display *display, double seconds);
     // How many pixels a picture of width x height is to be drawn with.
     void (*size)(Display *display, int width, int height, int *drawn_width, int *drawn_height);
+    // Shows a picture (NULL: black) and the overlay's texts without having its pixels; what became of it in *status.
+    // False, and nothing is done, if it cannot, NULL if it never can: then `show` is to be called.
+    bool (*show_directly)(Display *display, PetriPicture *picture, const Overlay *overlay, PetriStatus *status);
     // Shows that many pixels (32 bits each, alpha in the highest byte, premultiplied, opaque) and the overlay's texts.
     // False if there is no going on, after a message.
     bool (*show)(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay);
@@ -53,13 +58,15 @@ typedef struct DisplayKind {
     // The script's size has changed; NULL: a display has the size that it has.
     void (*resize)(Display *display, int width, int height);
     void (*toggle_full_screen)(Display *display); // NULL: it cannot
-    // `lost` is called when the display has gone and nothing can be shown any more; it ends the process. NULL: its
+    // Whether the display has gone, with its screen: after that nothing of it may be called, `close` neither. NULL: its
     // functions fail then.
-    void (*watch)(Display *display, void (*lost)(void *host), void *host);
+    bool (*gone)(const Display *display);
     double least_seconds; // between two pictures
     bool logs;            // standard error may be written to while it is open
 } DisplayKind;
 
+// None at all, for what goes on without: nothing is shown, nothing comes.
+const DisplayKind *nowhere_display(void);
 // A window; NULL if petri was built without SDL.
 const DisplayKind *window_display(void);
 // Whether there is a screen for windows, as far as the environment tells.

@@ -43,25 +43,38 @@ static PetriLabel *lay_out(Layout *layout, const PetriLabel *look, const char *t
 
 // What is wrong at the top, the mark at its right, the status at the bottom left, a notice at the bottom right, above
 // the status if there is no room beside it.
-void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, uint32_t *pixels, int width,
-                  int height) {
+static void lay_all_out(Layout *layout, const Overlay *overlay, double scale, int width, int height) {
     double across = width / scale, bottom = height / scale - MARGIN;
-    Layout layout = {.room = across - 2 * MARGIN};
-    lay_out(&layout, overlay->mild ? &CAREFUL : &WRONG, overlay->trouble, true);
-    PetriLabel *mark = lay_out(&layout, &CAREFUL, overlay->mark, false);
+    layout->room = across - 2 * MARGIN;
+    layout->count = 0;
+    lay_out(layout, overlay->mild ? &CAREFUL : &WRONG, overlay->trouble, true);
+    PetriLabel *mark = lay_out(layout, &CAREFUL, overlay->mark, false);
     if (mark != NULL) {
         mark->x = across - MARGIN - mark->width;
     }
-    PetriLabel *status = lay_out(&layout, &USUAL, overlay->status, false);
+    PetriLabel *status = lay_out(layout, &USUAL, overlay->status, false);
     if (status != NULL) {
         status->y = bottom - status->height;
     }
-    PetriLabel *notice = lay_out(&layout, &NEWS, overlay->notice, false);
+    PetriLabel *notice = lay_out(layout, &NEWS, overlay->notice, false);
     if (notice != NULL) {
-        bool beside = status == NULL || status->width + MARGIN + notice->width <= layout.room;
+        bool beside = status == NULL || status->width + MARGIN + notice->width <= layout->room;
         notice->x = across - MARGIN - notice->width;
         notice->y = (beside ? bottom : status->y - MARGIN) - notice->height;
     }
+}
+
+void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, uint32_t *pixels, int width,
+                  int height) {
+    Layout layout;
+    lay_all_out(&layout, overlay, scale, width, height);
     petri_painter_labels(painter, layout.labels, layout.count, scale, pixels, width, height,
                          (size_t)width * sizeof *pixels);
+}
+
+PetriStatus overlay_show(PetriPainter *painter, PetriPicture *picture, const Overlay *overlay, double scale, int width,
+                         int height) {
+    Layout layout;
+    lay_all_out(&layout, overlay, scale, width, height);
+    return petri_painter_show(painter, picture, layout.labels, layout.count, scale, width, height);
 }

@@ -1,4 +1,4 @@
-// overlay.h: draws the text over a picture into pixels.
+// overlay.h: draws the text over a picture.
 #ifndef PETRI_SRC_OVERLAY_H
 #define PETRI_SRC_OVERLAY_H
 
@@ -8,5 +8,9 @@
 // Draws over width x height opaque pixels (as petri_picture_draw has them); `scale` is the number of pixels for each
 // unit of text sizes. What cannot be drawn is left out.
 void overlay_draw(PetriPainter *painter, const Overlay *overlay, double scale, uint32_t *pixels, int width, int height);
+
+// Shows a picture (NULL: black) and the text over it on the painter's window (petri_painter_show).
+PetriStatus overlay_show(PetriPainter *painter, PetriPicture *picture, const Overlay *overlay, double scale, int width,
+                         int height);
 
 #endif

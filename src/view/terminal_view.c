@@ -135,7 +135,8 @@ static void terminal_close(Display *display) {
     free(display);
 }
 
-static Display *terminal_open(const char *title, int width, int height, bool colour) {
+static Display *terminal_open(const char *title, int width, int height, PetriPainter *painter, bool colour) {
+    (void)painter;
     (void)width;
     (void)height;
     if (!isatty(STDOUT_FILENO)) {

@@ -218,26 +218,40 @@ static void make_opaque(uint32_t *pixels, size_t count) {
     }
 }
 
-static void draw(View *view) {
+// Draws into pixels, and shows those.
+static PetriStatus show_pixels(View *view, PetriPicture *picture) {
     int width, height;
+    PetriStatus status = PETRI_OK;
     view->kind->size(view->display, view->width, view->height, &width, &height);
     size_t count = (size_t)width * (size_t)height;
     if (count == 0) {
-        return;
+        return PETRI_OK;
     }
     view->pixels = memory_resized(view->pixels, count * sizeof *view->pixels);
-    if (view->world.picture != NULL && !view->world.unseen) {
-        PetriStatus status = petri_picture_draw(view->world.picture, view->world.painter, view->pixels, width, height,
-                                                (size_t)width * sizeof *view->pixels);
-        world_drawn(&view->world, status);
-        petri_picture_tell(view->world.session, view->world.picture);
-        view_update_trouble(view); // what drawing has found wrong
+    if (picture != NULL) {
+        status = petri_picture_draw(picture, view->world.painter, view->pixels, width, height,
+                                    (size_t)width * sizeof *view->pixels);
     } else {
         memset(view->pixels, 0, count * sizeof *view->pixels);
     }
     make_opaque(view->pixels, count);
     view->broken = !view->kind->show(view->display, view->pixels, width, height, &view->overlay);
+    return status;
+}
+
+static void draw(View *view) {
+    PetriPicture *picture = view->world.unseen ? NULL : view->world.picture;
+    PetriStatus status;
     view->redraw = false;
+    if (view->kind->show_directly == NULL ||
+        !view->kind->show_directly(view->display, picture, &view->overlay, &status)) {
+        status = show_pixels(view, picture);
+    }
+    world_drawn(&view->world, status);
+    if (picture != NULL) {
+        petri_picture_tell(view->world.session, picture);
+        view_update_trouble(view); // what drawing has found wrong, which is seen next
+    }
     view->drawn = clock_seconds();
 }
 
@@ -256,9 +270,31 @@ static void take_changes(View *view) {
     view_update_trouble(view);
 }
 
+// Whether anything comes of a run that nobody sees.
+static bool has_purpose(const View *view) {
+    const Options *options = view->world.options;
+    return options->frames < INT64_MAX || !isnan(options->run_time) || options->state_file != NULL ||
+           options->listen != NULL || (view->world.picture != NULL && petri_picture_looks_back(view->world.picture));
+}
+
+// If the screen has gone, what the display has of it can neither be used nor closed any more.
+static void look_after_display(View *view) {
+    if (view->kind->gone == NULL || !view->kind->gone(view->display)) {
+        return;
+    }
+    view->broken = !has_purpose(view);
+    message(view->broken ? "the display has gone" : "the display has gone; the run goes on without it");
+    view->kind = nowhere_display();
+    view->display = NULL;
+    view->paused = false; // by a key that is gone, too
+    petri_pointer(view->world.session, NULL);
+    petri_hold(view->world.session);
+}
+
 static void run_loop(View *view) {
     while (!view->closing && !view->broken && !interrupted && !at_end(view)) {
         take_events(view);
+        look_after_display(view);
         take_changes(view);
         if (clock_seconds() >= view->notice_ends) {
             view_settle_notice(view);
@@ -276,6 +312,7 @@ static void run_loop(View *view) {
         view_measure_rate(view);
         if (view->redraw && clock_seconds() - view->drawn >= view->kind->least_seconds) {
             draw(view);
+            look_after_display(view);
         }
     }
 }
@@ -292,11 +329,12 @@ static bool open_display(View *view) {
     }
     view->kind = window ? window_display() : terminal_display();
     view->world.mute = !window && isatty(STDERR_FILENO);
-    view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
+    view->display = view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
     if (view->display == NULL && window && terminal_display() != NULL && isatty(STDOUT_FILENO)) {
         view->kind = terminal_display();
         view->world.mute = isatty(STDERR_FILENO);
-        view->display = view->kind->open(view->title, view->width, view->height, !options->monochrome);
+        view->display =
+            view->kind->open(view->title, view->width, view->height, view->world.painter, !options->monochrome);
     }
     return view->display != NULL;
 }
@@ -309,6 +347,9 @@ static void report_summary(const View *view) {
         message("%" PRId64 " frame%s in %.3f s (%.1f frames/s)", view->world.frames, view->world.frames == 1 ? "" : "s",
                 seconds, seconds > 0 ? (double)view->world.frames / seconds : 0);
     }
+    if (view->world.options->verbosity >= LOG_VERBOSE) {
+        message("pictures read back from the graphics card: %" PRIu64, petri_painter_read_backs(view->world.painter));
+    }
     if (view->world.options->terminal && verbosity == LOG_VERBOSE) {
         hint_pictures(view->host, view->world.options->script);
     } else if (window_has_screen() && window_display() == NULL && verbosity >= LOG_NORMAL) {
@@ -316,20 +357,11 @@ static void report_summary(const View *view) {
     }
 }
 
-// The screen has gone: what can be saved is saved.
-static void lose_display(void *host) {
-    View *view = host;
-    message("the display has gone");
-    if (!view->world.halted) {
-        world_save(&view->world, true);
-    }
-    exit(STATUS_FAILED);
-}
-
 static int run_view(View *view) {
     view->start = view->measured = clock_seconds();
     view->notice_ends = INFINITY;
     view->redraw = true;
+    view->world.waits = true;
     if (view->world.options->frames > 0) {
         step(view); // before anything opens: it tells the size
     }
@@ -337,13 +369,13 @@ static int run_view(View *view) {
     catch_interrupts();
     bool opened = open_display(view);
     if (opened) {
-        if (view->kind->watch != NULL) {
-            view->kind->watch(view->display, lose_display, view);
-        }
+        world_begin(&view->world);
         petri_pointer(view->world.session, &(PetriPointer){.inside = false});
         petri_hold(view->world.session);
         run_loop(view);
-        view->kind->close(view->display);
+        if (view->display != NULL) {
+            view->kind->close(view->display);
+        }
     }
     world_unmute(&view->world);
     if (!opened) {
@@ -372,6 +404,10 @@ static int view_run(const Host *host, Options *options) {
     listener_close(&view.listener);
     world_close(&view.world);
     free(view.pixels);
+    if (view.kind == nowhere_display()) {
+        fflush(NULL);
+        _exit(status); // libraries would look for the screen, for ever
+    }
     return status;
 }
 
@@ -383,7 +419,8 @@ const Command VIEW_COMMAND = {
     .details =
         "Shows what a script draws, or its particles, as it runs: in a window, or in the terminal where there is no\n"
         "display. Saving the script loads it anew and keeps its state; while it has mistakes they are shown, and the\n"
-        "last good version goes on.\n"
+        "last good version goes on. When the display goes away, a run that has an end, a state, a socket or pictures\n"
+        "to record goes on without it.\n"
         "\n"
         "Keys: space pauses, . makes one step, r starts anew, f fills the screen, s saves the picture, h shows frame\n"
         "rate and clocks, w lists warnings, whose number a corner shows, q or Escape quits. Tab or ] and [ choose a\n"

@@ -34,11 +34,13 @@ static const double MOST_OF_SCREEN = 0.9;
 
 struct Display {
     SDL_Window *window;
-    SDL_Renderer *renderer;
+    SDL_GLContext context;  // in which the painter draws on the window; or NULL
+    SDL_Renderer *renderer; // … and then this brings its pixels there
     SDL_Texture *texture;
     int texture_width;
     int texture_height;
-    PetriPainter *painter; // of the overlay
+    PetriPainter *painter; // borrowed
+    bool gone;             // the screen is
     bool filled;           // the screen, by ourselves
     SDL_Rect usual;        // … where the window was before
 };
@@ -63,7 +65,9 @@ static void window_close(Display *display) {
     if (display == NULL) {
         return;
     }
-    petri_painter_close(&display->painter);
+    if (display->context != NULL) {
+        SDL_GL_DeleteContext(display->context);
+    }
     if (display->texture != NULL) {
         SDL_DestroyTexture(display->texture);
     }
@@ -80,9 +84,53 @@ static void window_close(Display *display) {
 // What SDL draws with OpenGL leaves its context in this thread, and then petri's, which come from EGL, cannot be used
 // in it. SDL takes its own up again when it next draws.
 static void let_go(const Display *display) {
-    if (SDL_GL_GetCurrentContext() != NULL) {
+    if (display->context == NULL && SDL_GL_GetCurrentContext() != NULL) {
         SDL_GL_MakeCurrent(display->window, NULL);
     }
+}
+
+// Shown when it has its context or renderer: SDL may replace the window for that.
+static bool create(Display *display, const char *title, int width, int height, Uint32 flags) {
+    display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
+                                       SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN | flags);
+    if (display->window != NULL) {
+        SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
+    }
+    return display->window != NULL;
+}
+
+// A window whose OpenGL the painter takes, so that what it makes is shown where it is. Not for those who tell SDL how
+// to draw.
+static bool create_with_gl(Display *display, const char *title, int width, int height) {
+    const char *driver = getenv("SDL_RENDER_DRIVER");
+    if (driver != NULL && driver[0] != '\0') {
+        return false;
+    }
+    setenv("EGL_LOG_LEVEL", "fatal", 0); // there is another way
+    SDL_SetHint(SDL_HINT_VIDEO_X11_FORCE_EGL, "1");
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_PROFILE_MASK, SDL_GL_CONTEXT_PROFILE_ES);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MAJOR_VERSION, 3);
+    SDL_GL_SetAttribute(SDL_GL_CONTEXT_MINOR_VERSION, 0);
+    SDL_GL_SetAttribute(SDL_GL_RED_SIZE, 8);
+    SDL_GL_SetAttribute(SDL_GL_GREEN_SIZE, 8);
+    SDL_GL_SetAttribute(SDL_GL_BLUE_SIZE, 8);
+    SDL_GL_SetAttribute(SDL_GL_DEPTH_SIZE, 0);
+    if (create(display, title, width, height, SDL_WINDOW_OPENGL)) {
+        display->context = SDL_GL_CreateContext(display->window);
+    }
+    if (display->context != NULL && petri_painter_use_gl(display->painter) == PETRI_OK) {
+        SDL_GL_SetSwapInterval(1);
+        return true;
+    }
+    if (display->context != NULL) {
+        SDL_GL_DeleteContext(display->context);
+        display->context = NULL;
+    }
+    if (display->window != NULL) {
+        SDL_DestroyWindow(display->window);
+        display->window = NULL;
+    }
+    return false;
 }
 
 // Drawing is our own; the renderer only brings the pixels to the screen. Where the graphics card cannot, software does.
@@ -115,30 +163,30 @@ static bool start_video(void) {
     return started || (!tried && driver != NULL && SDL_Init(SDL_INIT_VIDEO) == 0);
 }
 
-static Display *window_open(const char *title, int width, int height, bool colour) {
+static Display *window_open(const char *title, int width, int height, PetriPainter *painter, bool colour) {
     (void)colour;
     Display *display = memory_zeroed(sizeof *display);
+    display->painter = painter;
     SDL_SetHint(SDL_HINT_NO_SIGNAL_HANDLERS, "1");
     SDL_SetHint(SDL_HINT_VIDEO_ALLOW_SCREENSAVER, "1");
     SDL_SetMainReady();
-    if (start_video()) {
+    bool started = start_video(), open = false;
+    if (started) {
         fit_screen(&width, &height);
-        // Shown when it has its renderer: SDL may replace the window for that one.
-        display->window = SDL_CreateWindow(title, SDL_WINDOWPOS_CENTERED, SDL_WINDOWPOS_CENTERED, width, height,
-                                           SDL_WINDOW_RESIZABLE | SDL_WINDOW_ALLOW_HIGHDPI | SDL_WINDOW_HIDDEN);
+        open = create_with_gl(display, title, width, height);
     }
-    if (display->window != NULL) {
-        SDL_SetWindowMinimumSize(display->window, LEAST_SIZE, LEAST_SIZE);
+    if (started && !open && create(display, title, width, height, 0)) {
         display->renderer = new_renderer(display->window);
+        open = display->renderer != NULL;
     }
-    display->painter = petri_painter_open();
-    if (display->renderer == NULL || display->painter == NULL) {
-        message("cannot open a window: %s", display->renderer == NULL ? SDL_GetError() : "out of memory");
+    if (!open) {
+        message("cannot open a window: %s", SDL_GetError());
         window_close(display);
         return NULL;
     }
     SDL_ShowWindow(display->window);
     let_go(display);
+    window_manager_watch(display->window, &display->gone);
     return display;
 }
 
@@ -167,11 +215,19 @@ static const char *key_name(SDL_Keycode code) {
     return code > 0 && code < 127 ? key_of_character((char)code) : NULL;
 }
 
+static void output_size(const Display *display, int *width, int *height) {
+    if (display->context != NULL) {
+        SDL_GL_GetDrawableSize(display->window, width, height);
+    } else if (SDL_GetRendererOutputSize(display->renderer, width, height) != 0) {
+        *width = *height = LEAST_SIZE;
+    }
+}
+
 // How many pixels a unit of the window has; more than one on screens of high density.
 static void density(const Display *display, double *across, double *down) {
     int width = 1, height = 1, pixels_across = 1, pixels_down = 1;
     SDL_GetWindowSize(display->window, &width, &height);
-    SDL_GetRendererOutputSize(display->renderer, &pixels_across, &pixels_down);
+    output_size(display, &pixels_across, &pixels_down);
     *across = width > 0 ? (double)pixels_across / width : 1;
     *down = height > 0 ? (double)pixels_down / height : 1;
 }
@@ -217,10 +273,17 @@ static Event window_event(const SDL_WindowEvent *event) {
     }
 }
 
-static Event translate(const Display *display, const SDL_Event *event) {
+// To quit without having closed the window is what SDL asks for when Wayland has gone.
+static Event quit_event(Display *display) {
+    const char *driver = SDL_GetCurrentVideoDriver();
+    display->gone = driver != NULL && strcmp(driver, "wayland") == 0;
+    return (Event){.kind = display->gone ? EVENT_NONE : EVENT_CLOSE};
+}
+
+static Event translate(Display *display, const SDL_Event *event) {
     switch (event->type) {
     case SDL_QUIT:
-        return (Event){.kind = EVENT_CLOSE};
+        return quit_event(display);
     case SDL_WINDOWEVENT:
         return window_event(&event->window);
     case SDL_KEYDOWN:
@@ -250,7 +313,8 @@ static Event window_next_event(Display *display, double seconds) {
     SDL_Event found;
     int wait = (int)(seconds * 1000);
     Event event = {.kind = EVENT_NONE};
-    while (event.kind == EVENT_NONE && (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
+    while (event.kind == EVENT_NONE && !display->gone &&
+           (wait > 0 ? SDL_WaitEventTimeout(&found, wait) : SDL_PollEvent(&found))) {
         event = translate(display, &found);
         wait = 0;
     }
@@ -261,9 +325,7 @@ static Event window_next_event(Display *display, double seconds) {
 static void window_size(Display *display, int width, int height, int *drawn_width, int *drawn_height) {
     (void)width; // the picture is put into the middle of whatever the window is
     (void)height;
-    if (SDL_GetRendererOutputSize(display->renderer, drawn_width, drawn_height) != 0) {
-        *drawn_width = *drawn_height = LEAST_SIZE;
-    }
+    output_size(display, drawn_width, drawn_height);
     let_go(display);
 }
 
@@ -279,6 +341,19 @@ static bool use_texture(Display *display, int width, int height) {
     display->texture_width = width;
     display->texture_height = height;
     return display->texture != NULL;
+}
+
+static bool window_show_directly(Display *display, PetriPicture *picture, const Overlay *overlay, PetriStatus *status) {
+    if (display->context == NULL) {
+        return false;
+    }
+    double across, down;
+    int width = 0, height = 0;
+    density(display, &across, &down);
+    output_size(display, &width, &height);
+    *status = overlay_show(display->painter, picture, overlay, across, width, height);
+    SDL_GL_SwapWindow(display->window);
+    return true;
 }
 
 static bool window_show(Display *display, uint32_t *pixels, int width, int height, const Overlay *overlay) {
@@ -336,8 +411,8 @@ static void window_toggle_full_screen(Display *display) {
     }
 }
 
-static void window_watch(Display *display, void (*lost)(void *host), void *host) {
-    window_manager_watch(display->window, lost, host);
+static bool window_gone(const Display *display) {
+    return display->gone;
 }
 
 static const DisplayKind WINDOW = {
@@ -345,11 +420,12 @@ static const DisplayKind WINDOW = {
     .close = window_close,
     .next_event = window_next_event,
     .size = window_size,
+    .show_directly = window_show_directly,
     .show = window_show,
     .set_title = window_set_title,
     .resize = window_resize,
     .toggle_full_screen = window_toggle_full_screen,
-    .watch = window_watch,
+    .gone = window_gone,
     .least_seconds = 0,
     .logs = true,
 };

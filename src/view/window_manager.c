@@ -80,24 +80,18 @@ bool window_manager_fills_screen(struct SDL_Window *window) {
     }
     return fills;
 }
-// A screen is lost for the whole process.
-static struct {
-    void (*tell)(void *host);
-    void *host;
-} loss;
-
 static int say_nothing(Display *display) {
     (void)display;
     return 0;
 }
 
-static void leave(Display *display, void *context) {
+// Xlib ends the process unless this returns; then it fails from call to call.
+static void go_on(Display *display, void *gone) {
     (void)display;
-    (void)context;
-    loss.tell(loss.host);
+    *(bool *)gone = true;
 }
 
-void window_manager_watch(struct SDL_Window *window, void (*lost)(void *host), void *host) {
+void window_manager_watch(struct SDL_Window *window, bool *gone) {
     SDL_SysWMinfo info;
     int (*(*set_error)(int (*)(Display *)))(Display *);
     void (*set_exit)(Display *, void (*)(Display *, void *), void *);
@@ -108,10 +102,8 @@ void window_manager_watch(struct SDL_Window *window, void (*lost)(void *host), v
     void *library = SDL_LoadObject(LIBRARY); // for good: SDL has it, too
     if (library != NULL && find(library, "XSetIOErrorHandler", &set_error) &&
         find(library, "XSetIOErrorExitHandler", &set_exit)) { // from libX11 1.7 on
-        loss.tell = lost;
-        loss.host = host;
         set_error(say_nothing);
-        set_exit(info.info.x11.display, leave, NULL);
+        set_exit(info.info.x11.display, go_on, gone);
     }
 }
 #else
@@ -120,10 +112,9 @@ bool window_manager_fills_screen(struct SDL_Window *window) {
     return true;
 }
 
-void window_manager_watch(struct SDL_Window *window, void (*lost)(void *host), void *host) {
+void window_manager_watch(struct SDL_Window *window, bool *gone) {
     (void)window;
-    (void)lost;
-    (void)host;
+    (void)gone;
 }
 #endif
 #endif

@@ -10,8 +10,8 @@ struct SDL_Window;
 // False on an X11 screen without a window manager, or with one that knows of no full screen: SDL asks it, is not heard,
 // and takes the window to be as large as the screen all the same.
 bool window_manager_fills_screen(struct SDL_Window *window);
-// On X11 `lost` is called, in the midst of whatever SDL does, when the screen has gone: after that nothing can be done
-// with it, so it ends the process. Without this Xlib does. `host` is kept until then.
-void window_manager_watch(struct SDL_Window *window, void (*lost)(void *host), void *host);
+// From here on the end of an X11 screen does not end the process, as Xlib else would: what is asked of the screen then
+// fails, and `*gone` is set, which must live as long as the process.
+void window_manager_watch(struct SDL_Window *window, bool *gone);
 
 #endif

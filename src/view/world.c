@@ -132,9 +132,14 @@ bool world_drawn(World *world, PetriStatus status) {
 
 // Files that the script's `!record` nodes name.
 static void record(World *world) {
+    if (world->waits) {
+        return;
+    }
+    world->recording.fps = petri_frame(world->session).fps;
     if (petri_picture_looks_back(world->picture) && !recording_add(&world->recording, world->picture, world->painter)) {
         world->failed = true;
     }
+    petri_picture_tell(world->session, world->picture);
 }
 
 // Of an early frame, unless there is a picture that can stay for so long, only the size is wanted.
@@ -149,9 +154,14 @@ static void take_picture(World *world) {
     petri_picture_free(&world->picture);
     PetriStatus status = petri_picture(world->session, &options, &world->picture);
     if (world_drawn(world, status) && !world->early) {
-        world->recording.fps = petri_frame(world->session).fps;
         record(world);
-        petri_picture_tell(world->session, world->picture);
+    }
+}
+
+void world_begin(World *world) {
+    world->waits = false;
+    if (world->picture != NULL && !world->early) {
+        record(world);
     }
 }
 

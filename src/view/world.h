@@ -27,6 +27,7 @@ typedef struct World {
     Watch *watch;
     int64_t frames; // made since the view was opened, without early ones
     bool early;     // the last frame could not show particles where they are (petri_picture_ready)
+    bool waits;     // for a display, which has a say in how the painter draws: no picture is made yet
     bool unseen;    // `picture` is of an early frame: it tells its size and is not shown
     bool halted;    // a frame could not be made; the next load or reset goes on
     bool broken;    // the script on disk cannot be loaded; an earlier version is running
@@ -45,6 +46,8 @@ typedef struct World {
 // Opens and loads; the status to exit with, or OPTIONS_READ. The options have been read. Close in either case.
 int world_open(World *world, const Host *host, const Options *options);
 void world_close(World *world);
+// There is a display: pictures can be made from here on.
+void world_begin(World *world);
 // One frame and its picture; records what the script asks for. False if it could not be made.
 bool world_step(World *world);
 // Tells, once, that there was no memory for a picture; true for PETRI_OK.

@@ -126,6 +126,7 @@ cat >still.fl <<'END'
         !text text='petri' point=240;180
 END
 render still.fl --frames 1 -o still.png
+render still.fl --frames 1 --scale 2 -o large.png
 
 # What the script draws, in its size, under its title.
 view still still.fl
@@ -152,6 +153,33 @@ if lacks err needs-gpu; then
     press q
     check "q closes it" ended 0
     check "nothing is said" [ ! -s err ]
+    # Where the window has OpenGL ES it stays on the card.
+    unset SDL_RENDER_DRIVER
+    view ball ball.fl --verbose
+    check "it is drawn on the window as in files" shows ball.png
+    press h
+    check "with texts over it" dark 150 178
+    press h
+    check "and without" shows ball.png
+    press q
+    check "q closes it" ended 0
+    check "nothing was read back" has err "read back from the graphics card: 0"
+    touch mark
+    view ball ball.fl --verbose
+    check "s saves it" shot
+    check "as it is" cmp -s "$shot" ball.png
+    press q
+    check "q closes it" ended 0
+    check "that was read back" has err "read back from the graphics card: 1"
+    view still still.fl
+    check "canvases are shown there, too" shows still.png
+    xdotool windowsize "$window" 640 480
+    check "in the window's size" shows large.png
+    press q
+    check "q closes it" ended 0
+    check "nothing is said" [ ! -s err ]
+    SDL_RENDER_DRIVER=software
+    export SDL_RENDER_DRIVER
 fi
 
 # Those that end by themselves.
@@ -171,7 +199,6 @@ kill -TERM "$viewer"
 check "SIGTERM ends it" ended 143
 
 # Another size of the window: the picture is drawn anew, as large as it goes, in the middle.
-render still.fl --frames 1 --scale 2 -o large.png
 view still still.fl
 xdotool windowsize "$window" 640 480
 check "it is drawn in the window's size" shows large.png
@@ -462,17 +489,36 @@ check "one that takes connections and never answers fails" [ $? -eq 1 ]
 kill -CONT "$server"
 check "with a message, too" has err "nothing answers at DISPLAY="
 
-# A screen that goes away.
-view hands hands.fl --state gone.state
-xdotool mousemove --window "$window" 30 20
-check "the script sees the pointer" point 30 20 00ff00
+# A screen that goes away: what has something to do goes on, here as soon as its frames are made more often.
+cat >slow.fl <<'END'
+%pragma fps 0.01
+!counter state=:c rate=0 initial=7
+!window size=300;200 title='slow'
+    !record filename='seen.png'
+        !canvas
+            !rect size=300;200 color=0;1;0 fill=true
+END
+unset SDL_RENDER_DRIVER
+view slow slow.fl --frames 10 --state gone.state
+goes_on=$viewer
+check "its picture is there" point 150 100 00ff00
+cp err slow.err
+"$petri" view still.fl >out 2>still.err </dev/null &
+viewer=$!
+title=still
+check "another one is there" soon find_window
 kill -KILL "$server"
 wait "$server" 2>/dev/null
 server=
 check "a view whose display goes ends" ended 1
-check "and says why" has err "the display has gone"
+check "and says why" has still.err "the display has gone"
+check "in one line" [ "$(wc -l <still.err)" -eq 1 ]
+viewer=$goes_on
+sed -i 's/fps 0.01/fps 60/' slow.fl
+check "one that has an end reaches it" ended 0
+check "and says so" has err "the display has gone; the run goes on without it"
 check "in one line" [ "$(wc -l <err)" -eq 1 ]
-"$petri" run hands.fl --state gone.state --frames 1 --print state >out 2>err
-check "it has saved its state" has out '$:mouse = 0.1'
+"$petri" run slow.fl --state gone.state --frames 1 --print state >out 2>err
+check "it has saved its state" has out '@10 '
 
 finish

@@ -1,0 +1,80 @@
+// window.c: pictures on the window of a context that was adopted, without reading them back; see gl.h.
+#include "gl/internal.h"
+#include "gl/texts.h"
+
+static const uint32_t ONE = 1;
+
+// A table of floats that is read as it is.
+static void need_curve(Gl *gl, const float thresholds[256]) {
+    if (gl->curve)
+        return;
+    glGenTextures(1, &gl->curve);
+    glBindTexture(GL_TEXTURE_2D, gl->curve);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_R32F, 256, 1, 0, GL_RED, GL_FLOAT, thresholds);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST);
+    glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
+}
+
+// Our own programs compile.
+static GLuint need_program(Gl *gl, Arena *arena, const char *text) {
+    GlFault fault;
+    Text whole = text_new(arena);
+    text_add_c(&whole, gl_header);
+    text_add_c(&whole, text);
+    GLuint program = gl_program(gl, arena, str_from(gl_quad), text_str(&whole), &fault);
+    glUseProgram(program);
+    return program;
+}
+
+static void use_texture(GLuint program, const char *name, GLint unit, GLuint texture) {
+    glActiveTexture(GL_TEXTURE0 + (GLenum)unit);
+    glBindTexture(GL_TEXTURE_2D, texture);
+    glUniform1i(glGetUniformLocation(program, name), unit);
+}
+
+bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int width, int height,
+                   const float thresholds[256], bool opaque) {
+    glActiveTexture(GL_TEXTURE0);
+    need_curve(gl, thresholds);
+    GLuint program = need_program(gl, arena, gl_text_show);
+    use_texture(program, "picture", 0, image.texture);
+    use_texture(program, "curve", 1, gl->curve);
+    glUniform4f(glGetUniformLocation(program, "box"), (float)box->x, (float)box->y, (float)box->width,
+                (float)box->height);
+    glUniform1i(glGetUniformLocation(program, "opaque"), opaque || image.format == GL_FORMAT_SRGB8);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(0, 0, width, height);
+    glDisable(GL_DITHER);
+    gl_draw_quad(gl, program);
+    return glGetError() == GL_NO_ERROR;
+}
+
+bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
+    GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
+    if (!image.texture)
+        return false;
+    // Alpha comes first or last, as this machine orders bytes.
+    Str text =
+        str_format(arena,
+                   "uniform sampler2D picture;\nuniform ivec2 corner;\nout vec4 color;\nvoid main() {\n"
+                   "    ivec2 p = ivec2(gl_FragCoord.xy) - corner;\n"
+                   "    color = texelFetch(picture, ivec2(p.x, textureSize(picture, 0).y - 1 - p.y), 0).%s;\n%s}\n",
+                   *(const unsigned char *)&ONE ? "bgra" : "gbar", over ? "" : "    color.a = 1.0;\n");
+    GLuint program = need_program(gl, arena, str_to_c(arena, text));
+    use_texture(program, "picture", 0, image.texture);
+    glTexSubImage2D(GL_TEXTURE_2D, 0, 0, 0, width, height, GL_RGBA, GL_UNSIGNED_BYTE, pixels);
+    glUniform2i(glGetUniformLocation(program, "corner"), x, y);
+    glBindFramebuffer(GL_FRAMEBUFFER, 0);
+    glViewport(x, y, width, height);
+    glDisable(GL_DITHER);
+    glDisable(GL_DEPTH_TEST);
+    glDisable(GL_CULL_FACE);
+    (over ? glEnable : glDisable)(GL_BLEND);
+    glBlendEquation(GL_FUNC_ADD);
+    glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
+    glBindVertexArray(gl->strip);
+    glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    glDisable(GL_BLEND);
+    gl_image_free(gl, image);
+    return glGetError() == GL_NO_ERROR;
+}
