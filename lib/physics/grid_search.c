@@ -18,12 +18,13 @@ typedef struct Shares {
 
 static void search_share(void *context, int worker, int workers) {
     Shares *shares = context;
-    size_t lanes = shares->kernels->lanes, blocks = (shares->search->list->view.regular + lanes - 1) / lanes;
+    size_t lanes = shares->kernels->lanes, capacity = (size_t)shares->capacity,
+           blocks = (shares->search->list->view.regular + lanes - 1) / lanes;
     ListPart *part = &shares->parts[worker];
     *part = (ListPart){.block = (uint32_t)phys_share(blocks, worker, workers),
                        .block_end = (uint32_t)phys_share(blocks, worker + 1, workers),
-                       .begin = phys_share(shares->capacity, worker, workers),
-                       .end = phys_share(shares->capacity, worker + 1, workers)};
+                       .begin = phys_share(capacity, worker, workers),
+                       .end = phys_share(capacity, worker + 1, workers)};
     part->used = part->begin;
     shares->kernels->list_search(shares->search, part);
 }

@@ -24,7 +24,7 @@ bool phys_reserve_columns(PhysSystem *system) {
         (system->options.keep_forces &&
          !phys_buffer_reserve(system, &system->force_rows, 0, count, n * sizeof(double))))
         return false;
-    *columns = (Columns){.dimensions = n, .count = system->particle_count, .stride = stride};
+    *columns = (Columns){.dimensions = system->dimensions, .count = system->particle_count, .stride = (size_t)stride};
     if (!count)
         return true;
     uintptr_t line = LINE * sizeof(double), address = (uintptr_t)system->column_data.bytes;
@@ -36,7 +36,7 @@ bool phys_reserve_columns(PhysSystem *system) {
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
     // Lanes beyond the last particle are computed and thrown away: from defined numbers, not from whatever lay here.
-    size_t padding = (stride - count) * sizeof(double);
+    size_t padding = (size_t)(stride - count) * sizeof(double);
     for (int i = 0; i < VECTORS; i++)
         for (uint64_t k = 0; k < n && padding; k++)
             memset(*vectors[i] + k * stride + count, 0, padding);
@@ -177,7 +177,7 @@ bool phys_clear_not_finite(PhysSystem *system) {
     if (!phys_buffer_reserve(system, &system->not_finite, 0, system->particle_count, 1))
         return false;
     if ((system->any_not_finite || system->not_finite.capacity != before) && system->not_finite.capacity)
-        memset(system->not_finite.bytes, 0, system->not_finite.capacity);
+        memset(system->not_finite.bytes, 0, (size_t)system->not_finite.capacity);
     system->any_not_finite = false;
     return true;
 }

@@ -29,7 +29,7 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
         len += part->len;
     }
     if (numeric && len > 1 && len <= VALUE_MAX_LEN) {
-        double *numbers = arena_alloc_array(vm->arena, len, sizeof *numbers);
+        double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
         uint32_t filled = 0;
         for (uint32_t i = 0; i < instr->count; i++)
             filled = add_numbers(numbers, filled, &slots[list[i]]);
@@ -180,7 +180,7 @@ Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) 
             (double)(uint32_t)to == to) {
             uint32_t len = (uint32_t)to - (uint32_t)from;
             vm->at = at;
-            double *numbers = arena_alloc_array(vm->arena, len, sizeof *numbers);
+            double *numbers = arena_alloc_array(vm->arena, (size_t)len, sizeof *numbers);
             memcpy(numbers, vector.as.numbers + (uint32_t)from, len * sizeof *numbers);
             return (Value){.len = len, .as.numbers = numbers};
         }
