@@ -186,7 +186,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
 }
 
 // Some file systems cannot do it, which is no failure.
-static bool sync_file(int file) {
+bool replace_sync(int file) {
     int result;
     do
         result = fsync(file);
@@ -232,7 +232,7 @@ bool replace_flush(Replacement *r) {
         (void)!fchown(r->file, info.st_uid, info.st_gid);
         (void)!fchmod(r->file, info.st_mode & 07777);
     }
-    return sync_file(r->file) || r->direct || give_up(r, errno);
+    return replace_sync(r->file) || r->direct || give_up(r, errno);
 }
 
 bool replace_put(Replacement *r) {
@@ -251,7 +251,7 @@ bool replace_end(Replacement *r) {
         r->file = -1;
         return close(file) == 0 || errno == EINTR;
     }
-    if (!sync_file(r->folder)) // the name, too, must reach the disk
+    if (!replace_sync(r->folder)) // the name, too, must reach the disk
         return give_up(r, errno);
     replace_abandon(r);
     return true;

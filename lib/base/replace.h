@@ -38,6 +38,8 @@ bool replace_flush(Replacement *replacement);
 bool replace_put(Replacement *replacement);
 bool replace_end(Replacement *replacement);
 void replace_abandon(Replacement *replacement);
-// replace_commit and this may be called from a signal handler.
+// Brings a file or folder to the disk. True where the file system cannot do that.
+bool replace_sync(int file);
+// What ends a replacement, and this, may be called from a signal handler.
 
 #endif
