@@ -77,6 +77,14 @@ command -v aarch64-linux-gnu-gcc: gcc-aarch64-linux-gnu libc6-dev-arm64-cross
 command -v qemu-aarch64  : qemu-user
 command -v musl-gcc      : musl-tools
 '
+WEB_NEEDS='
+command -v meson : meson
+command -v ninja : ninja-build
+command -v bison : bison
+command -v re2c  : re2c
+command -v emcc  : emscripten
+command -v node  : nodejs
+'
 PEER_NEEDS='
 command -v lmp   : lammps
 command -v mpirun: openmpi-bin

@@ -42,3 +42,14 @@ following() {
     rm -f "$log.status"
     return "$status"
 }
+
+# quietly LOG COMMAND...: shows what it writes only when it fails.
+quietly() {
+    log=$1
+    shift
+    "$@" >"$log" 2>&1 </dev/null || {
+        erase
+        cat "$log" >&2
+        die "failed: $*"
+    }
+}

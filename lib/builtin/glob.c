@@ -118,6 +118,36 @@ static void glob_found(Glob *glob, Str path) {
     glob->found[glob->found_count++] = path;
 }
 
+// A host's answer for a folder (PetriOptions.read): the names in it, a line each.
+static bool host_names(const Reach *reach, const char *path, Str *names) {
+    char folder[PATH_MAX + 2];
+    if (!reach_normal(path, folder))
+        return false;
+    strcat(folder, folder[0] ? "/" : "./");
+    names->len = 0;
+    names->bytes = reach->read(reach->read_host, folder, &names->len);
+    return names->bytes != NULL;
+}
+
+static bool is_hosted(const Reach *reach) {
+    return reach && reach->read;
+}
+
+static size_t list_hosted(Glob *glob, const char *path, Str **names) {
+    Str text, line;
+    if (!host_names(glob->reach, path, &text))
+        return 0;
+    uint32_t count = 0, capacity = 0;
+    for (size_t at = 0; at < text.len; at += line.len + 1) {
+        const char *end = memchr(text.bytes + at, '\n', text.len - at);
+        line = (Str){text.bytes + at, end ? (size_t)(end - text.bytes) - at : text.len - at};
+        *names = arena_room(glob->arena, *names, count, &capacity, sizeof line);
+        if (line.len && utf8_find_error(line) == line.len)
+            (*names)[count++] = (Str){line.bytes, line.len - (line.bytes[line.len - 1] == '/')};
+    }
+    return count;
+}
+
 // Adds up the names of a directory, or copies as many as there is room for. Nothing is allocated while it is open.
 static void scan_directory(Arena *arena, const char *path, Str *names, char *bytes, size_t *count, size_t *size) {
     size_t most_count = *count, most_size = *size;
@@ -149,6 +179,8 @@ static size_t list_directory(Glob *glob, const char *path, Str **names) {
         glob->too_much = true;
     if (glob->too_much)
         return 0;
+    if (is_hosted(glob->reach))
+        return list_hosted(glob, path, names);
     char resolved[PATH_MAX];
     if (!reach_resolve(glob->reach, REACH_READ, path, resolved)) {
         glob->refused = errno == EXDEV ? path : glob->refused;
@@ -162,13 +194,19 @@ static size_t list_directory(Glob *glob, const char *path, Str **names) {
     return count;
 }
 
-static bool is_directory(const char *path, bool follow_links) {
+static bool is_directory(const Reach *reach, const char *path, bool follow_links) {
     struct stat info;
+    Str names;
+    if (is_hosted(reach))
+        return host_names(reach, path, &names);
     return (follow_links ? stat(path, &info) : lstat(path, &info)) == 0 && S_ISDIR(info.st_mode);
 }
 
-static bool is_there(const char *path) {
+static bool is_there(const Reach *reach, const char *path) {
     struct stat info;
+    Str bytes;
+    if (is_hosted(reach))
+        return reach_read(reach, path, &bytes) || host_names(reach, path, &bytes);
     return lstat(path, &info) == 0;
 }
 
@@ -179,7 +217,7 @@ static void reach(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
     arena_charge(glob->arena, PATH_WORK);
     bool last = k + 1 == glob->part_count;
-    if (last && !glob->only_directories ? is_there(c_path) : is_directory(c_path, true)) {
+    if (last && !glob->only_directories ? is_there(glob->reach, c_path) : is_directory(glob->reach, c_path, true)) {
         if (last)
             glob_found(glob, path);
         else
@@ -194,12 +232,12 @@ static void walk_deep(Glob *glob, Str path, uint32_t k) {
         glob_found(glob, path);
     else
         walk(glob, path, k + 1);
-    Str *names;
+    Str *names = NULL;
     size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
     for (size_t i = 0; i < count && !glob->too_much; i++) {
         Str below = path_join(glob->arena, path, names[i]);
         arena_charge(glob->arena, PATH_WORK);
-        if (is_directory(str_to_c(glob->arena, below), false))
+        if (is_directory(glob->reach, str_to_c(glob->arena, below), false))
             walk(glob, below, k);
         else if (last && !glob->only_directories)
             glob_found(glob, below);
@@ -218,7 +256,7 @@ static void walk(Glob *glob, Str path, uint32_t k) {
                !memchr(part.bytes, '[', part.len)) {
         reach(glob, path_join(glob->arena, path, part), k);
     } else {
-        Str *names;
+        Str *names = NULL;
         size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
         for (size_t i = 0; i < count && !glob->too_much; i++)
             if (match_name(part, names[i]))
@@ -227,6 +265,11 @@ static void walk(Glob *glob, Str path, uint32_t k) {
 }
 
 // --- results
+
+static bool resolve_found(const Glob *glob, Str path, char resolved[PATH_MAX]) {
+    const char *name = str_to_c(glob->arena, path);
+    return is_hosted(glob->reach) ? reach_normal(name, resolved) : realpath(name, resolved) != NULL;
+}
 
 // The matches as absolute paths without symbolic links, sorted. The same match may have been reached in several ways
 // ("**"), but two matches may well be one file.
@@ -239,7 +282,7 @@ static Value glob_value(Glob *glob) {
     for (uint32_t i = 0; i < glob->found_count; i++) {
         arena_charge(arena, PATH_WORK);
         bool again = i > 0 && str_equal(found[i], found[i - 1]);
-        if (again || !realpath(str_to_c(arena, found[i]), resolved))
+        if (again || !resolve_found(glob, found[i], resolved))
             continue;
         if (!reach_has(glob->reach, REACH_READ, resolved)) {
             glob->refused = str_to_c(arena, found[i]);
@@ -258,8 +301,7 @@ Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Str pattern = value_text(context->arena, context->symbols, args[0]);
     if (pattern.len == 0 || pattern.bytes[0] == '/')
         return builtin_fault(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
-    bool disk = !context->reach || !context->reach->read; // a host is asked for what a script names
-    if (!context->files || !disk || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
+    if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
     Glob glob = {.arena = context->arena, .reach = context->reach};
     glob_parse(&glob, pattern);

@@ -122,7 +122,7 @@ Value builtin_srt(BuiltinContext *context, const Value *args, uint32_t count) {
         return VALUE_NULL;
     if (len > VALUE_MAX_LEN)
         return builtin_too_long(context, "srt");
-    Str *lines = arena_alloc_array(context->arena, len, sizeof *lines);
+    Str *lines = arena_alloc_array(context->arena, (size_t)len, sizeof *lines);
     uint32_t line = 0;
     for (uint32_t i = 0; i < file->count; i++) {
         Str text = file->subtitles[i].text, part;

@@ -165,9 +165,10 @@ typedef struct PetriOptions {
     // Where the files come from that are loaded and that scripts use: modules, includes, images, `read` and `csv`. NULL
     // (the default): the disk. Gives the bytes of a file and how many they are, or NULL if there is none; `name` is the
     // name of the script or, for what a script names, that of its folder before it, without dots. A script may then
-    // read whatever this gives and nothing else, and `glob` finds nothing. The same address and length stand for the
-    // same bytes, which must stay until the session is closed. It may be called in each frame, and by the thread that
-    // draws a picture; nothing of the session may be called by it.
+    // read whatever this gives and nothing else. For a folder, a name that ends in a slash (`./` for the current one),
+    // it gives the names in it, a line each; `glob` finds nothing where it gives NULL. The same address and length
+    // stand for the same bytes, which must stay until the session is closed. It may be called in each frame, and by the
+    // thread that draws a picture; nothing of the session may be called by it.
     const char *(*read)(void *read_host, const char *name, size_t *length);
     void *read_host;
     // The text that stands for a file on the disk which a script imports or includes, such as one that an editor has not

@@ -105,8 +105,8 @@ static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t cou
 void random_normals(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to) {
     double pairs[2 * PAIRS_AT_ONCE];
     for (size_t done = 0; done < count;) {
-        uint64_t item = first + done, odd = item & 1;
-        size_t wanted = count - done, fits = 2 * PAIRS_AT_ONCE - odd;
+        uint64_t item = first + done;
+        size_t odd = item & 1, wanted = count - done, fits = 2 * PAIRS_AT_ONCE - odd;
         if (wanted > fits)
             wanted = fits;
         normal_pairs(level, key, item / 2, (wanted + odd + 1) / 2, pairs);

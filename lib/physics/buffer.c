@@ -23,14 +23,15 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
     Buffer larger = {.capacity = capacity, .shown = buffer->shown};
     arena_init(&larger.arena, "physics", SIZE_MAX);
     larger.arena.meter = system->options.meter;
-    larger.bytes = arena_try_alloc(&larger.arena, capacity); // its only block: without it there is nothing to free
+    // Its only block: without it there is nothing to free.
+    larger.bytes = arena_try_alloc(&larger.arena, (size_t)capacity);
     if (!larger.bytes) {
         system->bytes = others + buffer->capacity;
         system->failed = true;
         return false;
     }
     if (kept)
-        memcpy(larger.bytes, buffer->bytes, kept);
+        memcpy(larger.bytes, buffer->bytes, (size_t)kept);
     phys_buffer_free(buffer);
     *buffer = larger;
     system->bytes = others + capacity;

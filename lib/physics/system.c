@@ -208,7 +208,7 @@ static uint64_t keep_vector(PhysSystem *system, PhysVector vector) {
     uint64_t n = system->dimensions, begin = system->vector_doubles;
     if (!vector || !phys_buffer_reserve(system, &system->vectors, begin * sizeof(double), begin + n, sizeof(double)))
         return 0;
-    copy_vector((double *)system->vectors.bytes + begin, vector, n);
+    copy_vector((double *)system->vectors.bytes + begin, vector, (size_t)n);
     system->vector_doubles += n;
     return begin + 1;
 }

@@ -229,7 +229,7 @@ typedef struct Given {
 } Given;
 
 typedef struct Shelf {
-    Given files[5];
+    Given files[8];
     int asked;
 } Shelf;
 
@@ -271,6 +271,28 @@ static void test_files_of_the_host(void **state) {
     assert_text("changed", player_tree(player), "!part\n!a x=22 y='zwei W..' z=1;2\n");
     assert_string_equal(player_told(player), "");
     assert_int_equal(petri_check(player->session, "dish/main.fl"), PETRI_OK);
+    assert_string_equal(player_told(player), "");
+}
+
+static void test_folders_of_the_host(void **state) {
+    Desk *desk = *state;
+    Player *player = &desk->player;
+    Shelf shelf = {.files = {{"main.fl", "!a x=glob('*.txt') y=glob('d/*') z=glob('**/n.dat') w=glob('d/../d/m.dat') "
+                                         "v=glob('*/') u=glob('no/*')\n"},
+                             {"./", "main.fl\nb.txt\na.txt\nd/\n"},
+                             {"d/", "n.dat\nm.dat"},
+                             {"d/n.dat", "1"},
+                             {"d/m.dat", "2"},
+                             {"a.txt", ""},
+                             {"b.txt", ""}}};
+    PetriOptions options = player_options(player);
+    options.read = give_file;
+    options.read_host = &shelf;
+    player_reopen(player, &options);
+    assert_int_equal(petri_load(player->session, "main.fl"), PETRI_OK);
+    player_step(player, 1);
+    assert_text("globs", player_tree(player),
+                "!a x='a.txt';'b.txt' y='d/m.dat';'d/n.dat' z='d/n.dat' w='d/m.dat' v='d'\n");
     assert_string_equal(player_told(player), "");
 }
 
@@ -350,6 +372,7 @@ int main(void) {
         DESK_TEST(test_what_cannot_be_loaded),
         DESK_TEST(test_check),
         DESK_TEST(test_files_of_the_host),
+        DESK_TEST(test_folders_of_the_host),
         DESK_TEST(test_no_other_files),
         DESK_TEST(test_unsaved_files),
     };

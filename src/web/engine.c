@@ -1,0 +1,141 @@
+// engine.c: petri.h for JavaScript: functions that take and give numbers and texts only (host.h). What of petri.h is
+// like that is exported as it is (meson.build); what has structs or callbacks is here.
+#include "web/host.h"
+
+#include "petri.h"
+
+#include <stdio.h>
+#include <string.h>
+
+static void tell(void *host, const PetriDiagnostic *told) {
+    (void)host;
+    host_diagnostic((int)told->level, told->file, told->text, told->code, told->hint, told->rendered, told->line,
+                    told->column, told->end_line, told->end_column);
+}
+
+static const char *read_file(void *host, const char *name, size_t *length) {
+    (void)host;
+    return host_read(name, length);
+}
+
+static bool write_text(void *host, const char *text, size_t length) {
+    (void)host;
+    host_write(text, length);
+    return true;
+}
+
+// fps, memory in bytes, work of a call and stack in bytes: 0 is the default.
+EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
+    PetriOptions options = petri_default_options();
+    options.fps = fps > 0 ? fps : options.fps;
+    options.memory_bytes = memory > 0 ? (size_t)memory : options.memory_bytes;
+    options.work = work > 0 ? (uint64_t)work : options.work;
+    options.stack_bytes = stack > 0 ? (size_t)stack : options.stack_bytes;
+    options.threads = 1;
+    options.interruptible = true;
+    options.diagnostic = tell;
+    options.read = read_file;
+    return petri_open(&options);
+}
+
+EXPORT(void, web_close, PetriSession *session) {
+    petri_close(&session);
+}
+
+EXPORT(void, web_frame, const PetriSession *session) {
+    PetriFrame frame = petri_frame(session);
+    host_frame((double)frame.number, frame.time, frame.beat, frame.fps, frame.tempo, (double)frame.physics_steps,
+               frame.evaluation_seconds, frame.physics_seconds);
+}
+
+EXPORT(PetriStatus, web_print, PetriSession *session, unsigned sections) {
+    return petri_print(session, sections, write_text, NULL);
+}
+
+EXPORT(PetriStatus, web_log, PetriSession *session) {
+    return petri_print_log(session, write_text, NULL);
+}
+
+EXPORT(void, web_parameters, PetriSession *session) {
+    PetriParameter p;
+    for (size_t i = 0; petri_parameter(session, i, &p); i++)
+        host_parameter(p.name, p.fallback, p.value, p.comment, p.number, p.fallback_number, p.least, p.most, p.step,
+                       p.defined, p.settable, p.line, p.column);
+}
+
+EXPORT(void, web_systems, PetriSession *session) {
+    PetriSystem system;
+    for (size_t i = 0; petri_system(session, i, &system); i++) {
+        const PetriColumn ids = petri_ids(session, i);
+        host_system(system.name, system.dimensions, system.particle_count, system.force_count, (double)system.steps);
+        host_column("position", system.position.data, system.position.stride);
+        host_column("velocity", system.velocity.data, system.velocity.stride);
+        host_column("radius", system.radius.data, system.radius.stride);
+        host_column("mass", system.mass.data, system.mass.stride);
+        host_column("charge", system.charge.data, system.charge.stride);
+        host_column("ids", ids.data, ids.stride);
+    }
+}
+
+// The text is that of a value which is not all numbers.
+EXPORT(void, web_state, PetriSession *session) {
+    PetriValue key, value;
+    for (uint32_t at = 0; petri_state_next(session, &at, &key, &value);) {
+        char name[256];
+        const char *text = petri_text(session, key);
+        snprintf(name, sizeof name, "%s", text ? text : "");
+        host_entry(name, value.numbers, value.length, value.numbers ? NULL : petri_text(session, value));
+    }
+}
+
+EXPORT(PetriStatus, web_give, PetriSession *session, const char *name, const double *numbers, uint32_t length) {
+    return petri_give(session, name, (PetriValue){.length = length, .numbers = numbers});
+}
+
+EXPORT(bool, web_symbol_name, const PetriSession *session, double number) {
+    const char *name = petri_symbol_name(session, number);
+    if (name)
+        host_write(name, strlen(name));
+    return name != NULL;
+}
+
+EXPORT(PetriStatus, web_pointer, PetriSession *session, bool inside, double x, double y, unsigned buttons) {
+    return petri_pointer(session, &(PetriPointer){.inside = inside, .x = x, .y = y, .buttons = buttons});
+}
+
+EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t length) {
+    PetriPrompted done;
+    return petri_prompt(session, text, length, write_text, NULL, &done);
+}
+
+// The number that an expression is; its text is written. NaN if it is none.
+EXPORT(double, web_evaluate, PetriSession *session, const char *text, size_t length) {
+    PetriResult result = {.number = __builtin_nan("")};
+    petri_evaluate(session, text, length, &result, write_text, NULL);
+    return result.number;
+}
+
+static void take_token(void *host, const PetriToken *token) {
+    (void)host;
+    host_token((int)token->kind, token->start, token->end);
+}
+
+EXPORT(PetriStatus, web_tokens, PetriSession *session, const char *text, size_t length) {
+    return petri_tokens(session, text, length, take_token, NULL);
+}
+
+EXPORT(void, web_help, const PetriSession *session) {
+    PetriBuiltin builtin;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++)
+        host_help("function", builtin.name, builtin.parameters, "", "", builtin.help);
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        host_help("node", kind.name, kind.area, "", "", kind.help);
+        PetriNodeAttribute attribute;
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++)
+            host_help("attribute", attribute.name, attribute.type, attribute.fallback, attribute.unit, attribute.help);
+    }
+    const char *name;
+    for (size_t i = 0; session && (name = petri_name(session, i)); i++)
+        host_help("name", name, "", "", "", "");
+}

@@ -1,0 +1,341 @@
+// petri.mjs: sessions of petri for JavaScript: load a script, step it, look at values. petri.d.ts has the types; what
+// holds for petri.h holds here.
+import { compile, instantiate } from './wasm.mjs';
+
+export const STATUS = ['ok', 'invalid', 'limit', 'memory', 'missing', 'interrupted'];
+const LEVELS = ['error', 'warning', 'note'];
+const TOKENS = ['name', 'keyword', 'number', 'string', 'symbol', 'node', 'tag', 'operator', 'comment', 'wrong', 'line-end',
+    'indent', 'dedent'];
+const SECTIONS = { tree: 1, state: 2, log: 4, error: 8, hash: 16 };
+// Browsers give WebAssembly about a megabyte of stack besides what petri sees of it; with this much, 500 calls of one
+// function fit, and deeper recursion is told before theirs is used up.
+const STACK = 1536 << 10;
+const MEMORY = 1 << 30;
+const CALL_WORK = 2 ** 28; // a second or two
+
+// Thrown when something of petri fails; `diagnostics` are what was told meanwhile.
+export class PetriError extends Error {
+    constructor(status, diagnostics, what) {
+        const first = diagnostics.find(told => told.level === 'error') ?? diagnostics[0];
+        super(`${what}: ${first ? first.rendered.trimEnd() : status}`);
+        this.name = 'PetriError';
+        this.status = status;
+        this.diagnostics = diagnostics;
+    }
+}
+
+// Compiles the engine once; sessions are opened by it. `source`: see wasm.mjs.
+export async function loadEngine(source) {
+    return new Engine(await compile(source));
+}
+
+// Sessions of one engine share its memory; one that has crashed takes the others with it.
+class Engine {
+    constructor(module) {
+        this.module = module;
+        this.session = null; // for which something runs
+        const text = at => this.memory.text(at);
+        const now = () => this.session;
+        this.memory = instantiate(module, {
+            write: (at, length) => now().written.push(this.memory.text(at, length)),
+            read: (name, length) => now().readFile(text(name), length),
+            diagnostic: (level, file, message, code, hint, rendered, line, column, endLine, endColumn) =>
+                now().tell({
+                    level: LEVELS[level], file: text(file), text: text(message), code: text(code), hint: text(hint),
+                    rendered: text(rendered), line, column, endLine, endColumn,
+                }),
+            frame: (number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds) =>
+                now().taken.push({ number, time, beat, fps, tempo, steps, evaluationSeconds, physicsSeconds }),
+            parameter: (name, fallback, value, comment, number, fallbackNumber, least, most, step, defined, settable,
+                line, column) =>
+                now().taken.push({
+                    name: text(name), fallback: text(fallback), value: text(value), comment: text(comment), number,
+                    fallbackNumber, least, most, step, defined: !!defined, settable: !!settable, line, column,
+                }),
+            system: (name, dimensions, count, forces, steps) =>
+                now().taken.push({ name: text(name), dimensions, count, forces, steps }),
+            column: (name, data, stride) => now().addColumn(text(name), data, stride),
+            entry: (key, numbers, length, mixed) =>
+                now().taken.push({
+                    key: text(key),
+                    value: numbers ? Array.from(this.memory.numbers(numbers, length)) : text(mixed),
+                }),
+            token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
+            help: (kind, name, parameters, fallback, unit, help) =>
+                now().taken.push({
+                    kind: text(kind), name: text(name), parameters: text(parameters), fallback: text(fallback),
+                    unit: text(unit), help: text(help),
+                }),
+        });
+    }
+
+    get version() {
+        return this.memory.text(this.memory.wasm.petri_version());
+    }
+
+    open(options = {}) {
+        return new Session(this, options);
+    }
+}
+
+export class Session {
+    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, onDiagnostic } = {}) {
+        this.engine = engine;
+        this.memory = engine.memory;
+        this.onDiagnostic = onDiagnostic;
+        this.files = new Map();
+        this.kept = []; // addresses of files, until the session is closed
+        this.written = [];
+        this.taken = [];
+        this.told = [];
+        for (const [name, content] of Object.entries(files))
+            this.setFile(name, content);
+        this.handle = this.run(wasm => wasm.web_open(fps, memory, work, STACK));
+        if (!this.handle)
+            throw new RangeError('no session can be opened: memory is used up, or the options make no sense');
+    }
+
+    close() {
+        if (this.handle)
+            this.run(wasm => wasm.web_close(this.handle));
+        this.handle = 0;
+        this.kept.forEach(at => this.memory.wasm.free(at));
+        this.kept = [];
+    }
+
+    // Gives scripts a file to read or import, text or bytes; null takes it away.
+    setFile(name, content) {
+        if (content === null)
+            this.files.delete(name);
+        else
+            this.files.set(name, { bytes: typeof content === 'string' ? new TextEncoder().encode(content) : content, at: 0 });
+    }
+
+    // Everything that enters the engine goes through here. An exception that comes out of it means that the engine is
+    // in the middle of something, for good.
+    run(act) {
+        if (this.engine.broken)
+            throw this.engine.broken;
+        const outer = this.engine.session;
+        this.engine.session = this;
+        this.told = [];
+        this.written = [];
+        this.taken = [];
+        try {
+            return act(this.memory.wasm);
+        } catch (error) {
+            this.engine.broken = new Error(`the engine has stopped: ${error.message}`, { cause: error });
+            throw this.engine.broken;
+        } finally {
+            this.engine.session = outer;
+        }
+    }
+
+    // The same for calls that return a status.
+    check(what, act) {
+        const status = STATUS[this.run(act)];
+        if (status !== 'ok')
+            throw new PetriError(status, this.told, what);
+        return this;
+    }
+
+    with(text, act) {
+        return wasm => this.memory.withText(text, (at, length) => act(wasm, at, length));
+    }
+
+    load(text, name = 'script.fl') {
+        const encoded = typeof text === 'string' ? new TextEncoder().encode(text) : text;
+        this.setFile(name, encoded);
+        return this.check('load', this.with(name, (wasm, called) =>
+            this.memory.withText(encoded, (at, length) => wasm.petri_load_text(this.handle, called, at, length))));
+    }
+
+    // The script has changed; frame numbers, time and state go on.
+    reload(text, name = 'script.fl') {
+        this.setFile(name, text);
+        return this.check('reload', this.with(name, (wasm, called) => wasm.petri_reload(this.handle, called)));
+    }
+
+    // What would be told of a text; nothing is changed.
+    diagnose(text, name = 'script.fl') {
+        this.run(this.with(name, (wasm, called) =>
+            this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))));
+        return this.told;
+    }
+
+    // A value for a name, such as 'SIZE=20', in scripts that are loaded from now on.
+    define(definition) {
+        return this.check('define', this.with(definition, (wasm, at) => wasm.petri_define(this.handle, at)));
+    }
+
+    step() {
+        return this.check('step', wasm => wasm.petri_step(this.handle));
+    }
+
+    stepAt(time, beat) {
+        return this.check('step', wasm => wasm.petri_step_at(this.handle, time, beat));
+    }
+
+    clear() {
+        this.run(wasm => wasm.petri_clear(this.handle));
+    }
+
+    get frame() {
+        this.run(wasm => wasm.web_frame(this.handle));
+        return this.taken[0];
+    }
+
+    // The text of the last frame; `sections` as `petri run --print` has them.
+    print(...sections) {
+        const bits = sections.reduce((sum, name) => sum | SECTIONS[name], 0);
+        this.check('print', wasm => wasm.web_print(this.handle, bits));
+        return this.written.join('');
+    }
+
+    log() {
+        this.run(wasm => wasm.web_log(this.handle));
+        return this.written.join('');
+    }
+
+    // The SHA-256 of the state.
+    hash() {
+        return this.print('hash').match(/[0-9a-f]{64}/)[0];
+    }
+
+    get parameters() {
+        this.run(wasm => wasm.web_parameters(this.handle));
+        return this.taken;
+    }
+
+    // As the script would write the value; null: the default.
+    setParameter(name, value) {
+        const set = (wasm, at) => value === null
+            ? wasm.petri_set_parameter(this.handle, at, 0)
+            : this.memory.withText(String(value), text => wasm.petri_set_parameter(this.handle, at, text));
+        return this.check(`the parameter ${name}`, this.with(name, set));
+    }
+
+    // The systems of the last frame. Columns are views of the engine's memory, valid until the next call that changes
+    // something: those of particle i begin at i * stride.
+    get systems() {
+        this.run(wasm => wasm.web_systems(this.handle));
+        return this.taken;
+    }
+
+    addColumn(name, data, stride) {
+        const system = this.taken.at(-1), width = name === 'position' || name === 'velocity' ? system.dimensions : 1;
+        system[name] = data && system.count
+            ? { data: this.memory.numbers(data, (system.count - 1) * stride + width), stride }
+            : null;
+    }
+
+    // The state dictionary: printed keys; numbers, or the printed form of what is none.
+    get state() {
+        this.run(wasm => wasm.web_state(this.handle));
+        return new Map(this.taken.map(entry => [entry.key, entry.value]));
+    }
+
+    // A name that scripts loaded from now on see: a number or numbers, another value at any time.
+    give(name, value) {
+        const numbers = Float64Array.from(typeof value === 'number' ? [value] : value);
+        return this.check(`the name ${name}`, this.with(name, (wasm, called) =>
+            this.memory.withText(new Uint8Array(numbers.buffer), at =>
+                wasm.web_give(this.handle, called, numbers.length ? at : 0, numbers.length))));
+    }
+
+    // An expression in the last frame.
+    evaluate(expression) {
+        const number = this.run(this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
+        if (this.told.some(told => told.level === 'error'))
+            throw new PetriError('invalid', this.told, 'evaluate');
+        return { text: this.written.join(''), number };
+    }
+
+    // A line typed at the prompt: what it prints.
+    prompt(text) {
+        this.check('prompt', this.with(text, (wasm, at, length) => wasm.web_prompt(this.handle, at, length)));
+        return this.written.join('');
+    }
+
+    tokens(text) {
+        this.run(this.with(text, (wasm, at, length) => wasm.web_tokens(this.handle, at, length)));
+        return this.taken;
+    }
+
+    // Rows of petri's tables: functions, nodes, each followed by its attributes, and names of the script.
+    help() {
+        this.run(wasm => wasm.web_help(this.handle));
+        return this.taken;
+    }
+
+    symbol(name) {
+        return this.run(this.with(name, (wasm, at) => wasm.petri_symbol(this.handle, at)));
+    }
+
+    symbolName(number) {
+        return this.run(wasm => wasm.web_symbol_name(this.handle, number)) ? this.written.join('') : null;
+    }
+
+    pointer(inside, x = 0, y = 0, buttons = 0) {
+        return this.check('pointer', wasm => wasm.web_pointer(this.handle, inside ? 1 : 0, x, y, buttons));
+    }
+
+    key(name, pressed) {
+        return this.check(`the key ${name}`, this.with(name, (wasm, at) =>
+            wasm.petri_key(this.handle, at, pressed ? 1 : 0)));
+    }
+
+    // All that decides how a session goes on. Free it before the session is closed.
+    snapshot() {
+        const at = this.run(wasm => wasm.petri_snapshot(this.handle));
+        if (!at)
+            throw new PetriError('memory', this.told, 'snapshot');
+        return new Snapshot(this, at);
+    }
+
+    rewind(snapshot) {
+        return this.check('rewind', wasm => wasm.petri_rewind(this.handle, snapshot.at));
+    }
+
+    tell(diagnostic) {
+        this.told.push(diagnostic);
+        this.onDiagnostic?.(diagnostic);
+    }
+
+    // The names in a folder are a file, too, for `glob`.
+    listFolder(prefix, name) {
+        const below = [...this.files.keys()].filter(file => file.startsWith(prefix) && !file.endsWith('/'));
+        const names = new Set(below.map(file => file.slice(prefix.length).replace(/\/.*/, '/')));
+        const text = [...names].join('\n');
+        if (this.files.get(name)?.text !== text && (text || !prefix))
+            this.files.set(name, { text, bytes: new TextEncoder().encode(text), at: 0 });
+    }
+
+    readFile(name, length) {
+        if (name.endsWith('/'))
+            this.listFolder(name === './' ? '' : name, name);
+        const file = this.files.get(name);
+        if (!file)
+            return 0;
+        if (!file.at) {
+            file.at = this.memory.keep(file.bytes);
+            this.kept.push(file.at);
+        }
+        this.memory.setWord(length, file.bytes.length);
+        return file.at;
+    }
+}
+
+class Snapshot {
+    constructor(session, at) {
+        this.session = session;
+        this.at = at;
+        this.bytes = session.run(wasm => wasm.petri_snapshot_bytes(at));
+    }
+
+    free() {
+        if (this.at)
+            this.session.run(wasm => wasm.petri_snapshot_free(this.at));
+        this.at = 0;
+    }
+}

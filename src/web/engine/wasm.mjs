@@ -1,0 +1,107 @@
+// wasm.mjs: loads engine.wasm, in pages, workers and Node.js, without what emscripten would put around it: the engine
+// needs no operating system but for a clock, and calls functions of JavaScript by the names of src/web/host.h.
+
+const encoder = new TextEncoder();
+const decoder = new TextDecoder();
+
+// What longjmp throws; the engine leaves a frame that is given up by it.
+const LEFT = Symbol('longjmp');
+const ENOSYS = 52, EBADF = 8;
+
+// bytes, a WebAssembly.Module, a URL or a Response; nothing: engine.wasm beside this file.
+export async function compile(source = new URL('./engine.wasm', import.meta.url)) {
+    if (source instanceof WebAssembly.Module)
+        return source;
+    if (typeof source === 'string' || source instanceof URL) {
+        const url = new URL(source, import.meta.url);
+        if (url.protocol === 'file:') {
+            const { readFile } = await import('node:fs/promises');
+            source = await readFile(url);
+        } else {
+            source = await fetch(url);
+        }
+    }
+    if (typeof Response !== 'undefined' && source instanceof Response) {
+        if (!source.ok)
+            throw new Error(`the engine cannot be loaded: ${source.url} answers ${source.status}`);
+        source = await source.arrayBuffer();
+    }
+    return WebAssembly.compile(source);
+}
+
+// The exports of a new instance, with functions to get at its memory. `host` answers what the engine asks.
+export function instantiate(module, host) {
+    let wasm;
+    const bytes = () => new Uint8Array(wasm.memory.buffer);
+    const text = (at, length) => {
+        if (!at)
+            return null;
+        const all = bytes();
+        return decoder.decode(all.subarray(at, length === undefined ? all.indexOf(0, at) : at + length));
+    };
+    // The functions that call setjmp have their calls made from here.
+    const invoke = (index, ...args) => {
+        const stack = wasm.stackSave();
+        try {
+            return wasm.__indirect_function_table.get(index)(...args);
+        } catch (error) {
+            if (error !== LEFT)
+                throw error;
+            wasm.stackRestore(stack);
+            wasm.setThrew(1, 0);
+        }
+    };
+    let high = 0;
+    const system = {
+        getTempRet0: () => high,
+        setTempRet0: value => (high = value),
+        emscripten_notify_memory_growth: () => {},
+        _emscripten_throw_longjmp: () => {
+            throw LEFT;
+        },
+        proc_exit: code => {
+            throw new Error(`the engine has ended with ${code}`);
+        },
+        clock_time_get: (...args) => {
+            const now = BigInt(Math.round(performance.now() * 1e6));
+            new DataView(wasm.memory.buffer).setBigUint64(args.at(-1), now, true);
+            return 0;
+        },
+    };
+    const imports = {};
+    for (const { module: from, name } of WebAssembly.Module.imports(module)) {
+        const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there are no files
+        const given = from === 'petri' ? host[name] : name.startsWith('invoke_') ? invoke : system[name];
+        (imports[from] ??= {})[name] = given ?? none;
+    }
+    wasm = new WebAssembly.Instance(module, imports).exports;
+    wasm._initialize();
+    return {
+        wasm,
+        text,
+        // Calls `use` with the address and length of a text, in memory for so long.
+        withText: (string, use) => {
+            const encoded = typeof string === 'string' ? encoder.encode(string) : string;
+            const at = wasm.malloc(encoded.length + 1);
+            if (!at)
+                throw new RangeError('memory is used up');
+            try {
+                bytes().set(encoded, at);
+                bytes()[at + encoded.length] = 0;
+                return use(at, encoded.length);
+            } finally {
+                wasm.free(at);
+            }
+        },
+        // Copies bytes to where they stay.
+        keep: array => {
+            const at = wasm.malloc(array.length || 1);
+            if (!at)
+                return 0;
+            bytes().set(array, at);
+            return at;
+        },
+        numbers: (at, length) => new Float64Array(wasm.memory.buffer, at, length),
+        setWord: (at, value) => new DataView(wasm.memory.buffer).setUint32(at, value, true),
+    };
+}

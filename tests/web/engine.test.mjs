@@ -1,0 +1,176 @@
+// engine.test.mjs: the package for npm, as its README shows it and where things go wrong. PETRI_WEB is build/web.
+import assert from 'node:assert/strict';
+import { readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const folder = join(process.env.PETRI_WEB, 'petri');
+const { loadEngine, PetriError } = await import(pathToFileURL(join(folder, 'petri.mjs')));
+const read = name => readFileSync(join(root, name), 'utf8');
+const engine = await loadEngine();
+const opened = (text, options) => engine.open(options).load(text);
+const stepped = (session, count) => {
+    for (let i = 0; i < count; i++)
+        session.step();
+    return session;
+};
+const DISH = read('samples/dish.fl');
+
+test('the package has the version of the project, and is small', () => {
+    const version = read('meson.build').match(/version: '([0-9.]+)'/)[1];
+    assert.equal(engine.version, version);
+    assert.equal(JSON.parse(read('src/web/engine/package.json')).version, version);
+    assert.ok(gzipSync(readFileSync(join(folder, 'engine.wasm')), { level: 9 }).length <= 500e3);
+});
+
+test('the example of README', async () => {
+    const [, code] = read('src/web/engine/README.md').match(/```js\n([^]*?)```/);
+    const act = code.replace("'petri'", JSON.stringify(pathToFileURL(join(folder, 'petri.mjs')).href));
+    const shown = act.replace('session.hash();', 'globalThis.shown = [session.frame.number, session.state.get(":p;2"), '
+        + 'session.systems[0].position.data[2 * session.systems[0].position.stride + 1], session.evaluate("$(:p;2)[1]").number, '
+        + 'session.hash()];');
+    await import(`data:text/javascript,${encodeURIComponent(shown)}`);
+    const [number, place, seen, evaluated, hash] = globalThis.shown;
+    assert.equal(number, 59);
+    assert.equal(place.length, 2);
+    assert.ok(place[1] < -4 && place[1] > -5, `${place}`);
+    assert.equal(seen, place[1]);
+    assert.equal(evaluated, place[1]);
+    assert.match(hash, /^[0-9a-f]{64}$/);
+});
+
+test('types are there for each method, and no others', () => {
+    const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
+    const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
+    const session = engine.open();
+    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn'];
+    const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
+    assert.deepEqual(declared, real);
+    session.close();
+});
+
+test('going back gives the same frames again', () => {
+    const session = stepped(opened(DISH), 20), kept = session.snapshot();
+    assert.ok(kept.bytes > 0);
+    const hash = stepped(session, 10).hash();
+    session.rewind(kept);
+    assert.equal(session.frame.number, 19);
+    assert.notEqual(session.hash(), hash);
+    assert.equal(stepped(session, 10).hash(), hash);
+    kept.free();
+    session.close();
+});
+
+test('an error is told at its place and leaves the script that runs', () => {
+    const session = stepped(opened('!a x=frame\n'), 2);
+    assert.throws(() => session.load('!a\n!b x=(\n', 'bad.fl'), error => {
+        assert.ok(error instanceof PetriError);
+        assert.equal(error.status, 'invalid');
+        const [told] = error.diagnostics;
+        assert.deepEqual([told.level, told.file, told.line, told.code], ['error', 'bad.fl', 2, 'syntax']);
+        return error.message.includes('bad.fl:2:');
+    });
+    assert.match(session.step().print('tree'), /!a x=2/);
+    assert.deepEqual(session.diagnose('!a x=coss(1)\n').map(told => [told.level, told.code, told.column, told.endColumn]),
+        [['warning', 'unbound-name', 6, 10]]);
+    assert.deepEqual(session.diagnose('!a x=1\n'), []);
+    session.close();
+});
+
+test('a script that asks for too much is given up, and the session goes on', () => {
+    const session = opened('let n=N or 3\nlet k=(1 for i in ..n for j in ..1000 for k in ..1000)\n!a x=len(k)\n', { memory: 64 << 20 });
+    const told = status => error => error.status === status;
+    session.load('!a x=sum(i*j for i in ..100000 for j in ..100000)\n');
+    assert.throws(() => session.step(), told('limit'));
+    session.load('!a x=len((1 for i in ..10000000))\n');
+    assert.throws(() => session.step(), told('limit'));
+    assert.match(session.load('!a x=1\n').step().print('tree'), /!a x=1/);
+    session.close();
+});
+
+test('recursion that is too deep is told, and the engine goes on', () => {
+    const names = Array.from({ length: 40 }, (_, i) => `f${i}`);
+    const nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
+    const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
+    const told = [];
+    const session = engine.open({ onDiagnostic: diagnostic => told.push(diagnostic.code) });
+    session.load(`${functions.join('')}let fs=${names.join(';')}\n!a x=f0(fs, 9000)\n`).step();
+    assert.deepEqual(told, ['recursion-depth']);
+    session.load('func f(n)\n    1+f(n-1) if n>0 else 0\n!a x=f(499)\n');
+    assert.match(session.step().print('tree'), /x=499/);
+    session.close();
+});
+
+test('parameters', () => {
+    const session = opened('let SIZE=SIZE or 20 -- 1..100|5 how large\n!a x=SIZE\n').step();
+    const [size] = session.parameters;
+    assert.deepEqual([size.name, size.number, size.least, size.most, size.step, size.comment, size.settable],
+        ['SIZE', 20, 1, 100, 5, 'how large', true]);
+    assert.match(session.setParameter('SIZE', 30).step().print('tree'), /x=30/);
+    assert.match(session.setParameter('SIZE', null).step().print('tree'), /x=20/);
+    assert.throws(() => session.setParameter('OTHER', 1), /OTHER/);
+    session.define('SIZE=40');
+    assert.match(session.load('let SIZE=SIZE or 20\n!a x=SIZE\n').step().print('tree'), /x=40/);
+    session.close();
+});
+
+test('files are those that are given', () => {
+    const session = engine.open({ files: { 'm.fl': 'let TEN=10\n', 'd/a.txt': 'été', 'd/b.txt': new Uint8Array([49]) } });
+    session.load("import TEN from 'm.fl'\n!a x=TEN y=read('d/a.txt') z=glob('d/*') v=read('/etc/passwd')\n").step();
+    assert.match(session.print('tree'), /^!a x=10 y='été' z='d\/a.txt';'d\/b.txt'$/m);
+    session.setFile('m.fl', 'let TEN=11\n');
+    assert.match(session.step().print('tree'), /x=11/);
+    session.close();
+});
+
+test('values come in and out', () => {
+    const session = engine.open({ fps: 10 });
+    session.give('GIVEN', [1, 2.5]);
+    session.load('!a x=GIVEN t=time\n').step().step();
+    assert.match(session.print('tree'), /x=1;2.5 t=0.1/);
+    session.give('GIVEN', 7);
+    assert.match(session.step().print('tree'), /x=7/);
+    assert.deepEqual(session.evaluate('1+2'), { text: '3', number: 3 });
+    assert.ok(Number.isNaN(session.evaluate("'é'").number));
+    assert.throws(() => session.evaluate('1+'), PetriError);
+    assert.equal(session.prompt('let q=6\nq*7'), '42\n');
+    assert.equal(session.symbolName(session.symbol('cells')), 'cells');
+    assert.equal(session.symbolName(0.5), null);
+    assert.deepEqual(session.tokens('!a x=1 -- c\n').filter(token => token.start < token.end).map(token => token.kind),
+        ['node', 'name', 'operator', 'number', 'comment']);
+    const help = session.help();
+    assert.ok(help.some(row => row.kind === 'function' && row.name === 'hypot'));
+    assert.ok(help.some(row => row.kind === 'name' && row.name === 'q'));
+    session.close();
+});
+
+test('hands', () => {
+    const session = opened('!window\n    !pointer state=:p\n    !key name=:space state=:k\n!a x=$(:p) y=$(:k)\n');
+    session.step();
+    session.pointer(true, 0.25, 0.5, 1).key('space', true);
+    stepped(session, 2);
+    assert.match(session.print('tree'), /x=0.25;0.5 y=1/);
+    assert.throws(() => session.key('no-key', true), /no-key/);
+    session.close();
+});
+
+test('sessions go side by side, and all memory comes back', () => {
+    const one = opened(DISH), two = opened('!a x=frame\n');
+    stepped(one, 3);
+    stepped(two, 5);
+    assert.equal(one.frame.number, 2);
+    assert.equal(two.frame.number, 4);
+    one.close();
+    two.close();
+    const grown = () => engine.memory.wasm.memory.buffer.byteLength;
+    const round = () => stepped(opened(DISH), 3).close();
+    for (let i = 0; i < 5; i++)
+        round();
+    const before = grown();
+    for (let i = 0; i < 40; i++)
+        round();
+    assert.equal(grown(), before);
+});
