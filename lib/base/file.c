@@ -35,6 +35,10 @@ bool file_version(Arena *arena, const Reach *reach, const char *path, Str *versi
             *version = version_of_bytes(arena, bytes);
         return there;
     }
+    if (reach_unsaved(reach, path, &bytes)) {
+        *version = version_of_bytes(arena, bytes);
+        return true;
+    }
     struct stat info;
     int file = reach ? reach_open(reach, path, O_RDONLY | O_NONBLOCK) : -1;
     bool found = reach ? file >= 0 && fstat(file, &info) == 0 : stat(path, &info) == 0;
@@ -78,14 +82,8 @@ static void read_all(void *context) {
     reading->bytes = (Str){buffer, len};
 }
 
-static bool read_from_host(Arena *arena, const Reach *reach, const char *path, size_t limit, Str *bytes, Str *version,
-                           const char **problem) {
-    Str given;
-    *problem = NULL;
-    if (!reach_read(reach, path, &given))
-        *problem = strerror(errno);
-    else if (given.len > limit)
-        *problem = "it is too large";
+static bool take_given(Arena *arena, Str given, size_t limit, Str *bytes, Str *version, const char **problem) {
+    *problem = given.len > limit ? "it is too large" : NULL;
     if (*problem)
         return false;
     if (version)
@@ -96,8 +94,13 @@ static bool read_from_host(Arena *arena, const Reach *reach, const char *path, s
 
 bool file_read(Arena *arena, const Reach *reach, const char *path, bool regular, size_t limit, Str *bytes, Str *version,
                const char **problem) {
-    if (reach && reach->read)
-        return read_from_host(arena, reach, path, limit, bytes, version, problem);
+    Str given;
+    if (reach && reach->read && !reach_read(reach, path, &given)) {
+        *problem = strerror(errno);
+        return false;
+    }
+    if (reach && (reach->read || reach_unsaved(reach, path, &given)))
+        return take_given(arena, given, limit, bytes, version, problem);
     int file = reach_open(reach, path, O_RDONLY | (regular ? O_NONBLOCK : 0)); // opening a pipe must not wait
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {

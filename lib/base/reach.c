@@ -112,6 +112,14 @@ bool reach_read(const Reach *reach, const char *path, Str *bytes) {
     return bytes->bytes != NULL;
 }
 
+bool reach_unsaved(const Reach *reach, const char *path, Str *bytes) {
+    char resolved[PATH_MAX];
+    bytes->bytes = NULL;
+    if (reach && reach->unsaved && reach_resolve(reach, REACH_READ, path, resolved) && access(resolved, F_OK) == 0)
+        bytes->bytes = reach->unsaved(reach->read_host, resolved, &bytes->len);
+    return bytes->bytes != NULL;
+}
+
 bool reach_has(const Reach *reach, ReachKind kind, const char *path) {
     return !reach || (kind == REACH_READ && reach->read) || find_folder(reach, kind, path);
 }

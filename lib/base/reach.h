@@ -20,6 +20,8 @@ typedef struct Reach {
     // same ones are given again.
     const char *(*read)(void *host, const char *name, size_t *length);
     void *read_host;
+    // What stands for a file on the disk, by its canonical path; NULL gives none.
+    const char *(*unsaved)(void *host, const char *name, size_t *length);
 } Reach;
 
 // Adds folders, by name, to those of a kind; NULL or a list that ends in NULL.
@@ -35,6 +37,8 @@ bool reach_resolve(const Reach *reach, ReachKind kind, const char *path, char re
 // The bytes that `read` gives for a path, which it gets without dots and double slashes; false with errno set if there
 // are none, or the path is too long.
 bool reach_read(const Reach *reach, const char *path, Str *bytes);
+// The text that stands for the file, if there is one.
+bool reach_unsaved(const Reach *reach, const char *path, Str *bytes);
 // A path without dots and double slashes, whatever there is on the disk; false with errno set if it is too long.
 bool reach_normal(const char *path, char normal[PATH_MAX]);
 // Opens a file for reading, or as `flags` say; -1 with errno set likewise.

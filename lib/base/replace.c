@@ -186,7 +186,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
 }
 
 // Some file systems cannot do it, which is no failure.
-static bool sync_file(int file) {
+bool replace_sync(int file) {
     int result;
     do
         result = fsync(file);
@@ -224,27 +224,41 @@ static bool put_in_place(Replacement *r, bool exists) {
     return true;
 }
 
-bool replace_commit(Replacement *r) {
+bool replace_flush(Replacement *r) {
     struct stat info;
+    if (!r->direct && fstatat(r->folder, r->name, &info, AT_SYMLINK_NOFOLLOW) == 0) {
+        if (!S_ISREG(info.st_mode))
+            return give_up(r, EEXIST);
+        (void)!fchown(r->file, info.st_uid, info.st_gid);
+        (void)!fchmod(r->file, info.st_mode & 07777);
+    }
+    return replace_sync(r->file) || r->direct || give_up(r, errno);
+}
+
+bool replace_put(Replacement *r) {
+    struct stat info;
+    if (r->direct)
+        return true;
+    bool exists = fstatat(r->folder, r->name, &info, AT_SYMLINK_NOFOLLOW) == 0;
+    if (exists && !S_ISREG(info.st_mode))
+        return give_up(r, EEXIST);
+    return put_in_place(r, exists) || give_up(r, errno);
+}
+
+bool replace_end(Replacement *r) {
     if (r->direct) {
-        sync_file(r->file);
         int file = r->file;
         r->file = -1;
         return close(file) == 0 || errno == EINTR;
     }
-    bool exists = fstatat(r->folder, r->name, &info, AT_SYMLINK_NOFOLLOW) == 0;
-    if (exists && !S_ISREG(info.st_mode))
-        return give_up(r, EEXIST);
-    if (exists) {
-        (void)!fchown(r->file, info.st_uid, info.st_gid);
-        (void)!fchmod(r->file, info.st_mode & 07777);
-    }
-    if (!sync_file(r->file) || !put_in_place(r, exists))
-        return give_up(r, errno);
-    if (!sync_file(r->folder)) // the name, too, must reach the disk
+    if (!replace_sync(r->folder)) // the name, too, must reach the disk
         return give_up(r, errno);
     replace_abandon(r);
     return true;
+}
+
+bool replace_commit(Replacement *r) {
+    return replace_flush(r) && replace_put(r) && replace_end(r);
 }
 
 void replace_abandon(Replacement *r) {

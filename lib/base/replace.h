@@ -25,14 +25,21 @@ typedef struct Replacement {
     char beside[NAME_MAX + 1]; // the new file's meanwhile; "": none
 } Replacement;
 
-// Each is false with errno set if it failed; what is begun is to be ended by one of the last two.
+// Each is false with errno set if it failed; what is begun is to be ended by replace_commit, replace_end or
+// replace_abandon.
 bool replace_begin(Replacement *replacement, const char *path, unsigned flags);
 // The same in an open folder, which it takes and closes in any case; `name` has no slash. Refuses what is there and no
 // regular file, symbolic links too.
 bool replace_begin_in(Replacement *replacement, int folder, const char *name, unsigned flags);
 // Puts the new file in its place, once all is on the disk; the old file is untouched if that fails.
 bool replace_commit(Replacement *replacement);
+// The same in three steps: all is brought to the disk; it is put in its place; so is its name, and what was begun ends.
+bool replace_flush(Replacement *replacement);
+bool replace_put(Replacement *replacement);
+bool replace_end(Replacement *replacement);
 void replace_abandon(Replacement *replacement);
-// The last two may be called from a signal handler.
+// Brings a file or folder to the disk. True where the file system cannot do that.
+bool replace_sync(int file);
+// What ends a replacement, and this, may be called from a signal handler.
 
 #endif

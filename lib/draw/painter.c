@@ -51,6 +51,8 @@ typedef struct Saving {
     PetriPainter *painter;
     CanvasFormat format;
     const char *file;
+    PetriWrite *write;      // takes the bytes; NULL: the file does
+    void *host;             // … of the function
     const Recorded *record; // NULL: the picture itself
     const Reach *reach;     // NULL: any file
     Encoded bytes;
@@ -68,6 +70,11 @@ static void save(void *context) {
                                      picture->height, &saving->bytes, &picture->faults);
     if (saving->status != PETRI_OK)
         return;
+    if (saving->write) {
+        bool taken = saving->write(saving->host, (const char *)saving->bytes.bytes, saving->bytes.length);
+        saving->status = taken ? PETRI_OK : PETRI_INVALID;
+        return;
+    }
     Replacement file;
     bool begun = reach_replace(saving->reach, saving->file, &file);
     bool refused = !begun && saving->reach && errno == EXDEV; // which was told when the picture was taken
@@ -101,6 +108,19 @@ static PetriStatus save_picture(Saving *saving) {
 PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file) {
     return save_picture(
         &(Saving){.picture = picture, .painter = painter, .format = CANVAS_PNG, .file = file, .status = PETRI_INVALID});
+}
+
+PetriStatus petri_picture_write(PetriPicture *picture, PetriPainter *painter, const char *suffix, PetriWrite *write,
+                                void *host) {
+    if (!write)
+        return PETRI_INVALID;
+    return save_picture(&(Saving){.picture = picture,
+                                  .painter = painter,
+                                  .format = CANVAS_PNG,
+                                  .file = suffix,
+                                  .write = write,
+                                  .host = host,
+                                  .status = PETRI_INVALID});
 }
 
 PetriStatus petri_picture_make(PetriPicture *picture, PetriPainter *painter) {

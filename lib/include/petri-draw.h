@@ -176,6 +176,10 @@ PETRI_API bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the
 // same PNG with the same libraries. PETRI_INVALID if the suffix is unknown or the file cannot be written.
 PETRI_API PetriStatus petri_picture_save(PetriPicture *picture, PetriPainter *painter, const char *file);
+// Gives the bytes of such a file, of the kind that the suffix tells, to a function. PETRI_INVALID, too, if that says
+// stop.
+PETRI_API PetriStatus petri_picture_write(PetriPicture *picture, PetriPainter *painter, const char *suffix,
+                                          PetriWrite *write, void *host);
 // Gives what drawing and saving found wrong to the session's diagnostic callback, each thing once per load. To be
 // called by the thread that uses the session, when no other uses the picture.
 PETRI_API void petri_picture_tell(PetriSession *session, PetriPicture *picture);

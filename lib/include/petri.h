@@ -171,6 +171,9 @@ typedef struct PetriOptions {
     // thread that draws a picture; nothing of the session may be called by it.
     const char *(*read)(void *read_host, const char *name, size_t *length);
     void *read_host;
+    // The text that stands for a file on the disk which a script imports or includes, such as one that an editor has not
+    // saved yet, or NULL: then the file counts. `name` is its canonical path; the rest is as for `read`.
+    const char *(*unsaved)(void *read_host, const char *name, size_t *length);
 } PetriOptions;
 
 // Writes the defaults of the first `size` bytes of options.

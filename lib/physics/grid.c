@@ -206,7 +206,7 @@ static bool lay(const PairPass *pass, Neighbours *list, double most, Survey *sur
     list->base = fmax(2 * median, list->bound);
     if (!(list->base > SHORTEST && list->base < 1 / SHORTEST))
         return false;
-    if (!list->skin_given && !(list->skin >= 0.05 * list->base && list->skin <= 0.6 * list->base))
+    if (!list->skin_given && !(list->skin >= SKIN_LEAST * list->base && list->skin <= SKIN_MOST * list->base))
         list->skin = 0.3 * list->base;
     survey->large = 2 * list->base;
     survey_all(pass, list, survey);

@@ -32,6 +32,23 @@ static inline uint32_t phys_cell_of(const Grid *grid, const double *position, si
 #define PHYS_CELL_IDLE UINT32_MAX
 #define PHYS_CELL_LARGE (UINT32_MAX - 1)
 
+// Lists of all regular places, made by kernels in parts.
+typedef struct ListSearch {
+    const Neighbours *list;
+    const Grid *grid;
+    const bool *foreign; // by column: needs no list; NULL: none
+    uint32_t own;        // places with a key below are of the pass's own group
+    uint32_t dummy;      // listed by lanes that are free
+    uint64_t scan_limit; // candidates of a part
+} ListSearch;
+
+typedef struct ListPart {
+    uint32_t block, block_end;
+    uint64_t begin, used, end; // of its entries
+    uint64_t scanned;          // candidates that it looked at
+    bool crowded, full;        // ended early: too many neighbours for lists; no more room
+} ListPart;
+
 // grid.c: only where the cells are, `most` of them, and what list->base, list->skin and the largest radius in a cell
 // are. list->cell tells of each particle whether it has a cell. False if the particles do not lie in a way that a grid
 // can sort.

@@ -118,32 +118,6 @@ bool PER_ISA(list_refresh)(const PairPass *pass, const ListView *view, size_t fi
     return pass->dimensions == 2 ? refresh(pass, view, 2, first, end) : refresh(pass, view, 3, first, end);
 }
 
-KERNEL size_t list_find(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
-                        uint32_t *to) {
-    size_t count = 0;
-    for (size_t s = first; s < end; s += LANES) {
-        Real square = real_zero();
-        for (size_t k = 0; k < dimensions; k++) {
-            Real d = real_load(view->built[k] + s) - real_set(query->place[k]);
-            square += d * d;
-        }
-        Real reach = real_load(view->radius + s) + real_set(query->radius);
-        reach = real_larger(reach, real_set(query->bound)) + real_set(query->skin);
-        // Both may overflow; the pair is listed then.
-        Mask close = real_at_most_where(mask_first(end - s), square, reach * reach);
-        size_t found = mask_numbers(close, (uint32_t)s, to + count);
-        count += found;
-    }
-    return count;
-}
-
-size_t PER_ISA(list_near)(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
-                          uint32_t *to) {
-    if (dimensions == 1)
-        return list_find(view, 1, query, first, end, to);
-    return dimensions == 2 ? list_find(view, 2, query, first, end, to) : list_find(view, 3, query, first, end, to);
-}
-
 KERNEL void crowd(const PairPass *pass, PairShape shape, const uint32_t *targets, size_t count, size_t first,
                   size_t end) {
     Mask live = mask_first(count);

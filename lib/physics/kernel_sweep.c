@@ -128,4 +128,67 @@ void PER_ISA(sweep_all)(SweepPass *pass, size_t first, size_t end) {
         sweep_3(pass, first, end);
 }
 
+// All lanes are finite? If so, `zeros` are those where one of the parts is 0.
+KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
+    Mask finite = mask_first(LANES), large = finite;
+    for (size_t k = 0; k < count; k++) {
+        large = real_differs_where(large, parts[k], real_zero());
+        finite = real_at_most_where(finite, parts[k] - parts[k], real_zero());
+    }
+    *zeros = mask_bits(large) ^ ALL_LANES;
+    return mask_bits(finite) == ALL_LANES;
+}
+
+static bool other_zero(const double *row, double (*parts)[LANES], size_t count, size_t lane) {
+    for (size_t k = 0; k < count; k++)
+        if (row[k] == 0 && parts[k][lane] == 0 && signbit(row[k]) != signbit(parts[k][lane]))
+            return true;
+    return false;
+}
+
+KERNEL bool in_a_row(const uint32_t *order) {
+    for (uint32_t lane = 1; lane < LANES; lane++)
+        if (order[lane] != order[0] + lane)
+            return false;
+    return true;
+}
+
+// Where all numbers are finite, keeping the last finite ones (particles.c) is to copy: numbers that are equal to those
+// in the rows have the same bits, but for zeros.
+KERNEL size_t store(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first, size_t end) {
+    for (; first + LANES <= end; first += LANES) {
+        Real parts[2 * PHYS_VECTOR_DIMENSIONS];
+        for (size_t k = 0; k < n; k++) {
+            parts[k] = real_load(columns->position + k * columns->stride + first);
+            parts[n + k] = real_load(columns->velocity + k * columns->stride + first);
+        }
+        Lanes zeros;
+        if (!all_finite(parts, 2 * n, &zeros))
+            return first;
+        if (n == 2 && !zeros && in_a_row(order + first)) {
+            real_store_quads(rows + 4 * (size_t)order[first], parts);
+            continue;
+        }
+        double numbers[2 * PHYS_VECTOR_DIMENSIONS][LANES];
+        for (size_t k = 0; k < 2 * n; k++)
+            real_store(numbers[k], parts[k]);
+        for (; zeros; zeros &= zeros - 1)
+            if (other_zero(rows + 2 * n * order[first + (size_t)__builtin_ctz(zeros)], numbers, 2 * n,
+                           (size_t)__builtin_ctz(zeros)))
+                return first;
+        for (size_t lane = 0; lane < LANES; lane++)
+            for (size_t k = 0; k < 2 * n; k++)
+                rows[2 * n * order[first + lane] + k] = numbers[k][lane];
+    }
+    return first;
+}
+
+size_t PER_ISA(store_rows)(const Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end) {
+    if (columns->dimensions == 1)
+        return store(columns, 1, order, rows, first, end);
+    if (columns->dimensions == 2)
+        return store(columns, 2, order, rows, first, end);
+    return store(columns, 3, order, rows, first, end);
+}
+
 #endif

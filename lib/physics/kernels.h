@@ -75,15 +75,9 @@ typedef struct ListView {
     uint32_t *most;    // and the longest of its lists
 } ListView;
 
-// Which places a target must list: those nearer than max(radius + radius, bound) + skin, and not `self`.
-typedef struct NearQuery {
-    double place[PHYS_VECTOR_DIMENSIONS];
-    double radius;
-    double bound;
-    double skin;
-    uint32_t self;
-} NearQuery;
-
+struct Columns;    // internal.h
+struct ListSearch; // grid.h
+struct ListPart;
 struct SweepPass; // sweep.h
 typedef void SweepKernel(struct SweepPass *pass, size_t first, size_t end);
 
@@ -93,24 +87,27 @@ typedef struct Kernels {
     const PairKernel *(*pair)(const PairPass *pass);
     // Brings the quads of places first … end - 1 up to date. False if one of them has moved too far or changed size.
     bool (*list_refresh)(const PairPass *pass, const ListView *view, size_t first, size_t end);
-    // Appends the places among first … end - 1 that a target must list. `to` has room for LANES more than there are.
-    size_t (*list_near)(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,
-                        uint32_t *to);
+    // Makes the lists of one part.
+    void (*list_search)(const struct ListSearch *search, struct ListPart *part);
     // Forces on the regular places of some blocks.
     void (*list_forces)(const PairPass *pass, const ListView *view, size_t first, size_t end);
     // Forces on at most LANES particles from all of one range. `targets` holds LANES columns.
     void (*list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);
     // Single-particle forces, barriers and motion of some particles.
     SweepKernel *sweep;
+    // Copies positions and velocities of particles to the rows of their handles, LANES at a time, as long as all are
+    // finite and no 0 meets another 0 in the row: returns the first that it did not take.
+    size_t (*store)(const struct Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end);
 } Kernels;
 
-// kernel_list.c, kernel_sweep.c and kernel_pair.c, once for each instruction set.
+// kernel_list.c, kernel_search.c, kernel_sweep.c and kernel_pair.c, once for each instruction set.
 #define ISA_KERNELS(isa)                                                                                               \
     bool list_refresh_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                     \
-    size_t list_near_##isa(const ListView *view, size_t dimensions, const NearQuery *query, size_t first, size_t end,  \
-                           uint32_t *to);                                                                              \
+    void list_search_##isa(const struct ListSearch *search, struct ListPart *part);                                    \
     void list_forces_##isa(const PairPass *pass, const ListView *view, size_t first, size_t end);                      \
     void list_crowd_##isa(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end);      \
+    size_t store_rows_##isa(const struct Columns *columns, const uint32_t *order, double *rows, size_t first,          \
+                            size_t end);                                                                               \
     void sweep_all_##isa(struct SweepPass *pass, size_t first, size_t end);
 ISA_KERNELS(two)
 ISA_KERNELS(avx2)

@@ -132,14 +132,6 @@ static void large_forces(const ListPass *work) {
     }
 }
 
-// Neither many steps nor few are best.
-void phys_adapt_skin(Neighbours *list, uint32_t life) {
-    if (life < 8)
-        list->skin = fmin(list->skin * 1.25, 0.6 * list->base);
-    else if (life > 24)
-        list->skin = fmax(list->skin / 1.15, 0.05 * list->base);
-}
-
 // Costs relative to that of a list entry, with eight lanes; only ratios count, so the unit is left open. Where a force
 // needs contact, few pairs get as far as a square root. Wrong costs cost time and change no result.
 #define PAIR_COST(touch_only) ((touch_only) ? 1.0 / 6 : 1.0)
@@ -163,6 +155,31 @@ static bool pays(const Neighbours *list) {
     double each = n * (BUILD_COST / life + REFRESH_COST), scan = (double)list->scanned * SCAN_COST / life;
     double large = (double)(list->view.listed - list->view.regular) * n * LARGE_COST;
     return each + (scan + large + (double)list->padded) / width < all_pairs_cost(list) / width;
+}
+
+// Of a step with lists, but for what does not depend on the skin. Counted, not timed: which way is taken shows in the
+// work that is charged.
+static double cost_of_step(const Neighbours *list) {
+    double build = (double)list->total * BUILD_COST, width = (double)list->lanes / 8;
+    return build / list->life + ((double)list->scanned * SCAN_COST / list->life + (double)list->padded) / width;
+}
+
+// A longer skin makes longer lists that serve more steps. Each life tries another one, in the same direction until it
+// costs more than the last.
+static void try_skin(Neighbours *list) {
+    double cost = cost_of_step(list);
+    list->shorter ^= list->cost > 0 && cost > list->cost;
+    list->cost = cost;
+    list->skin *= list->shorter ? 1 / 1.2 : 1.2;
+    list->skin = fmax(SKIN_LEAST * list->base, fmin(list->skin, SKIN_MOST * list->base));
+}
+
+// Neither many steps nor few are best.
+void phys_adapt_skin(Neighbours *list, uint32_t life) {
+    if (life < 8)
+        list->skin = fmin(list->skin * 1.25, SKIN_MOST * list->base);
+    else if (life > 24)
+        list->skin = fmax(list->skin / 1.15, SKIN_LEAST * list->base);
 }
 
 static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
@@ -214,6 +231,8 @@ static Neighbours *list_for(PhysSystem *system, const Kernels *kernels, const Pa
         list->ranges = ranges;
         list->built = false;
         list->resting = list->backoff = list->life = 0;
+        list->cost = 0;
+        list->shorter = false;
         list->skin = system->skin;
         list->skin_given = system->foreign;
     }
@@ -255,7 +274,7 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
     if (list->built && !system->foreign && !refresh(system, &work)) {
         list->built = false;
         list->life = list->age;
-        phys_adapt_skin(list, list->life);
+        try_skin(list);
     }
     if (!list->built) {
         if (!build(system, kernels, pass, list))

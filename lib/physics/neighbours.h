@@ -9,6 +9,10 @@
 #include "physics/internal.h"
 #include "physics/kernels.h"
 
+// In units of Neighbours.base.
+#define SKIN_LEAST 0.05
+#define SKIN_MOST 0.6
+
 enum {
     PHYS_MOST_LARGE = 64, // particles much larger than the others that a list takes
 };
@@ -48,6 +52,8 @@ typedef struct Neighbours {
     // when to use it
     uint32_t age;     // steps since it was built
     uint32_t life;    // steps that the one before served
+    double cost;      // of one of these steps; 0: unknown
+    bool shorter;     // the skin is being made shorter, else longer
     uint32_t resting; // steps left in which all pairs are computed instead
     uint32_t backoff;
     Buffer arrays;
@@ -62,7 +68,7 @@ PairPass phys_columns_pass(const Columns *columns);
 bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
                          uint32_t level);
 void phys_neighbours_free(Neighbours *list);
-// Another skin for what has served `life` steps: a larger one makes longer lists that serve more steps.
+// domain.c: another skin for what has served `life` steps.
 void phys_adapt_skin(Neighbours *list, uint32_t life);
 
 // Those of a system that is part of a larger one (domain.h), which says when lists are made.

@@ -117,6 +117,15 @@ static inline bool keep_last_finite(double *column, size_t stride, double *row, 
     return finite;
 }
 
+static inline void copy_to_row(PhysSystem *system, size_t n, size_t i) {
+    const Columns *columns = &system->columns;
+    double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
+    for (size_t k = 0; k < n; k++) {
+        row[k] = columns->position[k * columns->stride + i];
+        row[n + k] = columns->velocity[k * columns->stride + i];
+    }
+}
+
 static inline void keep_range(Storing *storing, size_t n, size_t i, size_t end, int worker) {
     PhysSystem *system = storing->system;
     const Columns *columns = &system->columns;
@@ -145,24 +154,22 @@ static void store_share(void *context, int worker, int workers) {
     Storing *storing = context;
     PhysSystem *system = storing->system;
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
+    size_t n = columns->dimensions, end = phys_share(columns->count, worker + 1, workers);
     size_t first = phys_share(columns->count, worker, workers);
     if (storing->keep_last_finite) {
-        if (n == 2)
-            keep_range(storing, 2, first, end, worker);
-        else if (n == 3)
-            keep_range(storing, 3, first, end, worker);
-        else
-            keep_range(storing, n, first, end, worker);
+        // What the kernel does not take is gone through particle by particle, as many as it takes at once.
+        const Kernels *kernels = phys_kernels(system);
+        while (first < end) {
+            if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)
+                first = kernels->store(columns, system->order, system->rows.bytes, first, end);
+            size_t stop = end - first < kernels->lanes ? end : first + kernels->lanes;
+            keep_range(storing, n, first, stop, worker);
+            first = stop;
+        }
         return;
     }
-    for (size_t i = first; i < end; i++) {
-        double *row = phys_row(system, system->order[i]);
-        for (size_t k = 0; k < n; k++) {
-            row[k] = columns->position[k * stride + i];
-            row[n + k] = columns->velocity[k * stride + i];
-        }
-    }
+    for (size_t i = first; i < end; i++)
+        copy_to_row(system, n, i);
 }
 
 bool phys_clear_not_finite(PhysSystem *system) {

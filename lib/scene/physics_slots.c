@@ -27,14 +27,12 @@ bool physics_has_id(const PhysicsTree *tree, uint32_t body, Value id) {
     double numbers[PHYSICS_KEY_NUMBERS];
     const State *state = tree->frame->state;
     StateSlot slot = tree->system->mirror.slots[2 * (size_t)body];
-    Value key = state_slot_key(state, slot);
     if (id.len == 0)
         return false;
-    if (!value_is_numeric(key) || !value_is_numeric(id))
-        return state_find(state, physics_key(tree, id, false, numbers)) == slot;
-    // The prefix of a system never changes.
-    return key.len == tree->prefix.len + id.len &&
-           !memcmp(value_numbers(&key) + tree->prefix.len, value_numbers(&id), id.len * sizeof(double));
+    if (id.len > 1 || id.kind != VALUE_NUMBERS)
+        return state_slot_has_key(state, slot, physics_key(tree, id, false, numbers));
+    double own = state_slot_last_number(state, slot, tree->prefix.len + 1); // the prefix of a system never changes
+    return memcmp(&own, &id.as.number, sizeof own) == 0;
 }
 
 uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot) {

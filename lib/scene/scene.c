@@ -99,12 +99,16 @@ static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
 // Drops slots of the state that nothing needs any more, once they are many: ids that come and go would fill it.
 static void tidy_state(Scene *scene, const SceneFrame *frame) {
     enum { MANY = 4096 };
-    uint32_t count = state_slot_count(frame->state);
+    uint32_t count = state_slot_count(frame->state), held = 0;
     if (count < MANY || count / 2 < state_count(frame->state))
         return;
-    for (PhysicsSystem *system = scene->systems; system; system = system->next)
+    for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         if (system->mirror.state == MIRROR_OPEN)
             return; // an update broke off: its lists are not in order
+        held += system->mirror.slot_count;
+    }
+    if (count / 2 < held)
+        return; // before time begins to pass, what is held has no value
     uint8_t *used = arena_alloc_array(frame->arena, count, sizeof *used);
     StateSlot *moved = arena_alloc_array(frame->arena, count, sizeof *moved), *own[OWN_SLOTS];
     memset(used, 0, count);
@@ -190,17 +194,14 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
 }
 
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle) {
-    Value key = state_slot_key(state, view->slots[2 * particle]);
+    Value key =
+        value_copy(arena, state_slot_key_in(state, view->slots[2 * (size_t)particle], (double[STATE_KEY_ROOM]){0}));
     return value_slice(arena, key, view->prefix.len, key.len - view->prefix.len);
 }
 
 // The number that is an id, or the quiet NaN, which no key has.
 static double single_id(const State *state, const SceneView *view, uint32_t particle) {
-    Value key = state_slot_key(state, view->slots[2 * (size_t)particle]);
-    if (key.len != view->prefix.len + 1)
-        return NAN;
-    Item last = value_at(&key, key.len - 1);
-    return last.type == ITEM_NUMBER ? last.as.number : NAN;
+    return state_slot_last_number(state, view->slots[2 * (size_t)particle], view->prefix.len + 1);
 }
 
 // Room for the ids, which the host has asked for, is charged as what the script has is.

@@ -58,9 +58,10 @@ static void put_value(Writer *writer, Value v) {
 
 static void put_state(Writer *writer, const State *state) {
     uint32_t count = state_slot_count(state);
+    double room[STATE_KEY_ROOM];
     put_word(writer, count);
     for (uint32_t i = 0; i < count; i++) {
-        put_value(writer, state_slot_key(state, i));
+        put_value(writer, state_slot_key_in(state, i, room));
         put_value(writer, state_slot_get(state, i));
     }
 }

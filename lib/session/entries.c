@@ -34,7 +34,9 @@ PetriValue petri_state_get(PetriSession *session, PetriValue key) {
         find_entry(session, &wanted);
     else if (session->calls == 0)
         session_protect(session, NULL, find_entry, &wanted);
-    return wanted.slot == STATE_NO_SLOT ? (PetriValue){0} : session_show(state_slot_at(session->state, wanted.slot));
+    Value room;
+    return wanted.slot == STATE_NO_SLOT ? (PetriValue){0}
+                                        : session_show(state_slot_at(session->state, wanted.slot, &room));
 }
 
 // Numbers that are finite, and strings.
@@ -77,8 +79,9 @@ bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, 
         ++*cursor;
     if (*cursor >= state_slot_count(state))
         return false;
-    *key = session_show(state_slot_key_at(state, *cursor));
-    *value = session_show(state_slot_at(state, *cursor));
+    Value room;
+    *key = session_show(state_slot_key_at(state, *cursor, &room));
+    *value = session_show(state_slot_at(state, *cursor, &room));
     ++*cursor;
     return true;
 }

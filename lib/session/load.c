@@ -262,6 +262,8 @@ const Program *session_module(void *host, Str path, Str *why) {
         *why = STR("there is no such file");
         return NULL;
     }
+    if (session->reach.unsaved)
+        file_version(&session->frame.arena, &session->reach, file, &version);
     Str canonical = file_canonical(&session->frame.arena, &session->reach, file);
     if (!reach_has(&session->reach, REACH_READ, canonical.bytes)) {
         *why = str_from(reach_refusal(&session->frame.arena, &session->reach, REACH_READ, file));

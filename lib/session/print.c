@@ -52,8 +52,9 @@ static void print_state(Writing *out, PetriSession *session) {
     uint32_t count = 0, room = state_count(session->state), cursor = 0;
     Entry *entries = arena_alloc_array(&session->text_arena, room, sizeof *entries);
     Entry *scratch = arena_alloc_array(&session->text_arena, room, sizeof *scratch);
-    while (count < room && state_next(session->state, &cursor, &entries[count].key, &entries[count].value))
-        count++;
+    double numbers[STATE_KEY_ROOM];
+    for (Value key; count < room && state_next(session->state, &cursor, &key, &entries[count].value, numbers); count++)
+        entries[count].key = value_numbers(&key) == numbers ? value_copy(&session->text_arena, key) : key;
     sort_entries(entries, scratch, count, &session->symbols);
     for (uint32_t i = 0; i < count && !out->stopped; i++) {
         bool several = entries[i].key.len != 1;

@@ -35,7 +35,8 @@ static void add_key(Text *out, const PetriSession *session, Value key) {
 
 static void add_entries(Text *out, const PetriSession *session) {
     uint32_t cursor = 0;
-    for (Value key, value; state_next(session->state, &cursor, &key, &value);) {
+    double room[STATE_KEY_ROOM];
+    for (Value key, value; state_next(session->state, &cursor, &key, &value, room);) {
         add_key(out, session, key);
         text_add_c(out, " = ");
         format_value(out, &session->symbols, value);
@@ -45,13 +46,14 @@ static void add_entries(Text *out, const PetriSession *session) {
 
 static void add_systems(Text *out, const PetriSession *session) {
     const void *cursor = NULL;
+    double room[STATE_KEY_ROOM];
     for (SceneSystem system; scene_next_system(session->scene, &cursor, &system);) {
         text_add_format(out, "system %u ", system.occurrence);
-        add_key(out, session, state_slot_key(session->state, system.prefix));
+        add_key(out, session, state_slot_key_in(session->state, system.prefix, room));
         text_add_char(out, '\n');
         for (uint32_t i = 0; i < system.slot_count; i += 2) {
             text_add_c(out, "particle ");
-            add_key(out, session, state_slot_key(session->state, system.slots[i]));
+            add_key(out, session, state_slot_key_in(session->state, system.slots[i], room));
             text_add_char(out, '\n');
         }
     }

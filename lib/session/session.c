@@ -181,6 +181,7 @@ static void open_parts(PetriSession *session, void *context) {
     session->reach.nothing = options->no_files;
     session->reach.read = options->read;
     session->reach.read_host = options->read_host;
+    session->reach.unsaved = options->unsaved;
     reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
     reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
     reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);

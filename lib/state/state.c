@@ -1,5 +1,5 @@
 // state.c: see state.h.
-#include "state/state.h"
+#include "state/internal.h"
 
 #include "base/arena.h"
 #include "base/heap.h"
@@ -10,40 +10,12 @@
 #include <math.h>
 #include <string.h>
 
-typedef struct StateEntry {
-    Value key;   // in `keys`, or inline
-    Value value; // one heap block, or inline; borrowed if there is a lender. Null: the slot is empty
-    uint32_t hash;
-    StateLender lender;
-} StateEntry;
-
-// What a slot takes besides its key and value: the entry and its part of the index, both with room to grow.
-#define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(IndexSlot)))
-
-struct State {
-    StateEntry *entries;
-    uint32_t count; // slots, empty ones included
-    uint32_t capacity;
-    uint32_t live;
-    Index index;
-    Arena keys;
-    bool *disturbed; // by lender
-    uint32_t lender_count;
-    bool exhausted; // see state_take_exhausted
-    Meter *meter;   // that memory is charged to, or NULL
-};
-
-static void start_keys(Arena *keys, Meter *meter) {
-    arena_init(keys, "state keys", SIZE_MAX);
-    keys->meter = meter;
-}
-
 State *state_new(Meter *meter) {
     State *state = heap_zeroed(1, sizeof(State));
     if (!state)
         return NULL;
     state->meter = meter;
-    start_keys(&state->keys, meter);
+    state_start_keys(&state->keys, meter);
     return state;
 }
 
@@ -55,27 +27,9 @@ static void *take(State *state, size_t bytes) {
     return block;
 }
 
-typedef struct KeyCopy {
-    Arena *keys;
-    Value key;
-} KeyCopy;
-
-static void copy_key(void *context) {
-    KeyCopy *copy = context;
-    copy->key = value_copy(copy->keys, copy->key);
-}
-
 static bool exhausted(State *state) {
     state->exhausted = true;
     return false;
-}
-
-// A copy of a key; false if memory is used up.
-static bool own_key(Arena *keys, Value *copy, Value key) {
-    KeyCopy made = {keys, key};
-    bool done = arena_protect(&keys, 1, copy_key, &made) == ARENA_DONE;
-    *copy = made.key;
-    return done;
 }
 
 // A mixed vector is kept as one heap block: items, then Strings, then their bytes.
@@ -147,10 +101,10 @@ static void disown(State *state, StateEntry *entry) {
 }
 
 void state_clear(State *state) {
-    for (uint32_t i = 0; i < state->count; i++)
+    for (uint32_t i = 0; i < state->entry_count; i++)
         disown(state, &state->entries[i]);
-    meter_give(state->meter, state->count * SLOT_BYTES);
-    state->count = state->live = 0;
+    meter_give(state->meter, state->entry_count * SLOT_BYTES);
+    state->count = state->live = state->entry_count = state->series_count = state->row = 0;
     index_clear(&state->index);
     arena_reset(&state->keys);
     for (uint32_t i = 0; i < state->lender_count; i++)
@@ -205,56 +159,221 @@ static bool key_equal(Value a, Value b) {
 }
 
 static bool entry_has_key(const void *owner, uint32_t entry, const void *key) {
-    return key_equal(((const State *)owner)->entries[entry].key, *(const Value *)key);
+    return key_equal(state_entry(owner, entry)->key, *(const Value *)key);
 }
 
-static uint32_t find(const State *state, Value key, uint64_t hash) {
-    return index_find(&state->index, hash, entry_has_key, state, &key);
+static StateSlot find(const State *state, Value key, uint64_t hash) {
+    uint32_t found = index_find(&state->index, hash, entry_has_key, state, &key);
+    return found == INDEX_NONE ? STATE_NO_SLOT : found;
+}
+
+static StateSlot find_in_series(const State *state, Value key) {
+    StateSlot found = STATE_NO_SLOT;
+    for (uint32_t i = 0; i < state->series_count && found == STATE_NO_SLOT; i++)
+        found = series_find(&state->series[i], key);
+    return found;
+}
+
+// Turns the entries at the end into a series, if they have no values.
+static void begin_series(State *state) {
+    enum { SLOTS = 2 * MOST_ALONE };
+    const StateEntry *entries = state->entries + state->entry_count - SLOTS;
+    state->row = 0;
+    if (entries[1].key.len > STATE_KEY_ROOM)
+        return;
+    for (uint32_t i = 0; i < SLOTS; i++)
+        if (entries[i].value.len > 0)
+            return;
+    StateSlot first = state->count - SLOTS;
+    for (uint32_t i = 0; i < SLOTS; i++)
+        index_remove(&state->index, (uint64_t)entries[i].hash << 32, first + i);
+    state->series[state->series_count++] = (Series){
+        .first = first, .count = SLOTS, .prefix_len = entries[1].key.len - 2, .head = entries[1].key.as.numbers};
+    state->entry_count -= SLOTS;
+    meter_give(state->meter, SLOTS * SLOT_BYTES);
+}
+
+// A slot with an entry was made: is there a row of pairs now that is worth a series?
+static void look_for_series(State *state) {
+    const StateEntry *end = state->entries + state->entry_count;
+    if (state->series_count == MOST_SERIES || state->entry_count < 4 || end[-1].key.kind != VALUE_NUMBERS ||
+        end[-1].key.len != end[-2].key.len + 1)
+        return;
+    bool follow = series_follow(end[-4].key, end[-3].key, end[-2].key, end[-1].key);
+    const Series *last = state->series_count ? &state->series[state->series_count - 1] : NULL;
+    if (last && last->first + last->count > state->count - 4)
+        follow = false;
+    state->row = follow ? state->row + 1 : 1;
+    if (state->row == MOST_ALONE)
+        begin_series(state);
+}
+
+static bool is_next(const State *state, Value key) {
+    const Series *last = state->series_count ? &state->series[state->series_count - 1] : NULL;
+    return last && last->first + last->count == state->count && series_is_next(last, key);
+}
+
+// Room for more entries. False if memory is used up.
+static bool reserve_entries(State *state, uint32_t count) {
+    if (!meter_take(state->meter, count * SLOT_BYTES))
+        return exhausted(state);
+    if (heap_reserve((void **)&state->entries, &state->capacity, state->entry_count + count - 1, sizeof(StateEntry)))
+        return true;
+    meter_give(state->meter, count * SLOT_BYTES);
+    return exhausted(state);
 }
 
 StateSlot state_slot(State *state, Value key) {
     if (!state_key_valid(key))
         return STATE_NO_SLOT;
-    uint64_t hash = key_hash(key);
-    uint32_t found = find(state, key, hash);
-    if (found != INDEX_NONE)
+    StateSlot found = find_in_series(state, key);
+    if (found != STATE_NO_SLOT)
         return found;
+    uint64_t hash = key_hash(key);
+    found = find(state, key, hash);
+    if (found != STATE_NO_SLOT)
+        return found;
+    if (is_next(state, key)) {
+        state->series[state->series_count - 1].count++;
+        return state->count++;
+    }
     StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
-    if (!meter_take(state->meter, SLOT_BYTES))
-        return exhausted(state), STATE_NO_SLOT;
-    if (!heap_reserve((void **)&state->entries, &state->capacity, state->count, sizeof entry) ||
-        !index_add(&state->index, hash, state->count)) {
+    if (!reserve_entries(state, 1))
+        return STATE_NO_SLOT;
+    if (!index_add(&state->index, hash, state->count)) {
         meter_give(state->meter, SLOT_BYTES);
         return exhausted(state), STATE_NO_SLOT;
     }
-    if (!own_key(&state->keys, &entry.key, key)) {
+    if (!state_own_key(&state->keys, &entry.key, key)) {
         index_remove(&state->index, hash, state->count);
         meter_give(state->meter, SLOT_BYTES);
         return exhausted(state), STATE_NO_SLOT;
     }
-    state->entries[state->count] = entry;
-    return state->count++;
+    state->entries[state->entry_count++] = entry;
+    state->count++;
+    look_for_series(state);
+    return state->count - 1;
 }
 
 StateSlot state_find(const State *state, Value key) {
-    uint32_t found = state_key_valid(key) ? find(state, key, key_hash(key)) : INDEX_NONE;
-    return found == INDEX_NONE ? STATE_NO_SLOT : found;
+    if (!state_key_valid(key))
+        return STATE_NO_SLOT;
+    StateSlot found = find_in_series(state, key);
+    return found == STATE_NO_SLOT ? find(state, key, key_hash(key)) : found;
+}
+
+typedef struct KeysCopy {
+    Arena *arena;
+    Series *series;
+} KeysCopy;
+
+static void write_keys(void *context) {
+    KeysCopy *copy = context;
+    Series *series = copy->series;
+    uint32_t pairs = (series->count + 1) / 2, stride = series->prefix_len + 2;
+    double *keys = arena_alloc(copy->arena, (size_t)pairs * stride * sizeof *keys);
+    for (uint32_t i = 0; i < pairs; i++)
+        series_write_key(series, i, keys + (size_t)i * stride);
+    series->keys = keys;
+    series->keys_count = pairs;
+}
+
+// The key of a slot in a series. Keys are written out when the first is asked for; null if there is no memory for them.
+static Value series_key(State *state, Series *series, StateSlot slot) {
+    uint32_t at = slot - series->first, stride = series->prefix_len + 2;
+    Arena *arena = &state->keys;
+    KeysCopy copy = {arena, series};
+    if (at / 2 >= series->keys_count && arena_protect(&arena, 1, write_keys, &copy) != ARENA_DONE)
+        return exhausted(state), VALUE_NULL;
+    return (Value){.len = stride - 1 + at % 2, .as.numbers = series->keys + (size_t)(at / 2) * stride};
 }
 
 Value state_slot_get(const State *state, StateSlot slot) {
-    return slot < state->count ? state->entries[slot].value : VALUE_NULL;
+    const Series *series = state_series(state, slot);
+    return series ? series_value(series, slot) : slot < state->count ? state_entry(state, slot)->value : VALUE_NULL;
 }
 
 Value state_slot_key(const State *state, StateSlot slot) {
-    return slot < state->count ? state->entries[slot].key : VALUE_NULL;
+    Series *series = state_series(state, slot);
+    return series                ? series_key((State *)state, series, slot)
+           : slot < state->count ? state_entry(state, slot)->key
+                                 : VALUE_NULL;
 }
 
-const Value *state_slot_key_at(const State *state, StateSlot slot) {
-    return &state->entries[slot].key;
+Value state_slot_key_in(const State *state, StateSlot slot, double room[STATE_KEY_ROOM]) {
+    const Series *series = state_series(state, slot);
+    if (!series)
+        return state_slot_key(state, slot);
+    uint32_t at = slot - series->first;
+    series_write_key(series, at / 2, room);
+    return (Value){.len = series->prefix_len + 1 + at % 2, .as.numbers = room};
 }
 
-const Value *state_slot_at(const State *state, StateSlot slot) {
-    return &state->entries[slot].value;
+bool state_slot_has_key(const State *state, StateSlot slot, Value key) {
+    const Series *series = state_series(state, slot);
+    return series ? series_find(series, key) == slot
+                  : slot < state->count && key_equal(state_entry(state, slot)->key, key);
+}
+
+const Value *state_slot_key_at(const State *state, StateSlot slot, Value *room) {
+    if (!state_series(state, slot))
+        return &state_entry(state, slot)->key;
+    *room = state_slot_key(state, slot);
+    return room;
+}
+
+const Value *state_slot_at(const State *state, StateSlot slot, Value *room) {
+    const Series *series = state_series(state, slot);
+    if (!series)
+        return &state_entry(state, slot)->value;
+    *room = series_value(series, slot);
+    return room;
+}
+
+double state_slot_last_number(const State *state, StateSlot slot, uint32_t len) {
+    const Series *series = state_series(state, slot);
+    if (series)
+        return series->prefix_len + 1 == len && (slot - series->first) % 2 == 0
+                   ? series_id(series, (slot - series->first) / 2)
+                   : NAN;
+    Value key = state_slot_key(state, slot);
+    Item last = key.len == len ? value_at(&key, len - 1) : (Item){.type = ITEM_STRING};
+    return last.type == ITEM_NUMBER ? last.as.number : NAN;
+}
+
+// Makes entries of the slots of a series, behind those of the slots before. False if memory is used up.
+static bool write_out(State *state, Series *gone) {
+    Series series = *gone;
+    uint32_t at = (uint32_t)(state_entry(state, series.first) - state->entries), added = 0;
+    if (series_key(state, gone, series.first + series.count - 1).len == 0 || !reserve_entries(state, series.count))
+        return false;
+    series = *gone;
+    StateEntry *entries = state->entries + at;
+    memmove(entries + series.count, entries, (state->entry_count - at) * sizeof *entries);
+    for (; added < series.count; added++) {
+        StateSlot slot = series.first + added;
+        Value key = series_key(state, gone, slot), value = series_value(&series, slot);
+        uint64_t hash = key_hash(key);
+        if (!index_add(&state->index, hash, slot))
+            break;
+        entries[added] = (StateEntry){key, value, (uint32_t)(hash >> 32), value.len ? series.lender : 0};
+    }
+    if (added < series.count) {
+        while (added-- > 0)
+            index_remove(&state->index, (uint64_t)entries[added].hash << 32, series.first + added);
+        memmove(entries, entries + series.count, (state->entry_count - at) * sizeof *entries);
+        meter_give(state->meter, series.count * SLOT_BYTES);
+        return exhausted(state);
+    }
+    memmove(gone, gone + 1, (size_t)(state->series + --state->series_count - gone) * sizeof *gone);
+    state->entry_count += series.count;
+    return true;
+}
+
+// The same for the series of a slot, if it is in one.
+static bool alone(State *state, StateSlot slot) {
+    Series *series = state_series(state, slot);
+    return !series || write_out(state, series);
 }
 
 // Puts a value that the entry owns from now on in the place of the one it has.
@@ -270,10 +389,13 @@ static void replace(State *state, StateEntry *entry, Value owned) {
 bool state_slot_set(State *state, StateSlot slot, Value value) {
     if (slot >= state->count)
         return slot != STATE_NO_SLOT;
-    StateEntry *entry = &state->entries[slot];
-    Value *stored = &entry->value;
-    if (value.len > 0 && value_equal(NULL, *stored, value))
+    Value present = state_slot_get(state, slot);
+    if (present.len == value.len && (value.len == 0 || value_equal(NULL, present, value)))
         return true; // equal values leave the stored bits alone
+    if (!alone(state, slot))
+        return false;
+    StateEntry *entry = state_entry(state, slot);
+    Value *stored = &entry->value;
     if (!entry->lender && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
         value.len > 0) {
         if (value.len == 1)
@@ -307,7 +429,15 @@ bool state_take_disturbed(State *state, StateLender lender) {
 void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const double *numbers, uint32_t len) {
     if (slot >= state->count)
         return;
-    StateEntry *entry = &state->entries[slot];
+    Series *series = state_series(state, slot);
+    uint32_t lent = series ? series->lent : 0;
+    if (series && series_borrow(series, slot, lender, numbers, len)) {
+        state->live += series->lent - lent;
+        return;
+    }
+    if (!alone(state, slot))
+        return;
+    StateEntry *entry = state_entry(state, slot);
     if (entry->lender == lender && entry->value.len == len) {
         entry->value.as.numbers = numbers;
         return;
@@ -317,13 +447,23 @@ void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const d
 }
 
 bool state_slot_borrows(const State *state, StateSlot slot, StateLender lender) {
-    return lender && slot < state->count && state->entries[slot].lender == lender;
+    const Series *series = state_series(state, slot);
+    if (series)
+        return lender && series_borrows(series, slot, lender);
+    return lender && slot < state->count && state_entry(state, slot)->lender == lender;
 }
 
 bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
     if (!state_slot_borrows(state, slot, lender))
         return true;
-    StateEntry *entry = &state->entries[slot];
+    if (!alone(state, slot)) { // the series cannot keep what its lender is about to take away
+        Series *series = state_series(state, slot);
+        state->live -= series->lent;
+        series->lent = series->fresh = 0;
+        state->disturbed[lender - 1] = true;
+        return false;
+    }
+    StateEntry *entry = state_entry(state, slot);
     Value copy;
     if (!own(state, &copy, entry->value)) {
         replace(state, entry, VALUE_NULL);
@@ -349,55 +489,12 @@ uint32_t state_slot_count(const State *state) {
     return state->count;
 }
 
-// Indexes the slots that are kept, under their new numbers, and copies their keys. False if memory is used up.
-static bool index_kept(const State *state, const uint8_t *used, StateSlot *moved, Index *index, Arena *keys,
-                       Value *copies) {
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < state->count; i++) {
-        const StateEntry *entry = &state->entries[i];
-        moved[i] = used[i] || entry->value.len > 0 ? count++ : STATE_NO_SLOT;
-        if (moved[i] != STATE_NO_SLOT &&
-            (!own_key(keys, &copies[moved[i]], entry->key) || !index_add(index, (uint64_t)entry->hash << 32, moved[i])))
-            return false;
-    }
-    return true;
-}
-
-bool state_compact(State *state, const uint8_t *used, StateSlot *moved) {
-    Index index = {0};
-    Arena keys;
-    start_keys(&keys, state->meter);
-    Value *copies = heap_take((state->count + 1) * sizeof *copies);
-    if (!copies || !index_kept(state, used, moved, &index, &keys, copies)) {
-        index_free(&index);
-        arena_free(&keys);
-        heap_give(copies);
-        return false;
-    }
-    uint32_t count = 0;
-    for (uint32_t i = 0; i < state->count; i++) {
-        if (moved[i] == STATE_NO_SLOT)
-            continue;
-        state->entries[moved[i]] = state->entries[i];
-        state->entries[moved[i]].key = copies[moved[i]];
-        count++;
-    }
-    heap_give(copies);
-    index_free(&state->index);
-    arena_free(&state->keys);
-    state->index = index;
-    state->keys = keys;
-    meter_give(state->meter, (state->count - count) * SLOT_BYTES);
-    state->count = count;
-    return true;
-}
-
-bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value) {
+bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double room[STATE_KEY_ROOM]) {
     while (*cursor < state->count) {
-        const StateEntry *entry = &state->entries[(*cursor)++];
-        if (entry->value.len > 0) {
-            *key = entry->key;
-            *value = entry->value;
+        StateSlot slot = (*cursor)++;
+        *value = state_slot_get(state, slot);
+        if (value->len > 0) {
+            *key = state_slot_key_in(state, slot, room);
             return true;
         }
     }

@@ -34,11 +34,19 @@ StateSlot state_slot(State *state, Value key);
 // The slot of a key if there is one, else STATE_NO_SLOT.
 StateSlot state_find(const State *state, Value key);
 Value state_slot_get(const State *state, StateSlot slot);
-// The key of a slot; a borrowed view, valid until state_clear.
+// The key of a slot; a borrowed view, valid until state_clear. Keys of particles whose ids count up are written out
+// when the first of them is asked for (series.h): null if memory is used up.
 Value state_slot_key(const State *state, StateSlot slot);
-// Where it is: valid until a slot is made, or state_clear. The slot must exist.
-const Value *state_slot_key_at(const State *state, StateSlot slot);
-const Value *state_slot_at(const State *state, StateSlot slot); // likewise, or until it is written to
+// The same without memory; valid as long as `room` is.
+enum { STATE_KEY_ROOM = 16 };
+Value state_slot_key_in(const State *state, StateSlot slot, double room[STATE_KEY_ROOM]);
+bool state_slot_has_key(const State *state, StateSlot slot, Value key);
+// The last number of a key of so many elements; the quiet NaN, which no key has, if this one has more or fewer or ends
+// with a text.
+double state_slot_last_number(const State *state, StateSlot slot, uint32_t len);
+// Where key and value are, or `room`: valid until a slot is made, or state_clear. The slot must exist.
+const Value *state_slot_key_at(const State *state, StateSlot slot, Value *room);
+const Value *state_slot_at(const State *state, StateSlot slot, Value *room); // likewise, or until it is written to
 // As state_set. Numbers of unchanged length are overwritten in place.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 
@@ -64,8 +72,9 @@ uint32_t state_slot_count(const State *state);
 // memory is used up.
 bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 
-// Entries that have a value, in the order of their slots: `*cursor` starts at 0; false at the end.
-bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value);
+// Entries that have a value, in the order of their slots: `*cursor` starts at 0; false at the end. The key is valid as
+// long as `room` is.
+bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double room[STATE_KEY_ROOM]);
 uint32_t state_count(const State *state);
 
 // Whether anything failed because memory was used up since this was asked last.

@@ -229,17 +229,9 @@ static StateSlot *memo_next(Vm *vm, uint32_t place) {
     return &memo->slots[memo->next++];
 }
 
-// Same bits, so that the check is not looser than a look-up.
-static bool slot_has_key(const State *state, StateSlot slot, const double *numbers, uint32_t len) {
-    Value key = state_slot_key(state, slot);
-    if (key.len != len || key.kind != VALUE_NUMBERS)
-        return false;
-    return memcmp(value_numbers(&key), numbers, len * sizeof *numbers) == 0;
-}
-
 static Value get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
     StateSlot *guess = memo_next(vm, place), slot = guess ? *guess : STATE_NO_SLOT;
-    if (slot == STATE_NO_SLOT || !slot_has_key(vm->state, slot, numbers, len)) {
+    if (slot == STATE_NO_SLOT || !state_slot_has_key(vm->state, slot, value_numbers_view(numbers, len))) {
         slot = state_find(vm->state, value_numbers_view(numbers, len));
         if (guess)
             *guess = slot;

@@ -70,11 +70,12 @@ static bool start(Hdf5 *writer, char **words) {
     return writer->process > 0;
 }
 
-bool hdf5_start(Hdf5 *writer, const char *kind, const char *path) {
+bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after) {
     char program[] = "petri-hdf5";
     SCOPED_TEXT as_kind = memory_text(kind);
     SCOPED_TEXT as_path = memory_text(path);
-    char *words[] = {program, as_kind, as_path, NULL};
+    SCOPED_TEXT as_after = after == NULL ? NULL : memory_text(after);
+    char *words[] = {program, as_kind, as_path, as_after, NULL};
     *writer = (Hdf5){.process = -1, .stream = -1, .unfinished = -1};
     bool started = start(writer, words);
     if (!started) {
@@ -85,6 +86,10 @@ bool hdf5_start(Hdf5 *writer, const char *kind, const char *path) {
     }
     hdf5_end(writer);
     return false;
+}
+
+bool hdf5_wait(Hdf5 *writer) {
+    return hear(writer->stream);
 }
 
 bool hdf5_end(Hdf5 *writer) {
@@ -99,7 +104,7 @@ bool hdf5_end(Hdf5 *writer) {
 bool hdf5_table(const char *path, const char *csv, size_t length) {
     Hdf5 writer;
     Hdf5Head head = {HDF5_ADD, length}, end = {HDF5_KEEP, 0};
-    if (!hdf5_start(&writer, "table", path)) {
+    if (!hdf5_start(&writer, "table", path, NULL)) {
         return false;
     }
     bool sent = file_write(writer.stream, (const char *)&head, sizeof head) && file_write(writer.stream, csv, length) &&

@@ -9,6 +9,9 @@
 #include <stdint.h>
 #include <sys/types.h>
 
+// Of a trajectory that a run cannot go on with.
+#define WAY_UNKNOWN "it is not what --trajectory writes; remove it, or give another name, and a new one begins"
+
 typedef struct Hdf5 {
     pid_t process;
     int stream;
@@ -16,8 +19,12 @@ typedef struct Hdf5 {
 } Hdf5;
 
 // Starts petri-hdf5 on a file of a kind: "trajectory" takes a stream of Hdf5Head with what it counts, "table" CSV
-// behind one, and then another. False after a message.
-bool hdf5_start(Hdf5 *writer, const char *kind, const char *path);
+// behind one, and then another. `after` is NULL, or the number of the frame from which a trajectory is gone on with, -1
+// for one that begins, and that of the last one that the file should have: it is then kept safe from whatever ends the
+// two programs. False after a message.
+bool hdf5_start(Hdf5 *writer, const char *kind, const char *path, const char *after);
+// Waits until what was sent, HDF5_SAFE at last, is on the disk. False if that failed, which petri-hdf5 has told.
+bool hdf5_wait(Hdf5 *writer);
 // A table as a whole. False after a message.
 bool hdf5_table(const char *path, const char *csv, size_t length);
 // Whether a table is to be in HDF5, by its name.
@@ -31,6 +38,8 @@ typedef enum Hdf5Act {
     HDF5_ADD = 1, // `bytes` follow
     HDF5_KEEP,    // the file is complete; it is also kept if the stream ends after something was added
     HDF5_DROP,    // it is not to be
+    HDF5_SAFE,    // what there is so far must be on the disk; answered by a byte
+    HDF5_RUN,     // in a spool (hdf5/spool.h): what follows comes from another run
 } Hdf5Act;
 
 typedef struct Hdf5Head {

@@ -122,7 +122,7 @@ OPTION(FOR_TEST, "neighbours", 0, "WHEN", read_text, as_neighbours, "as with run
 OPTION(FOR_TEST | FOR_REPL | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "nosimplify", 0, NULL, read_flag, unsimplified, "evaluate everything in every frame; results never depend on it")
 OPTION(FOR_RUN, "show", 0, NULL, read_flag, show, "on a terminal, show its picture there, if it has one and no text is asked for")
 OPTION(FOR_RUN | FOR_GOLDEN, "stats", 0, NULL, read_flag, stats, "close with a table of times, speeds and each system's energy")
-OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write where the particles are to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD)")
+OPTION(FOR_RUN, "trajectory", 0, "FILE", read_trajectory, trajectory, "write where the particles are to FILE.xyz (extended XYZ), FILE.csv or FILE.h5 (H5MD); with --state it goes on where the state does")
 OPTION(FOR_RUN | FOR_GOLDEN, "profile", 0, NULL, read_flag, profile, "close with the time that each line of the script took, the slowest first")
 OPTION(FOR_CHECK | FOR_RUN | FOR_SWEEP | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "quiet", 0, NULL, VERBOSITY(LOG_QUIET), verbosity, "report errors only")
 OPTION(FOR_RUN | FOR_GOLDEN | FOR_RENDER | FOR_VIEW, "verbose", 0, NULL, VERBOSITY(LOG_VERBOSE), verbosity, "also report a summary at the end")

@@ -25,6 +25,10 @@ const char *state_file_save(StateFile *file, PetriSession *session, bool at_once
         return NULL;
     }
     bool before = file->behind;
+    if (file->before != NULL && !file->before(file->context)) { // which has told why
+        file->behind = true;
+        return NULL;
+    }
     PetriStatus status = petri_save(session, file->name);
     file->behind = status != PETRI_OK;
     file->saved = clock_seconds();

@@ -14,6 +14,9 @@ typedef struct StateFile {
     bool unread;      // it could not be read, and is not written
     bool behind;      // the last state is not in it
     double saved;     // when it was tried last, in seconds of the monotonic clock
+    // What must be on the disk before a state is; after false none is saved. May be NULL.
+    bool (*before)(void *context);
+    void *context;
 } StateFile;
 
 // False, after a message, if there is a file that cannot be read.

@@ -1,6 +1,8 @@
-// main.c: petri-hdf5, which writes files for petri (cli/hdf5.h): `petri-hdf5 trajectory|table FILE` with a stream on
-// its standard input, a socket.
+// main.c: petri-hdf5, which writes files for petri (cli/hdf5.h): `petri-hdf5 trajectory|table FILE [NUMBERS]` with a
+// stream on its standard input, a socket.
 #include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <sys/socket.h>
@@ -8,6 +10,7 @@
 
 #include "cli/cli.h"
 #include "cli/hdf5.h"
+#include "hdf5/spool.h"
 #include "hdf5/table.h"
 #include "hdf5/trajectory.h"
 
@@ -33,19 +36,84 @@ static bool receive_block(char **block, Hdf5Head *head) {
     return receive(*block, head->bytes);
 }
 
-static bool write_trajectory(Store *store) {
+// MSG_NOSIGNAL: petri may be gone.
+static void answer(void) {
+    send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
+}
+
+// What a run with a state (cli/hdf5.h) goes on from.
+typedef struct Resumed {
+    Spool *spool; // NULL: it has none
+    int64_t after;
+    int64_t expected;
+} Resumed;
+
+static bool go_on(Way *way, Store *store, const Resumed *from) {
+    Hdf5Head head;
+    char *block = NULL;
+    if (!store->old) {
+        way_begin(way, store);
+    } else if (!way_go_on(way, store, from->after)) {
+        message("cannot go on with %s: %s", store->path, WAY_UNKNOWN);
+        return false;
+    }
+    while (!store->failed && spool_next(from->spool, from->after, &head, &block)) {
+        if (head.act == HDF5_ADD) {
+            way_add(way, block);
+        } else {
+            way_begin_run(way);
+        }
+    }
+    free(block);
+    way_begin_run(way);
+    if ((store->old || from->spool->holds) && way->last < from->expected) {
+        message("frames %" PRId64 " to %" PRId64 " are missing in %s, which goes on with frame %" PRId64, way->last + 1,
+                from->after, store->path, from->after + 1);
+    }
+    return spool_add(from->spool, &(Hdf5Head){HDF5_RUN, 0}, "");
+}
+
+// Takes one block, and does what it says. False at the end of the trajectory.
+static bool take_block(Way *way, Spool *spool, Hdf5Head *head, char **block) {
+    if (!receive_block(block, head) || (head->act != HDF5_ADD && head->act != HDF5_SAFE)) {
+        return false;
+    }
+    bool good = true;
+    if (head->act == HDF5_SAFE) {
+        good = spool == NULL || spool_save(spool, way->store->replacement.folder);
+    } else if (spool != NULL) {
+        good = spool_add(spool, head, *block);
+    }
+    if (head->act == HDF5_ADD) {
+        way_add(way, *block);
+    } else if (good && !way->store->failed) {
+        answer();
+    }
+    if (!good) {
+        way->store->told = way->store->failed = true;
+    }
+    return !way->store->failed;
+}
+
+static bool write_trajectory(Store *store, Spool *spool, const Resumed *from) {
     Way way;
     Hdf5Head head = {0};
     char *block = NULL;
-    bool any = false;
-    way_begin(&way, store);
-    while (!store->failed && receive_block(&block, &head) && head.act == HDF5_ADD) {
-        way_add(&way, block);
-        any = true;
+    bool begun = true;
+    if (spool == NULL) {
+        way_begin(&way, store);
+    } else if (!go_on(&way, store, from)) {
+        store->told = store->failed = true;
+        begun = false;
+    }
+    if (begun) {
+        answer();
+    }
+    while (begun && take_block(&way, spool, &head, &block)) {
     }
     way_end(&way);
     free(block);
-    return head.act == HDF5_KEEP || (any && head.act == HDF5_ADD);
+    return head.act == HDF5_KEEP || (head.act != HDF5_DROP && way.last >= 0);
 }
 
 static bool write_table(Store *store) {
@@ -60,18 +128,46 @@ static bool write_table(Store *store) {
     return whole;
 }
 
+static bool trajectory(const char *path, const char *numbers) {
+    Store store;
+    Spool spool;
+    Resumed from = {.after = -1, .expected = -1};
+    bool resumable = numbers != NULL;
+    if (resumable && (sscanf(numbers, "%" SCNd64 " %" SCNd64, &from.after, &from.expected) != 2 ||
+                      !spool_open(&spool, path, from.after < 0))) {
+        return false;
+    }
+    from.spool = &spool;
+    if (!store_begin(&store, path, resumable && !spool.whole)) {
+        if (resumable) {
+            spool_close(&spool, false);
+        }
+        return false;
+    }
+    bool keep = write_trajectory(&store, resumable ? &spool : NULL, &from), good = store_end(&store, keep);
+    if (resumable) {
+        spool_close(&spool, good && keep);
+    }
+    return good;
+}
+
+static bool table(const char *path) {
+    Store store;
+    if (!store_begin(&store, path, false)) {
+        return false;
+    }
+    answer();
+    bool keep = write_table(&store);
+    return store_end(&store, keep);
+}
+
 int main(int argc, char **argv) {
-    if (argc != 3 || (strcmp(argv[1], "trajectory") != 0 && strcmp(argv[1], "table") != 0)) {
+    bool is_table = argc == 3 && strcmp(argv[1], "table") == 0;
+    if (!is_table && !((argc == 3 || argc == 4) && strcmp(argv[1], "trajectory") == 0)) {
         message("petri-hdf5 writes files for petri run and petri sweep; it is of no use by itself");
         return STATUS_USAGE;
     }
-    Store store;
-    if (!store_begin(&store, argv[2])) {
-        return STATUS_FAILED;
-    }
-    // MSG_NOSIGNAL: petri may be gone.
-    send(STDIN_FILENO, "!", 1, MSG_NOSIGNAL);
-    bool keep = strcmp(argv[1], "table") == 0 ? write_table(&store) : write_trajectory(&store);
+    bool good = is_table ? table(argv[2]) : trajectory(argv[2], argv[3]);
     // Without what runs at the end: it would try again to write what could not be written.
-    _exit(store_end(&store, keep) ? STATUS_DONE : STATUS_FAILED);
+    _exit(good ? STATUS_DONE : STATUS_FAILED);
 }

@@ -2,11 +2,15 @@
 #include "hdf5/store.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <stdlib.h>
 #include <string.h>
+#include <unistd.h>
 
+#include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
+#include "cli/hdf5.h"
 
 // The library says why the system refused in words only.
 static herr_t find_cause(unsigned depth, const H5E_error2_t *error, void *context) {
@@ -36,7 +40,31 @@ static bool complain(const Store *store, const char *why) {
     return false;
 }
 
-bool store_begin(Store *store, const char *path) {
+// The old file's bytes, in the new one.
+static bool copy_old(Store *store) {
+    enum { PORTION = 1 << 20 };
+    int old;
+    do {
+        old = openat(store->replacement.folder, store->replacement.name, O_RDONLY | O_CLOEXEC);
+    } while (old < 0 && errno == EINTR);
+    if (old < 0) {
+        return errno == ENOENT;
+    }
+    SCOPED_TEXT bytes = memory_zeroed(PORTION);
+    ssize_t count;
+    while ((count = read(old, bytes, PORTION)) > 0 || (count < 0 && errno == EINTR)) {
+        if (count > 0 && !file_write(store->replacement.file, bytes, (size_t)count)) {
+            break;
+        }
+    }
+    int cause = errno;
+    close(old);
+    errno = cause;
+    store->old = true;
+    return count == 0;
+}
+
+bool store_begin(Store *store, const char *path, bool goes_on) {
     *store = (Store){.path = path, .file = H5I_INVALID_HID};
     // It takes no file without a name.
     if (!replace_begin(&store->replacement, path, REPLACE_NAMED)) {
@@ -46,6 +74,11 @@ bool store_begin(Store *store, const char *path) {
         replace_abandon(&store->replacement);
         return complain(store, "it is no regular file");
     }
+    if (goes_on && !copy_old(store)) {
+        int cause = errno;
+        replace_abandon(&store->replacement);
+        return complain(store, strerror(cause));
+    }
     // It locks files, which ours is already.
     setenv("HDF5_USE_FILE_LOCKING", "FALSE", 1);
     H5Eset_auto2(H5E_DEFAULT, NULL, NULL);
@@ -53,8 +86,14 @@ bool store_begin(Store *store, const char *path) {
     H5Pset_fclose_degree(access, H5F_CLOSE_STRONG); // with all that is open in it
     SCOPED_BYTES name = {0};
     bytes_format(&name, "/proc/self/fd/%d/%s", store->replacement.folder, store->replacement.beside);
-    store->file = checked(store, H5Fcreate(name.data, H5F_ACC_TRUNC, H5P_DEFAULT, access));
+    store->file = store->old ? H5Fopen(name.data, H5F_ACC_RDWR, access)
+                             : checked(store, H5Fcreate(name.data, H5F_ACC_TRUNC, H5P_DEFAULT, access));
     H5Pclose(access);
+    if (store->file < 0 && store->old) {
+        replace_abandon(&store->replacement);
+        message("cannot go on with %s: %s", path, WAY_UNKNOWN);
+        return false;
+    }
     return !store->failed || store_end(store, false);
 }
 
@@ -66,7 +105,8 @@ bool store_end(Store *store, bool keep) {
         return replace_commit(&store->replacement) || complain(store, strerror(errno));
     }
     replace_abandon(&store->replacement);
-    return !store->failed || complain(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 cannot do it");
+    return !store->failed ||
+           (!store->told && complain(store, store->cause != 0 ? strerror(store->cause) : "libhdf5 cannot do it"));
 }
 
 hid_t store_group(Store *store, hid_t parent, const char *name) {
@@ -137,6 +177,25 @@ StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t typ
     return column;
 }
 
+StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill) {
+    StoreColumn column = {.parent = parent, .name = name, .type = type, .fill = fill, .rank = rank};
+    column.set = checked(store, H5Dopen2(parent, name, H5P_DEFAULT));
+    hid_t space = checked(store, H5Dget_space(column.set)), made = checked(store, H5Dget_create_plist(column.set));
+    if (H5Sget_simple_extent_ndims(space) != rank || H5Pget_chunk(made, rank, column.chunk) != rank) {
+        store->failed = true;
+    } else {
+        H5Sget_simple_extent_dims(space, column.sizes, NULL);
+    }
+    H5Sclose(space);
+    H5Pclose(made);
+    return column;
+}
+
+void store_cut(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
+    memcpy(column->sizes, sizes, sizeof column->sizes);
+    store_check(store, H5Dset_extent(column->set, sizes));
+}
+
 void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]) {
     bool grows = false;
     for (int k = 0; k < column->rank; k++) {
@@ -161,6 +220,11 @@ static void move_row(Store *store, const StoreColumn *column, hsize_t row, const
                                    : H5Dread(column->set, column->type, memory, file, H5P_DEFAULT, out));
     H5Sclose(file);
     H5Sclose(memory);
+}
+
+void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
+                    void *numbers) {
+    move_row(store, column, row, sizes, numbers, NULL);
 }
 
 // Rows have become far longer: in chunks for short ones each would be in very many.
@@ -224,4 +288,67 @@ void store_text_list(Store *store, hid_t parent, const char *name, const char *t
 
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name) {
     store_check(store, H5Lcreate_hard(from, old, to, name, H5P_DEFAULT, H5P_DEFAULT));
+}
+
+hid_t store_open(Store *store, hid_t parent, const char *name) {
+    return checked(store, H5Gopen2(parent, name, H5P_DEFAULT));
+}
+
+// A text of a fixed length, as it is in the file.
+static char *read_fixed(Store *store, hid_t type, size_t count, hid_t attribute, hid_t set, size_t *bytes) {
+    *bytes = H5Tget_size(type) + 1;
+    hid_t memory = store_text_type(*bytes - 1);
+    char *texts = memory_zeroed(count * *bytes + 1);
+    if (H5Tget_class(type) != H5T_STRING || H5Tis_variable_str(type) != 0) {
+        store->failed = true;
+    } else {
+        store_check(store, set < 0 ? H5Aread(attribute, memory, texts)
+                                   : H5Dread(set, memory, H5S_ALL, H5S_ALL, H5P_DEFAULT, texts));
+    }
+    H5Tclose(memory);
+    H5Tclose(type);
+    return texts;
+}
+
+char *store_read_text(Store *store, hid_t object, const char *name) {
+    size_t bytes = 0;
+    hid_t attribute = checked(store, H5Aopen(object, name, H5P_DEFAULT));
+    char *text = read_fixed(store, H5Aget_type(attribute), 1, attribute, -1, &bytes);
+    H5Aclose(attribute);
+    return text;
+}
+
+int store_read_number(Store *store, hid_t object, const char *name) {
+    int number = 0;
+    hid_t attribute = checked(store, H5Aopen(object, name, H5P_DEFAULT));
+    store_check(store, H5Aread(attribute, H5T_NATIVE_INT, &number));
+    H5Aclose(attribute);
+    return number;
+}
+
+bool store_name_at(Store *store, hid_t group, hsize_t number, Bytes *name) {
+    H5G_info_t info = {0};
+    store_check(store, H5Gget_info(group, &info));
+    if (store->failed || number >= info.nlinks) {
+        return false;
+    }
+    ssize_t length = H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, NULL, 0, H5P_DEFAULT);
+    store_check(store, length);
+    if (length >= 0) {
+        SCOPED_TEXT text = memory_zeroed((size_t)length + 1);
+        H5Lget_name_by_idx(group, ".", H5_INDEX_NAME, H5_ITER_INC, number, text, (size_t)length + 1, H5P_DEFAULT);
+        name->length = 0;
+        bytes_add(name, text, (size_t)length);
+    }
+    return length >= 0;
+}
+
+char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes) {
+    hid_t set = checked(store, H5Dopen2(parent, name, H5P_DEFAULT)), space = checked(store, H5Dget_space(set));
+    hssize_t found = H5Sget_simple_extent_npoints(space);
+    *count = found < 0 ? 0 : (size_t)found;
+    char *texts = read_fixed(store, H5Dget_type(set), *count, -1, set, bytes);
+    H5Sclose(space);
+    H5Dclose(set);
+    return texts;
 }

@@ -10,12 +10,15 @@
 #include <stdint.h>
 
 #include "base/replace.h"
+#include "cli/bytes.h"
 
 typedef struct Store {
     const char *path;
     Replacement replacement;
     hid_t file;
+    bool old; // there was a file, and it is to be lengthened
     bool failed;
+    bool told; // why
     int cause; // errno, if it is known; else 0
 } Store;
 
@@ -33,8 +36,8 @@ typedef struct StoreColumn {
     hsize_t chunk[STORE_RANKS]; // in which it lies in the file
 } StoreColumn;
 
-// False after a message.
-bool store_begin(Store *store, const char *path);
+// With `goes_on` it begins with what the file holds, if there is one (`old`). False after a message.
+bool store_begin(Store *store, const char *path, bool goes_on);
 // Puts the file in its place, or drops it. False after a message if something has failed.
 bool store_end(Store *store, bool keep);
 // `result` is negative if something has failed.
@@ -50,6 +53,13 @@ void store_numbers(Store *store, hid_t object, const char *name, const int *numb
 // later, there is `fill`. It keeps `name` and `fill`.
 StoreColumn store_column(Store *store, hid_t parent, const char *name, hid_t type, int rank,
                          const hsize_t sizes[STORE_RANKS], const void *fill);
+// One that is there, made by store_column. `parent` is open until the end.
+StoreColumn store_open_column(Store *store, hid_t parent, const char *name, hid_t type, int rank, const void *fill);
+// Drops what is beyond these sizes.
+void store_cut(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
+// Reads the beginning of a row.
+void store_read_row(Store *store, const StoreColumn *column, hsize_t row, const hsize_t sizes[STORE_RANKS],
+                    void *numbers);
 // Makes it at least as large.
 void store_grow(Store *store, StoreColumn *column, const hsize_t sizes[STORE_RANKS]);
 // Writes the beginning of a row; the column grows to hold it.
@@ -60,6 +70,13 @@ hid_t store_text_type(size_t length);
 void store_list(Store *store, hid_t parent, const char *name, hid_t type, hsize_t count, const void *list);
 // One of texts, which are one after the other, each ended by NUL.
 void store_text_list(Store *store, hid_t parent, const char *name, const char *texts, hsize_t count);
+// What is there: a group; a text, to be freed, or a whole number that is an attribute; the name of a member by number
+// from 0, false beyond the last; a list of texts, each in so many bytes, to be freed.
+hid_t store_open(Store *store, hid_t parent, const char *name);
+char *store_read_text(Store *store, hid_t object, const char *name);
+int store_read_number(Store *store, hid_t object, const char *name);
+bool store_name_at(Store *store, hid_t group, hsize_t number, Bytes *name);
+char *store_read_texts(Store *store, hid_t parent, const char *name, size_t *count, size_t *bytes);
 // A second name for what is there.
 void store_link(Store *store, hid_t from, const char *old, hid_t to, const char *name);
 

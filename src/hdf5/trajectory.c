@@ -4,6 +4,7 @@
 // particles may change: a row is as long as the longest, and ends in particles whose id is the fill value, -1.
 #include "hdf5/trajectory.h"
 
+#include <errno.h>
 #include <math.h>
 #include <stdlib.h>
 #include <string.h>
@@ -24,6 +25,26 @@ struct Group {
     hsize_t most; // particles
 };
 
+// Columns keep where their fill values are.
+static const int64_t NO_ID = -1, NO_ANCHOR;
+static const double NO_NUMBER = NAN;
+
+static bool is_number(Kind kind) {
+    return kind != ID && kind != ANCHOR;
+}
+
+static hid_t type_of(Kind kind) {
+    return is_number(kind) ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64;
+}
+
+static const void *fill_of(Kind kind) {
+    return is_number(kind) ? (const void *)&NO_NUMBER : kind == ID ? (const void *)&NO_ID : &NO_ANCHOR;
+}
+
+static int rank_of(Kind kind) {
+    return kind == POSITION || kind == VELOCITY ? 3 : 2;
+}
+
 static void add_author(Way *way) {
     static const int version[] = {1, 1};
     hid_t about = store_group(way->store, way->store->file, "h5md");
@@ -35,7 +56,7 @@ static void add_author(Way *way) {
 }
 
 void way_begin(Way *way, Store *store) {
-    *way = (Way){.store = store};
+    *way = (Way){.store = store, .last = -1};
     add_author(way);
     way->particles = store_group(store, store->file, "particles");
 }
@@ -59,21 +80,15 @@ static void choose_name(const Way *way, const char *called, Bytes *name) {
 
 // What changes with time: the steps of all are the same.
 static void add_element(Way *way, Group *group, hid_t parent, Kind kind, hsize_t particles) {
-    static const int64_t no_id = -1, no_anchor;
-    static const double no_number = NAN;
     Store *store = way->store;
     hid_t element = store_group(store, parent, NAMES[kind]);
-    bool numbers = kind != ID && kind != ANCHOR;
     hsize_t rows[STORE_RANKS] = {0, particles, group->dimensions};
     hsize_t edges[STORE_RANKS] = {0, group->dimensions};
-    group->columns[kind] = store_column(store, element, "value", numbers ? H5T_NATIVE_DOUBLE : H5T_NATIVE_INT64,
-                                        kind == POSITION || kind == VELOCITY ? 3 : 2, kind == EDGES ? edges : rows,
-                                        numbers      ? (const void *)&no_number
-                                        : kind == ID ? (const void *)&no_id
-                                                     : &no_anchor);
+    group->columns[kind] = store_column(store, element, "value", type_of(kind), rank_of(kind),
+                                        kind == EDGES ? edges : rows, fill_of(kind));
     if (kind == POSITION) {
-        group->step = store_column(store, element, "step", H5T_NATIVE_INT64, 1, edges, &no_anchor);
-        group->time = store_column(store, element, "time", H5T_NATIVE_DOUBLE, 1, edges, &no_number);
+        group->step = store_column(store, element, "step", H5T_NATIVE_INT64, 1, edges, &NO_ANCHOR);
+        group->time = store_column(store, element, "time", H5T_NATIVE_DOUBLE, 1, edges, &NO_NUMBER);
     } else {
         store_link(store, group->group, "position/step", element, "step");
         store_link(store, group->group, "position/time", element, "time");
@@ -122,10 +137,16 @@ static void measure(const double *position, const Hdf5System *system, double *ed
     }
 }
 
+static void number_ids(const Way *way, int64_t *ids, uint64_t count) {
+    for (uint64_t i = 0; i < count; i++) {
+        ids[i] = ids[i] <= -2 ? way->numbers[-2 - ids[i]] : ids[i];
+    }
+}
+
 // Returns what follows the system.
-static const char *add_system(Way *way, const Hdf5Frame *frame, const char *bytes) {
+static char *add_system(Way *way, const Hdf5Frame *frame, char *bytes) {
     const Hdf5System *system = (const Hdf5System *)(const void *)bytes;
-    const char *called = bytes + sizeof *system, *at = called + system->name_bytes;
+    char *called = bytes + sizeof *system, *at = called + system->name_bytes;
     Group *group = find_group(way, called, system);
     hsize_t row = group->frames++, sizes[STORE_RANKS] = {1, system->particles, system->dimensions};
     group->most = system->particles > group->most ? system->particles : group->most;
@@ -134,6 +155,9 @@ static const char *add_system(Way *way, const Hdf5Frame *frame, const char *byte
     store_row(way->store, &group->columns[EDGES], row, (hsize_t[STORE_RANKS]){1, system->dimensions}, edges);
     free(edges);
     for (Kind kind = POSITION; kind < EDGES; kind++) {
+        if (kind == ID) {
+            number_ids(way, (int64_t *)(void *)at, system->particles);
+        }
         store_row(way->store, &group->columns[kind], row, sizes, at);
         at += system->particles * (kind <= VELOCITY ? system->dimensions : 1) * sizeof(double);
     }
@@ -142,17 +166,125 @@ static const char *add_system(Way *way, const Hdf5Frame *frame, const char *byte
     return at;
 }
 
-void way_add(Way *way, const char *bytes) {
-    const Hdf5Frame *frame = (const Hdf5Frame *)(const void *)bytes;
-    const char *texts = bytes + sizeof *frame, *text = texts, *at = texts + frame->text_bytes;
-    for (uint64_t i = 0; i < frame->text_count; i++) {
-        text += strlen(text) + 1;
+static bool is_text(const void *owner, uint32_t entry, const void *key) {
+    return strcmp(((const Way *)owner)->texts.items[entry], key) == 0;
+}
+
+// The number that stands for the text of an id in the whole file.
+static int64_t number_text(Way *way, const char *text) {
+    uint64_t hash = hash_bytes(0, text, strlen(text));
+    uint32_t entry = index_find(&way->index, hash, is_text, way, text);
+    if (entry == INDEX_NONE) {
+        entry = (uint32_t)way->texts.count;
+        if (!index_add(&way->index, hash, entry)) {
+            way->store->failed = true;
+            way->store->cause = ENOMEM;
+        }
+        texts_add(&way->texts, text);
     }
-    bytes_add(&way->texts, texts, (size_t)(text - texts));
-    way->text_count += frame->text_count;
-    for (uint64_t s = 0; s < frame->system_count; s++) {
+    return -2 - (int64_t)entry;
+}
+
+void way_begin_run(Way *way) {
+    way->run_texts = 0;
+}
+
+// A run numbers texts from 0; those of runs before it may be others.
+static void take_texts(Way *way, const char *text, uint64_t count) {
+    way->numbers = memory_resized(way->numbers, (way->run_texts + count + 1) * sizeof *way->numbers);
+    for (uint64_t i = 0; i < count; i++, text += strlen(text) + 1) {
+        way->numbers[way->run_texts++] = number_text(way, text);
+    }
+}
+
+void way_add(Way *way, char *bytes) {
+    const Hdf5Frame *frame = (const Hdf5Frame *)(const void *)bytes;
+    char *texts = bytes + sizeof *frame, *at = texts + frame->text_bytes;
+    take_texts(way, texts, frame->text_count);
+    for (uint64_t s = 0; s < frame->system_count && frame->number > way->last; s++) {
         at = add_system(way, frame, at);
     }
+    way->last = frame->number > way->last ? frame->number : way->last;
+}
+
+// A group that is there: how many of its frames are not later, and how many particles it has in them.
+static bool read_group(Way *way, Group *group, int64_t after, int64_t *least_id) {
+    Store *store = way->store;
+    group->called = store_read_text(store, group->group, "system");
+    hid_t box = store_open(store, group->group, "box");
+    group->dimensions = (uint64_t)store_read_number(store, box, "dimension");
+    for (Kind kind = POSITION; kind < KINDS; kind++) {
+        hid_t element = store_open(store, kind == EDGES ? box : group->group, NAMES[kind]);
+        group->columns[kind] = store_open_column(store, element, "value", type_of(kind), rank_of(kind), fill_of(kind));
+        if (kind == POSITION) {
+            group->step = store_open_column(store, element, "step", H5T_NATIVE_INT64, 1, &NO_ANCHOR);
+            group->time = store_open_column(store, element, "time", H5T_NATIVE_DOUBLE, 1, &NO_NUMBER);
+        }
+    }
+    hsize_t one[STORE_RANKS] = {1, group->columns[ID].sizes[1]};
+    int64_t *ids = memory_zeroed((one[1] + 1) * sizeof *ids);
+    for (int64_t step = 0; !store->failed && group->frames < group->step.sizes[0]; group->frames++) {
+        store_read_row(store, &group->step, group->frames, one, &step);
+        if (step > after) {
+            break;
+        }
+        way->last = step > way->last ? step : way->last;
+        memset(ids, 0xff, one[1] * sizeof *ids); // -1
+        if (one[1] > 0) {
+            store_read_row(store, &group->columns[ID], group->frames, one, ids);
+        }
+        for (hsize_t i = 0; i < one[1]; i++) {
+            *least_id = ids[i] < *least_id ? ids[i] : *least_id;
+            group->most = ids[i] != NO_ID && i >= group->most ? i + 1 : group->most;
+        }
+    }
+    free(ids);
+    return group->frames > 0;
+}
+
+static void cut_group(Store *store, Group *group) {
+    for (Kind kind = POSITION; kind < KINDS; kind++) {
+        hsize_t rows[STORE_RANKS] = {group->frames, group->most, group->dimensions};
+        hsize_t edges[STORE_RANKS] = {group->frames, group->dimensions};
+        store_cut(store, &group->columns[kind], kind == EDGES ? edges : rows);
+    }
+    hsize_t frames[STORE_RANKS] = {group->frames};
+    store_cut(store, &group->step, frames);
+    store_cut(store, &group->time, frames);
+    store_check(store, H5Ldelete(group->group, "species", H5P_DEFAULT)); // it comes with the end
+}
+
+static void read_groups(Way *way, int64_t after, int64_t *least_id) {
+    SCOPED_BYTES name = {0};
+    for (hsize_t i = 0; store_name_at(way->store, way->particles, i, &name);) {
+        Group group = {.group = store_open(way->store, way->particles, name.data)};
+        if (!read_group(way, &group, after, least_id)) {
+            free(group.called);
+            store_check(way->store, H5Ldelete(way->particles, name.data, H5P_DEFAULT));
+            continue;
+        }
+        cut_group(way->store, &group);
+        way->groups = memory_resized(way->groups, (way->group_count + 1) * sizeof *way->groups);
+        way->groups[way->group_count++] = group;
+        i++;
+    }
+}
+
+bool way_go_on(Way *way, Store *store, int64_t after) {
+    int64_t least_id = NO_ID;
+    *way = (Way){.store = store, .last = -1};
+    way->particles = store_open(store, store->file, "particles");
+    read_groups(way, after, &least_id);
+    if (H5Lexists(store->file, "parameters", H5P_DEFAULT) > 0) {
+        size_t count = 0, bytes = 0;
+        char *texts = store_read_texts(store, store->file, "parameters/id_texts", &count, &bytes);
+        for (size_t i = 0; !store->failed && i < count && (int64_t)i < NO_ID - least_id; i++) {
+            number_text(way, texts + i * bytes);
+        }
+        free(texts);
+        store_check(store, H5Ldelete(store->file, "parameters", H5P_DEFAULT));
+    }
+    return !store->failed;
 }
 
 // All are of species 0, which stands for no element (X) in ASE.
@@ -168,10 +300,16 @@ void way_end(Way *way) {
         add_species(way, &way->groups[i]);
         free(way->groups[i].called);
     }
-    if (way->text_count > 0) {
+    if (way->texts.count > 0) {
+        SCOPED_BYTES texts = {0};
+        for (size_t i = 0; i < way->texts.count; i++) {
+            bytes_add(&texts, way->texts.items[i], strlen(way->texts.items[i]) + 1);
+        }
         hid_t parameters = store_group(way->store, way->store->file, "parameters");
-        store_text_list(way->store, parameters, "id_texts", way->texts.data, way->text_count);
+        store_text_list(way->store, parameters, "id_texts", texts.data, way->texts.count);
     }
-    bytes_free(&way->texts);
+    texts_free(&way->texts);
+    index_free(&way->index);
+    free(way->numbers);
     free(way->groups);
 }

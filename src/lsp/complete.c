@@ -5,7 +5,7 @@
 
 #include "base/source.h"
 #include "cli/help.h"
-#include "lsp/server.h"
+#include "lsp/workspace.h"
 
 // Kinds of the protocol.
 enum {
@@ -83,6 +83,35 @@ static void offer_keywords(Offer *all, const char *list) {
     }
 }
 
+static void offer_name(Offer *all, Document *document, const PetriTextName *name) {
+    SCOPED_TEXT label = memory_copied(document->text.data + name->start, name->end - name->start);
+    SCOPED_BYTES help = {0};
+    Json *item = offer(all, label, name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : AS_VARIABLE, label, 'b');
+    if (item != NULL) {
+        explain_binding(&help, all->place->server, document, name);
+        detail(item, "", help.data);
+    }
+}
+
+// What the scripts bind that include this one, where they do.
+static void offer_around(Offer *all) {
+    Workspace workspace;
+    workspace_open(&workspace, all->place->server, all->place->document, false);
+    for (size_t i = 1; i < workspace.count; i++) {
+        Document *document = workspace.documents[i];
+        for (size_t k = 0; k < document->link_count; k++) {
+            const Link *link = &document->links[k];
+            for (size_t n = 0; link->include && link->target == 0 && n < document->name_count; n++) {
+                const PetriTextName *name = &document->names[n];
+                if (workspace_visible(document, link, document_part(document, name->start, name->end)) == name) {
+                    offer_name(all, document, name);
+                }
+            }
+        }
+    }
+    workspace_close(&workspace);
+}
+
 static void offer_names(Offer *all) {
     Document *document = all->place->document;
     PetriBuiltin builtin;
@@ -91,15 +120,10 @@ static void offer_names(Offer *all) {
         bool seen = name->kind != PETRI_NAME_USE && name->scope_start <= all->place->offset &&
                     all->place->offset <= name->scope_end;
         if (seen) {
-            SCOPED_TEXT label = memory_copied(document->text.data + name->start, name->end - name->start);
-            SCOPED_BYTES help = {0};
-            Json *item = offer(all, label, name->kind == PETRI_NAME_FUNC ? AS_FUNCTION : AS_VARIABLE, label, 'b');
-            if (item != NULL) {
-                explain_binding(&help, all->place->server, document, name);
-                detail(item, "", help.data);
-            }
+            offer_name(all, document, name);
         }
     }
+    offer_around(all);
     for (size_t i = 0; petri_builtin(i, &builtin); i++) {
         SCOPED_BYTES head = {0};
         bytes_format(&head, "%s(%s)", builtin.name, builtin.parameters);
@@ -195,16 +219,13 @@ static size_t call_around(const Document *document, size_t offset, size_t *comma
 
 // The parameters of the function that a name stands for, without brackets; its help goes to `help`.
 static bool parameters_of(const Place *place, size_t token, Bytes *out, Bytes *help) {
-    Document *document = place->document, *owner = document, *module = NULL;
-    const PetriTextName *bound = document_meaning(document, token);
-    Str text = document_token(document, token);
-    bool read = false;
-    if (bound != NULL && bound->kind == PETRI_NAME_IMPORT &&
-        (module = explain_module(place->server, document, bound, &read)) != NULL) {
-        bound = explain_export(owner = module, text);
-    }
+    Workspace workspace;
+    workspace_open(&workspace, place->server, place->document, false);
+    Senses meant = workspace_meaning(&workspace, token);
     PetriBuiltin builtin;
-    if (bound != NULL) {
+    if (meant.count > 0) {
+        Document *owner = workspace.documents[meant.items[0].file];
+        const PetriTextName *bound = workspace_name(&workspace, meant.items[0]);
         Str value = document_part(owner, bound->value_start, bound->value_end);
         const char *open = str_starts_with(value, STR("func")) ? memchr(value.bytes, '(', value.len) : NULL;
         size_t length = 0, depth = 0;
@@ -220,13 +241,11 @@ static bool parameters_of(const Place *place, size_t token, Bytes *out, Bytes *h
             bytes_add(out, open + 1, length - 1);
             explain_binding(help, place->server, owner, bound);
         }
-    } else if (explain_builtin(text, &builtin)) {
+    } else if (explain_builtin(document_token(place->document, token), &builtin)) {
         bytes_add_text(out, builtin.parameters);
         bytes_add_text(help, builtin.help);
     }
-    if (read) {
-        document_free(module);
-    }
+    workspace_close(&workspace);
     return help->length > 0;
 }
 

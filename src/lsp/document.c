@@ -1,6 +1,7 @@
 // document.c: see document.h.
 #include "lsp/document.h"
 
+#include <limits.h>
 #include <stdlib.h>
 #include <string.h>
 
@@ -11,7 +12,7 @@ static size_t units(int32_t c, size_t bytes, bool utf8) {
     return utf8 ? bytes : c > 0xffff ? 2 : 1;
 }
 
-static void find_lines(Document *document) {
+static void count_lines(Document *document) {
     Str text = {document->text.data, document->text.length};
     document->line_count = 1;
     for (size_t i = 0; i < text.len; i++) {
@@ -41,7 +42,7 @@ static void changed(Document *document) {
     document->unread = document->unchecked = true;
     json_object_put(document->values);
     document->values = NULL;
-    find_lines(document);
+    count_lines(document);
 }
 
 void document_set_text(Document *document, Str text) {
@@ -57,6 +58,7 @@ Document *document_new(const char *uri, Str text, int64_t version) {
     document->path = uri_path(uri);
     document->is_file = document->path != NULL;
     document->path = document->is_file ? document->path : memory_text(uri);
+    document->canonical = path_canonical(document->path);
     document->version = version;
     document->published = json_object_new_object();
     document_set_text(document, text);
@@ -72,11 +74,23 @@ void document_forget_told(Document *document) {
     document->told_count = 0;
 }
 
+static void forget_links(Document *document) {
+    for (size_t i = 0; i < document->link_count; i++) {
+        free(document->links[i].path);
+    }
+    free(document->links);
+    document->links = NULL;
+    document->link_count = 0;
+}
+
 void document_free(Document *document) {
     document_forget_told(document);
+    forget_links(document);
+    texts_free(&document->used);
     free(document->told);
     free(document->uri);
     free(document->path);
+    free(document->canonical);
     free(document->lines);
     free(document->tokens);
     free(document->levels);
@@ -157,6 +171,36 @@ static int by_start(const void *a, const void *b) {
     return first->start < second->start ? -1 : first->start > second->start;
 }
 
+// Strings behind %include and the `from` of an import.
+static void find_links(Document *document) {
+    forget_links(document);
+    for (size_t i = 1; document->is_file && i < document->token_count; i++) {
+        Str file = document_token(document, i);
+        bool include = document_is(document, i - 1, "%include");
+        if (document->tokens[i].kind != PETRI_TOKEN_STRING || file.len < 3 ||
+            (!include && !document_is(document, i - 1, "from"))) {
+            continue;
+        }
+        SCOPED_BYTES path = {0};
+        Str folder = path_directory(str_from(document->path));
+        bytes_add(&path, folder.bytes, file.bytes[1] == '/' ? 0 : folder.len);
+        bytes_add(&path, file.bytes + 1, file.len - 2);
+        document->links = memory_resized(document->links, (document->link_count + 1) * sizeof *document->links);
+        document->links[document->link_count++] =
+            (Link){.token = i, .include = include, .path = path_canonical(path.data), .target = SIZE_MAX};
+    }
+}
+
+const Link *document_link(const Document *document, size_t offset) {
+    for (size_t i = 0; i < document->link_count; i++) {
+        const PetriToken *token = &document->tokens[document->links[i].token];
+        if (token->start <= offset && offset < token->end) {
+            return &document->links[i];
+        }
+    }
+    return NULL;
+}
+
 void document_read(Document *document, PetriSession *session) {
     if (!document->unread) {
         return;
@@ -174,6 +218,7 @@ void document_read(Document *document, PetriSession *session) {
     if (document->name_count > 0) {
         qsort(document->names, document->name_count, sizeof *document->names, by_start);
     }
+    find_links(document);
     document->unread = false;
 }
 
@@ -335,4 +380,9 @@ char *uri_of(const char *path) {
         bytes_add_text(&uri, path);
     }
     return uri.data;
+}
+
+char *path_canonical(const char *path) {
+    char resolved[PATH_MAX];
+    return memory_text(realpath(path, resolved) != NULL ? resolved : path);
 }

@@ -15,9 +15,18 @@ typedef struct Told {
     char *code; // or NULL
 } Told;
 
+// A file that a script imports or includes.
+typedef struct Link {
+    size_t token; // the string
+    bool include;
+    char *path;    // canonical, if the file is there
+    size_t target; // see workspace.h
+} Link;
+
 typedef struct Document {
     char *uri;
-    char *path; // what petri calls it: the file, or the URI if that is none
+    char *path;      // what petri calls it: the file, or the URI if that is none
+    char *canonical; // … without links and dots, if it is there
     int64_t version;
     Bytes text; // lines end in LF
     size_t *lines;
@@ -30,8 +39,11 @@ typedef struct Document {
     size_t *levels; // of the block that each is in; SIZE_MAX - level if it begins a statement
     PetriTextName *names;
     size_t name_count;
+    Link *links;
+    size_t link_count;
     Told *told;
     size_t told_count;
+    TextList used;   // the files that the last check read
     Json *published; // URIs and what was told of them
     Json *values;    // of constant names, by name; NULL: not looked at yet
 } Document;
@@ -61,6 +73,9 @@ size_t document_token_at(const Document *document, size_t offset);
 const PetriTextName *document_name_at(const Document *document, size_t offset);
 const PetriTextName *document_binding(const Document *document, const PetriTextName *name);
 
+// The import or include whose file is named at an offset; NULL: none is.
+const Link *document_link(const Document *document, size_t offset);
+
 // What the name that a token is stands for: its binding, or, in a statement that does not parse, the one that is
 // visible there; NULL if it is not the text's.
 const PetriTextName *document_meaning(const Document *document, size_t token);
@@ -68,5 +83,7 @@ const PetriTextName *document_meaning(const Document *document, size_t token);
 // file:///a%20b to /a b; NULL if it is no file. To be freed, as what the other gives.
 char *uri_path(const char *uri);
 char *uri_of(const char *path);
+// The file's one name; the path itself if there is none. To be freed.
+char *path_canonical(const char *path);
 
 #endif

@@ -4,7 +4,7 @@
 
 #include "base/source.h"
 #include "cli/help.h"
-#include "lsp/server.h"
+#include "lsp/workspace.h"
 
 enum { MOST_SHOWN = 600 }; // bytes of a value or a statement
 
@@ -143,6 +143,8 @@ static void find_values(Server *server, Document *document) {
     options.work = 1 << 22; // some 40 ms
     options.threads = 1;
     options.stack_bytes = server->host->stack_bytes;
+    options.unsaved = server_unsaved;
+    options.read_host = server;
     PetriSession *session = petri_open(&options);
     document->values = json_object_new_object();
     bool loaded = session != NULL &&
@@ -189,25 +191,6 @@ const PetriTextName *explain_export(const Document *document, Str text) {
     return found;
 }
 
-Document *explain_module(Server *server, const Document *document, const PetriTextName *name, bool *read) {
-    Str file = document_part(document, name->value_start, name->value_end);
-    *read = false;
-    if (name->kind != PETRI_NAME_IMPORT || file.len < 2 || (file.bytes[0] != '\'' && file.bytes[0] != '"') ||
-        !document->is_file) {
-        return NULL;
-    }
-    SCOPED_BYTES path = {0};
-    Str folder = path_directory(str_from(document->path));
-    bool absolute = file.bytes[1] == '/';
-    bytes_add(&path, folder.bytes, absolute ? 0 : folder.len);
-    bytes_add(&path, file.bytes + 1, file.len - 2);
-    Document *module = server_file(server, path.data, read);
-    if (module != NULL) {
-        server_read(server, module);
-    }
-    return module;
-}
-
 // The lines of comment right above a statement, which say what it is for.
 static void add_comment_above(Bytes *out, const Document *document, size_t start) {
     size_t line, character, first;
@@ -248,23 +231,18 @@ void explain_binding(Bytes *out, Server *server, Document *document, const Petri
 }
 
 static void explain_name(Bytes *out, const Place *place, size_t token) {
-    Document *document = place->document;
+    const Document *document = place->document;
     Str text = document_token(document, token);
     const PetriTextName *name = document_name_at(document, document->tokens[token].start);
-    const PetriTextName *bound = document_meaning(document, token);
-    bool read = false;
-    if (bound != NULL && bound->kind == PETRI_NAME_IMPORT) {
-        Document *module = explain_module(place->server, document, bound, &read);
-        const PetriTextName *meant = module == NULL ? NULL : explain_export(module, text);
-        if (meant != NULL) {
-            explain_binding(out, place->server, module, meant);
-        }
-        if (read) {
-            document_free(module);
-        }
+    Workspace workspace;
+    workspace_open(&workspace, place->server, place->document, false);
+    Senses meant = workspace_meaning(&workspace, token);
+    if (meant.count > 0) {
+        explain_binding(out, place->server, workspace.documents[meant.items[0].file],
+                        workspace_name(&workspace, meant.items[0]));
     }
-    if (bound != NULL && out->length == 0) {
-        explain_binding(out, place->server, document, bound);
+    workspace_close(&workspace);
+    if (meant.count > 0) {
         return;
     }
     const char *node = NULL;
@@ -279,9 +257,9 @@ static void explain_name(Bytes *out, const Place *place, size_t token) {
         }
     }
     PetriBuiltin builtin;
-    if (out->length == 0 && explain_builtin(text, &builtin)) {
+    if (explain_builtin(text, &builtin)) {
         bytes_format(out, "```flitter\n%s(%s)\n```\n%s", builtin.name, builtin.parameters, builtin.help);
-    } else if (out->length == 0) {
+    } else {
         explain_topic(out, text);
     }
 }

@@ -8,7 +8,7 @@
 #include "lsp/lsp.h"
 #include "lsp/server.h"
 
-enum { MOST_READS = 5000 };
+enum { MOST_READ = 4 << 20 };
 
 Document *server_document(const Server *server, const char *uri) {
     for (size_t i = 0; uri != NULL && i < server->document_count; i++) {
@@ -19,33 +19,51 @@ Document *server_document(const Server *server, const char *uri) {
     return NULL;
 }
 
-Document *server_file(Server *server, const char *path, bool *read) {
-    *read = false;
+static Document *opened(const Server *server, const char *canonical) {
     for (size_t i = 0; i < server->document_count; i++) {
-        if (strcmp(server->documents[i]->path, path) == 0) {
+        if (strcmp(server->documents[i]->canonical, canonical) == 0) {
             return server->documents[i];
         }
     }
+    return NULL;
+}
+
+Document *server_file(Server *server, const char *path, bool *read) {
+    SCOPED_TEXT canonical = path_canonical(path);
+    Document *document = opened(server, canonical);
     SCOPED_BYTES text = {0};
     bytes_add(&text, "", 0);
-    if (!bytes_read_file(&text, path)) {
-        return NULL;
+    *read = document == NULL && bytes_read_file(&text, canonical);
+    if (!*read) {
+        return document;
     }
-    SCOPED_TEXT uri = uri_of(path);
-    *read = true;
+    SCOPED_TEXT uri = uri_of(canonical);
     return document_new(uri, (Str){text.data, text.length}, -1);
+}
+
+const char *server_unsaved(void *host, const char *path, size_t *length) {
+    Server *server = host;
+    if (server->checking && !texts_hold(&server->checked->used, path)) {
+        texts_add(&server->checked->used, path);
+    }
+    const Document *document = opened(server, path);
+    *length = document == NULL ? 0 : document->text.length;
+    return document == NULL ? NULL : document->text.data;
 }
 
 bool server_open_session(Server *server) {
     petri_close(&server->session);
     server->options->threads = 1;
-    server->reads = 0;
+    server->options->unsaved = server_unsaved;
+    server->options->unsaved_host = server;
+    server->read = 0;
     return options_open(server->options, server->host, told_take, server, &server->session) == OPTIONS_READ;
 }
 
-// A session knows each symbol that it ever saw.
+// A session knows each symbol that it ever saw, and a text of so many bytes has no more of them than a third of that.
 void server_read(Server *server, Document *document) {
-    if (document->unread && server->reads++ > MOST_READS) {
+    server->read += document->unread ? document->text.length : 0;
+    if (server->read > MOST_READ) {
         server_open_session(server);
     }
     if (server->session != NULL) {
@@ -55,6 +73,18 @@ void server_read(Server *server, Document *document) {
 
 // --- documents
 
+// What others made of a document's text is of an older one.
+static void touch(Server *server, const Document *touched) {
+    for (size_t i = 0; i < server->document_count; i++) {
+        Document *document = server->documents[i];
+        if (texts_hold(&document->used, touched->canonical)) {
+            document->unchecked = true;
+            json_object_put(document->values);
+            document->values = NULL;
+        }
+    }
+}
+
 static void open_document(Server *server, const Json *params) {
     const Json *item = json_get(params, "textDocument");
     const char *uri = json_text(item, "uri"), *text = json_text(item, "text");
@@ -63,6 +93,7 @@ static void open_document(Server *server, const Json *params) {
     }
     server->documents = memory_resized(server->documents, (server->document_count + 1) * sizeof *server->documents);
     server->documents[server->document_count++] = document_new(uri, str_from(text), json_number(item, "version", 0));
+    touch(server, server->documents[server->document_count - 1]);
 }
 
 static void change_document(Server *server, const Json *params) {
@@ -75,6 +106,7 @@ static void change_document(Server *server, const Json *params) {
     for (size_t i = 0; i < json_object_array_length(changes); i++) {
         document_change(document, json_object_array_get_idx(changes, i), server->utf8);
     }
+    touch(server, document);
 }
 
 static void close_document(Server *server, const Json *params) {
@@ -83,6 +115,7 @@ static void close_document(Server *server, const Json *params) {
         if (server->documents[i] == document) {
             server->documents[i] = server->documents[--server->document_count];
             told_drop(server, document);
+            touch(server, document);
             document_free(document);
             break;
         }
@@ -163,6 +196,25 @@ static Json *capabilities(const Server *server) {
                     json_put_true(json_put(json_object_new_object(), "legend", tokens_legend()), "full"));
 }
 
+static void add_root(Server *server, const char *uri) {
+    SCOPED_TEXT path = uri == NULL ? NULL : uri_path(uri);
+    if (path != NULL) {
+        SCOPED_TEXT canonical = path_canonical(path);
+        texts_add(&server->roots, canonical);
+    }
+}
+
+static void add_roots(Server *server, const Json *params) {
+    Json *folders = json_get(params, "workspaceFolders");
+    size_t count = json_object_is_type(folders, json_type_array) ? json_object_array_length(folders) : 0;
+    for (size_t i = 0; i < count; i++) {
+        add_root(server, json_text(json_object_array_get_idx(folders, i), "uri"));
+    }
+    if (count == 0) {
+        add_root(server, json_text(params, "rootUri"));
+    }
+}
+
 static Json *initialize(Server *server, const Json *params) {
     Json *encodings = json_path(params, "capabilities.general.positionEncodings");
     size_t count = json_object_is_type(encodings, json_type_array) ? json_object_array_length(encodings) : 0;
@@ -170,6 +222,7 @@ static Json *initialize(Server *server, const Json *params) {
         const char *name = json_object_get_string(json_object_array_get_idx(encodings, i));
         server->utf8 = server->utf8 || (name != NULL && strcmp(name, "utf-8") == 0);
     }
+    add_roots(server, params);
     server->begun = true;
     Json *about = json_put_text(json_put_text(json_object_new_object(), "name", "petri"), "version", petri_version());
     return json_put(json_put(json_object_new_object(), "capabilities", capabilities(server)), "serverInfo", about);
@@ -271,6 +324,7 @@ int lsp_serve(const Host *host, Options *options) {
         document_free(server.documents[i]);
     }
     free(server.documents);
+    texts_free(&server.roots);
     petri_close(&server.session);
     return status;
 }

@@ -9,7 +9,8 @@ typedef struct Server {
     const Host *host;
     Options *options;
     PetriSession *session; // for tokens, names and checks
-    uint64_t reads;        // since it was opened
+    size_t read;           // bytes since it was opened
+    TextList roots;        // the editor's folders
     Document **documents;
     size_t document_count;
     bool utf8; // how the editor counts characters: UTF-8 or UTF-16
@@ -24,6 +25,8 @@ typedef struct Server {
 Document *server_document(const Server *server, const char *uri);
 // The document, or the file read into one that is to be freed if `*read` is set. NULL if there is none.
 Document *server_file(Server *server, const char *path, bool *read);
+// For petri_open: what is open stands for its file, and whatever the document at work asks for is noted.
+const char *server_unsaved(void *server, const char *path, size_t *length);
 // Tokens and names of the present text.
 void server_read(Server *server, Document *document);
 bool server_open_session(Server *server);
@@ -61,8 +64,6 @@ void explain_attribute(Bytes *out, const PetriNodeAttribute *attribute);
 void explain_binding(Bytes *out, Server *server, Document *document, const PetriTextName *name);
 // The value of a name that is the same in each frame; NULL if it is none, or more than a frame may take.
 const char *explain_value(Server *server, Document *document, const PetriTextName *name);
-// The script of which an import takes the name, read into a document; see server_file.
-Document *explain_module(Server *server, const Document *document, const PetriTextName *name, bool *read);
 // The binding of a name at the top level, the last that counts.
 const PetriTextName *explain_export(const Document *document, Str name);
 

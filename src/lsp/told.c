@@ -115,6 +115,8 @@ static void publish_changes(Server *server, const Json *now, Json *before) {
 void told_check(Server *server, Document *document) {
     document->unchecked = false;
     document_forget_told(document);
+    texts_free(&document->used);
+    document->used = (TextList){0};
     server->checking = true;
     server->checked = document;
     server->found = json_object_new_object();

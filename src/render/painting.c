@@ -1,14 +1,18 @@
-// painting.c: draws and writes pictures in threads of their own.
+// painting.c: draws and writes pictures in threads of their own. Files get their names in the order of their frames, so
+// that a series that is given up has no gaps, and of frames with one name the last one's picture stays.
 #include "render/painting.h"
 
+#include <errno.h>
 #include <pthread.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 #include <time.h>
 #include <unistd.h>
 
-#include "base/source.h"
+#include "base/file.h"
+#include "base/replace.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/progress.h"
@@ -16,7 +20,7 @@
 #include "render/video.h"
 #include "run/frames.h"
 
-enum { QUEUE = 4, MOST_WORKERS = 16 };
+enum { QUEUE = 4, MOST_WORKERS = 16, MOST_READY = 32 };
 static const double PATIENCE = 0.05; // seconds
 
 typedef struct Job Job;
@@ -26,6 +30,11 @@ struct Job {
     bool for_film;
     bool looks_back;
     char *file; // owned, or NULL
+    Replacement target;
+    bool begun; // the target is
+    bool failed;
+    int error;       // why it could not be put in its place; 0: it could
+    uint64_t number; // in the order in which they were added
 };
 
 struct Painting {
@@ -34,15 +43,20 @@ struct Painting {
     Job *waiting; // oldest first
     Job **last;
     int waiting_count;
-    Job *running[MOST_WORKERS]; // in any order; NULL: none
+    int running; // taken, and not done
+    Job *ready;  // written, waiting for those before them; in any order
+    int ready_count;
+    uint64_t added;
+    uint64_t put; // all before this one are where they belong
     Job *done;
     bool begun;  // there is a first worker
     bool ending; // no more will be added
     bool failed;
-    bool drawing;  // a frame of the film, which nobody has to wait for
-    bool given_up; // the film ends without the frame that is being drawn
-    bool filmed;   // it has a frame
-    int left;      // that were given up in their midst
+    bool abandoned; // no file gets its name any more
+    bool drawing;   // a frame of the film, which nobody has to wait for
+    bool given_up;  // the film ends without the frame that is being drawn
+    bool filmed;    // it has a frame
+    int left;       // that were given up in their midst
     double seconds;
     const char *film; // the rest is the threads' own
     double fps;
@@ -57,7 +71,7 @@ struct Painting {
 static void set_trouble(Painting *painting, const char *text) {
     pthread_mutex_lock(&painting->lock);
     if (painting->trouble[0] == '\0') {
-        strncpy(painting->trouble, text, sizeof painting->trouble - 1);
+        snprintf(painting->trouble, sizeof painting->trouble, "%s", text);
     }
     pthread_mutex_unlock(&painting->lock);
 }
@@ -115,10 +129,46 @@ static bool saved(Painting *painting, PetriStatus status) {
     return status == PETRI_OK;
 }
 
-static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
+static bool cannot_write(Painting *painting, const char *file) {
+    char text[sizeof painting->trouble];
+    snprintf(text, sizeof text, "cannot write '%s': %s", file, strerror(errno));
+    set_trouble(painting, text);
+    return false;
+}
+
+static bool write_bytes(Painting *painting, Job *job, const Bytes *bytes) {
+    return file_write(job->target.file, bytes->data, bytes->length) || cannot_write(painting, job->file);
+}
+
+// Waits until all before it are put. False if that will not be.
+static bool wait_for_turn(Painting *painting, const Job *job) {
+    pthread_mutex_lock(&painting->lock);
+    while (painting->put < job->number && !painting->failed) {
+        pthread_cond_wait(&painting->changed, &painting->lock);
+    }
+    bool good = !painting->failed;
+    pthread_mutex_unlock(&painting->lock);
+    return good;
+}
+
+// Writes all but the name; what is no regular file has its name already.
+static bool write_file(Painting *painting, Job *job, PetriPainter *painter) {
+    SCOPED_BYTES bytes = {0};
+    if (!saved(painting, petri_picture_write(job->picture, painter, job->file, bytes_collect, &bytes))) {
+        return false;
+    }
+    job->begun = replace_begin(&job->target, job->file, 0);
+    if (!job->begun) {
+        return cannot_write(painting, job->file);
+    }
+    return (!job->target.direct || wait_for_turn(painting, job)) && write_bytes(painting, job, &bytes) &&
+           (replace_flush(&job->target) || cannot_write(painting, job->file));
+}
+
+static bool paint(Painting *painting, Job *job, PetriPainter *painter) {
     bool good = !job->for_film || add_to_film(painting, job->picture, painter);
     if (job->file != NULL) {
-        good = good && saved(painting, petri_picture_save(job->picture, painter, job->file));
+        good = good && write_file(painting, job, painter);
     }
     if (good && job->looks_back) {
         good = recording_add(&painting->recording, job->picture, painter);
@@ -129,40 +179,61 @@ static bool paint(Painting *painting, const Job *job, PetriPainter *painter) {
     return good;
 }
 
-static const char *last_part(const char *file) {
-    return file + path_directory(str_from(file)).len;
-}
-
-// Whether two jobs may write the same file. Paths may differ and lead to the same: names count.
-static bool share_file(const Job *a, const Job *b) {
-    return a->file != NULL && b->file != NULL && strcmp(last_part(a->file), last_part(b->file)) == 0;
-}
-
-static Job **find_running(Painting *painting, const Job *job) {
-    int i = 0;
-    while (painting->running[i] != job) {
-        i++;
+// Takes the next job out of those that are ready; NULL: it is not among them, or has failed.
+static Job *take_ready(Painting *painting) {
+    Job **at = &painting->ready;
+    while (*at != NULL && (*at)->number != painting->put) {
+        at = &(*at)->next;
     }
-    return &painting->running[i];
+    Job *job = *at;
+    if (job == NULL || job->failed) {
+        return NULL;
+    }
+    *at = job->next;
+    painting->ready_count--;
+    return job;
 }
 
-// Frames that write the same file do so one after the other, so that the last one's picture stays. Those that look back
-// are all made by the first worker.
-static bool may_run(const Painting *painting, const Job *job, bool first) {
-    if (job->looks_back && !first) {
-        return false;
+// Gives what is ready its name, as far as nothing is missing before it, for the caller to end (end_jobs).
+static Job *put_ready(Painting *painting) {
+    Job *named = NULL, *job;
+    while (!painting->abandoned && (job = take_ready(painting)) != NULL) {
+        job->error = job->begun && !replace_put(&job->target) ? errno : 0;
+        painting->failed = painting->failed || job->error != 0;
+        painting->abandoned = painting->abandoned || job->error != 0;
+        painting->put++;
+        job->next = named;
+        named = job;
     }
-    for (int i = 0; i < MOST_WORKERS; i++) {
-        if (painting->running[i] != NULL && share_file(painting->running[i], job)) {
-            return false;
+    return named;
+}
+
+// False if one of them has failed.
+static bool end_jobs(Painting *painting, Job *named) {
+    bool good = true;
+    for (Job *job = named; job != NULL; job = job->next) {
+        errno = job->error;
+        if (job->begun && (job->error != 0 || !replace_end(&job->target))) {
+            good = cannot_write(painting, job->file);
         }
     }
-    return true;
+    return good;
 }
 
-// The next job, or NULL if there will be none.
+static void add_done(Painting *painting, Job *jobs) {
+    while (jobs != NULL) {
+        Job *next = jobs->next;
+        jobs->next = painting->done;
+        painting->done = jobs;
+        jobs = next;
+    }
+}
+
+// The next job, or NULL if there will be none. Those that look back are all made by the first worker.
 static Job *take_job(Painting *painting, bool first) {
-    while (painting->waiting != NULL ? !may_run(painting, painting->waiting, first) : !painting->ending) {
+    while (painting->waiting != NULL
+               ? (painting->waiting->looks_back && !first) || (painting->ready_count >= MOST_READY && !painting->failed)
+               : !painting->ending) {
         pthread_cond_wait(&painting->changed, &painting->lock);
     }
     Job *job = painting->waiting;
@@ -172,7 +243,7 @@ static Job *take_job(Painting *painting, bool first) {
         if (painting->waiting == NULL) {
             painting->last = &painting->waiting;
         }
-        *find_running(painting, NULL) = job; // no more run than there are threads
+        painting->running++;
         pthread_cond_broadcast(&painting->changed);
     }
     return job;
@@ -195,10 +266,18 @@ static void *work(void *context) {
         double seconds = clock_seconds() - start;
         pthread_mutex_lock(&painting->lock);
         painting->seconds += seconds;
+        job->failed = !good;
         painting->failed = painting->failed || !good;
-        *find_running(painting, job) = NULL;
-        job->next = painting->done;
-        painting->done = job;
+        job->next = painting->ready;
+        painting->ready = job;
+        painting->ready_count++;
+        Job *named = put_ready(painting);
+        pthread_mutex_unlock(&painting->lock);
+        good = end_jobs(painting, named);
+        pthread_mutex_lock(&painting->lock);
+        painting->failed = painting->failed || !good;
+        painting->running--;
+        add_done(painting, named);
         pthread_cond_broadcast(&painting->changed);
     }
     pthread_mutex_unlock(&painting->lock);
@@ -249,6 +328,7 @@ bool painting_add(Painting *painting, PetriPicture *picture, bool for_film, cons
     *job = (Job){.picture = picture, .for_film = for_film, .looks_back = petri_picture_looks_back(picture)};
     job->file = file == NULL ? NULL : memory_text(file);
     pthread_mutex_lock(&painting->lock);
+    job->number = painting->added++;
     while (painting->waiting_count >= QUEUE && !painting->failed && frames_signal() == 0) {
         wait_a_moment(painting);
     }
@@ -281,11 +361,7 @@ void painting_tell(Painting *painting, PetriSession *session) {
 static int wait_for_end(Painting *painting) {
     double signalled = 0;
     for (;;) {
-        int running = 0;
-        for (int i = 0; i < MOST_WORKERS; i++) {
-            running += painting->running[i] != NULL;
-        }
-        if (running == 0 && painting->waiting == NULL) {
+        if (painting->running == 0 && painting->waiting == NULL) {
             return 0;
         }
         if (frames_signal() != 0) {
@@ -293,8 +369,9 @@ static int wait_for_end(Painting *painting) {
             bool patient = clock_seconds() - signalled <= PATIENCE;
             if (!patient && (painting->film == NULL || painting->drawing)) {
                 painting->failed = painting->failed || painting->film == NULL; // what waits is not begun any more
+                painting->abandoned = true;
                 painting->given_up = painting->film != NULL;
-                return running + painting->waiting_count;
+                return (int)(painting->added - painting->put);
             }
         }
         wait_a_moment(painting);
@@ -305,11 +382,21 @@ bool painting_finish(Painting *painting, PetriSession *session, bool abandon, co
     pthread_mutex_lock(&painting->lock);
     painting->ending = true;
     painting->failed = painting->failed || abandon;
+    painting->abandoned = abandon;
     pthread_cond_broadcast(&painting->changed);
     painting->left = wait_for_end(painting);
     pthread_mutex_unlock(&painting->lock);
     while (painting->left == 0 && painting->worker_count > 0) {
         pthread_join(painting->workers[--painting->worker_count], NULL);
+    }
+    for (Job *job = painting->left == 0 ? painting->ready : NULL; job != NULL; job = job->next) {
+        if (job->begun) {
+            replace_abandon(&job->target); // one before it has failed
+        }
+    }
+    if (painting->left == 0) {
+        add_done(painting, painting->ready);
+        painting->ready = NULL;
     }
     painting_tell(painting, session);
     if (painting->failed || (painting->given_up && !painting->filmed)) {

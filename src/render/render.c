@@ -227,6 +227,9 @@ static int render_frames(Render *render) {
             output_frame(render);
         }
         painting_tell(render->painting, frames->session);
+        if (going) {
+            frames_keep(frames);
+        }
     }
     if (going && !render->failed && frames_signal() == 0 && frames->done > 0 && render->kind == OUTPUT_PICTURE) {
         output_picture(render);

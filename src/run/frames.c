@@ -171,9 +171,12 @@ bool frames_step(Frames *frames) {
         return false;
     }
     frames->done++;
-    int64_t every = frames->options->save_every;
-    save_state(frames, every > 0 && (number + 1) % every == 0);
     return true;
+}
+
+void frames_keep(Frames *frames) {
+    int64_t every = frames->options->save_every, number = petri_frame(frames->session).number;
+    save_state(frames, every > 0 && (number + 1) % every == 0);
 }
 
 void frames_end(Frames *frames, bool going) {

@@ -1,6 +1,6 @@
 // frames.h: the loop over a script's frames, for the commands that have one.
 //
-// frames_open, frames_load, frames_begin; while frames_due: frames_step; frames_end; petri_close.
+// frames_open, frames_load, frames_begin; while frames_due: frames_step, frames_keep; frames_end; petri_close.
 #ifndef PETRI_SRC_FRAMES_H
 #define PETRI_SRC_FRAMES_H
 
@@ -34,6 +34,8 @@ bool frames_due(const Frames *frames);
 // Makes one frame. False if there is no going on: after a message, for a limit that one frame has reached the next will
 // reach as well, or because a signal has made it give the frame up (given_up).
 bool frames_step(Frames *frames);
+// Saves the state if it is time, once what belongs to the frame is written.
+void frames_keep(Frames *frames);
 // Between these calls, a signal interrupts the session.
 void frames_working(Frames *frames, bool begins);
 // Takes the progress line away and, if all went well, saves the state.

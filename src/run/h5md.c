@@ -2,11 +2,17 @@
 #include "run/h5md.h"
 
 #include <errno.h>
+#include <inttypes.h>
+#include <stdio.h>
 #include <string.h>
 
-bool h5md_open(H5md *file, const char *path, Output *output) {
+bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output) {
+    char after[64] = "";
     *file = (H5md){0};
-    bool started = hdf5_start(&file->writer, "trajectory", path);
+    if (resume != NULL) {
+        snprintf(after, sizeof after, "%" PRId64 " %" PRId64, resume->after, resume->expected);
+    }
+    bool started = hdf5_start(&file->writer, "trajectory", path, resume != NULL ? after : NULL);
     output_start(output, file->writer.stream);
     return started;
 }
@@ -125,11 +131,16 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
     return true;
 }
 
+bool h5md_keep(H5md *file, Output *output) {
+    send_head(output, HDF5_SAFE, 0);
+    return output_flush(output) && hdf5_wait(&file->writer);
+}
+
 bool h5md_close(H5md *file, bool keep, Output *output) {
     send_head(output, keep ? HDF5_KEEP : HDF5_DROP, 0);
-    output_flush(output);
+    bool sent = output_flush(output);
     texts_free(&file->texts);
     index_free(&file->index);
     bytes_free(&file->ids);
-    return hdf5_end(&file->writer);
+    return hdf5_end(&file->writer) && sent;
 }

@@ -7,6 +7,7 @@
 #include "cli/hdf5.h"
 #include "cli/output.h"
 #include "petri.h"
+#include "run/resume.h"
 
 typedef struct H5md {
     Hdf5 writer;
@@ -16,10 +17,12 @@ typedef struct H5md {
     Bytes ids;      // of the frame's particles, int64_t
 } H5md;
 
-// False after a message.
-bool h5md_open(H5md *file, const char *path, Output *output);
+// `resume` is NULL if there is no state to go on from. False after a message.
+bool h5md_open(H5md *file, const char *path, const Resume *resume, Output *output);
 // Adds the last frame of a session. False if memory is used up; `output` has an error if the file cannot be written.
 bool h5md_add(H5md *file, PetriSession *session, Output *output);
+// Returns when all that was added is on the disk. False after a message of petri-hdf5.
+bool h5md_keep(H5md *file, Output *output);
 // Puts the file in its place if all is well with it. False if there is none, after a message of petri-hdf5.
 bool h5md_close(H5md *file, bool keep, Output *output);
 

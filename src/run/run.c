@@ -94,6 +94,9 @@ static bool run_frame(Run *run) {
         output_frame(run);
     }
     report_frame(run, &frame, printed);
+    if (!run->cut) {
+        frames_keep(&run->frames);
+    }
     return !run->cut;
 }
 
@@ -130,10 +133,33 @@ static void report_summary(Run *run) {
             run->stats.physics_steps, run->stats.physics_steps == 1 ? "" : "s");
 }
 
+// Once the state is there that the run goes on from. What belongs to a state that cannot be read is left alone as that
+// is.
+static bool open_trajectory(Run *run) {
+    Frames *frames = &run->frames;
+    const Options *options = frames->options;
+    int64_t after = petri_frame(frames->session).number;
+    Resume resume = {options->state_file != NULL, after, after < 0 ? -1 : after - after % options->every};
+    if (options->trajectory == NULL) {
+        return true;
+    }
+    if (frames->state.unread && access(options->trajectory, F_OK) == 0) {
+        message("'%s' is left alone, too", options->trajectory);
+        return true;
+    }
+    frames->state.before = trajectory_keep;
+    frames->state.context = &run->trajectory;
+    return trajectory_open(&run->trajectory, options->trajectory, &resume);
+}
+
 static int run_frames(Run *run) {
     Frames *frames = &run->frames;
     frames_begin(frames);
     bool going = true;
+    if (!open_trajectory(run)) {
+        progress_erase(&frames->progress);
+        return STATUS_FAILED;
+    }
     while (going && run->output.error == 0 && !run->trajectory.failed && frames_due(frames)) {
         going = run_frame(run) || frames->given_up;
     }
@@ -177,9 +203,6 @@ static int run_session(Run *run) {
     if (options->dump >= 0) {
         PetriStatus status = petri_dump(run->frames.session, (PetriDump)options->dump, output_write, &run->output);
         return status == PETRI_OK || run->output.error != 0 ? STATUS_DONE : STATUS_FAILED;
-    }
-    if (options->trajectory != NULL && !trajectory_open(&run->trajectory, options->trajectory)) {
-        return STATUS_FAILED;
     }
     return run_frames(run);
 }

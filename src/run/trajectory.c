@@ -6,11 +6,13 @@
 #include "run/trajectory.h"
 
 #include <errno.h>
+#include <fcntl.h>
 #include <inttypes.h>
 #include <stdatomic.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "base/file.h"
@@ -21,7 +23,8 @@
 enum { XYZ_DIMENSIONS = 3 };
 
 static bool complain(Trajectory *trajectory, int error) {
-    if (!trajectory->failed) {
+    bool told = trajectory->format == TRAJECTORY_H5MD && error == EPIPE; // by petri-hdf5, which has ended
+    if (!trajectory->failed && !told) {
         message("cannot write %s: %s", trajectory->path, strerror(error));
     }
     trajectory->failed = true;
@@ -33,12 +36,13 @@ static void keep_now(void *context) {
     Trajectory *trajectory = context;
     Output *output = &trajectory->output;
     int fd = output->fd;
-    if (trajectory->file.file < 0 || trajectory->file.direct || trajectory->whole == 0 || trajectory->failed) {
+    bool begun = trajectory->file.file >= 0 && !trajectory->file.direct && trajectory->whole > 0;
+    if ((!begun && !trajectory->named) || trajectory->failed) {
         return;
     }
     // Of what waits, some may have been written just now: it is written once more.
     if (output->error == 0 && lseek(fd, (off_t)output->written, SEEK_SET) >= 0 &&
-        file_write(fd, output->buffer, output->used) && file_cut(fd, trajectory->whole)) {
+        file_write(fd, output->buffer, output->used) && file_cut(fd, trajectory->whole) && !trajectory->named) {
         replace_commit(&trajectory->file);
     }
 }
@@ -50,21 +54,49 @@ static TrajectoryFormat format_of(const char *path) {
                                          : TRAJECTORY_H5MD;
 }
 
-bool trajectory_open(Trajectory *trajectory, const char *path) {
+static void write_named(Trajectory *trajectory, int fd, size_t end) {
+    trajectory->named = true;
+    trajectory->output.fd = fd;
+    trajectory->output.written = trajectory->whole = trajectory->safe = end;
+}
+
+// False after a message.
+static bool go_on(Trajectory *trajectory, const Resume *resume) {
+    ResumeFile file;
+    if (!resume_open(&file, trajectory->path, trajectory->format == TRAJECTORY_CSV, resume->after)) {
+        return false;
+    }
+    if (file.fd >= 0) {
+        trajectory->dimensions = file.dimensions;
+        write_named(trajectory, file.fd, file.end);
+        resume_tell_gap(trajectory->path, file.last, resume);
+    }
+    return true;
+}
+
+static bool is_lasting(const char *path) {
+    struct stat info;
+    return stat(path, &info) != 0 || S_ISREG(info.st_mode);
+}
+
+bool trajectory_open(Trajectory *trajectory, const char *path, const Resume *resume) {
     trajectory->path = path;
-    trajectory->failed = false;
-    trajectory->dimensions = 0;
-    trajectory->whole = 0;
     trajectory->format = format_of(path);
+    trajectory->resumable = resume->wanted && is_lasting(path);
     if (trajectory->format == TRAJECTORY_H5MD) {
-        trajectory->open = h5md_open(&trajectory->h5md, path, &trajectory->output);
+        trajectory->open =
+            h5md_open(&trajectory->h5md, path, trajectory->resumable ? resume : NULL, &trajectory->output);
         return trajectory->open;
     }
-    trajectory->open = replace_begin(&trajectory->file, path, 0);
+    output_start(&trajectory->output, -1);
+    if (trajectory->resumable && resume->after >= 0 && !go_on(trajectory, resume)) {
+        return false;
+    }
+    trajectory->open = trajectory->named || replace_begin(&trajectory->file, path, 0);
     if (!trajectory->open) {
         return complain(trajectory, errno);
     }
-    output_start(&trajectory->output, trajectory->file.file);
+    trajectory->output.fd = trajectory->named ? trajectory->output.fd : trajectory->file.file;
     trajectory->unfinished = unfinished_begin(keep_now, trajectory);
     return true;
 }
@@ -193,19 +225,70 @@ void trajectory_add(Trajectory *trajectory, PetriSession *session) {
     }
     atomic_signal_fence(memory_order_seq_cst); // keep_now may look at any moment
     trajectory->whole = trajectory->output.written + trajectory->output.used;
-    if (trajectory->output.error != 0 && trajectory->format == TRAJECTORY_H5MD) {
-        trajectory->failed = true; // petri-hdf5 has ended, and told why
-    } else if (trajectory->output.error != 0) {
+    if (trajectory->output.error != 0) {
         complain(trajectory, trajectory->output.error);
     }
 }
 
+// The file takes its name, and goes on to be written.
+static bool take_name(Trajectory *trajectory) {
+    int fd = fcntl(trajectory->file.file, F_DUPFD_CLOEXEC, 0);
+    unfinished_end(trajectory->unfinished);
+    bool good = fd >= 0 && replace_commit(&trajectory->file);
+    if (!good) {
+        complain(trajectory, errno);
+    }
+    if (fd >= 0) {
+        write_named(trajectory, fd, trajectory->whole);
+    }
+    trajectory->unfinished = unfinished_begin(keep_now, trajectory);
+    return good;
+}
+
+bool trajectory_keep(void *context) {
+    Trajectory *trajectory = context;
+    if (!trajectory->open || !trajectory->resumable) {
+        return true;
+    }
+    if (trajectory->failed) {
+        return false;
+    }
+    if (trajectory->format == TRAJECTORY_H5MD) {
+        trajectory->failed = !h5md_keep(&trajectory->h5md, &trajectory->output);
+        return !trajectory->failed;
+    }
+    if (!output_flush(&trajectory->output)) {
+        return complain(trajectory, trajectory->output.error);
+    }
+    trajectory->safe = trajectory->whole;
+    if (!trajectory->named) {
+        return take_name(trajectory);
+    }
+    return replace_sync(trajectory->output.fd) || complain(trajectory, errno);
+}
+
+// What could not be written as a whole is cut off.
+static bool end_named(Trajectory *trajectory, bool flushed) {
+    int fd = trajectory->output.fd;
+    bool good = file_cut(fd, flushed ? trajectory->whole : trajectory->safe) && replace_sync(fd);
+    int cause = errno;
+    close(fd);
+    return flushed && (good || complain(trajectory, cause));
+}
+
 static bool put_in_place(Trajectory *trajectory, bool keep) {
     if (trajectory->format == TRAJECTORY_H5MD) {
-        return h5md_close(&trajectory->h5md, keep, &trajectory->output);
+        bool closed = h5md_close(&trajectory->h5md, keep, &trajectory->output);
+        if (!closed && trajectory->output.error != 0) {
+            complain(trajectory, trajectory->output.error);
+        }
+        return closed;
     }
     bool flushed = output_flush(&trajectory->output) || complain(trajectory, trajectory->output.error);
     unfinished_end(trajectory->unfinished);
+    if (trajectory->named) {
+        return end_named(trajectory, flushed);
+    }
     if (!flushed || !keep) {
         replace_abandon(&trajectory->file);
         return flushed;
@@ -218,6 +301,6 @@ bool trajectory_close(Trajectory *trajectory, bool good) {
         return true;
     }
     trajectory->open = false;
-    bool keep = !trajectory->failed && (good || trajectory->whole > 0);
+    bool keep = !trajectory->failed && (good || trajectory->resumable || trajectory->whole > 0);
     return put_in_place(trajectory, keep) && !trajectory->failed;
 }

@@ -378,6 +378,18 @@ END
         check "… from the first to the last" [ -e "$(printf long%06d.png $((${kept:-0} - 1)))" ]
         check "… none of them half" nothing_beside
         rm -f long0*.png
+        # While one picture takes long the others' are drawn.
+        cp long.fl even.fl
+        printf '!window size=200;200\n    !canvas\n        for i in ..(30000 if frame==0 else 1)\n            !ellipse point=200*uniform(:p;i)[..2] radius=20 stroke=true\n' >long.fl
+        start_long -o long%06d.png
+        kill -INT "$job"
+        stop_long
+        kept=$(sed -n "s/.*stopped; 'long%06d.png' has the \([0-9]*\) frames* drawn so far.*/\1/p" err)
+        check "a series of pictures of unlike work says how many there are" [ "$(find . -name 'long*.png' | wc -l)" -eq "${kept:-0}" ]
+        check "… without a gap" [ "$(find . -name 'long*.png' | sort | tail -n 1)" = "$(printf ./long%06d.png $((${kept:-0} - 1)))" ]
+        check "… none of them half" nothing_beside
+        rm -f long0*.png
+        mv even.fl long.fl
         cp film.mp4 long.mp4
         for output in long.mp4 long%06d.png; do
             printf '!window size=1500;1500\n    !canvas\n        for i in ..20000\n            !ellipse point=1500*uniform(:p;i)[..2] radius=40 stroke=true\n' >slow.fl

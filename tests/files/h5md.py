@@ -1,5 +1,6 @@
 """h5md.py WAY.h5 WAY.csv: whether a trajectory in H5MD holds what the same run has written as CSV, to the last bit.
-h5md.py --frames WAY.h5: how many frames it has."""
+h5md.py --frames WAY.h5: how many frames it has.
+h5md.py --same WAY.h5 OTHER.h5: whether they hold the same."""
 
 import csv
 import math
@@ -86,7 +87,29 @@ def frames(path):
         print(count)
 
 
+def contents(path):
+    """All that is there: attributes, and the bytes of arrays."""
+    found = {}
+
+    def look(name, item):
+        found[name] = {key: numpy.array(value).tolist() for key, value in item.attrs.items()}
+        if isinstance(item, h5py.Dataset):
+            found[name]["value of"] = item.shape, item.dtype.str, item.maxshape, item[...].tobytes()
+        else:
+            for key, member in item.items():
+                look(f"{name}/{key}", member)
+
+    with h5py.File(path) as file:
+        check_form(file)
+        look("", file)
+    return found
+
+
 if sys.argv[1] == "--frames":
     frames(sys.argv[2])
+elif sys.argv[1] == "--same":
+    one, other = map(contents, sys.argv[2:])
+    assert one.keys() == other.keys(), one.keys() ^ other.keys()
+    assert not [name for name in one if one[name] != other[name]], [name for name in one if one[name] != other[name]]
 else:
     compare(*sys.argv[1:])

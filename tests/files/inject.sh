@@ -13,6 +13,16 @@ printf '# run --frames 1 --print tree\nold\n' >old.golden
 
 # Of each kind, the first so many calls. PETRI_INJECT=all tries as many of files that are written alike.
 tried='1 2 3 4 5 6 7 8 9 10'
+# What there is before each run, which needs a script or a state beside the file.
+prepare() {
+    mkdir -p target
+    rm -f target/* target/.petri*
+    cp "$old" "target/$file"
+    case $what in
+    golden) cp g.fl target ;;
+    resumed*) cp old.state target/s ;;
+    esac
+}
 # sweep NAME FILE OLD GOOD COMMAND...: GOOD is a command that is true of the new file.
 sweep() {
     what=$1 file=$2 old=$3 good=$4
@@ -29,10 +39,7 @@ sweep() {
             *) continue ;;
             esac
             for n in $tried; do
-                mkdir -p target
-                rm -f target/* target/.petri*
-                cp "$old" "target/$file"
-                [ $what != golden ] || cp g.fl target
+                prepare
                 # A process that strace looks at cannot look for its own leaks.
                 # shellcheck disable=SC2086
                 ASAN_OPTIONS="$ASAN_OPTIONS:detect_leaks=0" timeout 100 strace -f -qq -o trace $paths -e trace=$call -e inject=$call:error=$error:when=$n \
@@ -43,6 +50,7 @@ sweep() {
             done
         done
     done
+    case $what in resumed*) prepare ;; esac
     rm -f target/.petri*
     timeout 100 "$petri" "$@" >out 2>err </dev/null
     status=$?
@@ -70,6 +78,7 @@ good_png() { tail -c 8 "$1" | grep -q IEND; }
 good_table() { [ "$(sed 's/,0,,\(the process\|crashed\).*/,1,2,/; s/^1,1,1,2,/1,1,1,1,/' "$1")" = "run,A,frame,x,error
 1,1,1,1,
 2,2,1,2," ]; }
+is_good() { cmp -s "$1" "good.${1##*.}"; }
 good_film() { grep -q moov "$1"; }
 
 if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
@@ -78,6 +87,26 @@ if command -v strace >/dev/null && strace -qq -o trace true 2>/dev/null; then
     echo old >old.csv
     sweep trajectory a.csv old.csv good_csv run w.fl --frames 2 --threads 1 --trajectory target/a.csv
     [ "${PETRI_INJECT:-}" = all ] || tried="1 3"
+    kinds=$tried
+    [ "${PETRI_INJECT:-}" = all ] || tried=1
+    # A run that goes on lengthens its trajectory.
+    go_on() { petri run w.fl --frames "$1" --threads 1 --state old.state --trajectory "old.$2"; }
+    for format in csv h5; do
+        [ $format = csv ] || [ -x "$(dirname "$petri")/petri-hdf5" ] || continue
+        rm -f old.state old.$format
+        go_on 2 $format
+        cp old.state first.state
+        cp old.$format first.$format
+        go_on 1 $format
+        cp old.$format good.$format
+        cp first.state old.state
+        sweep resumed_$format a.$format first.$format is_good run w.fl --frames 1 --threads 1 --state target/s --trajectory target/a.$format
+    done
+    if [ -x "$(dirname "$petri")/petri-hdf5" ]; then
+        petri run w.fl --frames 2 --trajectory good.h5
+        sweep h5md a.h5 old.csv is_good run w.fl --frames 2 --threads 1 --trajectory target/a.h5
+    fi
+    tried=$kinds
     echo 'let A=A or 1' >runs.fl
     sweep golden g.golden old.golden good_golden test --update target/g.fl
     sweep table t.csv old.csv good_table sweep runs.fl --jobs 1 -D 'A=1;2' --frames 2 --metric x=A -o target/t.csv

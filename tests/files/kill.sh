@@ -54,6 +54,11 @@ kill_often() {
 petri run w.fl --frames 3 --state old.state
 kill_often state a.state old.state good_state run w.fl --frames 5 --state a.state
 kill_often trajectory a.csv old good_csv run w.fl --frames 10 --trajectory a.csv
+if [ -x "$(dirname "$petri")/petri-hdf5" ] && /usr/bin/python3 -I -c 'import h5py' 2>/dev/null; then
+    # petri-hdf5 lives on, and keeps the frames that are whole.
+    good_h5md() { /usr/bin/python3 -I "$here/../files/h5md.py" --frames "$1" >/dev/null; }
+    kill_often h5md a.h5 old good_h5md run w.fl --frames 10 --trajectory a.h5
+fi
 kill_often golden g.golden old.golden good_golden test --update g.fl
 petri render few.fl --frames 1 -o a.png
 if [ "$status" -eq 0 ]; then

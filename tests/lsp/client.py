@@ -5,13 +5,13 @@ import subprocess
 
 
 class Client:
-    def __init__(self, petri, utf8=False, options=()):
+    def __init__(self, petri, utf8=False, options=(), root=None):
         self.process = subprocess.Popen([petri, "lsp", *options], stdin=subprocess.PIPE, stdout=subprocess.PIPE)
         self.number = 0
         self.told = {}  # by URI: the last publishDiagnostics
         self.versions = {}
         encodings = ["utf-8", "utf-16"] if utf8 else ["utf-16"]
-        self.server = self.ask("initialize", {"processId": None, "rootUri": None, "capabilities": {
+        self.server = self.ask("initialize", {"processId": None, "rootUri": root, "capabilities": {
             "general": {"positionEncodings": encodings}}})
         self.tell("initialized", {})
 

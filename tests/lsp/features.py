@@ -189,6 +189,109 @@ check("… with its parameters", spot("import twice from 'lib.fl'\n!n a=twice(§
 check("a file in a string is gone to", spot("import twice from 'l§ib.fl'\n", "definition")["uri"],
       Path("lib.fl").absolute().as_uri())
 
+# Names of several files, of which one is open and not saved.
+Path("project").mkdir()
+os.chdir("project")
+files = {
+    "lib.fl": "let SCALE=2\nfunc area(width, height=1)\n    width*height*SCALE\n",
+    "shapes.fl": "import area from 'lib.fl'\nlet big=area(3, height=4)\n",
+    "parts.fl": "!part n=COUNT m=sin(COUNT)\n",
+    "main.fl": "import area;SCALE from 'lib.fl'\nlet COUNT=3\n%include 'parts.fl'\n!n a=area(1, height=2) b=SCALE c=COUNT\n",
+    "other.fl": "let area=1\n!n a=area\n",
+}
+for name, text in files.items():
+    Path(name).write_text(text)
+of = {name: Path(name).absolute().as_uri() for name in files}
+several = Client(petri, root=Path(".").absolute().as_uri())
+several.open(of["main.fl"], files["main.fl"])
+
+
+def at(name, mark, method, nth=0, **more):
+    """What is answered at the nth place of a word in a file, which is opened for it."""
+    opened = name in opens
+    if not opened:
+        several.open(of[name], files[name])
+    start = -1
+    for _ in range(nth + 1):
+        start = files[name].index(mark, start + 1)
+    before = files[name][:start]
+    reply = several.reply("textDocument/" + method, {"textDocument": {"uri": of[name]}, "position": {
+        "line": before.count("\n"), "character": len(before.split("\n")[-1])}, **more})
+    if not opened:
+        several.close(of[name])
+    return reply.get("result", reply.get("error", {}).get("message"))
+
+
+opens = {"main.fl"}
+
+
+def where(locations):
+    """Places as FILE:LINE:COLUMN, from 1."""
+    locations = locations if isinstance(locations, list) else [locations]
+    return sorted("%s:%d:%d" % (l["uri"].split("/")[-1], l["range"]["start"]["line"] + 1,
+                                l["range"]["start"]["character"] + 1) for l in locations)
+
+
+def renamed(edit):
+    """The texts of all files after an edit."""
+    return {name: applied(text, edit["changes"][of[name]]) if of[name] in edit["changes"] else text
+            for name, text in files.items()}
+
+
+check("what is included means what includes it", where(at("parts.fl", "COUNT", "definition")), ["main.fl:2:5"])
+check("… which explains it", "let COUNT=3" in at("parts.fl", "COUNT", "hover")["contents"]["value"])
+check("… and is offered", {"COUNT", "area"} <= set(labels(at("parts.fl", "COUNT", "completion"))))
+every = {"includeDeclaration": True}
+check("references in all files", where(at("main.fl", "area", "references", context=every)),
+      ["lib.fl:2:6", "main.fl:1:8", "main.fl:4:6", "shapes.fl:1:8", "shapes.fl:2:9"])
+check("… from a file that imports nothing", where(at("lib.fl", "SCALE", "references", context=every)),
+      ["lib.fl:1:5", "lib.fl:3:18", "main.fl:1:13", "main.fl:4:26"])
+check("… through what is included", where(at("parts.fl", "COUNT", "references", context=every)),
+      ["main.fl:2:5", "main.fl:4:34", "parts.fl:1:21", "parts.fl:1:9"])
+check("highlights are of the file", len(at("main.fl", "COUNT", "documentHighlight")), 2)
+check("renaming in all files", renamed(at("main.fl", "area", "rename", newName="face")),
+      {name: text if name == "other.fl" else text.replace("area", "face") for name, text in files.items()})
+check("… a parameter, too", renamed(at("lib.fl", "height", "rename", newName="tall")),
+      {name: text.replace("height", "tall") for name, text in files.items()})
+check("… what is included", renamed(at("parts.fl", "COUNT", "rename", newName="MANY")),
+      {name: text.replace("COUNT", "MANY") for name, text in files.items()})
+check("… not to a name that another file has", at("lib.fl", "area", "rename", newName="COUNT"),
+      "the name is taken: the script would mean something else")
+check("… nor to one that what is included uses", at("main.fl", "SCALE", "rename", newName="sin"),
+      "the name is taken: the script would mean something else")
+check("there is nothing to tell", several.told[of["main.fl"]]["diagnostics"], [])
+opens.add("lib.fl")
+several.open(of["lib.fl"], files["lib.fl"])
+several.change(of["lib.fl"], {"text": files["lib.fl"].replace("SCALE", "SIZE")})
+several.of("documentSymbol", of["lib.fl"])
+while not several.told[of["main.fl"]]["diagnostics"]:
+    several.read()
+check("what is not saved counts for what imports it", several.told[of["main.fl"]]["diagnostics"][0]["message"],
+      f"'{Path('lib.fl').absolute()}' does not bind 'SCALE'")
+several.close(of["lib.fl"])
+while several.told[of["main.fl"]]["diagnostics"]:
+    several.read()
+check("… until it is closed", several.told[of["main.fl"]]["diagnostics"], [])
+several.end()
+os.chdir("..")
+
+# Names that were typed once are forgotten (not that a sanitizer gives memory back).
+def memory():
+    return next(int(line.split()[1]) for line in open(f"/proc/{several.process.pid}/status") if line.startswith("VmRSS"))
+
+
+several = Client(petri)
+many = Path("many.fl").absolute().as_uri()
+several.open(many, "!n\n")
+sizes = []
+for i in range(13):
+    several.change(many, {"text": "let\n" + " ".join(f"name_{i}_{k}" for k in range(32000))})
+    several.at("hover", many, 0, 0)
+    sizes.append(memory())
+check("memory for names is bounded",
+      "ASAN_OPTIONS" in os.environ or any(b < 0.7 * a for a, b in zip(sizes, sizes[1:])))
+several.end()
+
 # The shape.
 text = "-- one\n-- two\nlet a=1\nfunc f(x)\n    x\n!window size=1;2\n    !canvas\n        !rect\n"
 client.change(uri, {"text": text})

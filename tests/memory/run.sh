@@ -159,8 +159,7 @@ input=/dev/null
 fail run "$plain" run s.fl --frames 3 --print tree,state,log --threads 2
 fail parameters "$plain" run s.fl --parameters
 fail check "$plain" check s.fl g
-"$plain" run s.fl --frames 2 --quiet --state old/a.state >out 2>&1
-echo old >old/a.csv
+"$plain" run s.fl --frames 2 --quiet --state old/a.state --trajectory old/a.csv >out 2>&1
 fail state "$plain" run s.fl --frames 3 --quiet --state new/a.state --trajectory new/a.csv
 rm old/*
 echo old >old/a.png

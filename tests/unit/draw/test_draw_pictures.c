@@ -131,6 +131,45 @@ static void test_choice(void **state) {
     take(player, options, PETRI_INVALID);
 }
 
+typedef struct Bytes {
+    char text[8];
+    size_t length;
+} Bytes;
+
+static bool collect(void *host, const char *text, size_t length) {
+    Bytes *bytes = host;
+    bytes->length = length < sizeof bytes->text ? length : sizeof bytes->text;
+    memcpy(bytes->text, text, bytes->length);
+    return true;
+}
+
+static bool refuse(void *host, const char *text, size_t length) {
+    (void)host, (void)text, (void)length;
+    return false;
+}
+
+// The bytes of a file, without a file.
+static void test_bytes(void **state) {
+    Player *player = *state;
+    player_run(player, DISC, 1);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    PetriPainter *painter = petri_painter_open();
+    Bytes bytes = {.length = 0};
+    PetriStatus status = petri_picture_write(picture, painter, ".png", collect, &bytes);
+    if (status != PETRI_MISSING) {
+        assert_int_equal(status, PETRI_OK);
+        assert_memory_equal(bytes.text, "\x89PNG\r\n", 6);
+        assert_int_equal(petri_picture_write(picture, painter, "any.svg", collect, &bytes), PETRI_OK);
+        assert_memory_equal(bytes.text, "<?xml", 5);
+        assert_int_equal(petri_picture_write(picture, painter, ".svg", refuse, NULL), PETRI_INVALID);
+    }
+    assert_int_equal(petri_picture_write(picture, painter, ".svg", NULL, NULL), PETRI_INVALID);
+    assert_int_equal(petri_picture_write(picture, painter, "svg", collect, &bytes), PETRI_INVALID);
+    assert_int_equal(petri_picture_write(picture, NULL, ".svg", collect, &bytes), PETRI_INVALID);
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
 static void test_misuse(void **state) {
     Player *player = *state;
     uint32_t pixels[16];
@@ -332,6 +371,10 @@ int main(void) {
         PLAYER_TEST(test_labels),
         PLAYER_TEST(test_images_of_the_host),
         PLAYER_TEST(test_numbers),
+        PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes),
+        PLAYER_TEST(test_choice),      PLAYER_TEST(test_bytes),
+        PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready),
+        PLAYER_TEST(test_labels),      PLAYER_TEST(test_images_of_the_host),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -319,6 +319,46 @@ static void test_no_other_files(void **state) {
     check_told(desk, "there is no such file");
 }
 
+static const char *give_unsaved(void *host, const char *name, size_t *length) {
+    Shelf *shelf = host;
+    const char *slash = strrchr(name, '/');
+    assert_true(name[0] == '/' && !strstr(name, "/../"));
+    return give_file(shelf, slash + 1, length);
+}
+
+// What an editor has not saved stands for files that scripts import and include, if these are there and within reach.
+static void test_unsaved_files(void **state) {
+    Desk *desk = *state;
+    Player *player = &desk->player;
+    char script[800];
+    Shelf shelf = {.files = {{"m.fl", "func f(x)\n    x*10\n"}, {"part.fl", "!part\n"}, {"new.fl", "!new\n"}}};
+    PetriOptions options = player_options(player);
+    const char *const folders[] = {desk->folder.path, NULL};
+    options.read_folders = folders;
+    options.unsaved = give_unsaved;
+    options.read_host = &shelf;
+    player_reopen(player, &options);
+    folder_write(&desk->folder, "m.fl", "func f(x)\n    x\n");
+    folder_write(&desk->folder, "part.fl", "!old\n");
+    folder_write(&desk->folder, "kept.fl", "!kept\n");
+    snprintf(script, sizeof script,
+             "import f from '%s/../%s/m.fl'\n%%include '%s/part.fl'\n%%include '%s/kept.fl'\n!a x=f(2)\n",
+             desk->folder.path, strrchr(desk->folder.path, '/') + 1, desk->folder.path, desk->folder.path);
+    player_run(player, script, 1);
+    assert_text("unsaved", player_tree(player), "!part\n!kept\n!a x=20\n");
+    shelf.files[0].text = "func f(x)\n    x*11\n";
+    player_step(player, 1);
+    assert_text("changed", player_tree(player), "!part\n!kept\n!a x=22\n");
+    assert_int_equal(petri_check_text(player->session, "s.fl", script, PETRI_Z), PETRI_OK);
+    shelf.files[0].name = NULL;
+    player_step(player, 1);
+    assert_text("saved", player_tree(player), "!part\n!kept\n!a x=2\n");
+    assert_string_equal(player_told(player), "");
+    snprintf(script, sizeof script, "%%include '%s/new.fl'\n", desk->folder.path);
+    petri_load_text(player->session, "s.fl", script, PETRI_Z);
+    check_told(desk, "No such file");
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         DESK_TEST(test_import),
@@ -334,6 +374,7 @@ int main(void) {
         DESK_TEST(test_files_of_the_host),
         DESK_TEST(test_folders_of_the_host),
         DESK_TEST(test_no_other_files),
+        DESK_TEST(test_unsaved_files),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

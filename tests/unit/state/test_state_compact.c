@@ -49,7 +49,8 @@ static void test_compact(void **unused) {
     uint32_t cursor = 0;
     double last = 0;
     int seen = 0;
-    for (Value key, value; state_next(state, &cursor, &key, &value); seen++) {
+    double room[STATE_KEY_ROOM];
+    for (Value key, value; state_next(state, &cursor, &key, &value, room); seen++) {
         assert_true(key.as.number > last || key.as.number == -1);
         last = key.as.number;
     }

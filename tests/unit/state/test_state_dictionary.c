@@ -41,7 +41,8 @@ static const char *listing(Fixture *fixture) {
     Text text = text_new(&fixture->world->arena);
     uint32_t cursor = 0, count = 0;
     Value key, value;
-    while (state_next(fixture->state, &cursor, &key, &value)) {
+    double room[STATE_KEY_ROOM];
+    while (state_next(fixture->state, &cursor, &key, &value, room)) {
         if (count++)
             text_add_char(&text, ' ');
         format_value(&text, &fixture->world->symbols, key);

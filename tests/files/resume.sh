@@ -1,0 +1,110 @@
+# resume.sh: `petri run --state FILE --trajectory FILE`, again and again. Part of ../cli/run.sh.
+#
+# Whatever ends a run, the same command goes on, and the trajectory is that of a run that nothing has ended. PETRI_KILLS
+# is how many runs of kill.sh are killed (20 if it is not set), here a fifth of them for each format.
+
+kills=$(((${PETRI_KILLS:-20} + 4) / 5))
+# Each state goes to the disk, which takes its time and is not what is looked at here.
+if shared=$(mktemp -d /dev/shm/petri.XXXXXX 2>/dev/null); then
+    trap 'rm -rf "$work" "$shared"' EXIT
+    cd "$shared" || exit 1
+fi
+formats="csv xyz"
+h5md=$(dirname "$petri")/petri-hdf5
+if [ -x "$h5md" ] && /usr/bin/python3 -I -c 'import h5py' 2>err; then
+    formats="$formats h5"
+fi
+# Systems, particles and texts come and go.
+cat >w.fl <<'END2'
+!physics state=:c dimensions=2
+    for i in ..(20 if frame < 30 else 300 if frame < 70 else 5)
+        !particle id=i velocity=1;i
+    !particle id='t';frame//9 position=1/3;frame
+if frame % 4 != 1
+    !physics state=:late dimensions=3
+        !particle id=:p position=0.1
+if frame > 60
+    !physics state=:last dimensions=1
+        !particle id='u' position=frame
+END2
+# Whether a file has what one of an unbroken run has.
+same() {
+    case $1 in
+    *.h5) /usr/bin/python3 -I "$here/../files/h5md.py" --same whole.h5 "$1" >out 2>&1 || { cat out; false; } ;;
+    *) cmp whole."${1##*.}" "$1" ;;
+    esac
+}
+made() { echo $(($(sed -n 's/^frame //p' s 2>/dev/null || echo -1) + 1)); }
+rest() { petri run w.fl --frames $((100 - $(made))) --state s --trajectory "$@"; }
+
+for format in $formats; do
+    way=way.$format
+    petri run w.fl --frames 100 --trajectory whole.$format
+    rm -f s
+    for frames in 1 10 25 40; do
+        petri run w.fl --frames $frames --state s --trajectory $way
+    done
+    rest $way
+    check "$format: five runs that go on make one trajectory" eval 'status_is 0 && empty err && same $way'
+    petri run w.fl --frames 0 --state s --trajectory $way
+    check "$format: no further frame changes nothing" eval 'status_is 0 && same $way'
+    cp $way longer.$format
+
+    # A state from before: what is later is made again.
+    rm -f s
+    petri run w.fl --frames 33 --state s --trajectory short.$format
+    rest longer.$format
+    check "$format: what is later than the state is made again" eval 'status_is 0 && same longer.$format'
+    rm -f s
+    rest short.$format
+    check "$format: without a state a trajectory begins" eval 'status_is 0 && same short.$format'
+
+    # From a file that stopped before, which is told.
+    rm -f s
+    petri run w.fl --frames 3 --state s --trajectory $way
+    petri run w.fl --frames 4 --state s
+    petri run w.fl --frames 4 --state s --trajectory $way
+    check "$format: frames that are missing are told" has err "frames 3 to 6 are missing in $way, which goes on with frame 7"
+    petri run w.fl --frames 5 --every 5 --state s --trajectory $way
+    check "… not those that --every leaves out" empty err
+
+    echo something else >other.$format
+    petri run w.fl --frames 2 --state s --trajectory other.$format
+    check "$format: a file of another kind is refused" status_is 1
+    check "… which is told" has err "cannot go on with other.$format: it is not what --trajectory writes"
+    check "… left alone" [ "$(cat other.$format)" = "something else" ]
+    echo bad >bad.state
+    petri run w.fl --frames 2 --state bad.state --trajectory $way.copy.$format
+    cp $way before
+    petri run w.fl --frames 2 --state bad.state --trajectory $way
+    check "$format: with a state that cannot be read it is left alone" eval 'status_is 1 && cmp before $way'
+
+    # Killed: petri alone, or with petri-hdf5, at any moment.
+    rm -f s $way
+    i=0
+    while [ $i -lt $kills ]; do
+        [ "$(made)" -lt 90 ] || rm -f s $way
+        setsid "$petri" run w.fl --frames $((100 - $(made))) --state s --save-every 3 --trajectory $way --trace 2>err </dev/null &
+        job=$!
+        least=$((i * 7 % 20))
+        while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt $least ]; do :; done
+        kill -9 -- $([ $((i % 2)) -eq 0 ] || echo -)$job 2>/dev/null
+        wait $job 2>/dev/null
+        i=$((i + 1))
+    done 2>/dev/null
+    rest $way
+    check "$format: killed, and gone on to the end, it is the same" eval 'status_is 0 && empty err && same $way'
+    check "… and nothing is left beside it" [ -z "$(find . -name '*.tmp' -o -name '*.part')" ]
+done
+rm -f s
+(
+    trap '' XFSZ # the disk is full
+    ulimit -f 200
+    exec timeout 100 "$petri" run w.fl --frames 100 --state s --save-every 3 --trajectory full.csv >out 2>err </dev/null
+)
+status=$?
+check "a trajectory that the disk cannot hold ends the run" status_is 1
+check "… and no state is later than it" eval '[ "$(made)" -gt 3 ] && [ "$(made)" -lt 100 ]'
+rest full.csv
+check "… the same command goes on when there is room" eval 'status_is 0 && same full.csv'
+cd "$work" || exit 1
