@@ -363,18 +363,11 @@ static void test_numbers(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_independent),
-        PLAYER_TEST(test_sizes),
-        PLAYER_TEST(test_choice),
-        PLAYER_TEST(test_misuse),
-        PLAYER_TEST(test_ready),
-        PLAYER_TEST(test_labels),
-        PLAYER_TEST(test_images_of_the_host),
-        PLAYER_TEST(test_numbers),
         PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes),
         PLAYER_TEST(test_choice),      PLAYER_TEST(test_bytes),
         PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready),
         PLAYER_TEST(test_labels),      PLAYER_TEST(test_images_of_the_host),
+        PLAYER_TEST(test_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
