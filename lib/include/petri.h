@@ -432,7 +432,7 @@ PETRI_API void petri_call_fault(PetriCall *call, const char *text);
 // Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
 typedef struct PetriColumn {
     const double *data; // NULL if there are none
-    size_t stride;
+    size_t stride; // 0: all particles have the same
 } PetriColumn;
 
 // A particle system of the last frame. Anchors are particles, too. Its columns point into the session, and nothing is

@@ -17,16 +17,15 @@ static void arrange_particles(PhysSystem *system) {
             system->order[i] = system->place[i] = i;
         return;
     }
-    const ParticleRecord *particles = system->particles.bytes;
     for (uint32_t g = 0; g < system->group_count; g++)
         groups[g].count = 0;
     for (uint32_t i = 0; i < system->particle_count; i++)
-        groups[particles[i].group].count++;
+        groups[phys_record(system, i)->group].count++;
     uint32_t end = 0;
     for (uint32_t g = 0; g < system->group_count; g++)
         groups[g].first = end += groups[g].count;
     for (uint32_t i = system->particle_count; i-- > 0;) {
-        uint32_t column = --groups[particles[i].group].first;
+        uint32_t column = --groups[phys_record(system, i)->group].first;
         system->order[column] = i;
         system->place[i] = column;
     }

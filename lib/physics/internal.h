@@ -51,8 +51,7 @@ typedef struct ParticleRecord {
     double charge;
     uint32_t group;
     bool anchor;
-    bool position_from_attribute; // see PhysParticle
-    bool velocity_from_attribute;
+    bool unused[3]; // no padding: equal records have equal bytes
 } ParticleRecord;
 
 typedef struct ForceRecord {
@@ -78,6 +77,7 @@ typedef struct Columns {
     double *velocity;
     double *own_force; // the particle's own force; valid, as `ease` is, if there are any
     double *force;     // sum of all forces of the step
+    bool forces_clear; // they are 0, for the step before left them so
     double *ease;
     double *radius;
     double *mass;
@@ -111,11 +111,13 @@ struct PhysSystem {
     bool has_eased_forces;   // … or one that is eased in; then `has_own_forces` is set too
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
-    Buffer particles;        // ParticleRecord by handle
+    uint32_t record_stride;  // 0: all particles have the first record; else 1
+    Buffer particles;        // ParticleRecord by handle times record_stride
     Buffer rows;             // 2 n doubles by handle
     Buffer own_forces;       // n doubles by handle, the particles' own forces, if they have any
     Buffer last_rows;        // those of the description before
     Buffer force_rows;       // n doubles by handle, with PhysOptions.keep_forces: the forces of the last step
+    Buffer from_attribute;   // uint8_t by handle, valid if `any_from_attribute`: what is (PhysParticle)
     Buffer not_finite;    // uint8_t by handle: results of the last frame that were not, see PhysTime.keep_last_finite
     Buffer force_records; // ForceRecord in order of the calls
     Buffer vectors;       // double
@@ -134,6 +136,7 @@ struct PhysSystem {
     struct Neighbours *lists;
     // on several processes (domain.h)
     uint64_t arrangement; // counts how often the columns have been filled
+    uint64_t radii;       // another number whenever a radius has changed
     bool touched;         // particles were given new numbers since the last frame
     Buffer domain;        // Domain
     PhysTraffic traffic;
@@ -180,8 +183,12 @@ void phys_buffer_free(Buffer *buffer);
 bool phys_arrange(PhysSystem *system);
 bool phys_arrange_forces(PhysSystem *system);
 
+static inline const ParticleRecord *phys_record(const PhysSystem *system, uint32_t particle) {
+    return (const ParticleRecord *)system->particles.bytes + (size_t)particle * system->record_stride;
+}
+
 // particles.c: rows into columns and back. phys_load and phys_clear_not_finite are false if memory is used up.
-enum { PHYS_NOT_FINITE_POSITION = 1, PHYS_NOT_FINITE_VELOCITY = 2 }; // marks of `not_finite`
+enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // marks of `not_finite` and `from_attribute`
 bool phys_clear_not_finite(PhysSystem *system);
 bool phys_load(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);

@@ -10,15 +10,17 @@
 bool phys_reserve_columns(PhysSystem *system) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
-    double **vectors[] = {&columns->position, &columns->velocity, &columns->own_force, &columns->force};
-    double **scalars[] = {&columns->ease,   &columns->radius,  &columns->mass,
-                          &columns->charge, &columns->section, &columns->volume};
-    enum { VECTORS = sizeof vectors / sizeof *vectors, SCALARS = sizeof scalars / sizeof *scalars, SCRATCH = 3 };
+    // The last of each only if there are own forces; the first one that comes has the columns made anew.
+    double **vectors[] = {&columns->position, &columns->velocity, &columns->force, &columns->own_force};
+    double **scalars[] = {&columns->radius,  &columns->mass,   &columns->charge,
+                          &columns->section, &columns->volume, &columns->ease};
+    enum { SCRATCH = 3 };
+    const unsigned vector_count = system->has_own_forces ? 4 : 3, scalar_count = system->has_own_forces ? 6 : 5;
     // n * count is bounded by the rows, which exist already. Without particles nothing is needed, however large n is.
     // Vector kernels want columns that begin at a cache line, and may read one vector beyond the last.
     enum { LINE = 8 };
     uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + LINE - 1) / LINE * LINE : count;
-    uint64_t doubles = VECTORS * n * stride + SCALARS * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
+    uint64_t doubles = vector_count * n * stride + scalar_count * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
     uint64_t flags = (count + sizeof(double) - 1) / sizeof(double);
     if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)) ||
         (system->options.keep_forces &&
@@ -29,18 +31,18 @@ bool phys_reserve_columns(PhysSystem *system) {
         return true;
     uintptr_t line = LINE * sizeof(double), address = (uintptr_t)system->column_data.bytes;
     double *next = (double *)((address + line - 1) / line * line);
-    for (int i = 0; i < VECTORS; i++, next += n * stride)
+    for (unsigned i = 0; i < vector_count; i++, next += n * stride)
         *vectors[i] = next;
-    for (int i = 0; i < SCALARS; i++, next += stride)
+    for (unsigned i = 0; i < scalar_count; i++, next += stride)
         *scalars[i] = next;
     columns->scratch = next;
     columns->anchor = (bool *)(next + SCRATCH * n);
     // Lanes beyond the last particle are computed and thrown away: from defined numbers, not from whatever lay here.
     size_t padding = (size_t)(stride - count) * sizeof(double);
-    for (int i = 0; i < VECTORS; i++)
+    for (unsigned i = 0; i < vector_count; i++)
         for (uint64_t k = 0; k < n && padding; k++)
             memset(*vectors[i] + k * stride + count, 0, padding);
-    for (int i = 0; i < SCALARS; i++)
+    for (unsigned i = 0; i < scalar_count; i++)
         memset(*scalars[i] + count, 0, padding);
     memset(columns->anchor + count, 0, 2 * LINE);
     return true;
@@ -72,11 +74,10 @@ void phys_raise_radii(PhysSystem *system) {
 static void load_share(void *context, int worker, int workers) {
     PhysSystem *system = context;
     const Columns *columns = &system->columns;
-    const ParticleRecord *particles = system->particles.bytes;
     size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
     for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
         uint32_t handle = system->order[i];
-        const ParticleRecord *particle = &particles[handle];
+        const ParticleRecord *particle = phys_record(system, handle);
         columns->radius[i] = particle->radius;
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;
@@ -132,20 +133,15 @@ static inline void keep_range(Storing *storing, size_t n, size_t i, size_t end, 
     size_t stride = columns->stride;
     for (; i < end; i++) {
         double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
-        ParticleRecord *record =
-            system->any_from_attribute ? (ParticleRecord *)system->particles.bytes + system->order[i] : NULL;
-        bool position =
-            keep_last_finite(columns->position + i, stride, row, n, record && record->position_from_attribute);
-        bool velocity =
-            keep_last_finite(columns->velocity + i, stride, row + n, n, record && record->velocity_from_attribute);
-        if (record) {
-            record->position_from_attribute &= !position;
-            record->velocity_from_attribute &= !velocity;
-        }
-        if (position && velocity)
+        uint8_t *from = system->any_from_attribute ? (uint8_t *)system->from_attribute.bytes + system->order[i] : NULL;
+        bool position = keep_last_finite(columns->position + i, stride, row, n, from && (*from & PHYS_POSITION));
+        bool velocity = keep_last_finite(columns->velocity + i, stride, row + n, n, from && (*from & PHYS_VELOCITY));
+        uint8_t marks = (uint8_t)((position ? 0 : PHYS_POSITION) | (velocity ? 0 : PHYS_VELOCITY));
+        if (from)
+            *from &= marks;
+        if (!marks)
             continue;
-        ((uint8_t *)system->not_finite.bytes)[system->order[i]] =
-            (uint8_t)((position ? 0 : PHYS_NOT_FINITE_POSITION) | (velocity ? 0 : PHYS_NOT_FINITE_VELOCITY));
+        ((uint8_t *)system->not_finite.bytes)[system->order[i]] = marks;
         storing->any_not_finite[worker] = true;
     }
 }
@@ -203,6 +199,7 @@ bool phys_load(PhysSystem *system) {
         return false;
     phys_parallel(system, shares_for(system), load_share, system);
     system->arrangement++;
+    system->radii++;
     return true;
 }
 

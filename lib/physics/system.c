@@ -36,10 +36,10 @@ PhysSystem *phys_new(void) {
 void phys_free(PhysSystem *system) {
     if (!system)
         return;
-    Buffer *buffers[] = {&system->groups,    &system->particles,  &system->rows,       &system->force_records,
-                         &system->vectors,   &system->indices,    &system->forces,     &system->column_data,
-                         &system->last_rows, &system->not_finite, &system->own_forces, &system->force_rows,
-                         &system->terms,     &system->chain};
+    Buffer *buffers[] = {&system->groups,     &system->particles,  &system->rows,           &system->force_records,
+                         &system->vectors,    &system->indices,    &system->forces,         &system->column_data,
+                         &system->last_rows,  &system->not_finite, &system->from_attribute, &system->own_forces,
+                         &system->force_rows, &system->terms,      &system->chain};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
@@ -85,6 +85,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->dimensions = dimensions;
     system->group_count = 0;
     system->particle_count = 0;
+    system->record_stride = 0;
     system->force_count = 0;
     system->has_eased_forces = system->has_own_forces = system->any_from_attribute = false;
     system->stepped = false;
@@ -133,24 +134,58 @@ static void set_own_force(PhysSystem *system, uint32_t handle, PhysVector force,
     system->has_eased_forces |= ease > 0;
 }
 
+static ParticleRecord record_of(const PhysParticle *particle, uint32_t group, bool anchor) {
+    return (ParticleRecord){.ease = particle->ease,
+                            .radius = particle->radius,
+                            .mass = particle->mass,
+                            .charge = particle->charge,
+                            .group = group,
+                            .anchor = anchor};
+}
+
+// Keeps the record of a particle, of `count` with this one. As long as all are the same there is one. False if memory
+// is used up.
+static bool set_record(PhysSystem *system, uint32_t handle, uint32_t count, const ParticleRecord *record) {
+    bool single = !system->record_stride && count > 1;
+    if (single && memcmp(phys_record(system, 0), record, sizeof *record) == 0)
+        return true;
+    uint64_t kept = (single ? 1 : handle) * sizeof *record;
+    if (!phys_buffer_reserve(system, &system->particles, kept, count, sizeof *record))
+        return false;
+    ParticleRecord *records = system->particles.bytes;
+    for (uint32_t i = 1; single && i < count; i++)
+        records[i] = records[0];
+    system->record_stride = count > 1;
+    records[handle] = *record;
+    return true;
+}
+
+static void set_from_attribute(PhysSystem *system, uint32_t handle, uint8_t which, bool from) {
+    uint8_t *marks = (uint8_t *)system->from_attribute.bytes + handle;
+    *marks = (uint8_t)(from ? *marks | which : *marks & ~which);
+    system->any_from_attribute |= from;
+}
+
+void phys_expect_particles(PhysSystem *system, uint64_t more) {
+    uint64_t count = system->particle_count, n = system->dimensions, row = ROW_VECTORS * n * sizeof(double);
+    if (system->failed || more > (PHYS_MAX_BYTES >> 4) / row)
+        return;
+    phys_buffer_reserve(system, &system->rows, count * row, count + more, row);
+    phys_buffer_reserve(system, &system->from_attribute, count, count + more, 1);
+    system->failed = false; // they need not come
+}
+
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle) {
     uint32_t handle = system->particle_count;
     size_t n = system->dimensions;
-    if (!reserve_one(system, &system->particles, handle, sizeof(ParticleRecord)) ||
-        !reserve_one(system, &system->rows, handle, ROW_VECTORS * n * sizeof(double)))
+    ParticleRecord record = record_of(particle, group, particle->anchor);
+    if (!reserve_one(system, &system->rows, handle, ROW_VECTORS * n * sizeof(double)) ||
+        !reserve_one(system, &system->from_attribute, handle, 1) || !set_record(system, handle, handle + 1, &record))
         return 0;
     assert(group < system->group_count);
-    ((ParticleRecord *)system->particles.bytes)[handle] = (ParticleRecord){
-        .ease = particle->ease,
-        .radius = particle->radius,
-        .mass = particle->mass,
-        .charge = particle->charge,
-        .group = group,
-        .anchor = particle->anchor,
-        .position_from_attribute = particle->position_from_attribute,
-        .velocity_from_attribute = particle->velocity_from_attribute,
-    };
-    system->any_from_attribute |= particle->position_from_attribute || particle->velocity_from_attribute;
+    ((uint8_t *)system->from_attribute.bytes)[handle] = 0;
+    set_from_attribute(system, handle, PHYS_POSITION, particle->position_from_attribute);
+    set_from_attribute(system, handle, PHYS_VELOCITY, particle->velocity_from_attribute);
     double *row = phys_row(system, handle);
     copy_vector(row, particle->position, n);
     copy_vector(row + n, particle->anchor ? NULL : particle->velocity, n);
@@ -166,8 +201,10 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
     system->touched = true;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
-    if (columns->radius[i] != record->radius)
+    if (columns->radius[i] != record->radius) {
         system->radii_raised = false;
+        system->radii++;
+    }
     columns->radius[i] = record->radius;
     columns->mass[i] = record->mass;
     columns->charge[i] = record->charge;
@@ -184,23 +221,21 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
 
 void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParticle *numbers, PhysPreserve preserve) {
     size_t n = system->dimensions;
-    ParticleRecord *record = (ParticleRecord *)system->particles.bytes + particle;
+    const ParticleRecord *before = phys_record(system, particle);
+    ParticleRecord record = record_of(numbers, before->group, before->anchor);
+    if (!set_record(system, particle, system->particle_count, &record))
+        return;
     double *row = phys_row(system, particle);
-    record->ease = numbers->ease;
-    record->radius = numbers->radius;
-    record->mass = numbers->mass;
-    record->charge = numbers->charge;
     if (!preserve.position) {
         copy_vector(row, numbers->position, n);
-        record->position_from_attribute = numbers->position_from_attribute;
+        set_from_attribute(system, particle, PHYS_POSITION, numbers->position_from_attribute);
     }
     if (!preserve.velocity) {
-        copy_vector(row + n, record->anchor ? NULL : numbers->velocity, n);
-        record->velocity_from_attribute = numbers->velocity_from_attribute;
+        copy_vector(row + n, record.anchor ? NULL : numbers->velocity, n);
+        set_from_attribute(system, particle, PHYS_VELOCITY, numbers->velocity_from_attribute);
     }
-    system->any_from_attribute |= record->position_from_attribute || record->velocity_from_attribute;
-    set_own_force(system, particle, record->anchor ? NULL : numbers->force, record->anchor ? 0 : numbers->ease);
-    update_columns(system, particle, record, row);
+    set_own_force(system, particle, record.anchor ? NULL : numbers->force, record.anchor ? 0 : numbers->ease);
+    update_columns(system, particle, &record, row);
 }
 
 // Copies a vector of a force; returns where it begins plus 1, or 0 for all zeros (or no memory).
@@ -243,11 +278,11 @@ void phys_set_key(PhysSystem *system, uint32_t force, uint64_t key) {
 }
 
 uint32_t phys_particle_group(const PhysSystem *system, uint32_t particle) {
-    return ((const ParticleRecord *)system->particles.bytes)[particle].group;
+    return phys_record(system, particle)->group;
 }
 
 bool phys_is_anchor(const PhysSystem *system, uint32_t particle) {
-    return ((const ParticleRecord *)system->particles.bytes)[particle].anchor;
+    return phys_record(system, particle)->anchor;
 }
 
 uint32_t phys_group_count(const PhysSystem *system) {
@@ -283,11 +318,11 @@ static bool has_mark(const PhysSystem *system, uint32_t particle, uint8_t mark) 
 }
 
 bool phys_position_finite(const PhysSystem *system, uint32_t particle) {
-    return !has_mark(system, particle, PHYS_NOT_FINITE_POSITION);
+    return !has_mark(system, particle, PHYS_POSITION);
 }
 
 bool phys_velocity_finite(const PhysSystem *system, uint32_t particle) {
-    return !has_mark(system, particle, PHYS_NOT_FINITE_VELOCITY);
+    return !has_mark(system, particle, PHYS_VELOCITY);
 }
 
 _Static_assert(sizeof(ParticleRecord) % sizeof(double) == 0, "a column of records has a stride in doubles");
@@ -296,18 +331,17 @@ PhysColumns phys_columns(const PhysSystem *system) {
     if (!system->particle_count)
         return (PhysColumns){.anchor = NULL};
     const ParticleRecord *records = system->particles.bytes;
-    enum { RECORD = sizeof *records / sizeof(double) };
-    size_t n = system->dimensions;
+    size_t n = system->dimensions, bytes = sizeof *records * system->record_stride, stride = bytes / sizeof(double);
     bool forces = system->stepped && system->options.keep_forces;
     return (PhysColumns){
         .position = {system->rows.bytes, ROW_VECTORS * n},
         .velocity = {(const double *)system->rows.bytes + n, ROW_VECTORS * n},
         .force = {forces ? system->force_rows.bytes : NULL, n},
-        .radius = {&records->radius, RECORD},
-        .mass = {&records->mass, RECORD},
-        .charge = {&records->charge, RECORD},
+        .radius = {&records->radius, stride},
+        .mass = {&records->mass, stride},
+        .charge = {&records->charge, stride},
         .anchor = &records->anchor,
-        .anchor_stride = sizeof *records,
+        .anchor_stride = bytes,
     };
 }
 

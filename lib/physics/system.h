@@ -128,7 +128,7 @@ typedef struct PhysOptions {
 void phys_set_options(PhysSystem *system, const PhysOptions *options);
 
 // The most bytes that the arrays of one system may take.
-#define PHYS_MAX_BYTES (UINT64_C(2) << 30)
+#define PHYS_MAX_BYTES (SIZE_MAX > UINT32_MAX ? UINT64_C(8) << 30 : UINT64_C(2) << 30)
 
 // Starts a new description: drops groups, particles and forces (memory is kept). Group 0, the top, exists then.
 void phys_begin(PhysSystem *system, uint32_t dimensions);
@@ -138,6 +138,8 @@ void phys_begin(PhysSystem *system, uint32_t dimensions);
 uint32_t phys_add_group(PhysSystem *system, uint32_t parent);
 // Adds a particle to a group and returns its handle: 0, 1, 2, … in the order of the calls. Vectors are copied.
 uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticle *particle);
+// Makes room for so many particles, which may come next.
+void phys_expect_particles(PhysSystem *system, uint64_t more);
 // Adds a force applier or barrier to a group and returns its number: 0, 1, 2, … in the order of the calls.
 uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *force);
 
@@ -206,7 +208,7 @@ bool phys_velocity_finite(const PhysSystem *system, uint32_t particle);
 // Where the numbers of all particles lie, by handle: those of the next one are `stride` doubles on.
 typedef struct PhysColumn {
     const double *numbers; // NULL without particles
-    size_t stride;
+    size_t stride;         // 0: it is the same for all
 } PhysColumn;
 typedef struct PhysColumns {
     PhysColumn position; // as simulated, n doubles

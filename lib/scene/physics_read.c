@@ -147,6 +147,7 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
 void physics_read_bodies(PhysicsTree *tree) {
     physics_clear_marks(tree);
     tree->system->node_count = 0;
+    phys_expect_particles(tree->engine, node_child_count(tree->root) - tree->root->child_count); // those of runs
     read_group_bodies(tree, tree->root, 0);
     tree->scene->marked = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;

@@ -20,13 +20,16 @@ NodeRun *node_run_new(Arena *arena, const Node *first, const Attr *attrs, const 
     assert(attr_count <= NODE_RUN_ATTRS);
     for (uint32_t i = 0; i < attr_count; i++)
         stride += in_row(numbers[i]) ? numbers[i] : 0;
-    *run = (NodeRun){.node = *first, .count = 1, .capacity = capacity, .stride = stride ? stride : 1};
+    stride = stride ? stride : 1;
+    uint32_t most = NODE_RUN_BYTES / sizeof(double) / stride;
+    most = most < NODE_RUN_ROWS ? most : NODE_RUN_ROWS;
+    *run = (NodeRun){.node = *first, .count = 1, .capacity = capacity < most ? capacity : most, .stride = stride};
     run->node.attrs = own;
     run->node.attr_count = attr_count;
     run->node.program_lifetime = run->node.program_lifetime_children = false;
     run->node.is_run = run->node.has_runs = true;
     memcpy(run->numbers, numbers, attr_count * sizeof *numbers);
-    double *row = run->rows = arena_alloc_array(arena, (size_t)capacity * run->stride, sizeof *row);
+    double *row = run->rows = arena_alloc_array(arena, (size_t)run->capacity * stride, sizeof *row);
     for (uint32_t i = 0; i < attr_count; i++) {
         own[i] = attrs[i];
         if (!in_row(numbers[i]))

@@ -12,7 +12,8 @@
 
 enum {
     NODE_RUN_ATTRS = 12,             // that nodes of a run may have
-    NODE_RUN_ROWS = 1 << 16,         // nodes of one run
+    NODE_RUN_ROWS = 1 << 16,         // nodes of one run, at most,
+    NODE_RUN_BYTES = 1000 << 10,     // … and of their rows: blocks of an arena are a little larger than four of these
     NODE_RUN_NUMBERS = 16,           // of an attribute
     NODE_RUN_COMMON = 0,             // instead of how many numbers a row has: none, it is the same in all
     NODE_RUN_COUNTS = NODE_RUN_ROWS, // … or it is 1 more from row to row
@@ -32,8 +33,8 @@ static inline const NodeRun *node_run(const Node *node) {
     return (const NodeRun *)node;
 }
 
-// A run of one node: `first` with these attributes. One whose `numbers` are not NODE_RUN_COMMON is numeric. Its
-// `from` are the caller's to set.
+// A run of one node that has room for `capacity`, or for as many as a run may have: `first` with these attributes. One
+// whose `numbers` are not NODE_RUN_COMMON is numeric. Its `from` are the caller's to set.
 NodeRun *node_run_new(Arena *arena, const Node *first, const Attr *attrs, const uint32_t *numbers, uint32_t attr_count,
                       uint32_t capacity);
 // Adds a node, for which there must be room, whose attributes are values[from[…]]; false if it is not like the others.

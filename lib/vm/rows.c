@@ -35,8 +35,7 @@ static NodeRun *begin_run(Vm *vm, const int32_t *list, const Value *slots, const
         attrs[count++] = (Attr){instr->as.node->names[i], *value};
     }
     vm_work(vm, instr->at, 1 + instr->count / 4);
-    NodeRun *run = node_run_new(vm->arena, instr->as.node->base, attrs, numbers, count,
-                                rounds < NODE_RUN_ROWS ? rounds : NODE_RUN_ROWS);
+    NodeRun *run = node_run_new(vm->arena, instr->as.node->base, attrs, numbers, count, rounds);
     for (uint32_t i = 0; i < count; i++)
         run->from[i] = from[i];
     return run;

@@ -84,8 +84,34 @@ static void test_failing(void **state) {
     fail_at = -1;
 }
 
+// Numbers that all particles share are kept once, until one gets another; each has its own anyway.
+static void test_records(void **state) {
+    enum { COUNT = 1000 };
+    (void)state;
+    for (uint32_t odd = 0; odd <= COUNT; odd += COUNT / 4) {
+        PhysSystem *system = phys_new();
+        PhysParticle particle = {.radius = 2, .mass = 3, .charge = 4};
+        for (uint32_t i = 0; i < COUNT; i++) {
+            particle.radius = i == odd ? 7 : 2;
+            assert_int_equal(phys_add_particle(system, 0, &particle), i);
+        }
+        PhysColumns columns = phys_columns(system);
+        assert_int_equal(columns.radius.stride == 0 && columns.anchor_stride == 0, odd == COUNT);
+        for (uint32_t i = 0; i < COUNT; i++)
+            assert_true(*phys_at_particle(columns.radius, i) == (i == odd ? 7 : 2) &&
+                        *phys_at_particle(columns.mass, i) == 3 && !columns.anchor[i * columns.anchor_stride]);
+        particle.radius = 9;
+        phys_update_particle(system, 5, &particle, (PhysPreserve){false, false});
+        columns = phys_columns(system);
+        for (uint32_t i = 0; i < COUNT; i++)
+            assert_true(*phys_at_particle(columns.radius, i) == (i == 5 ? 9 : i == odd ? 7 : 2));
+        phys_free(system);
+    }
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_records),
         cmocka_unit_test(test_warm_frame),
         cmocka_unit_test(test_growing),
         cmocka_unit_test(test_failing),
