@@ -101,8 +101,7 @@ if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
     "$petri" run w.fl --frames 100000000 --state s --trajectory way.h5 --trace 2>err </dev/null &
     job=$!
     while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 5 ]; do :; done
-    read -r writer _ <"/proc/$job/task/$job/children"
-    kill -9 "$writer"
+    kill -9 $(cat /proc/$job/task/*/children)
     wait $job
     status=$?
     check "without petri-hdf5 the run ends" status_is 1
