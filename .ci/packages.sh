@@ -65,7 +65,10 @@ test -d /usr/share/fonts/truetype/liberation : fonts-liberation
 CLANG_NEEDS='command -v clang: clang'
 # The memory sanitizer of Debian's clang, 14, does not know fstat of today's glibc.
 MEMORY_NEEDS='command -v clang-16: clang-16 libclang-rt-16-dev'
-EDITOR_NEEDS='command -v nvim: neovim'
+EDITOR_NEEDS='
+command -v nvim: neovim
+command -v npm : npm
+'
 COVERAGE_NEEDS='command -v llvm-cov: llvm'
 FORMAT_NEEDS='command -v clang-format: clang-format'
 TIDY_NEEDS='command -v run-clang-tidy: clang-tidy'
@@ -82,6 +85,10 @@ command -v re2c  : re2c
 command -v emcc  : emscripten
 command -v node  : nodejs
 '
+# npm, which the page takes, is not among them: Debian's brings 400 packages along. Without it there is the engine alone.
+WEB_TEST_NEEDS="$WEB_NEEDS
+command -v chromium : chromium
+"
 PEER_NEEDS='
 command -v lmp   : lammps
 command -v mpirun: openmpi-bin

@@ -210,6 +210,8 @@ static Gl *need_gpu(Walk *walk) {
     const char *problem = painter->gl_problem;
     if (!painter->gl && !problem)
         painter->gl = gl_open(&problem);
+    if (painter->gl)
+        gl_charge(painter->gl, &painter->meter);
     if (!painter->gl && !problem)
         arena_exhausted(&walk->frame->arena);
     if (painter->gl && (walk->gpu || gl_enter(painter->gl, &problem))) {
@@ -238,7 +240,7 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
     GlImage *images = arena_alloc_array(&walk->frame->arena, count, sizeof *images);
     for (uint32_t i = 0; i < count; i++) {
         if (!texture_send(gl, inputs[i]))
-            arena_exhausted(&walk->frame->arena);
+            return give_up(walk, node, inputs[i]->width, inputs[i]->height);
         images[i] = inputs[i]->image;
     }
     bool again = past && past->picture && past->picture->gl == gl;
@@ -256,6 +258,8 @@ static Texture *run_program(Walk *walk, const DrawNode *node, const Made *past, 
                        .format = node->kind == KIND_RECORD ? GL_FORMAT_SRGB8 : gl_format(gl, bits_of(node, walk->bits)),
                        .frame = &frame};
     GlImage image = gl_effect(gl, &walk->frame->arena, &effect, walk->faults);
+    if (!image.texture && walk->painter->meter.memory_refused)
+        return give_up(walk, node, width, height);
     Texture *texture = image.texture ? texture_of_image(&walk->painter->meter, gl, image) : NULL;
     if (image.texture && !texture)
         arena_exhausted(&walk->frame->arena);
@@ -277,8 +281,11 @@ static GlImage find_texture(void *host, Str id) {
     Walk *walk = host;
     Texture *found = find_known(walk->frame, id);
     found = found ? found : find_known(walk->before, id);
-    if (found && !texture_send(walk->painter->gl, found))
-        arena_exhausted(&walk->frame->arena);
+    if (found && !texture_send(walk->painter->gl, found)) {
+        if (!walk->painter->meter.memory_refused)
+            arena_exhausted(&walk->frame->arena);
+        found = NULL; // the scene is left out, too
+    }
     return found ? found->image : (GlImage){0};
 }
 
@@ -295,6 +302,10 @@ static Texture *make_view(Walk *walk, const Scene *scene, const SceneCamera *cam
     if (!is_good_size(walk, (NodeKind)camera->node->kind, camera->node->place, camera->width, camera->height))
         return NULL;
     GlImage image = gl_scene(gl, scene, camera, &(ScenePictures){walk, find_texture});
+    if (walk->painter->meter.memory_refused) {
+        gl_image_free(gl, image);
+        return give_up(walk, camera->node, camera->width, camera->height);
+    }
     Texture *texture = image.texture ? texture_of_image(&walk->painter->meter, gl, image) : NULL;
     if (image.texture && !texture)
         arena_exhausted(&walk->frame->arena);

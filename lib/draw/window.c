@@ -13,6 +13,8 @@ PetriStatus petri_painter_use_gl(PetriPainter *painter) {
         return PETRI_INVALID;
     painter->gl = gl_adopt(&problem);
     painter->on_window = painter->gl != NULL;
+    if (painter->gl)
+        gl_charge(painter->gl, &painter->meter);
     return painter->gl ? PETRI_OK : problem ? PETRI_MISSING : PETRI_MEMORY;
 }
 

@@ -144,6 +144,10 @@ void gl_leave(Gl *gl) {
     pthread_mutex_unlock(&one_thread);
 }
 
+void gl_charge(Gl *gl, Meter *meter) {
+    gl->meter = meter;
+}
+
 int gl_largest(const Gl *gl) {
     return gl->largest;
 }

@@ -19,6 +19,9 @@ Gl *gl_open(const char **problem);
 // The same in the context that is current in this thread, which stays the host's: it has to be current whenever the Gl
 // is used.
 Gl *gl_adopt(const char **problem);
+// What pictures and scenes hold on the GPU is charged to this from here on; it outlives the Gl. What it refuses is as
+// if the GPU's memory were used up, and it knows that.
+void gl_charge(Gl *gl, Meter *meter);
 void gl_close(Gl *gl); // NULL is fine; not between enter and leave
 // False, with the reason, if the context was lost.
 bool gl_enter(Gl *gl, const char **problem);

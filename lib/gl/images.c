@@ -8,13 +8,21 @@
 
 static const struct {
     GLenum inner;
-    GLenum type;
+    size_t bytes; // of a pixel
 } formats[] = {
-    [GL_FORMAT_SRGB8] = {GL_SRGB8_ALPHA8, GL_UNSIGNED_BYTE},
-    [GL_FORMAT_RGBA8] = {GL_RGBA8, GL_UNSIGNED_BYTE},
-    [GL_FORMAT_RGBA16F] = {GL_RGBA16F, GL_FLOAT},
-    [GL_FORMAT_RGBA32F] = {GL_RGBA32F, GL_FLOAT},
+    [GL_FORMAT_SRGB8] = {GL_SRGB8_ALPHA8, 4},
+    [GL_FORMAT_RGBA8] = {GL_RGBA8, 4},
+    [GL_FORMAT_RGBA16F] = {GL_RGBA16F, 8},
+    [GL_FORMAT_RGBA32F] = {GL_RGBA32F, 16},
 };
+
+size_t gl_pixel_size(GlFormat format) {
+    return formats[format].bytes;
+}
+
+static size_t size_of(GlImage image) {
+    return (size_t)image.width * (size_t)image.height * formats[image.format].bytes;
+}
 
 GlFormat gl_format(const Gl *gl, int bits) {
     if (bits == 32 && gl->floats && gl->float_filter)
@@ -26,14 +34,33 @@ static bool is_like(GlImage image, int width, int height, GlFormat format) {
     return image.width == width && image.height == height && image.format == format;
 }
 
+static void drop_oldest(Gl *gl) {
+    glDeleteTextures(1, &gl->spare[0].texture);
+    memmove(gl->spare, gl->spare + 1, (size_t)--gl->spare_count * sizeof *gl->spare);
+}
+
+// Spare images are not charged, but are no more than could be.
+static void make_room(Gl *gl) {
+    size_t spare = 0;
+    for (int i = 0; i < gl->spare_count; i++)
+        spare += size_of(gl->spare[i]);
+    while (gl->meter && gl->spare_count > 0 && spare > gl->meter->memory_limit - gl->meter->memory) {
+        spare -= size_of(gl->spare[0]);
+        drop_oldest(gl);
+    }
+}
+
 GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
+    GlImage image = {.width = width, .height = height, .format = format};
+    if (!meter_take(gl->meter, size_of(image)))
+        return image;
     for (int i = gl->spare_count; i-- > 0;)
         if (is_like(gl->spare[i], width, height, format)) {
-            GlImage image = gl->spare[i];
+            image = gl->spare[i];
             gl->spare[i] = gl->spare[--gl->spare_count];
             return image;
         }
-    GlImage image = {.width = width, .height = height, .format = format};
+    make_room(gl);
     while (glGetError() != GL_NO_ERROR)
         ;
     glGenTextures(1, &image.texture);
@@ -45,6 +72,7 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_WRAP_T, GL_CLAMP_TO_EDGE);
     if (glGetError() != GL_NO_ERROR) {
         glDeleteTextures(1, &image.texture);
+        meter_give(gl->meter, size_of(image));
         image.texture = 0;
     }
     return image;
@@ -53,11 +81,9 @@ GlImage gl_image_new(Gl *gl, int width, int height, GlFormat format) {
 void gl_image_free(Gl *gl, GlImage image) {
     if (!image.texture)
         return;
-    if (gl->spare_count == GL_SPARE_IMAGES) { // the oldest goes
-        glDeleteTextures(1, &gl->spare[0].texture);
-        memmove(gl->spare, gl->spare + 1, (GL_SPARE_IMAGES - 1) * sizeof *gl->spare);
-        gl->spare_count--;
-    }
+    meter_give(gl->meter, size_of(image));
+    if (gl->spare_count == GL_SPARE_IMAGES)
+        drop_oldest(gl);
     gl->spare[gl->spare_count++] = image;
 }
 

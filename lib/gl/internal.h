@@ -25,6 +25,7 @@ struct Gl {
     GLuint nothing; // a texture of one transparent pixel
     GLuint curve;   // a texture of the table that windows' bytes are encoded by; 0: none yet
     uint64_t reads;
+    Meter *meter; // or NULL
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
@@ -32,6 +33,12 @@ struct Gl {
 };
 
 void gl_images_close(Gl *gl);
+// Bytes of a pixel.
+size_t gl_pixel_size(GlFormat format);
+// Whether the meter has refused something, which is for its owner to tell.
+static inline bool gl_is_refused(const Gl *gl) {
+    return gl->meter && gl->meter->memory_refused;
+}
 void gl_programs_close(Gl *gl);
 void gl_store_close(Gl *gl);
 

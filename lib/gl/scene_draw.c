@@ -283,7 +283,7 @@ static bool draw_backs(Drawing *drawing, uint32_t first) {
     const SceneOrder *order = &drawing->order;
     GlFormat format = drawing->gl->floats ? GL_FORMAT_RGBA32F : GL_FORMAT_RGBA16F;
     int width = drawing->target->width, height = drawing->target->height;
-    SceneTarget *extra = gl_store_target(drawing->store, width, height, 0, format, true);
+    SceneTarget *extra = gl_store_target(drawing->gl, width, height, 0, format, true);
     drawing->backs = extra ? gl_image_new(drawing->gl, width, height, format) : (GlImage){0};
     if (!drawing->backs.texture)
         return false;
@@ -350,8 +350,8 @@ static bool draw_to(Drawing *drawing, GlImage image) {
     Gl *gl = drawing->gl;
     const SceneCamera *camera = drawing->camera;
     double samples = fmin(camera->look.samples, 64);
-    SceneTarget *target = gl_store_target(drawing->store, image.width, image.height, samples >= 2 ? (int)samples : 0,
-                                          image.format, false);
+    SceneTarget *target =
+        gl_store_target(drawing->gl, image.width, image.height, samples >= 2 ? (int)samples : 0, image.format, false);
     if (!target)
         return false;
     drawing->target = target;
@@ -402,7 +402,8 @@ GlImage gl_scene(Gl *gl, const Scene *scene, const SceneCamera *camera, const Sc
     GlImage image = gl_image_new(gl, camera->width, camera->height, gl_format(gl, bits_of(scene, camera)));
     if (image.texture && draw_to(&drawing, image))
         return image;
-    scene_report(scene, "bad-size", scene->node, "the GPU has no room for a picture of this size");
+    if (!gl_is_refused(gl))
+        scene_report(scene, "bad-size", scene->node, "the GPU has no room for a picture of this size");
     gl_image_free(gl, image);
     return none;
 }

@@ -37,7 +37,8 @@ static void free_kept(SceneKept *kept) {
     heap_give(kept);
 }
 
-static void free_target(SceneTarget *target) {
+static void free_target(Gl *gl, SceneTarget *target) {
+    meter_give(gl->meter, target->charged);
     glDeleteFramebuffers(1, &target->framebuffer);
     glDeleteRenderbuffers(1, &target->color);
     glDeleteRenderbuffers(1, &target->depth);
@@ -53,7 +54,7 @@ void gl_store_close(Gl *gl) {
         free_kept(kept);
     }
     for (int i = 0; i < SCENE_TARGETS; i++)
-        free_target(&store->targets[i]);
+        free_target(gl, &store->targets[i]);
     glDeleteBuffers(1, &store->instances);
     glDeleteBuffers(1, &store->light_block);
     glDeleteTextures(1, &store->light_texture);
@@ -178,7 +179,23 @@ static bool make_target(SceneTarget *target) {
     return glGetError() == GL_NO_ERROR;
 }
 
-SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples, GlFormat format, bool extra) {
+// Charges a target, if need be in place of all others.
+static bool charge(Gl *gl, SceneTarget *target) {
+    size_t pixel = 4 + (target->samples > 0 ? gl_pixel_size(target->format) : 0); // depth, and what is resolved
+    size_t bytes =
+        (size_t)target->width * (size_t)target->height * pixel * (size_t)(target->samples > 0 ? target->samples : 1);
+    bool known = gl_is_refused(gl), taken = meter_take(gl->meter, bytes);
+    for (int i = 0; !taken && i < SCENE_TARGETS; i++)
+        if (&gl->store->targets[i] != target)
+            free_target(gl, &gl->store->targets[i]);
+    if (!taken && (taken = meter_take(gl->meter, bytes)))
+        gl->meter->memory_refused = known;
+    target->charged = taken ? bytes : 0;
+    return taken;
+}
+
+SceneTarget *gl_store_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra) {
+    GlStore *store = gl->store;
     SceneTarget *oldest = &store->targets[0];
     for (int i = 0; i < SCENE_TARGETS; i++) {
         SceneTarget *target = &store->targets[i];
@@ -190,11 +207,11 @@ SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples,
         if (target->used < oldest->used)
             oldest = target;
     }
-    free_target(oldest);
+    free_target(gl, oldest);
     *oldest = (SceneTarget){
         .width = width, .height = height, .samples = samples, .format = format, .extra = extra, .used = store->now};
-    if (make_target(oldest))
+    if (charge(gl, oldest) && make_target(oldest))
         return oldest;
-    free_target(oldest);
+    free_target(gl, oldest);
     return NULL;
 }

@@ -24,6 +24,7 @@ typedef struct SceneTarget {
     GlFormat format;
     bool extra;    // of a picture that is made in the midst of another
     uint64_t used; // when, in scenes
+    size_t charged;
 } SceneTarget;
 
 enum { SCENE_TARGETS = 8 };
@@ -44,7 +45,7 @@ GlStore *gl_store(Gl *gl);
 // The triangles of a model: made when they are first needed, kept while scenes have them.
 const SceneShape *gl_store_shape(GlStore *store, const Scene *scene, const SceneModel *model);
 // NULL if the GPU cannot do that.
-SceneTarget *gl_store_target(GlStore *store, int width, int height, int samples, GlFormat format, bool extra);
+SceneTarget *gl_store_target(Gl *gl, int width, int height, int samples, GlFormat format, bool extra);
 // Sets the attributes of instances of the shape that is bound to those at a number in the buffer.
 void gl_store_point(const GlStore *store, const SceneShape *shape, uint32_t first);
 

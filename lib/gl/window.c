@@ -50,7 +50,11 @@ bool gl_show_image(Gl *gl, Arena *arena, GlImage image, const GlBox *box, int wi
 }
 
 bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, int width, int height, bool over) {
+    Meter *meter = gl->meter;
+    gl->meter = NULL; // the window's pixels are not the script's
     GlImage image = gl_image_new(gl, width, height, GL_FORMAT_RGBA8);
+    gl_image_free(gl, image); // to be used again, but not before this is done
+    gl->meter = meter;
     if (!image.texture)
         return false;
     // Alpha comes first or last, as this machine orders bytes.
@@ -75,6 +79,5 @@ bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, 
     glBindVertexArray(gl->strip);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
     glDisable(GL_BLEND);
-    gl_image_free(gl, image);
     return glGetError() == GL_NO_ERROR;
 }

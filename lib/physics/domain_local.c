@@ -138,6 +138,7 @@ static void take_share(void *context, int share, int shares) {
 void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all) {
     PhysSystem *local = domain->local;
     Taking taking = {system, domain, all};
+    local->radii += all;
     phys_parallel(local, phys_shares(local, local->particle_count, PHYS_MIN_FOR_THREADS), take_share, &taking);
 }
 

@@ -33,6 +33,7 @@ void unit_free(Unit *unit) {
     diag_sink_free(&unit->sink);
     arena_free(&unit->scratch);
     arena_free(&unit->arena);
+    unit_free(unit->trees);
     heap_give(unit);
 }
 
@@ -59,22 +60,66 @@ static const Ast *parse(PetriSession *session, Unit *unit, Arena *arena, const S
     return ast;
 }
 
+// Where a script that is loaded once more comes to its limit of work does not depend on what is known already.
+static const Ast *known(PetriSession *session, const Ast *ast, uint64_t work) {
+    arena_charge(&session->arena, work);
+    return ast;
+}
+
+static const Parsed *find_parsed(const Unit *unit, Str name, Str path, Str version) {
+    const Parsed *parsed = unit->trees ? unit->trees->parsed : NULL;
+    while (parsed && (!str_equal(parsed->source->name, name) || !str_equal(parsed->source->path, path) ||
+                      !str_equal(parsed->version, version)))
+        parsed = parsed->next;
+    return parsed;
+}
+
+static const Ast *keep_parsed(PetriSession *session, Unit *trees, const Source *source, Str version) {
+    uint64_t before = session->meter.work;
+    const Ast *ast = parse(session, trees, &trees->arena, source);
+    if (!ast)
+        return NULL;
+    Parsed *parsed = arena_alloc(&trees->arena, sizeof *parsed);
+    *parsed = (Parsed){trees->parsed, source, ast, session->meter.work - before, str_copy(&trees->arena, version)};
+    trees->parsed = parsed;
+    return ast;
+}
+
+// False with a reason (borrowed) if the file cannot be read; *ast is NULL if it does not parse.
+static bool read_include(PetriSession *session, Unit *unit, Str path, Str canonical, const Source **source,
+                         const Ast **ast, const char **problem) {
+    const char *file = str_to_c(&unit->arena, path);
+    Str version = {0}, text;
+    bool versioned = unit->trees && file_version(&unit->scratch, &session->reach, file, &version);
+    const Parsed *parsed = versioned ? find_parsed(unit, path, canonical, version) : NULL;
+    if (parsed) {
+        *source = parsed->source;
+        *ast = known(session, parsed->ast, parsed->work);
+        return true;
+    }
+    Arena *arena = unit->trees ? unit_arena(session, unit->trees) : &unit->arena;
+    if (!file_read(arena, &session->reach, file, true, MAX_SOURCE_BYTES, &text, &version, problem))
+        return false;
+    *source = source_new(arena, path, canonical, text);
+    *ast = unit->trees ? keep_parsed(session, unit->trees, *source, version)
+                       : parse(session, unit, &unit->scratch, *source);
+    return true;
+}
+
 static const Ast *host_include(void *host, Str path, const Source **source, Str *why) {
     PetriSession *session = host;
     Unit *unit = session->loader.compiling;
-    const char *file = str_to_c(&unit->arena, path);
-    Str canonical = file_canonical(&unit->arena, &session->reach, file), text;
+    Str canonical = file_canonical(&unit->arena, &session->reach, str_to_c(&unit->arena, path));
     const char *problem;
+    const Ast *ast;
     if (str_equal(canonical, unit->path) || !take_include(unit, canonical)) {
         *why = STR("this file is included already");
         return NULL;
     }
-    if (!file_read(&unit->arena, &session->reach, file, true, MAX_SOURCE_BYTES, &text, NULL, &problem)) {
+    if (!read_include(session, unit, path, canonical, source, &ast, &problem)) {
         *why = str_from(problem);
         return NULL;
     }
-    *source = source_new(&unit->arena, path, canonical, text);
-    const Ast *ast = parse(session, unit, &unit->scratch, *source);
     if (!ast) {
         *why = STR("it does not parse");
         return NULL;
@@ -166,9 +211,7 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
     return program;
 }
 
-static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
-    unit->source = source_new(&unit->arena, name, unit->path, text);
-    const Ast *ast = parse(session, unit, &unit->scratch, unit->source);
+static void compile(PetriSession *session, Unit *unit, const Ast *ast, bool module) {
     Names given = {session->given.names, session->given.count};
     unit->empty = ast && ast->count == 0;
     if (ast)
@@ -178,6 +221,11 @@ static void load_text(PetriSession *session, Unit *unit, Str name, Str text, boo
     arena_free(&unit->scratch);
     if (unit->program && !module && !session_check_definitions(session, unit))
         unit->program = NULL;
+}
+
+static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
+    unit->source = source_new(&unit->arena, name, unit->path, text);
+    compile(session, unit, parse(session, unit, &unit->scratch, unit->source), module);
 }
 
 Unit *unit_parse(PetriSession *session, Str name, Str text) {
@@ -195,13 +243,41 @@ static void take_folder(PetriSession *session, Unit *unit, Str name) {
     session->reach.directory = str_copy(&unit->arena, path_directory(name));
 }
 
-Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version) {
+Unit *unit_load_text(PetriSession *session, Str name, Str text) {
     Unit *unit = session->loader.begun = unit_new(session);
     take_folder(session, unit, name);
-    unit->path = str_copy(&unit->arena, path);
-    unit->version = str_copy(&unit->arena, version);
+    unit->path = str_copy(&unit->arena, name);
     load_text(session, unit, name, text, false);
     return unit;
+}
+
+// A text is kept as a tree only if it is needed more than once.
+static void make_trees(PetriSession *session, Unit *unit) {
+    unit->trees = unit_new(session);
+    Unit *trees = unit->trees;
+    Arena *arena = unit_arena(session, trees);
+    trees->source = source_new(arena, unit->source->name, unit->path, unit->source->text);
+    uint64_t before = session->meter.work;
+    trees->ast = parse(session, trees, arena, trees->source);
+    trees->work = session->meter.work - before;
+}
+
+Unit *unit_load_again(PetriSession *session, Unit *unit) {
+    Unit *again = session->loader.begun = unit_new(session);
+    take_folder(session, again, unit->source->name);
+    again->path = str_copy(&again->arena, unit->path);
+    again->version = str_copy(&again->arena, unit->version);
+    bool parsed = unit->trees && unit->trees->ast;
+    if (!parsed) {
+        unit_free(unit->trees); // memory was used up when it was parsed
+        unit->trees = NULL;
+        make_trees(session, unit);
+    }
+    again->trees = unit->trees;
+    again->trees->references++;
+    again->source = again->trees->source;
+    compile(session, again, parsed ? known(session, again->trees->ast, again->trees->work) : again->trees->ast, false);
+    return again;
 }
 
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {

@@ -353,8 +353,7 @@ typedef struct Load {
     bool regular;     // the file must be no pipe: it was read before
     Str name;         // of either
     Str text;
-    Str path;    // of the file that the text was read from, if it was, else the name
-    Str version; // likewise, else empty
+    Unit *again; // or the script that is there, once more
     // What has come of it
     Unit *unit;
     ClockRates rates;
@@ -364,8 +363,9 @@ typedef struct Load {
 static void make_unit(PetriSession *session, void *context) {
     Load *load = context;
     session_set_globals(session, &session->static_vm);
-    Unit *unit = load->file ? unit_load_file(session, load->file, false, load->regular)
-                            : unit_load_text(session, load->name, load->path, load->text, load->version);
+    Unit *unit = load->again  ? unit_load_again(session, load->again)
+                 : load->file ? unit_load_file(session, load->file, false, load->regular)
+                              : unit_load_text(session, load->name, load->text);
     if (!unit->source)
         session_tell_text(
             session, DIAG_ERROR, "cannot-read",
@@ -421,17 +421,16 @@ PetriStatus petri_load_text(PetriSession *session, const char *name, const char 
     if (!session || !name || !text)
         return PETRI_INVALID;
     Str content = {text, length == PETRI_Z ? strlen(text) : length};
-    return load(session, &(Load){.name = str_from(name), .path = str_from(name), .text = content}, LOAD_AFRESH);
+    return load(session, &(Load){.name = str_from(name), .text = content}, LOAD_AFRESH);
 }
 
 // The text is the same, so what was told of it stays told.
 static PetriStatus load_again(PetriSession *session) {
-    const Unit *unit = session->config.program;
+    Unit *unit = session->config.program;
     if (!unit)
         return PETRI_INVALID;
-    Load again = {.name = unit->source->name, .text = unit->source->text, .path = unit->path, .version = unit->version};
     session->again = true;
-    PetriStatus status = load(session, &again, LOAD_TO_GO_ON);
+    PetriStatus status = load(session, &(Load){.name = unit->source->name, .again = unit}, LOAD_TO_GO_ON);
     session->again = false;
     return status;
 }

@@ -9,6 +9,7 @@
 
 // A source file with what was made of it, in one arena. Modules are kept by path until the file changes.
 typedef struct Unit Unit;
+typedef struct Parsed Parsed;
 struct Unit {
     Unit *next;
     Unit *same_hash; // the next module of a chain
@@ -18,7 +19,10 @@ struct Unit {
     Str folder;      // canonical, of a script; what it may read and write lies there
     Str version;     // changes when the file does: modification time, size, inode
     const Source *source;
-    const Ast *ast;         // of what was typed at the prompt, which is compiled again and again
+    const Ast *ast;         // of what is compiled again and again: what was typed at the prompt, `trees`
+    uint64_t work;          // that parsing it took
+    Parsed *parsed;         // of `trees`: files that are included
+    Unit *trees;            // a reference to what was parsed before of the same text and what it includes, or NULL
     bool empty;             // there is no statement in it
     const Program *program; // NULL: could not be loaded
     Str why;                // … for this reason
@@ -28,6 +32,15 @@ struct Unit {
     DiagSink parse_sink; // of the parse that is under way
     DiagSink sink;       // of the compilation
     bool retired;        // not finished, or replaced; freed when no frame can refer to it any more
+};
+
+// An included file with its syntax tree.
+struct Parsed {
+    Parsed *next;
+    const Source *source;
+    const Ast *ast;
+    uint64_t work;
+    Str version; // of the file, as a unit has it
 };
 
 enum { MODULE_CHAINS = 1024 };
@@ -52,8 +65,9 @@ Arena *unit_arena(const PetriSession *session, Unit *unit);
 // Loads a unit within a protected call: reads, parses and compiles. It is returned even if that failed (program is
 // NULL). A file that must be `regular` is no pipe, which may keep one waiting.
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
-// `path` and `version` are those of the file that the text was read from; the name and nothing if there is none.
-Unit *unit_load_text(PetriSession *session, Str name, Str path, Str text, Str version);
+Unit *unit_load_text(PetriSession *session, Str name, Str text);
+// The same text once more, because definitions have changed. It is parsed once: the first time that this is called.
+Unit *unit_load_again(PetriSession *session, Unit *unit);
 // A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
 // Compiles a tree of the unit as a program with the given parameters.

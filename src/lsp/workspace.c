@@ -52,6 +52,49 @@ static void follow(Workspace *workspace) {
     }
 }
 
+// Drops what is not connected with the first document by any chain of links.
+static void keep_connected(Workspace *workspace) {
+    size_t kept = 0;
+    bool *connected = memory_zeroed(workspace->count);
+    connected[0] = true;
+    for (bool more = true; more;) {
+        more = false;
+        for (size_t i = 0; i < workspace->count; i++) {
+            for (size_t k = 0; k < workspace->documents[i]->link_count; k++) {
+                size_t target = workspace->documents[i]->links[k].target;
+                if (target != SIZE_MAX && connected[i] != connected[target]) {
+                    connected[i] = connected[target] = more = true;
+                }
+            }
+        }
+    }
+    for (size_t i = 0; i < workspace->count; i++) {
+        if (connected[i]) {
+            workspace->documents[kept] = workspace->documents[i];
+            workspace->own[kept++] = workspace->own[i];
+        } else if (workspace->own[i]) {
+            document_free(workspace->documents[i]);
+        }
+    }
+    workspace->count = kept;
+    free(connected);
+}
+
+// All links lead to documents that are there.
+static void find_targets(Workspace *workspace) {
+    free(workspace->included);
+    workspace->included = memory_zeroed(workspace->count);
+    for (size_t i = 0; i < workspace->count; i++) {
+        for (size_t k = 0; k < workspace->documents[i]->link_count; k++) {
+            Link *link = &workspace->documents[i]->links[k];
+            link->target = find(workspace, link->path);
+            if (link->include && link->target != SIZE_MAX) {
+                workspace->included[link->target] = true;
+            }
+        }
+    }
+}
+
 // A script that may have to do with others: most have not.
 static void look_into(Workspace *workspace, const char *path) {
     SCOPED_BYTES text = {0};
@@ -94,9 +137,9 @@ static void look_around(Workspace *workspace, const Document *document) {
         look_through(workspace, roots->items[i], MOST_FOLDERS);
     }
     Str folder = path_directory(str_from(document->canonical));
-    if (document->is_file && folder.len > 1) {
+    if (roots->count == 0 && document->is_file && folder.len > 1) {
         SCOPED_TEXT own = memory_copied(folder.bytes, folder.len - 1);
-        look_through(workspace, own, 1);
+        look_through(workspace, own, 0);
     }
 }
 
@@ -112,6 +155,8 @@ void workspace_open(Workspace *workspace, Server *server, Document *document, bo
         look_around(workspace, document);
     }
     follow(workspace);
+    keep_connected(workspace);
+    find_targets(workspace);
 }
 
 void workspace_close(Workspace *workspace) {
@@ -122,6 +167,7 @@ void workspace_close(Workspace *workspace) {
     }
     free(workspace->documents);
     free(workspace->own);
+    free(workspace->included);
 }
 
 void workspace_replace(Workspace *workspace, size_t file, const Bytes *text) {
@@ -133,7 +179,7 @@ void workspace_replace(Workspace *workspace, size_t file, const Bytes *text) {
     workspace->documents[file] = after;
     workspace->own[file] = true;
     server_read(workspace->server, after);
-    follow(workspace);
+    find_targets(workspace);
 }
 
 const PetriTextName *workspace_name(const Workspace *workspace, Sense sense) {
@@ -191,7 +237,7 @@ const PetriTextName *workspace_visible(const Document *document, const Link *lin
 // What a name means that the file does not bind: what the scripts bind that include it, where they do.
 static Senses of_includers(const Workspace *workspace, size_t file, Str text, unsigned depth) {
     Senses all = {.count = 0};
-    for (size_t i = 0; depth <= MOST_LINKS && i < workspace->count; i++) {
+    for (size_t i = 0; workspace->included[file] && depth <= MOST_LINKS && i < workspace->count; i++) {
         const Document *document = workspace->documents[i];
         for (size_t k = 0; k < document->link_count; k++) {
             const Link *link = &document->links[k];

@@ -22,12 +22,13 @@ typedef struct Workspace {
     Server *server;
     Document **documents; // the one asked about is the first
     bool *own;            // those that are freed with the workspace
+    bool *included;       // by another of them
     size_t count;
     size_t left; // files that may still be read
 } Workspace;
 
-// The document, all that the editor has open, and what they import and include; if `whole`, all scripts of the editor's
-// folders that import or include, too.
+// The document, those that the editor has open, and what they import and include; if `whole`, scripts of the editor's
+// folders (without any: of the document's own) as well. In either case only those that have to do with the document.
 void workspace_open(Workspace *workspace, Server *server, Document *document, bool whole);
 void workspace_close(Workspace *workspace);
 // The same with another text of one document.

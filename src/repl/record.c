@@ -27,7 +27,7 @@ static bool same_folder(const char *a, const char *b) {
 }
 
 static bool may_record(Repl *repl, const char *script) {
-    const ReplHistory *history = &repl->history;
+    const FrameHistory *history = &repl->history;
     if (petri_frame(repl->session).number < 0) {
         return repl_fail(repl, "there are no frames to record; .step makes some");
     }

@@ -3,16 +3,16 @@
 #define PETRI_SRC_REPL_H
 
 #include "cli/bytes.h"
+#include "cli/history.h"
 #include "cli/options.h"
 #include "cli/output.h"
 #include "cli/watch.h"
 #include "petri.h"
-#include "repl/history.h"
 
 typedef struct Repl {
     Options *options;
     PetriSession *session;
-    ReplHistory history;
+    FrameHistory history;
     Output output;
     Watch *files;          // that the script is made from
     char *script;          // NULL: none was named

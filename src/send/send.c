@@ -75,8 +75,9 @@ const Command SEND_COMMAND = {
         "comes back, lines of JSON: {\"text\": ...} for values and debug(), a diagnostic, and at last {\"done\": "
         "true}.\n"
         "The text is evaluated as at the prompt of petri repl: expressions once, what binds names and nodes in each\n"
-        "frame, after the script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.drop' forgets what\n"
-        "was sent before, '.reset' starts the script anew. The exit status is 1 if the text was not taken.",
+        "frame, after the script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.back N' goes back N\n"
+        "frames, '.drop' forgets what was sent before, '.reset' starts the script anew. The exit status is 1 if the text\n"
+        "was not taken.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri send /tmp/dish 'len($)'\n"
                 "  petri send /tmp/dish '.set SPEED 0.5'\n",

@@ -3,6 +3,7 @@
 
 #include <errno.h>
 #include <fcntl.h>
+#include <inttypes.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
@@ -97,9 +98,10 @@ static void add_output(const Bytes *output, Bytes *out) {
     }
 }
 
-static void end_answer(Bytes *out, bool done, const PetriPrompted *prompted) {
-    bytes_format(out, "{\"done\": %s, \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"hidden\": ",
-                 done ? "true" : "false", prompted->values, prompted->bindings, prompted->nodes);
+static void end_answer(Bytes *out, bool done, int64_t frame, const PetriPrompted *prompted) {
+    bytes_format(out,
+                 "{\"done\": %s, \"frame\": %" PRId64 ", \"values\": %u, \"bindings\": %u, \"nodes\": %u, \"hidden\": ",
+                 done ? "true" : "false", frame, prompted->values, prompted->bindings, prompted->nodes);
     json_add_text(out, prompted->hidden);
     bytes_add_text(out, "}\n");
 }
@@ -112,8 +114,20 @@ static bool set_parameter(World *world, char *text) {
     return world_set_parameter(world, name, given ? value + 1 : NULL);
 }
 
-static void answer(World *world, char *text, Bytes *out) {
-    static const char set[] = ".set ";
+// `.back` or `.back N`.
+static bool go_back(World *world, const char *text, Bytes *output) {
+    char *end;
+    long long count = *text == '\0' ? 1 : strtoll(text, &end, 10);
+    if (*text != '\0' && (*end != '\0' || count < 1)) {
+        bytes_add_text(output, ".back takes a number of frames, 1 or more, or nothing for one");
+        return false;
+    }
+    return world_go_back(world, count, output);
+}
+
+static ListenerNews answer(World *world, char *text, Bytes *out) {
+    static const char set[] = ".set ", back[] = ".back";
+    ListenerNews news = LISTENER_TAKEN;
     PetriPrompted prompted = {0};
     SCOPED_BYTES output = {0};
     size_t length = strlen(text);
@@ -124,6 +138,9 @@ static void answer(World *world, char *text, Bytes *out) {
     bool done = true;
     if (strncmp(text, set, strlen(set)) == 0) {
         done = set_parameter(world, text + strlen(set));
+    } else if (strcmp(text, back) == 0 || strncmp(text, ".back ", strlen(".back ")) == 0) {
+        done = go_back(world, text + strlen(back) + (text[strlen(back)] == ' '), &output);
+        news = done ? LISTENER_WENT : LISTENER_NOTHING;
     } else if (strcmp(text, ".reset") == 0) {
         world_reset(world);
     } else if (strcmp(text, ".drop") == 0) {
@@ -133,17 +150,19 @@ static void answer(World *world, char *text, Bytes *out) {
     }
     add_output(&output, out);
     add_diagnostics(world->session, out);
-    end_answer(out, done, &prompted);
+    end_answer(out, done, petri_frame(world->session).number, &prompted);
+    return news;
 }
 
 // A client that does not read is not waited for.
-static void reply(Listener *listener, World *world) {
+static ListenerNews reply(Listener *listener, World *world) {
     SCOPED_BYTES out = {0};
     bytes_add(&listener->text, "", 0);
-    answer(world, listener->text.data, &out);
+    ListenerNews news = answer(world, listener->text.data, &out);
     fcntl(listener->client, F_SETFL, 0);
     setsockopt(listener->client, SOL_SOCKET, SO_SNDTIMEO, &(struct timeval){.tv_sec = 1}, sizeof(struct timeval));
     (void)file_write(listener->client, out.data, out.length);
+    return news;
 }
 
 static void hang_up(Listener *listener) {
@@ -152,14 +171,14 @@ static void hang_up(Listener *listener) {
     listener->text.length = 0;
 }
 
-bool listener_serve(Listener *listener, World *world) {
+ListenerNews listener_serve(Listener *listener, World *world) {
     if (listener->path == NULL) {
-        return false;
+        return LISTENER_NOTHING;
     }
     if (listener->client < 0) {
         listener->client = accept(listener->socket, NULL, NULL);
         if (listener->client < 0) {
-            return false;
+            return LISTENER_NOTHING;
         }
         set_flags(listener->client);
     }
@@ -169,16 +188,16 @@ bool listener_serve(Listener *listener, World *world) {
         bytes_add(&listener->text, part, (size_t)count);
         if (listener->text.length > MOST_BYTES) {
             hang_up(listener);
-            return false;
+            return LISTENER_NOTHING;
         }
     }
     if (count < 0) {
         if (errno != EAGAIN && errno != EINTR) {
             hang_up(listener);
         }
-        return false;
+        return LISTENER_NOTHING;
     }
-    reply(listener, world);
+    ListenerNews news = reply(listener, world);
     hang_up(listener);
-    return true;
+    return news;
 }

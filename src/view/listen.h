@@ -1,10 +1,9 @@
 // listen.h: a socket on which editors send text to a view: `petri view --listen`, `petri send`.
 //
 // A client connects, writes a text and ends its writing; it gets lines of JSON and the end. The text is evaluated as at
-// the prompt of petri repl, or is one of `.set NAME VALUE`, `.set NAME` (its default), `.drop` (what was sent before)
-// and
-// `.reset`. A line is {"text": …} of output, a diagnostic as petri check --format=json has it, or the last one:
-// {"done": true or false, "values": …, "bindings": …, "nodes": …}.
+// the prompt of petri repl, or is one of `.set NAME VALUE`, `.set NAME` (its default), `.back N` (frames), `.drop`
+// (what was sent before) and `.reset`. A line is {"text": …} of output, a diagnostic as petri check --format=json has
+// it, or the last one: {"done": true or false, "frame": …, "values": …, "bindings": …, "nodes": …}.
 #ifndef PETRI_SRC_VIEW_LISTEN_H
 #define PETRI_SRC_VIEW_LISTEN_H
 
@@ -19,8 +18,10 @@ typedef struct Listener {
 
 // Opens the socket, which its owner alone may use. False after a message.
 bool listener_open(Listener *listener, const char *path);
-// Never waits for a client. True if a text was taken, which may have changed the world.
-bool listener_serve(Listener *listener, World *world);
+// What became of the world: nothing, something that the next frame shows, or another frame, whose picture is there.
+typedef enum ListenerNews { LISTENER_NOTHING, LISTENER_TAKEN, LISTENER_WENT } ListenerNews;
+// Never waits for a client.
+ListenerNews listener_serve(Listener *listener, World *world);
 // Removes the socket. A listener that was never opened is fine.
 void listener_close(Listener *listener);
 

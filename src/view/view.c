@@ -256,8 +256,11 @@ static void draw(View *view) {
 }
 
 static void take_changes(View *view) {
-    if (listener_serve(&view->listener, &view->world)) {
-        view->step_once = view->step_once || view->paused; // so that what was sent is seen
+    ListenerNews news = listener_serve(&view->listener, &view->world);
+    if (news != LISTENER_NOTHING) {
+        view->step_once = (view->step_once || view->paused) && news == LISTENER_TAKEN; // so that what was sent is seen
+        view->redraw = true;
+        view_update_status(view);
         view_update_trouble(view);
     }
     if (!world_reload(&view->world)) {
@@ -395,7 +398,8 @@ static int run_view(View *view) {
 static int view_run(const Host *host, Options *options) {
     View view = {.host = host};
     int status = world_open(&view.world, host, options);
-    if (status == OPTIONS_READ && options->listen != NULL && !listener_open(&view.listener, options->listen)) {
+    if (status == OPTIONS_READ && options->listen != NULL &&
+        (!world_remember(&view.world) || !listener_open(&view.listener, options->listen))) {
         status = STATUS_FAILED;
     }
     if (status == OPTIONS_READ) {

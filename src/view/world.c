@@ -115,6 +115,7 @@ void world_close(World *world) {
     recording_free(&world->recording);
     petri_picture_free(&world->picture);
     petri_painter_close(&world->painter);
+    history_free(&world->history);
     petri_close(&world->session);
     watch_free(world->watch);
     bytes_free(&world->log);
@@ -167,7 +168,7 @@ void world_begin(World *world) {
 
 bool world_step(World *world) {
     size_t before = world->trouble.length;
-    PetriStatus status = petri_step(world->session);
+    PetriStatus status = world->remembers ? history_step(&world->history, world->session) : petri_step(world->session);
     PetriFrame frame = petri_frame(world->session);
     if (status != PETRI_OK) {
         char line[100];
@@ -238,8 +239,38 @@ bool world_set_parameter(World *world, const char *name, const char *value) {
     return done;
 }
 
+bool world_remember(World *world) {
+    world->history.live = world->options->realtime;
+    world->remembers = history_start(&world->history, world->session, NULL);
+    if (!world->remembers) {
+        message("out of memory");
+    }
+    return world->remembers;
+}
+
+bool world_go_back(World *world, int64_t count, Bytes *why) {
+    int64_t now = petri_frame(world->session).number, first = world->history.first + 1;
+    if (now <= first) {
+        bytes_format(why, "there is nothing to go back to: %s",
+                     world->history.why == NULL ? "this is the start" : world->history.why);
+        return false;
+    }
+    PetriStatus status = history_goto(&world->history, world->session, count < now - first ? now - count : first, why);
+    if (status == PETRI_OK) {
+        world->halted = false;
+        take_picture(world);
+    } else if (why->length == 0) {
+        bytes_add_text(why, petri_status_text(status));
+    }
+    petri_hold(world->session);
+    return status == PETRI_OK;
+}
+
 void world_reset(World *world) {
     petri_clear(world->session);
+    if (world->remembers) {
+        history_start(&world->history, world->session, NULL);
+    }
     world->halted = false;
     if (!world->broken) {
         forget_trouble(world);

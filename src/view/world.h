@@ -6,6 +6,7 @@
 #define PETRI_SRC_VIEW_WORLD_H
 
 #include "cli/bytes.h"
+#include "cli/history.h"
 #include "cli/options.h"
 #include "cli/state_file.h"
 #include "cli/watch.h"
@@ -34,6 +35,8 @@ typedef struct World {
     bool failed;    // something could not be read, written or recorded
     bool lacking;   // there was no memory for a picture, which was told
     StateFile state;
+    bool remembers;        // frames are kept, to go back to them
+    FrameHistory history;       // … here
     bool wrong_definition; // the script cannot take a value of -D
     // Messages
     bool mute;         // standard error belongs to the display: messages are kept in `log` until it is closed
@@ -57,6 +60,11 @@ bool world_drawn(World *world, PetriStatus status);
 bool world_reload(World *world);
 // Gives a parameter of the script another value, or its default if that is NULL, and goes on; false if it cannot be.
 bool world_set_parameter(World *world, const char *name, const char *value);
+// From here on frames are kept. False if there is no memory for that, which is told.
+bool world_remember(World *world);
+// Goes back so many frames, or to the first that is kept, of which there is a picture then. False with what keeps it
+// from that.
+bool world_go_back(World *world, int64_t count, Bytes *why);
 // The last good program starts anew: without state, before frame 0.
 void world_reset(World *world);
 // What is wrong, "" if nothing is. Valid until the next call.

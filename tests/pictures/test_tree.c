@@ -253,11 +253,41 @@ static void test_without(void **state) {
     drawn_close(&drawn);
 }
 
+// What nodes hold on the GPU counts for --memory; what is too much is left out, and the rest is there, in each frame.
+static void test_memory(void **state) {
+    (void)state;
+    static const char *const nodes[] = {
+        "    !blur size=2000;2000 radius=1\n        !canvas\n            !rect size=2000 fill=true color=1;0;0\n",
+        "    !canvas3d size=1500;1500 samples=4\n        !light color=1\n        !sphere size=500 color=1;0;0\n",
+    };
+    static const char *const told[] = {
+        "5 [memory-limit] !blur: a picture of 2000 x 2000 pixels takes more memory than a script may have (--memory); "
+        "it is left out\n",
+        "5 [memory-limit] !canvas3d: a picture of 1500 x 1500 pixels takes more memory than a script may have "
+        "(--memory); it is left out\n",
+    };
+    for (size_t i = 0; i < COUNT_OF(nodes); i++) {
+        char script[1000];
+        Drawn drawn;
+        snprintf(script, sizeof script, SIZE "    !vignette inset=0\n        " GREEN "%s", nodes[i]);
+        drawn_open_with(&drawn, script, 3, 60 << 20);
+        assert_text("memory", drawn.told, told[i]);
+        assert_int_equal(at(&drawn, 1), 255);
+        assert_int_equal(at(&drawn, 0), 0);
+        drawn_close(&drawn);
+        drawn_open(&drawn, script, 1);
+        assert_text("usual memory", drawn.told, "");
+        assert_in_range(at(&drawn, 0), 200, 255);
+        drawn_close(&drawn);
+    }
+}
+
 int main(int argc, char **argv) {
     (void)argv;
     static const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_known),    cmocka_unit_test(test_identity),     cmocka_unit_test(test_passes),
-        cmocka_unit_test(test_uniforms), cmocka_unit_test(test_bad_programs), cmocka_unit_test(test_bad_input),
+        cmocka_unit_test(test_known),     cmocka_unit_test(test_memory),   cmocka_unit_test(test_identity),
+        cmocka_unit_test(test_passes),    cmocka_unit_test(test_uniforms), cmocka_unit_test(test_bad_programs),
+        cmocka_unit_test(test_bad_input),
     };
     static const struct CMUnitTest without[] = {cmocka_unit_test(test_without)};
     enum { SKIP = 77 };

@@ -54,6 +54,31 @@ send 'twice(5)'
 check ".drop forgets what was sent" lacks out '"10"'
 send .reset
 check ".reset starts anew" done_is true
+# Each text makes one frame while the view is paused, but for .back.
+number() { grep -o "\"$1\": *[\"0-9;.e-]*" out | tail -n 1 | sed 's/.*: *"*//; s/"$//'; }
+type_keys Space
+send 'frame;$:turns'
+at=$(number text)
+sleep_until_frames() { send frame && [ "$(number text)" -gt 20 ]; }
+soon sleep_until_frames
+send 'frame;$:turns'
+at=$(number text)
+check "the frame is told" [ "${at%%;*}" = "$(number frame)" ]
+send '.back'
+check ".back goes back a frame" [ "$(number frame)" = "${at%%;*}" ]
+send 'frame;$:turns'
+check "… to the same bits" [ "$(number text)" = "$at" ]
+send '.back 11'
+check ".back N goes back N frames" [ "$(number frame)" = $((${at%%;*} + 1 - 11)) ]
+check "… and is done" done_is true
+send '.back 1x'
+check "what is no number is refused" done_is false
+send '.back 100000'
+check "beyond the start it goes to the first frame" [ "$(number frame)" = 0 ]
+send '.back'
+check "… before which there is nothing" has out "there is nothing to go back to: this is the start"
+check "… with status 1" status_is 1
+type_keys Space
 send '1/0;"\x01é"'
 check "text of any kind is JSON" sh -c 'python3 -c "import json, sys; [json.loads(line) for line in sys.stdin]" <out'
 echo '2*SIZE' | "$petri" send sock - >out

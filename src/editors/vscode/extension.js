@@ -54,16 +54,20 @@ async function inTerminal(command, ...options) {
     }
 }
 
-// Has the view evaluate the selection, or the line; what comes back is shown.
-function sendSelection() {
-    const editor = vscode.window.activeTextEditor;
-    const text = editor?.document.getText(editor.selection.isEmpty
-        ? editor.document.lineAt(editor.selection.active.line).range : editor.selection);
-    childProcess.execFile(setting("path"), ["send", socket, text ?? ""], { timeout: 10000 }, (problem, out, said) => {
+// Has the view take a text; what comes back is shown.
+function send(text) {
+    childProcess.execFile(setting("path"), ["send", socket, text], { timeout: 10000 }, (problem, out, said) => {
         const answers = out.split("\n").filter(Boolean).map((line) => JSON.parse(line).text).filter(Boolean);
         const show = problem ? vscode.window.showErrorMessage : vscode.window.setStatusBarMessage;
         show(answers.join("; ") || (problem ? said : "done"), problem ? undefined : 10000);
     });
+}
+
+// The selection, or the line.
+function sendSelection() {
+    const editor = vscode.window.activeTextEditor;
+    send(editor?.document.getText(editor.selection.isEmpty
+        ? editor.document.lineAt(editor.selection.active.line).range : editor.selection) ?? "");
 }
 
 const escaped = (text) => text.replace(/[&<>]/g, (c) => ({ "&": "&amp;", "<": "&lt;", ">": "&gt;" })[c]);
@@ -99,6 +103,7 @@ async function activate(context) {
     context.subscriptions.push(
         vscode.commands.registerCommand("petri.view", () => inTerminal("view", "--listen", socket)),
         vscode.commands.registerCommand("petri.send", sendSelection),
+        vscode.commands.registerCommand("petri.back", () => send(".back 60")),
         vscode.commands.registerCommand("petri.run", () => inTerminal("run")),
         vscode.commands.registerCommand("petri.picture", showPicture),
         vscode.commands.registerCommand("petri.restart", startServer),

@@ -3,6 +3,8 @@
 #include "folder.h"
 #include "player.h"
 
+#include "session/session.h"
+
 // One line each: `NAME value (default) number least..most|step 'comment' place`.
 static const char *list(Player *player) {
     PetriParameter row;
@@ -311,11 +313,47 @@ static void test_files(void **state) {
     folder_close(&folder);
 }
 
+// With other definitions a script is compiled anew, and parsed no more, nor what it includes unless that was changed;
+// as petri sweep has it, from a configuration that is taken back before each run, too.
+static void test_parsed_once(void **state) {
+    Player *player = *state;
+    PetriSession *session = player->session;
+    Folder folder;
+    const Source *script = NULL, *part = NULL;
+    folder_open(&folder);
+    folder_write(&folder, "part.fl", "let A=A or 1\n!part v=A\n");
+    folder_write(&folder, "main.fl", "%include 'part.fl'\nlet B=B or 2\n!a v=B\n");
+    assert_int_equal(petri_load(session, folder_file(&folder, "main.fl")), PETRI_OK);
+    PetriConfig *base = petri_config(session);
+    for (int i = 0; i < 4; i++) {
+        char definition[20], wanted[60];
+        petri_config_use(session, base);
+        snprintf(definition, sizeof definition, i < 2 ? "A=%d" : "B=%d", i + 5);
+        assert_int_equal(petri_define(session, definition), PETRI_OK);
+        assert_int_equal(petri_reload(session, NULL), PETRI_OK);
+        assert_int_equal(petri_set_parameter(session, i < 2 ? "B" : "A", "9"), PETRI_OK);
+        player_step(player, 1);
+        snprintf(wanted, sizeof wanted, "!%s v=%d\n!a v=%d\n", i < 3 ? "part" : "changed", i < 2 ? i + 5 : 9,
+                 i < 2 ? 9 : i + 5);
+        assert_text("values", player_tree(player), wanted);
+        const Unit *unit = session->config.program;
+        assert_true(i == 0 || unit->source == script);
+        assert_true(i == 0 || (unit->trees->parsed->source == part) == (i < 3));
+        script = unit->source;
+        part = unit->trees->parsed->source;
+        if (i == 2)
+            folder_write(&folder, "part.fl", "let A=A or 1\n!changed v=A\n");
+    }
+    petri_config_free(base);
+    folder_close(&folder);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
-        PLAYER_TEST(test_which_lets), PLAYER_TEST(test_comments), PLAYER_TEST(test_values),
-        PLAYER_TEST(test_unused),     PLAYER_TEST(test_rendered), PLAYER_TEST(test_wrong_values),
-        PLAYER_TEST(test_set),        PLAYER_TEST(test_rewind),   PLAYER_TEST(test_files),
+        PLAYER_TEST(test_which_lets),  PLAYER_TEST(test_comments), PLAYER_TEST(test_values),
+        PLAYER_TEST(test_unused),      PLAYER_TEST(test_rendered), PLAYER_TEST(test_wrong_values),
+        PLAYER_TEST(test_set),         PLAYER_TEST(test_rewind),   PLAYER_TEST(test_files),
+        PLAYER_TEST(test_parsed_once),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,7 +1,7 @@
 // test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
 #include "cli/cli.h"
 #include "player.h"
-#include "repl/history.h"
+#include "cli/history.h"
 
 #include <stdarg.h>
 
@@ -29,7 +29,7 @@ static uint64_t hash_of(Player *player) {
 
 enum { FRAMES = 20000 };
 
-static ReplHistory history;
+static FrameHistory history;
 static uint64_t hashes[FRAMES];
 
 static void step(Player *player, int frames) {

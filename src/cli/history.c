@@ -1,11 +1,11 @@
 // history.c: see history.h.
-#include "repl/history.h"
+#include "cli/history.h"
 
 #include <inttypes.h>
 #include <stdlib.h>
 #include <string.h>
 
-static void drop_keyframe(ReplHistory *history, size_t at) {
+static void drop_keyframe(FrameHistory *history, size_t at) {
     history->bytes -= petri_snapshot_bytes(history->keyframes[at].snapshot);
     petri_snapshot_free(history->keyframes[at].snapshot);
     history->keyframe_count--;
@@ -13,33 +13,34 @@ static void drop_keyframe(ReplHistory *history, size_t at) {
             (history->keyframe_count - at) * sizeof *history->keyframes);
 }
 
-static void drop_all(ReplHistory *history) {
+static void drop_all(FrameHistory *history) {
     while (history->keyframe_count > 0) {
         drop_keyframe(history, history->keyframe_count - 1);
     }
     history->epoch_count = 0;
 }
 
-void history_free(ReplHistory *history) {
+void history_free(FrameHistory *history) {
     drop_all(history);
     petri_snapshot_free(history->origin);
     free(history->epochs);
-    *history = (ReplHistory){0};
+    free(history->times);
+    *history = (FrameHistory){0};
 }
 
 // A keyframe with which its epoch begins: without it frames would be lost.
-static bool is_pinned(const ReplHistory *history, size_t at) {
+static bool is_pinned(const FrameHistory *history, size_t at) {
     return at == 0 || history->keyframes[at - 1].epoch != history->keyframes[at].epoch;
 }
 
 // How little is lost with a keyframe: the frames between its neighbours for each frame that they lie back.
-static double cost_of(const ReplHistory *history, size_t at) {
+static double cost_of(const FrameHistory *history, size_t at) {
     const Keyframe *before = &history->keyframes[at - 1], *after = &history->keyframes[at + 1];
     return (double)(after->frame - before->frame) / (double)(history->last - before->frame + 8 * HISTORY_EVERY);
 }
 
 // The timeline begins later.
-static void drop_oldest(ReplHistory *history) {
+static void drop_oldest(FrameHistory *history) {
     drop_keyframe(history, 0);
     while (history->epoch_count > 1 && history->epochs[0].number != history->keyframes[0].epoch) {
         history->epoch_count--;
@@ -49,7 +50,7 @@ static void drop_oldest(ReplHistory *history) {
     history->why = "what was before it was dropped to save memory";
 }
 
-static void drop_one(ReplHistory *history) {
+static void drop_one(FrameHistory *history) {
     size_t best = 0;
     for (size_t i = 1; i + 1 < history->keyframe_count; i++) {
         if (!is_pinned(history, i) && (best == 0 || cost_of(history, i) < cost_of(history, best))) {
@@ -63,7 +64,7 @@ static void drop_one(ReplHistory *history) {
     }
 }
 
-static void push_keyframe(ReplHistory *history, PetriSession *session, PetriSnapshot *snapshot) {
+static void push_keyframe(FrameHistory *history, PetriSession *session, PetriSnapshot *snapshot) {
     history->keyframes[history->keyframe_count++] =
         (Keyframe){petri_frame(session).number, history->epochs[history->epoch_count - 1].number, snapshot};
     history->bytes += petri_snapshot_bytes(snapshot);
@@ -72,7 +73,7 @@ static void push_keyframe(ReplHistory *history, PetriSession *session, PetriSnap
     }
 }
 
-static bool add_keyframe(ReplHistory *history, PetriSession *session) {
+static bool add_keyframe(FrameHistory *history, PetriSession *session) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     if (snapshot == NULL) {
         return false;
@@ -83,7 +84,7 @@ static bool add_keyframe(ReplHistory *history, PetriSession *session) {
 
 // From the present frame on, the present configuration counts; `anew`: what was before is forgotten. No epoch is ever
 // without its first keyframe.
-static bool begin_epoch(ReplHistory *history, PetriSession *session, bool anew) {
+static bool begin_epoch(FrameHistory *history, PetriSession *session, bool anew) {
     PetriSnapshot *snapshot = petri_snapshot(session);
     if (snapshot == NULL) {
         return false;
@@ -98,22 +99,23 @@ static bool begin_epoch(ReplHistory *history, PetriSession *session, bool anew) 
     return true;
 }
 
-bool history_start(ReplHistory *history, PetriSession *session, const char *why) {
+bool history_start(FrameHistory *history, PetriSession *session, const char *why) {
     drop_all(history);
     petri_snapshot_free(history->origin);
     history->origin = petri_snapshot(session);
-    history->first = history->last = petri_frame(session).number;
+    history->first = history->last = history->times_start = petri_frame(session).number;
+    history->time_count = 0;
     history->why = why;
     return history->origin != NULL && begin_epoch(history, session, true);
 }
 
 // Begins it now if there was no memory when it was to begin. The session cannot have gone on since.
-static bool is_begun(ReplHistory *history, PetriSession *session) {
+static bool is_begun(FrameHistory *history, PetriSession *session) {
     return history->keyframe_count > 0 || history_start(history, session, history->why);
 }
 
 // The epoch in which a frame beyond the first was made.
-static const Epoch *epoch_of(const ReplHistory *history, int64_t frame) {
+static const Epoch *epoch_of(const FrameHistory *history, int64_t frame) {
     size_t at = history->epoch_count - 1;
     while (at > 0 && history->epochs[at].start >= frame) {
         at--;
@@ -122,7 +124,7 @@ static const Epoch *epoch_of(const ReplHistory *history, int64_t frame) {
 }
 
 // Forgets what was after a frame.
-static void cut(ReplHistory *history, int64_t frame) {
+static void cut(FrameHistory *history, int64_t frame) {
     while (history->keyframe_count > 1 && history->keyframes[history->keyframe_count - 1].frame > frame) {
         drop_keyframe(history, history->keyframe_count - 1);
     }
@@ -135,7 +137,7 @@ static void cut(ReplHistory *history, int64_t frame) {
     history->last = frame;
 }
 
-static bool prepare(ReplHistory *history, PetriSession *session, int64_t frame) {
+static bool prepare(FrameHistory *history, PetriSession *session, int64_t frame) {
     if (epoch_of(history, frame + 1)->config == petri_config_number(session)) {
         return true;
     }
@@ -144,9 +146,34 @@ static bool prepare(ReplHistory *history, PetriSession *session, int64_t frame) 
     return begin_epoch(history, session, frame <= history->first);
 }
 
-PetriStatus history_step(ReplHistory *history, PetriSession *session) {
+static void note_time(FrameHistory *history, const PetriFrame *frame) {
+    size_t at = (size_t)(frame->number - history->times_start - 1);
+    if (!history->live || frame->number <= history->times_start || at > history->time_count) {
+        return;
+    }
+    if (at == history->time_capacity) {
+        history->time_capacity = history->time_capacity == 0 ? 1024 : 2 * history->time_capacity;
+        history->times = memory_resized(history->times, history->time_capacity * sizeof *history->times);
+    }
+    history->times[at] = (FrameTime){frame->time, frame->beat};
+    history->time_count = at + 1;
+}
+
+static PetriStatus step_again(const FrameHistory *history, PetriSession *session) {
+    int64_t at = petri_frame(session).number - history->times_start;
+    bool known = history->live && at >= 0 && (uint64_t)at < history->time_count;
+    return known ? petri_step_at(session, history->times[at].time, history->times[at].beat) : petri_step(session);
+}
+
+PetriStatus history_step(FrameHistory *history, PetriSession *session) {
     int64_t before = petri_frame(session).number;
-    if (!is_begun(history, session) || !prepare(history, session, before)) {
+    if (!is_begun(history, session)) {
+        return PETRI_MEMORY;
+    }
+    if (history->live && before < history->last) {
+        cut(history, before);
+    }
+    if (!prepare(history, session, before)) {
         return PETRI_MEMORY;
     }
     uint64_t config = petri_config_number(session);
@@ -160,6 +187,8 @@ PetriStatus history_step(ReplHistory *history, PetriSession *session) {
             history_start(history, session, "a file that the script imports was changed") ? PETRI_OK : PETRI_MEMORY;
         return status == PETRI_OK ? started : status;
     }
+    PetriFrame made = petri_frame(session);
+    note_time(history, &made);
     if (frame > history->last) {
         history->last = frame;
         bool due = frame - history->keyframes[history->keyframe_count - 1].frame >= HISTORY_EVERY;
@@ -171,7 +200,7 @@ PetriStatus history_step(ReplHistory *history, PetriSession *session) {
 }
 
 // The last keyframe from which a frame beyond the first can be made, or NULL.
-static const Keyframe *keyframe_before(const ReplHistory *history, int64_t frame) {
+static const Keyframe *keyframe_before(const FrameHistory *history, int64_t frame) {
     uint32_t epoch = epoch_of(history, frame)->number;
     for (size_t i = history->keyframe_count; i > 0; i--) {
         const Keyframe *keyframe = &history->keyframes[i - 1];
@@ -183,19 +212,20 @@ static const Keyframe *keyframe_before(const ReplHistory *history, int64_t frame
 }
 
 // Makes frames again up to one in the timeline, from a keyframe or from where the session is.
-static PetriStatus replay(PetriSession *session, const Keyframe *from, uint64_t config, int64_t frame) {
+static PetriStatus replay(const FrameHistory *history, PetriSession *session, const Keyframe *from, uint64_t config,
+                          int64_t frame) {
     int64_t now = petri_frame(session).number;
     PetriStatus status = PETRI_OK;
     if (now >= frame || now < from->frame || petri_config_number(session) != config) {
         status = petri_rewind(session, from->snapshot);
     }
     while (status == PETRI_OK && petri_frame(session).number < frame) {
-        status = petri_step(session);
+        status = step_again(history, session);
     }
     return status;
 }
 
-static PetriStatus go_back(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
+static PetriStatus go_back(FrameHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
     if (frame == history->first) {
         return petri_rewind(session, history->keyframes[0].snapshot);
     }
@@ -205,10 +235,10 @@ static PetriStatus go_back(ReplHistory *history, PetriSession *session, int64_t 
                      frame, history->first, history->why == NULL ? "" : ": ", history->why == NULL ? "" : history->why);
         return PETRI_INVALID;
     }
-    return replay(session, from, epoch_of(history, frame)->config, frame);
+    return replay(history, session, from, epoch_of(history, frame)->config, frame);
 }
 
-PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
+PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, Bytes *why) {
     PetriConfig *config = is_begun(history, session) ? petri_config(session) : NULL;
     if (config == NULL) {
         return PETRI_MEMORY;
@@ -226,12 +256,13 @@ PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t fr
     return status;
 }
 
-static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t config, int64_t frame) {
+static PetriStatus remake(const FrameHistory *history, const Keyframe *from, PetriSession *session, uint64_t config,
+                          int64_t frame) {
     PetriSnapshot *present = petri_snapshot(session);
     if (present == NULL) {
         return PETRI_MEMORY;
     }
-    PetriStatus status = replay(session, from, config, frame);
+    PetriStatus status = replay(history, session, from, config, frame);
     if (status != PETRI_OK) {
         petri_rewind(session, present);
     }
@@ -239,20 +270,20 @@ static PetriStatus remake(const Keyframe *from, PetriSession *session, uint64_t 
     return status;
 }
 
-PetriStatus history_remake(ReplHistory *history, PetriSession *session) {
+PetriStatus history_remake(FrameHistory *history, PetriSession *session) {
     int64_t frame = petri_frame(session).number;
     const Keyframe *from = frame <= history->first || frame > history->last ? NULL : keyframe_before(history, frame);
     PetriConfig *config = petri_config(session);
     PetriStatus status = config == NULL ? PETRI_MEMORY : PETRI_OK;
     if (status == PETRI_OK && from != NULL) {
-        status = remake(from, session, epoch_of(history, frame)->config, frame);
+        status = remake(history, from, session, epoch_of(history, frame)->config, frame);
         petri_config_use(session, config);
     }
     petri_config_free(config);
     return status;
 }
 
-PetriStatus history_reset(ReplHistory *history, PetriSession *session) {
+PetriStatus history_reset(FrameHistory *history, PetriSession *session) {
     PetriConfig *config = is_begun(history, session) ? petri_config(session) : NULL;
     if (config == NULL) {
         return PETRI_MEMORY;

@@ -8,8 +8,10 @@
 // What is changed by hand (script, definitions, clock rates, statements of the prompt) begins a new epoch with a
 // keyframe of its own: a frame is made again with what was in force when it was made. To step on from a frame in the
 // past under a changed configuration gives the timeline another future: what was after that frame is forgotten then.
-#ifndef PETRI_SRC_REPL_HISTORY_H
-#define PETRI_SRC_REPL_HISTORY_H
+// A session that follows the wall clock makes a frame again at the time that it had. What is then made after it is made
+// at other times, so that the timeline has another future there, too.
+#ifndef PETRI_SRC_CLI_HISTORY_H
+#define PETRI_SRC_CLI_HISTORY_H
 
 #include "cli/bytes.h"
 #include "petri.h"
@@ -31,7 +33,13 @@ typedef struct Epoch {
     uint64_t config;
 } Epoch;
 
-typedef struct ReplHistory {
+// When a frame was, in seconds and beats.
+typedef struct FrameTime {
+    double time;
+    double beat;
+} FrameTime;
+
+typedef struct FrameHistory {
     Keyframe keyframes[HISTORY_MOST + 1];
     size_t keyframe_count;
     Epoch *epochs;
@@ -41,23 +49,28 @@ typedef struct ReplHistory {
     int64_t first;
     int64_t last;
     PetriSnapshot *origin; // where `.reset` goes
-    const char *why;       // why the timeline begins where it does, or NULL if nothing was before it
-} ReplHistory;
+    bool live;             // the session follows the wall clock; set before history_start
+    FrameTime *times;      // … of the frames after `times_start`, as far as they are known
+    size_t time_count;
+    size_t time_capacity;
+    int64_t times_start;
+    const char *why; // why the timeline begins where it does, or NULL if nothing was before it
+} FrameHistory;
 
 // The timeline begins with the present frame; `why` (a literal) says what became of the one before. False if memory is
 // used up: what needs the timeline then tries again.
-bool history_start(ReplHistory *history, PetriSession *session, const char *why);
-void history_free(ReplHistory *history);
+bool history_start(FrameHistory *history, PetriSession *session, const char *why);
+void history_free(FrameHistory *history);
 // petri_step, with the history kept.
-PetriStatus history_step(ReplHistory *history, PetriSession *session);
+PetriStatus history_step(FrameHistory *history, PetriSession *session);
 // Goes to a frame of the timeline, or beyond it by stepping. PETRI_INVALID with a reason in `why` if it cannot be made
 // again. PETRI_INTERRUPTED in some frame on the way. The configuration stays.
-PetriStatus history_goto(ReplHistory *history, PetriSession *session, int64_t frame, Bytes *why);
+PetriStatus history_goto(FrameHistory *history, PetriSession *session, int64_t frame, Bytes *why);
 // Makes the present frame again, with its systems and its tree, from the keyframe before it. The first one of the
 // timeline stays as it is, and so does any that cannot be made again. PETRI_INTERRUPTED and PETRI_MEMORY change
 // nothing.
-PetriStatus history_remake(ReplHistory *history, PetriSession *session);
+PetriStatus history_remake(FrameHistory *history, PetriSession *session);
 // Goes to where the timeline began, even if that was dropped since. The configuration stays.
-PetriStatus history_reset(ReplHistory *history, PetriSession *session);
+PetriStatus history_reset(FrameHistory *history, PetriSession *session);
 
 #endif
