@@ -169,6 +169,41 @@ test('links that are none are told, and change nothing', options, async () => {
     });
 });
 
+test('recursion that is too deep does not end the engine, in a worker, either', options, () => opened('', {
+    use: async page => {
+        const names = Array.from({ length: 40 }, (_, i) => `f${i}`), nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
+        const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
+        await typed(page, `${functions.join('')}let fs=${names.join(';')}\n!a x=f0(fs, 9000)\n!window size=48;16\n    !canvas\n`);
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('picture').width === 48);
+        assert.match(await page.textContent('#problems'), /recursion too deep/);
+    },
+}));
+
+test('axe finds nothing serious, dark or light', options, async () => {
+    const axe = readFileSync(join(root, 'src/web/page/node_modules/axe-core/axe.min.js'), 'utf8');
+    for (const colorScheme of ['light', 'dark'])
+        await opened('', {
+            settings: { colorScheme },
+            use: async page => {
+                await page.evaluate(axe);
+                const { violations } = await page.evaluate(() => globalThis.axe.run());
+                const bad = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+                assert.deepEqual(bad.map(({ id, nodes }) => [colorScheme, id, nodes.map(node => node.html.slice(0, 120))]), []);
+            },
+        });
+});
+
+test('text and picture are saved as files', options, () => opened('', {
+    use: async page => {
+        for (const [button, name, begins] of [['#save', 'dish.fl', '-- '], ['#image', 'dish-2.png', '\x89PNG']]) {
+            const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+            assert.equal(download.suggestedFilename(), name);
+            assert.ok(readFileSync(await download.path(), 'latin1').startsWith(begins), name);
+        }
+    },
+}));
+
 test('what runs for ever is stopped, and the text stays', options, () => opened('', {
     use: async page => {
         const text = '!a x=sum(i*j for i in ..30000 for j in ..30000)\n';
