@@ -85,6 +85,10 @@ command -v re2c  : re2c
 command -v emcc  : emscripten
 command -v node  : nodejs
 '
+# npm, which the page takes, is not among them: Debian's brings 400 packages along. Without it there is the engine alone.
+WEB_TEST_NEEDS="$WEB_NEEDS
+command -v chromium : chromium
+"
 PEER_NEEDS='
 command -v lmp   : lammps
 command -v mpirun: openmpi-bin

@@ -51,7 +51,7 @@ static const unsigned char *row_of(const Pixels *pixels, int y) {
 static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, int y, float color[4]) {
     const float *from = stamp->color;
     if (stamp->shade) {
-        shade_at(stamp->shade, x + 0.5, y + 0.5, color);
+        light_shade_at(stamp->shade, x + 0.5, y + 0.5, color);
         return;
     }
     if (stamp->sheet) {
@@ -126,7 +126,7 @@ void light_figure(Canvas *canvas, const ListCommand *command, const ListPaint *p
     Stamp stamp = {.mode = (CompositeMode)paint->composite};
     float alpha = (float)fmin(fmax(paint->color[3], 0), 1);
     Shade shade;
-    if (paint->source != LIST_NONE && shade_source(canvas, paint->source, alpha, &shade))
+    if (paint->source != LIST_NONE && light_shade_source(canvas, paint->source, alpha, &shade))
         stamp.shade = &shade;
     else
         draw_set_source(canvas, paint); // from which control may leave

@@ -24,7 +24,7 @@ static bool is_known(const List *list, uint32_t number) {
     return false;
 }
 
-bool shade_source(Canvas *canvas, uint32_t source, double alpha, Shade *shade) {
+bool light_shade_source(Canvas *canvas, uint32_t source, double alpha, Shade *shade) {
     const ListSource *from = &canvas->list->sources.at[source];
     const ListMatrix *m = &from->matrix;
     *shade = (Shade){.list = canvas->list, .source = source, .alpha = (float)alpha};
@@ -81,6 +81,8 @@ static void find_source(const List *list, uint32_t number, double x, double y, f
 }
 
 static int place(const Shade *shade, double at, int size) {
+    const double LEAST = 1.0 / 65536; // what is on the edge between two belongs to the second, however it was rounded
+    at += LEAST;
     at -= shade->repeats ? floor(at / size) * size : 0;
     return at >= 1 ? at < size ? (int)at : size - 1 : 0;
 }
@@ -115,7 +117,7 @@ static void find_pixel(const Shade *shade, double x, double y, float color[4]) {
     find_bytes(pixel, true, color);
 }
 
-void shade_at(const Shade *shade, double x, double y, float color[4]) {
+void light_shade_at(const Shade *shade, double x, double y, float color[4]) {
     cairo_matrix_transform_point(&shade->to_units, &x, &y);
     if (shade->texture || shade->file)
         find_pixel(shade, x, y, color);

@@ -16,8 +16,8 @@ typedef struct Shade {
 } Shade;
 
 // A source of the list in the matrix that is in force. False if it is of a kind that Cairo makes, or there is no image.
-bool shade_source(Canvas *canvas, uint32_t source, double alpha, Shade *shade);
+bool light_shade_source(Canvas *canvas, uint32_t source, double alpha, Shade *shade);
 // The colour at a point of the target, multiplied by alpha.
-void shade_at(const Shade *shade, double x, double y, float color[4]);
+void light_shade_at(const Shade *shade, double x, double y, float color[4]);
 
 #endif

@@ -134,6 +134,43 @@ PETRI_API PetriStatus petri_painter_show(PetriPainter *painter, PetriPicture *pi
                                          size_t count, double scale, int width, int height);
 // How many pictures the painter has read back from the graphics card.
 PETRI_API uint64_t petri_painter_read_backs(const PetriPainter *painter);
+// What petri_picture_numbers writes: width and height, and then, one after the other, a kind and what belongs to it.
+// Colours are red, green, blue, alpha from 0 to 1, not multiplied; angles are in turns. Texts are a length and so many
+// code points; paths a length and so many numbers: pieces (PETRI_PIECE_…) and what belongs to them.
+enum {
+    PETRI_DRAW_MATRIX,    // x' = n0 x + n2 y + n4, y' = n1 x + n3 y + n5, in the picture's units; until the next one
+    PETRI_DRAW_COLOR,     // paints come from here on in this colour,
+    PETRI_DRAW_LINEAR,    // … from x, y to x, y: alpha, count, and for each stop an offset and a colour
+    PETRI_DRAW_RADIAL,    // … as a matrix makes of the unit circle: the matrix, alpha, count, stops
+    PETRI_DRAW_LINE,      // width (0: a pixel), join, cap, composite (numbers of petri's words), smooth edges, number
+                          // of dashes, their offset, dashes
+    PETRI_DRAW_FIGURE,    // fill, stroke, rule (0 winding, 1 even-odd, 2, 3 the same inside out), path
+    PETRI_DRAW_TEXT,      // fill, stroke, x, y, size, weight, width, slant, centred, family, text
+    PETRI_DRAW_IMAGE,     // x, y, width, height, fit (0 own size, 1 stretched, 2 inside, 3 filling), file
+    PETRI_DRAW_CLIP,      // what is outside is kept instead, even-odd, path
+    PETRI_DRAW_SAVE,      // the clip
+    PETRI_DRAW_RESTORE,   // it; matrix and paint are written anew
+    PETRI_DRAW_LAYER,     // what follows is drawn on a layer, which is laid over with
+    PETRI_DRAW_LAYER_END, // this alpha
+    PETRI_DRAW_UNDRAWN,   // text: what is left out here, for it takes pixels of its own
+    PETRI_DRAW_SYSTEMS,   // the automatic picture: count, and for each system dimensions, charged, middle x, y, z and
+                          // half the width of what is shown; count of particles, for each x, y, z, radius, shade,
+                          // anchor; count of links, for each two particles; count of barriers, for each point, normal
+};
+enum { // move x, y; line x, y; curves with one and two control points; arcs that begin a figure or go on with it: x, y,
+       // radii, start, sweep clockwise; an arc to a point: radii, rotation, large, clockwise, x, y; close
+    PETRI_PIECE_MOVE,
+    PETRI_PIECE_LINE,
+    PETRI_PIECE_CURVE_2,
+    PETRI_PIECE_CURVE_3,
+    PETRI_PIECE_ARC,
+    PETRI_PIECE_ARC_ON,
+    PETRI_PIECE_ARC_TO,
+    PETRI_PIECE_CLOSE,
+};
+// The picture as numbers, for hosts that draw by themselves; it takes no Cairo. Of a window it is the first canvas.
+// Valid as long as the picture. PETRI_MEMORY.
+PETRI_API PetriStatus petri_picture_numbers(PetriPicture *picture, const double **numbers, size_t *count);
 // Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
 PETRI_API bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the

@@ -77,6 +77,7 @@ typedef struct Columns {
     double *velocity;
     double *own_force; // the particle's own force; valid, as `ease` is, if there are any
     double *force;     // sum of all forces of the step
+    bool forces_clear; // they are 0, for the step before left them so
     double *ease;
     double *radius;
     double *mass;
@@ -135,6 +136,7 @@ struct PhysSystem {
     struct Neighbours *lists;
     // on several processes (domain.h)
     uint64_t arrangement; // counts how often the columns have been filled
+    uint64_t radii;       // another number whenever a radius has changed
     bool touched;         // particles were given new numbers since the last frame
     Buffer domain;        // Domain
     PhysTraffic traffic;

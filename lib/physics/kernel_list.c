@@ -92,12 +92,14 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
             Real d = parts[k] - real_load(view->built[k] + s);
             square += d * d;
         }
-        Real radius = real_gather(pass->radius, view->column + s);
+        Real radius = real_load(view->radius + s), built = radius;
+        if (!view->same_radii)
+            radius = real_gather(pass->radius, view->column + s);
         parts[radius_part(dimensions)] = radius;
         real_store_quads(view->quads + 4 * s, parts);
         // Written so that a NaN counts as a move.
         Mask still = real_at_most_where(live, square, real_set(view->moved));
-        still = real_at_most_where(still, radius, real_load(view->radius + s));
+        still = real_at_most_where(still, radius, built);
         hold &= mask_bits(still) == mask_bits(live);
     }
     return hold;

@@ -31,9 +31,13 @@ static void sweep_particle(SweepPass *pass, size_t i) {
 }
 
 void sweep_all_one(SweepPass *pass, size_t first, size_t end) {
-    for (size_t i = first; i < end; i++)
-        if (!pass->columns->anchor[i])
+    const Columns *columns = pass->columns;
+    for (size_t i = first; i < end; i++) {
+        if (!columns->anchor[i])
             sweep_particle(pass, i);
+        for (size_t k = 0; k < columns->dimensions && !pass->keep_force; k++)
+            columns->force[k * columns->stride + i] = 0;
+    }
 }
 
 #else
@@ -49,12 +53,16 @@ KERNEL Mask hits(const SweepPass *pass, size_t n, const Block *block) {
 }
 
 KERNEL void bounce(const SweepPass *pass, size_t n, const Block *block, const Real *before) {
+    const Columns *columns = pass->columns;
     unsigned bits = mask_bits(hits(pass, n, block));
     if (!bits)
         return;
     double lanes[PHYS_VECTOR_DIMENSIONS][LANES];
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < n; k++) {
         real_store(lanes[k], before[k]);
+        // Who bounces moves again with the same force.
+        real_store_where(block->live, columns->force + k * columns->stride + block->first, block->force[k]);
+    }
     for (; bits; bits &= bits - 1) {
         size_t lane = (size_t)__builtin_ctz(bits);
         double had[PHYS_VECTOR_DIMENSIONS];
@@ -100,6 +108,8 @@ KERNEL void sweep_block(SweepPass *pass, size_t n, size_t i, size_t count) {
     }
     if (pass->barrier_count)
         bounce(pass, n, &block, before);
+    for (size_t k = 0; k < n && !pass->keep_force; k++)
+        real_store_where(mask_first(count), columns->force + k * columns->stride + i, real_zero());
 }
 
 KERNEL void sweep(SweepPass *pass, size_t n, size_t first, size_t end) {

@@ -67,6 +67,7 @@ typedef struct ListView {
     uint32_t *column;                      // by place; readable for LANES beyond the last
     double *built[PHYS_VECTOR_DIMENSIONS]; // positions for which the lists were made
     double *radius;                        // and radii
+    bool same_radii;                       // which are those of now
     double *quads;     // position and radius now, four doubles for each place; the place after the last is a dummy
     double *sources;   // mass and charge, two doubles for each place, if a force needs them
     double moved;      // the lists hold while no particle is farther than this, squared, from where it was built

@@ -75,7 +75,7 @@ static bool still_idle(const PairPass *pass, const Neighbours *list) {
 typedef struct ListPass {
     const Kernels *kernels;
     const PairPass *pass;
-    const Neighbours *list;
+    Neighbours *list;
     bool held[PHYS_MOST_SHARES]; // by share: nothing has left its skin
 } ListPass;
 
@@ -108,6 +108,7 @@ static int shares_for(const PhysSystem *system, const Neighbours *list) {
 // Brings the list's copy of the particles up to date. False if something has left its skin.
 static bool refresh(const PhysSystem *system, ListPass *work) {
     memset(work->held, true, sizeof work->held);
+    work->list->view.same_radii = work->list->radii == system->radii;
     phys_parallel(system, shares_for(system, work->list), refresh_share, work);
     bool held = still_idle(work->pass, work->list);
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
@@ -184,6 +185,7 @@ void phys_adapt_skin(Neighbours *list, uint32_t life) {
 
 static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
     list->built = phys_grid_build(system, kernels, pass, list);
+    list->radii = system->radii;
     system->failed = false; // lists may fail, the frame need not
     list->age = 0;
     if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays(list))) {

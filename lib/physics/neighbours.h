@@ -46,6 +46,7 @@ typedef struct Neighbours {
     uint32_t total; // places; those after view.listed are idle: not finite, or without the size for a contact
     double base;    // length that the skin is measured by: the usual distance of contact
     double skin;
+    uint64_t radii;   // PhysSystem.radii for which it was made
     bool skin_given;  // by the domain that the particles are of
     uint64_t scanned; // candidates that the last construction looked at
     uint64_t padded;  // entries of all lists, dummies included

@@ -199,6 +199,7 @@ bool phys_load(PhysSystem *system) {
         return false;
     phys_parallel(system, shares_for(system), load_share, system);
     system->arrangement++;
+    system->radii++;
     return true;
 }
 

@@ -37,10 +37,12 @@ static void start_share(void *context, int share, int shares) {
     }
 }
 
-static void start_forces(const PhysSystem *system, double clock) {
+static void start_forces(PhysSystem *system, double clock) {
     enum { MIN_FOR_THREADS = 50000 }; // particles
     Start start = {system, clock};
-    if (system->columns.count)
+    bool ready = system->columns.forces_clear && !system->has_own_forces;
+    system->columns.forces_clear = false;
+    if (system->columns.count && !ready)
         phys_parallel(system, phys_shares(system, system->columns.count, MIN_FOR_THREADS), start_share, &start);
 }
 
@@ -66,5 +68,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     for (uint32_t g = 0; g < system->group_count; g++)
         if (groups[g].count)
             phys_sweep(system, g, delta, speed_of_light);
-    return phys_goes_on(system);
+    bool whole = phys_goes_on(system);
+    system->columns.forces_clear = whole && !system->options.keep_forces;
+    return whole;
 }

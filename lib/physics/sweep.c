@@ -85,7 +85,7 @@ void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
     pass.barrier_count = collect(system, number, STAGE_BARRIER, singles);
     pass.force_count = singles + pass.barrier_count;
     pass.forces = system->chain.bytes;
-    pass.keep_force = pass.barrier_count > 0 || system->options.keep_forces;
+    pass.keep_force = system->options.keep_forces;
     uint64_t numbers = (uint64_t)group->count * columns->dimensions * (1 + pass.force_count);
     if (!phys_charge(system, numbers / (draws(&pass) ? DRAWN_A_UNIT : NUMBERS_A_UNIT)))
         return;

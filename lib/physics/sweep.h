@@ -12,7 +12,7 @@ typedef struct SweepPass {
     const Force *const *forces; // on single particles, then barriers; own ones first, then those of the parent, …
     uint32_t force_count;
     uint32_t barrier_count;  // so many of them, the last ones, are barriers
-    bool keep_force;         // store the sums: bounces move again with the same force, and somebody may want to see it
+    bool keep_force;         // store the sums, which somebody may want to see; else leave 0 for the next step
     const atomic_bool *stop; // true: the rest is left out, for nobody wants the result any more; NULL: never
     uint64_t taken;          // random numbers that each random force has given to particles of the group so far
 } SweepPass;

@@ -201,8 +201,10 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
     system->touched = true;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
-    if (columns->radius[i] != record->radius)
+    if (columns->radius[i] != record->radius) {
         system->radii_raised = false;
+        system->radii++;
+    }
     columns->radius[i] = record->radius;
     columns->mass[i] = record->mass;
     columns->charge[i] = record->charge;

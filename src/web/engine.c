@@ -2,7 +2,7 @@
 // like that is exported as it is (meson.build); what has structs or callbacks is here.
 #include "web/host.h"
 
-#include "petri.h"
+#include "petri-draw.h"
 
 #include <stdio.h>
 #include <string.h>
@@ -113,6 +113,22 @@ EXPORT(double, web_evaluate, PetriSession *session, const char *text, size_t len
     PetriResult result = {.number = __builtin_nan("")};
     petri_evaluate(session, text, length, &result, write_text, NULL);
     return result.number;
+}
+
+// The picture of the last frame, as numbers that are there during the call.
+EXPORT(PetriStatus, web_picture, PetriSession *session, bool automatic) {
+    PetriPictureOptions options = petri_default_picture_options();
+    options.automatic = automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
+    PetriPicture *picture;
+    PetriStatus status = petri_picture(session, &options, &picture);
+    const double *numbers;
+    size_t count;
+    if (status == PETRI_OK)
+        status = petri_picture_numbers(picture, &numbers, &count);
+    if (status == PETRI_OK)
+        host_picture(numbers, count, petri_picture_title(picture), petri_picture_ready(session, &options));
+    petri_picture_free(&picture);
+    return status;
 }
 
 static void take_token(void *host, const PetriToken *token) {

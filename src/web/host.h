@@ -32,6 +32,8 @@ HOST(system)
 void host_system(const char *name, uint32_t dimensions, uint32_t particles, uint32_t forces, double steps);
 HOST(column) void host_column(const char *name, const double *data, size_t stride);
 HOST(entry) void host_entry(const char *key, const double *numbers, uint32_t length, const char *text);
+// A picture, as petri_picture_numbers has it.
+HOST(picture) void host_picture(const double *numbers, size_t count, const char *title, bool ready);
 HOST(token) void host_token(int kind, size_t start, size_t end);
 // What there is to know for help: a row of a table.
 HOST(help)

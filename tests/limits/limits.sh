@@ -1,6 +1,7 @@
 #!/bin/sh
 # limits.sh PETRI: scripts that ask for more than there is, by few words: each ends, within 3 GiB, with a diagnostic that
-# tells where, and status 1; or it is found a way to do it.
+# tells where, and status 1; or it is found a way to do it. A quarter of what a script may take without options is told
+# in the same way, and sooner; with LIMITS=whole there are no options, as in .ci/run.
 set -u
 # shellcheck source=tests/support/check.sh
 . "$(dirname "$0")/../support/check.sh"
@@ -18,12 +19,19 @@ runs() {
     (ulimit -v "$most" && exec timeout -s KILL 100 "$petri" "$@") >out 2>err </dev/null
     status=$?
 }
+quarter() {
+    case ${LIMITS:-} in
+    whole) ;;
+    *) [ "$1" = work-limit ] && echo "--work 256M" || echo "--memory 512M" ;;
+    esac
+}
 # refused SCRIPT CODE ARGUMENTS...
 refused() {
     script=$1
     code=$2
     shift 2
-    runs $limit "$@"
+    # shellcheck disable=SC2046 # an option and its value, or none
+    runs $limit "$@" $(quarter "$code")
     check "$script is given up" status_is 1
     check "$script: the place is told" grep -Eq "^$script\.fl:[0-9]+:[0-9]+: error: .*\[$code\]" err
 }

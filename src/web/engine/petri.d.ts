@@ -161,6 +161,10 @@ export interface Session {
     evaluate(expression: string): { text: string; number: number };
     /** A line typed at the prompt; what it prints. Bindings and nodes stay. */
     prompt(text: string): string;
+    /** Whether the last frame has anything to draw. */
+    readonly drawable: boolean;
+    /** What the last frame shows, as numbers for `drawPicture`; null if there is nothing to draw. */
+    picture(options?: { automatic?: boolean }): Picture | null;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;
@@ -172,6 +176,14 @@ export interface Session {
     snapshot(): Snapshot;
     rewind(snapshot: Snapshot): this;
     close(): void;
+}
+
+export interface Picture {
+    /** As petri-draw.h describes them (petri_picture_numbers). */
+    numbers: Float64Array;
+    title: string;
+    /** false: particles are not yet where they will be seen. */
+    ready: boolean;
 }
 
 export interface Snapshot {

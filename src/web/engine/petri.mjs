@@ -60,6 +60,8 @@ class Engine {
                     key: text(key),
                     value: numbers ? Array.from(this.memory.numbers(numbers, length)) : text(mixed),
                 }),
+            picture: (numbers, count, title, ready) =>
+                now().taken.push({ numbers: this.memory.numbers(numbers, count).slice(), title: text(title), ready: !!ready }),
             token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, fallback, unit, help) =>
                 now().taken.push({
@@ -255,6 +257,16 @@ export class Session {
     prompt(text) {
         this.check('prompt', this.with(text, (wasm, at, length) => wasm.web_prompt(this.handle, at, length)));
         return this.written.join('');
+    }
+
+    // What the last frame shows, as numbers that drawing.mjs knows; null if there is nothing to draw.
+    picture({ automatic = false } = {}) {
+        this.run(wasm => wasm.web_picture(this.handle, automatic ? 1 : 0));
+        return this.taken[0] ?? null;
+    }
+
+    get drawable() {
+        return !!this.run(wasm => wasm.petri_drawable(this.handle));
     }
 
     tokens(text) {

@@ -295,12 +295,79 @@ static void test_images_of_the_host(void **state) {
     petri_picture_free(&picture);
 }
 
+// The kinds that a picture is written in, as letters; what belongs to them is left out.
+static const char *kinds_of(PetriPicture *picture) {
+    static const int sizes[] = {6, 4, 0, 0, 0, 0, 0, 0, 0, 0, 0, 0, 1, 0, 0};
+    static char letters[256];
+    const double *n;
+    size_t count, length = 0;
+    assert_int_equal(petri_picture_numbers(picture, &n, &count), PETRI_OK);
+    for (size_t at = 2; at < count; length++) {
+        int kind = (int)n[at++];
+        letters[length] = (char)('a' + kind);
+        size_t size = (size_t)sizes[kind];
+        if (kind == PETRI_DRAW_LINEAR || kind == PETRI_DRAW_RADIAL) {
+            size = kind == PETRI_DRAW_LINEAR ? 6 : 8;
+            size += 5 * (size_t)n[at + size - 1];
+        } else if (kind == PETRI_DRAW_LINE) {
+            size = 7 + (size_t)n[at + 5];
+        } else if (kind == PETRI_DRAW_FIGURE || kind == PETRI_DRAW_CLIP) {
+            size = kind == PETRI_DRAW_FIGURE ? 4 : 3;
+            size += (size_t)n[at + size - 1];
+        } else if (kind == PETRI_DRAW_TEXT || kind == PETRI_DRAW_IMAGE || kind == PETRI_DRAW_UNDRAWN) {
+            size = kind == PETRI_DRAW_TEXT ? 9 : kind == PETRI_DRAW_IMAGE ? 5 : 0;
+            for (int texts = kind == PETRI_DRAW_TEXT ? 2 : 1; texts > 0; texts--)
+                size += 1 + (size_t)n[at + size];
+        }
+        at += size;
+        assert_true(at <= count && length + 2 < sizeof letters);
+    }
+    letters[length] = 0;
+    return letters;
+}
+
+static void check_kinds(Player *player, const char *script, const char *wanted) {
+    player_run(player, script, 1);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    assert_string_equal(kinds_of(picture), wanted);
+    petri_picture_free(&picture);
+}
+
+// For hosts that draw by themselves: all that a canvas shows, whatever this build can draw.
+static void test_numbers(void **state) {
+    Player *player = *state;
+    const double *n;
+    size_t count;
+    check_kinds(player, "!window size=8;4\n    !canvas\n        !rect size=1;2 fill=true color=1;0.5;0\n", "abef");
+    check_kinds(
+        player,
+        "!window size=8;4\n    !canvas\n        !group translate=1;2\n            !rect size=1\n            !clip\n"
+        "            !gradient start=0;0 end=1;1\n                !stop color=1\n                !stop color=0\n"
+        "            !rect size=4;2 fill=true\n        !layer size=3 alpha=0.5\n            !text text='é' point=1;2\n"
+        "        !image filename='a.png' size=2\n",
+        "jabeicefkjabeilabegmabehk");
+    check_kinds(player, "!window size=8;4\n    !bloom radius=2\n        !canvas\n    !canvas3d\n", "nn");
+    player_run(player, "!physics state=:p dimensions=2 time=time\n    !particle id=1 position=3;4 radius=2 charge=1\n",
+               3);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    assert_int_equal(petri_picture_numbers(picture, &n, &count), PETRI_OK);
+    static const double body[] = {1, 3, 4, 0, 2,
+                                  1, 0, 0, 0}; // count, place, radius, shade, anchor; no links, no barriers
+    assert_true(n[2] == PETRI_DRAW_SYSTEMS && n[3] == 1 && n[4] == 2 && n[5] == 1);
+    assert_int_equal(count, 19);
+    assert_memory_equal(n + 10, body, sizeof body);
+    assert_int_equal(petri_picture_numbers(picture, NULL, &count), PETRI_INVALID);
+    assert_int_equal(petri_picture_numbers(NULL, &n, &count), PETRI_INVALID);
+    petri_picture_free(&picture);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes),
         PLAYER_TEST(test_choice),      PLAYER_TEST(test_bytes),
         PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready),
         PLAYER_TEST(test_labels),      PLAYER_TEST(test_images_of_the_host),
+        PLAYER_TEST(test_numbers),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

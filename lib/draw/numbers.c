@@ -1,0 +1,222 @@
+// numbers.c: a picture as one array of numbers, for hosts that draw by themselves; see petri-draw.h.
+#include "draw/picture.h"
+
+#include "draw/list.h"
+
+#include <math.h>
+
+typedef struct Numbers {
+    const PetriPicture *picture;
+    Arena *arena;
+    LIST_ARRAY(double) out;
+    const List *list;
+    uint32_t matrix; // that was written last
+    uint32_t paint;
+} Numbers;
+
+static void add(Numbers *numbers, const double *values, uint32_t count) {
+    double *to = LIST_ADD(numbers->arena, numbers->out, count);
+    for (uint32_t i = 0; i < count; i++)
+        to[i] = values[i];
+}
+
+#define ADD(...) add(numbers, (const double[]){__VA_ARGS__}, sizeof((const double[]){__VA_ARGS__}) / sizeof(double))
+
+static void add_text(Numbers *numbers, Str text) {
+    uint32_t count = 0;
+    for (size_t at = 0; at < text.len; count++)
+        utf8_next(text, &at);
+    ADD(count);
+    for (size_t at = 0; at < text.len;)
+        ADD(utf8_next(text, &at));
+}
+
+static void add_undrawn(Numbers *numbers, const char *what) {
+    ADD(PETRI_DRAW_UNDRAWN);
+    add_text(numbers, str_from(what));
+}
+
+static void add_matrix(Numbers *numbers, const ListMatrix *m) {
+    ADD(m->xx, m->yx, m->xy, m->yy, m->x0, m->y0);
+}
+
+static void add_path(Numbers *numbers, const ListPath *path) {
+    const List *list = numbers->list;
+    uint32_t count_at = numbers->out.count;
+    ADD(0);
+    for (uint32_t run = path->first; run != LIST_NONE;) {
+        bool last = run == path->last;
+        uint32_t start = list->runs.at[run].start, end = last ? path->end : list->runs.at[run].end;
+        add(numbers, list->numbers.at + start, end - start);
+        run = last ? LIST_NONE : list->runs.at[run].next;
+    }
+    numbers->out.at[count_at] = numbers->out.count - count_at - 1;
+}
+
+// A gradient, or what stands in for other sources.
+static void add_source(Numbers *numbers, const ListPaint *paint) {
+    static const char *const others[] = {
+        [SOURCE_PATTERN] = "!pattern", [SOURCE_BLEND] = "!blend", [SOURCE_NOISE] = "!noise"};
+    const ListSource *source = paint->source == LIST_NONE ? NULL : &numbers->list->sources.at[paint->source];
+    if (!source || source->kind == SOURCE_COLOR || source->kind >= SOURCE_PATTERN) {
+        const double *c = source && source->kind == SOURCE_COLOR ? source->color : paint->color;
+        ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
+        if (source && source->kind >= SOURCE_PATTERN)
+            add_undrawn(numbers, others[source->kind]);
+        return;
+    }
+    if (source->kind == SOURCE_LINEAR) {
+        ADD(PETRI_DRAW_LINEAR, source->ends[0], source->ends[1], source->ends[2], source->ends[3]);
+    } else {
+        ADD(PETRI_DRAW_RADIAL);
+        add_matrix(numbers, &source->matrix);
+    }
+    ADD(fmin(fmax(paint->color[3], 0), 1), source->stop_count);
+    for (uint32_t i = 0; i < source->stop_count; i++) {
+        const ListStop *stop = &numbers->list->stops.at[source->first_stop + i];
+        ADD(stop->offset, stop->color[0], stop->color[1], stop->color[2], stop->color[3]);
+    }
+}
+
+static void add_paint(Numbers *numbers, const ListPaint *paint) {
+    const ListEffect *effect = paint->effect == LIST_NONE ? NULL : &numbers->list->effects.at[paint->effect];
+    add_source(numbers, paint);
+    ADD(PETRI_DRAW_LINE, paint->stroke_width, paint->join, paint->cap, paint->composite, paint->antialias);
+    ADD(effect && effect->kind == EFFECT_DASH ? effect->count : 0, effect ? effect->amounts[0] : 0);
+    if (effect && effect->kind == EFFECT_DASH)
+        add(numbers, numbers->list->numbers.at + effect->numbers, effect->count);
+    else if (effect)
+        add_undrawn(numbers, "a path effect");
+    if (paint->filter != LIST_NONE)
+        add_undrawn(numbers, "a filter");
+}
+
+static void add_letters(Numbers *numbers, const ListCommand *command) {
+    const ListText *text = &numbers->list->texts.at[command->item];
+    ADD(PETRI_DRAW_TEXT, command->fill, command->stroke, text->point[0], text->point[1], text->size, text->weight,
+        text->width, text->slant, text->center);
+    add_text(numbers, str_from(text->family ? text->family : ""));
+    add_text(numbers, text->text);
+}
+
+static void add_image(Numbers *numbers, const ListImage *image) {
+    if (!image->file.len) {
+        add_undrawn(numbers, "the picture of another node");
+        return;
+    }
+    ADD(PETRI_DRAW_IMAGE, image->point[0], image->point[1], image->size[0], image->size[1], image->fit);
+    add_text(numbers, image->file);
+}
+
+static void add_command(Numbers *numbers, const ListCommand *command) {
+    if (command->kind < LIST_SAVE && command->matrix != numbers->matrix) {
+        ADD(PETRI_DRAW_MATRIX);
+        add_matrix(numbers, &numbers->list->matrices.at[command->matrix]);
+        numbers->matrix = command->matrix;
+    }
+    if (command->kind < LIST_SAVE && command->paint != numbers->paint) {
+        add_paint(numbers, &numbers->list->paints.at[command->paint]);
+        numbers->paint = command->paint;
+    }
+    switch (command->kind) {
+    case LIST_DRAW:
+        ADD(PETRI_DRAW_FIGURE, command->fill, command->stroke, command->path.fill_type);
+        add_path(numbers, &command->path);
+        break;
+    case LIST_TEXT:
+        add_letters(numbers, command);
+        break;
+    case LIST_IMAGE:
+        add_image(numbers, &numbers->list->images.at[command->item]);
+        break;
+    case LIST_CLIP:
+    case LIST_MASK: {
+        bool outside = (command->kind == LIST_MASK) != (command->path.fill_type > FILL_EVEN_ODD);
+        ADD(PETRI_DRAW_CLIP, outside, command->path.fill_type & 1);
+        add_path(numbers, &command->path);
+        break;
+    }
+    case LIST_SAVE:
+        ADD(PETRI_DRAW_SAVE);
+        break;
+    case LIST_RESTORE: // brings matrix and paint back that were there
+        numbers->matrix = numbers->paint = LIST_NONE;
+        ADD(PETRI_DRAW_RESTORE);
+        break;
+    case LIST_LAYER:
+        numbers->matrix = numbers->paint = LIST_NONE;
+        ADD(PETRI_DRAW_LAYER);
+        break;
+    case LIST_LAYER_END:
+        numbers->matrix = numbers->paint = LIST_NONE;
+        ADD(PETRI_DRAW_LAYER_END, command->alpha);
+        break;
+    }
+}
+
+static void add_system(Numbers *numbers, const AutoSystem *system) {
+    ADD(system->dimensions, system->charged, system->frame.middle[0], system->frame.middle[1], system->frame.middle[2],
+        system->frame.half, system->body_count);
+    for (uint32_t i = 0; i < system->body_count; i++) {
+        const AutoBody *body = &system->bodies[i];
+        ADD(body->position[0], body->position[1], body->position[2], body->radius, body->shade, body->anchor);
+    }
+    ADD(system->link_count);
+    for (uint32_t i = 0; i < system->link_count; i++)
+        ADD(system->links[i].from, system->links[i].to);
+    ADD(system->barrier_count);
+    for (uint32_t i = 0; i < system->barrier_count; i++) {
+        add(numbers, system->barriers[i].position, 3);
+        add(numbers, system->barriers[i].normal, 3);
+    }
+}
+
+// The first canvas below a node; what else there is, is told once.
+static const DrawNode *find_canvas(Numbers *numbers, const DrawNode *node, int depth) {
+    enum { DEEPEST = 100 };
+    if (node->kind == KIND_CANVAS || depth > DEEPEST)
+        return node->kind == KIND_CANVAS ? node : NULL;
+    if (!(node->kind == KIND_WINDOW || node->kind == KIND_OFFSCREEN || node->kind == KIND_RECORD))
+        add_undrawn(numbers, schema_kinds[node->kind].name);
+    const DrawNode *found = NULL;
+    for (uint32_t i = 0; i < node->child_count; i++) {
+        const DrawNode *child = node->children[i];
+        if (child->kind == KIND_POINTER || child->kind == KIND_KEY || child->kind == KIND_REFERENCE)
+            continue;
+        if (found)
+            add_undrawn(numbers, schema_kinds[child->kind].name);
+        else
+            found = find_canvas(numbers, child, depth + 1);
+    }
+    return found;
+}
+
+static void make(void *context) {
+    Numbers *numbers = context;
+    const CanvasPicture *canvases = &numbers->picture->picture;
+    ADD(canvases->width, canvases->height);
+    if (canvases->automatic) {
+        ADD(PETRI_DRAW_SYSTEMS, canvases->automatic->count);
+        for (uint32_t i = 0; i < canvases->automatic->count; i++)
+            add_system(numbers, &canvases->automatic->systems[i]);
+        return;
+    }
+    const DrawNode *canvas = find_canvas(numbers, canvases->window, 0);
+    ListSizes sizes = {0};
+    if (!canvas)
+        return;
+    numbers->list = list_build(numbers->arena, canvas, &sizes);
+    for (uint32_t i = 0; i < numbers->list->commands.count; i++)
+        add_command(numbers, &numbers->list->commands.at[i]);
+}
+
+PetriStatus petri_picture_numbers(PetriPicture *picture, const double **numbers, size_t *count) {
+    if (!picture || !numbers || !count)
+        return PETRI_INVALID;
+    Numbers made = {.picture = picture, .arena = &picture->arena, .matrix = LIST_NONE, .paint = LIST_NONE};
+    Arena *arenas[] = {&picture->arena};
+    bool done = arena_protect(arenas, 1, make, &made) == ARENA_DONE;
+    *numbers = done ? made.out.at : NULL;
+    *count = done ? made.out.count : 0;
+    return done ? PETRI_OK : PETRI_MEMORY;
+}

@@ -1,0 +1,288 @@
+// drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_numbers) on a Canvas 2D.
+import { drawSystems } from './systems.mjs';
+
+const TURN = 2 * Math.PI;
+const JOINS = ['miter', 'round', 'bevel'];
+const CAPS = ['butt', 'round', 'square'];
+const SLANTS = ['normal', 'oblique', 'italic'];
+const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
+    'extra-expanded', 'ultra-expanded'];
+// In the order of lib/schema/composite_list.h. Canvas 2D keeps neither `src` nor `clear` to the figure; they are drawn over.
+const COMPOSITES = ['multiply', 'destination-out', 'source-over', null, 'source-over', 'destination-over', 'source-in',
+    'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
+    'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
+    'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
+const PIECE_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
+const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
+
+const byte = x => Math.round(255 * Math.min(Math.max(x, 0), 1));
+const color = (n, at, alpha = 1) =>
+    `rgba(${byte(n[at])},${byte(n[at + 1])},${byte(n[at + 2])},${Math.min(Math.max(n[at + 3] * alpha, 0), 1)})`;
+
+// The width and height that a picture has in the script's units.
+export const pictureSize = numbers => ({ width: numbers[0], height: numbers[1] });
+
+// An arc of an ellipse from `from` to n[5], n[6], as SVG has it.
+function arcTo(path, [x0, y0], n, at) {
+    const [rx, ry, turns, large, clockwise, x, y] = n.subarray(at, at + 7);
+    const c = Math.cos(turns * TURN), s = Math.sin(turns * TURN), dx = (x - x0) / 2, dy = (y - y0) / 2;
+    const a = (c * dx + s * dy) / rx, b = (c * dy - s * dx) / ry, half = Math.hypot(a, b);
+    if (!(half > 0 && half < Infinity))
+        return path.lineTo(x, y);
+    const grow = Math.max(half, 1), height = Math.sqrt(Math.max(grow * grow / (half * half) - 1, 0));
+    const side = (large !== 0) === (clockwise !== 0) ? -1 : 1;
+    const mx = -b * height * side, my = a * height * side;
+    path.ellipse((x0 + x) / 2 + c * mx * rx - s * my * ry, (y0 + y) / 2 + s * mx * rx + c * my * ry, rx * grow, ry * grow,
+        turns * TURN, Math.atan2(-b - my, -a - mx), Math.atan2(b - my, a - mx), clockwise === 0);
+}
+
+// The path from n[at] to n[end], where it is written in pieces.
+function tracePath(path, n, at, end) {
+    let here = [0, 0], first = here;
+    while (at < end) {
+        const kind = n[at++], size = PIECE_SIZES[kind];
+        if (kind === 0) {
+            path.moveTo(n[at], n[at + 1]);
+            first = [n[at], n[at + 1]];
+        } else if (kind === 1) {
+            path.lineTo(n[at], n[at + 1]);
+        } else if (kind === 2) {
+            path.quadraticCurveTo(n[at], n[at + 1], n[at + 2], n[at + 3]);
+        } else if (kind === 3) {
+            path.bezierCurveTo(n[at], n[at + 1], n[at + 2], n[at + 3], n[at + 4], n[at + 5]);
+        } else if (kind === 4 || kind === 5) {
+            const [x, y, rx, ry, start] = n.subarray(at, at + 5), sweep = Math.min(Math.max(n[at + 5], -1), 1);
+            const from = start * TURN, to = (start + sweep) * TURN;
+            if (kind === 4) {
+                first = [x + rx * Math.cos(from), y + ry * Math.sin(from)];
+                path.moveTo(...first);
+            }
+            path.ellipse(x, y, Math.abs(rx), Math.abs(ry), 0, from, to, sweep < 0);
+            here = [x + rx * Math.cos(to), y + ry * Math.sin(to)];
+        } else if (kind === 6) {
+            arcTo(path, here, n, at);
+        } else {
+            path.closePath();
+            here = first;
+        }
+        if (size && kind !== 4 && kind !== 5)
+            here = [n[at + size - 2], n[at + size - 1]];
+        at += size;
+    }
+}
+
+class Painter {
+    constructor(context, numbers, options) {
+        this.context = context;
+        this.n = numbers;
+        this.at = 2;
+        this.layers = [];
+        this.undrawn = new Set();
+        this.image = options.image ?? (() => null);
+        const { width, height } = context.canvas, scale = Math.min(width / numbers[0], height / numbers[1]);
+        this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
+        this.matrix = [1, 0, 0, 1, 0, 0];
+        this.paint = '#000';
+        this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
+    }
+
+    take(count) {
+        this.at += count;
+        return this.n.subarray(this.at - count, this.at);
+    }
+
+    text() {
+        return String.fromCodePoint(...this.take(this.take(1)[0]));
+    }
+
+    path() {
+        const length = this.take(1)[0], path = new Path2D();
+        tracePath(path, this.n, this.at, this.at + length);
+        this.at += length;
+        return path;
+    }
+
+    setMatrix() {
+        const [scale, x, y] = this.base, [xx, yx, xy, yy, x0, y0] = this.matrix;
+        this.context.setTransform(scale * xx, scale * yx, scale * xy, scale * yy, scale * x0 + x, scale * y0 + y);
+        this.scale = scale * Math.sqrt(Math.abs(xx * yy - xy * yx));
+    }
+
+    // Sets how the next figure is painted; false if it is not seen.
+    begin(fill, stroke) {
+        const { context, line } = this, composite = COMPOSITES[line.composite];
+        this.setMatrix();
+        if (!composite)
+            return false;
+        context.globalCompositeOperation = composite;
+        const style = typeof this.paint === 'function' ? this.paint() : this.paint;
+        if (fill)
+            context.fillStyle = style;
+        if (stroke) {
+            context.strokeStyle = style;
+            context.lineWidth = line.width > 0 ? line.width : 1 / this.scale;
+            context.lineJoin = JOINS[line.join];
+            context.lineCap = CAPS[line.cap];
+            context.miterLimit = 4;
+            context.setLineDash(line.dashes);
+            context.lineDashOffset = line.offset;
+        }
+        return true;
+    }
+
+    // A path with all that is outside of it.
+    inverse(path) {
+        const inverse = new Path2D(path), { width, height } = this.context.canvas;
+        const matrix = this.context.getTransform().invertSelf(), box = new Path2D();
+        box.rect(-1, -1, width + 2, height + 2);
+        inverse.addPath(box, matrix);
+        return inverse;
+    }
+
+    figure() {
+        const [fill, stroke, rule] = this.take(3);
+        const path = this.path();
+        if (!this.begin(fill, stroke))
+            return;
+        if (fill)
+            this.context.fill(rule > 1 ? this.inverse(path) : path, rule > 0 ? 'evenodd' : 'nonzero');
+        if (stroke)
+            this.context.stroke(path);
+    }
+
+    letters() {
+        const [fill, stroke, x, y, size, weight, width, slant, centred] = this.take(9);
+        const families = this.text().split(',').map(name => FONTS[name.trim()] ? `${FONTS[name.trim()]},${name}` : name);
+        const text = this.text().replace(/\s/g, ' '), { context } = this;
+        if (!(size * this.scale > 0.1) || !this.begin(fill, stroke))
+            return;
+        const drawn = 100; // pixels; sizes below one are not drawn by everyone
+        context.font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
+            + `${drawn}px ${families.join(',') || 'sans-serif'}`;
+        if (context.fontKerning !== undefined)
+            context.fontKerning = 'none';
+        context.translate(x, y);
+        context.scale(size / drawn, size / drawn);
+        context.lineWidth *= drawn / size;
+        let left = 0, base = 0;
+        if (centred) {
+            const ink = context.measureText(text);
+            left = (ink.actualBoundingBoxLeft - ink.actualBoundingBoxRight) / 2;
+            base = (ink.actualBoundingBoxAscent - ink.actualBoundingBoxDescent) / 2;
+        }
+        if (fill)
+            context.fillText(text, left, base);
+        if (stroke)
+            context.strokeText(text, left, base);
+    }
+
+    picture() {
+        const [x, y, width, height, fit] = this.take(5), name = this.text(), image = this.image(name);
+        if (!image) {
+            this.undrawn.add(`the image ${name}`);
+            return;
+        }
+        if (!this.begin(false, false))
+            return;
+        if (fit === 0)
+            return this.context.drawImage(image, x, y);
+        const scales = [width / image.width, height / image.height];
+        if (fit === 1)
+            return this.context.drawImage(image, x, y, width, height);
+        const scale = fit === 2 ? Math.min(...scales) : Math.max(...scales);
+        const w = image.width * scale, h = image.height * scale;
+        this.context.drawImage(image, x + (width - w) / 2, y + (height - h) / 2, w, h);
+    }
+
+    clip() {
+        const [outside, evenOdd] = this.take(2), path = this.path();
+        this.setMatrix();
+        this.context.clip(outside ? this.inverse(path) : path, outside || evenOdd ? 'evenodd' : 'nonzero');
+    }
+
+    beginLayer() {
+        const { width, height } = this.context.canvas;
+        const canvas = typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(width, height);
+        Object.assign(canvas, { width, height });
+        this.layers.push(this.context);
+        this.context = canvas.getContext('2d');
+    }
+
+    endLayer() {
+        const [alpha] = this.take(1), { canvas } = this.context;
+        this.context = this.layers.pop();
+        this.context.save();
+        this.context.setTransform(1, 0, 0, 1, 0, 0);
+        this.context.globalAlpha = alpha;
+        this.context.globalCompositeOperation = 'source-over';
+        this.context.drawImage(canvas, 0, 0);
+        this.context.restore();
+    }
+
+    command(kind) {
+        switch (kind) {
+        case 0: this.matrix = this.take(6); this.setMatrix(); break;
+        case 1: this.paint = color(this.take(4), 0); break;
+        case 2: this.paint = this.linear(); break;
+        case 3: this.paint = this.radial(); break;
+        case 4: {
+            const [width, join, cap, composite, , count, offset] = this.take(7);
+            this.line = { width, join, cap, composite, offset, dashes: Array.from(this.take(count)) };
+            break;
+        }
+        case 5: this.figure(); break;
+        case 6: this.letters(); break;
+        case 7: this.picture(); break;
+        case 8: this.clip(); break;
+        case 9: this.context.save(); break;
+        case 10: this.context.restore(); break;
+        case 11: this.beginLayer(); break;
+        case 12: this.endLayer(); break;
+        case 13: this.undrawn.add(this.text()); break;
+        case 14: this.at = drawSystems(this.context, this.n, this.at, this.base); break;
+        default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
+        }
+    }
+
+    // Gradients are made where they are used, for they follow the matrix that is in force.
+    linear() {
+        const ends = this.take(4), stops = this.readStops();
+        return () => this.addStops(this.context.createLinearGradient(...ends), stops);
+    }
+
+    radial() {
+        const [xx, yx, xy, yy, x0, y0] = this.take(6), stops = this.readStops();
+        // A circle of the user's space is all that Canvas 2D has; the scale is that of the matrix as a whole.
+        const radius = Math.sqrt(Math.abs(xx * yy - xy * yx));
+        return () => this.addStops(this.context.createRadialGradient(x0, y0, 0, x0, y0, radius), stops);
+    }
+
+    readStops() {
+        const [alpha, count] = this.take(2);
+        return Array.from({ length: count }, () => {
+            const stop = this.take(5);
+            return [Math.min(Math.max(stop[0], 0), 1), color(stop, 1, alpha)];
+        });
+    }
+
+    addStops(gradient, stops) {
+        stops.forEach(([offset, shade]) => gradient.addColorStop(offset, shade));
+        return gradient;
+    }
+
+    draw() {
+        const { canvas } = this.context;
+        this.context.reset?.();
+        this.context.fillStyle = '#000';
+        this.context.fillRect(0, 0, canvas.width, canvas.height);
+        while (this.at < this.n.length)
+            this.command(this.n[this.at++]);
+        return [...this.undrawn];
+    }
+}
+
+// Draws on a CanvasRenderingContext2D, scaled to fit its canvas and centred; `image(name)` gives what a script names, as
+// drawImage takes it. Returns what is left out, as words.
+export function drawPicture(context, numbers, options = {}) {
+    return new Painter(context, numbers, options).draw();
+}

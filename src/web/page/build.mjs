@@ -1,0 +1,19 @@
+// build.mjs OUTPUT SAMPLES: bundles the page with esbuild.
+import { copyFileSync, readFileSync, readdirSync, writeFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from 'esbuild';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [, , output, samples] = process.argv;
+await build({
+    entryPoints: { page: join(here, 'main.mjs'), worker: join(here, 'worker.mjs') },
+    outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', external: ['node:fs/promises'], logLevel: 'warning',
+});
+for (const name of ['index.html', 'style.css', 'offline.js'])
+    copyFileSync(join(here, name), join(output, name));
+const files = folder => readdirSync(join(samples, folder)).filter(name => name.endsWith('.fl'))
+    .map(name => [`${folder}/${name}`, readFileSync(join(samples, folder, name), 'utf8')]);
+const texts = Object.fromEntries(readdirSync(samples).filter(name => name.endsWith('.fl')).sort()
+    .map(name => [name, readFileSync(join(samples, name), 'utf8')]));
+writeFileSync(join(output, 'samples.json'), JSON.stringify({ scripts: texts, files: Object.fromEntries(files('lib')) }));

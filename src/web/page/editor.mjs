@@ -1,0 +1,153 @@
+// editor.mjs: CodeMirror for scripts: colours, problems under the very words, completion and help from petri's tables.
+import { autocompletion, closeBrackets, closeBracketsKeymap, completionKeymap } from '@codemirror/autocomplete';
+import { defaultKeymap, history, historyKeymap, indentWithTab } from '@codemirror/commands';
+import { HighlightStyle, StreamLanguage, bracketMatching, indentUnit, syntaxHighlighting } from '@codemirror/language';
+import { lintGutter, setDiagnostics } from '@codemirror/lint';
+import { highlightSelectionMatches, searchKeymap } from '@codemirror/search';
+import { EditorState } from '@codemirror/state';
+import { EditorView, drawSelection, highlightActiveLine, hoverTooltip, keymap, lineNumbers } from '@codemirror/view';
+import { tags } from '@lezer/highlight';
+
+const KEYWORDS = /^(let|func|for|in|if|elif|else|where|import|from|stable|and|or|not|true|false|null|debug)\b/;
+
+const flitter = StreamLanguage.define({
+    token(stream) {
+        if (stream.eatSpace())
+            return null;
+        if (stream.match(/^--.*/) || stream.match(/^#!.*/))
+            return 'comment';
+        if (stream.match(/^%\w+/) || stream.match(KEYWORDS))
+            return 'keyword';
+        if (stream.match(/^("""|''')[^]*/) || stream.match(/^"(\\.|[^"\\])*"?/) || stream.match(/^'(\\.|[^'\\])*'?/))
+            return 'string';
+        if (stream.match(/^[!@][\p{L}_]\w*/u))
+            return 'typeName';
+        if (stream.match(/^#[\p{L}_]\w*/u))
+            return 'labelName';
+        if (stream.match(/^:[\p{L}_]\w*/u))
+            return 'atom';
+        if (stream.match(/^(\d[\d_]*)(\.\d+)?([eE][-+]?\d+)?[TGMkmunp]?/) || stream.match(/^\.\d+([eE][-+]?\d+)?/))
+            return 'number';
+        if (stream.match(/^[\p{L}_][\p{L}\p{N}_]*/u))
+            return 'variableName';
+        stream.next();
+        return 'operator';
+    },
+    languageData: { commentTokens: { line: '--' } },
+});
+
+// Told apart on white and on black alike: custom properties would not reach into CodeMirror's sheet otherwise.
+const colours = HighlightStyle.define([
+    { tag: tags.comment, color: 'light-dark(#5a636e, #98a1ad)', fontStyle: 'italic' },
+    { tag: tags.keyword, color: 'light-dark(#8a1c7c, #e59be0)' },
+    { tag: tags.string, color: 'light-dark(#1a6d1a, #8fd98f)' },
+    { tag: tags.typeName, color: 'light-dark(#0b57a4, #7cc0ff)', fontWeight: 'bold' },
+    { tag: tags.labelName, color: 'light-dark(#7a4a00, #ffc66d)' },
+    { tag: tags.atom, color: 'light-dark(#9a3412, #ffb38a)' },
+    { tag: tags.number, color: 'light-dark(#9a3412, #ffb38a)' },
+]);
+
+const theme = EditorView.theme({
+    '&': { color: 'var(--front)', backgroundColor: 'var(--back)' },
+    '.cm-content': { caretColor: 'var(--front)' },
+    '.cm-cursor': { borderLeftColor: 'var(--front)' },
+    '.cm-gutters': { color: 'light-dark(#5a636e, #98a1ad)', backgroundColor: 'var(--panel)', border: 'none' },
+    '.cm-activeLine': { backgroundColor: 'light-dark(#0b57a40d, #7cc0ff14)' },
+    '&.cm-focused .cm-selectionBackground, .cm-selectionBackground': { backgroundColor: 'light-dark(#b7d4f4, #274b73) !important' },
+    '.cm-tooltip': { color: 'var(--front)', backgroundColor: 'var(--panel)' },
+    '.cm-help': { padding: '.3em .6em', maxWidth: '40em' },
+});
+
+// Columns are characters; CodeMirror counts UTF-16 units.
+function offset(state, line, column) {
+    if (line < 1 || line > state.doc.lines)
+        return state.doc.length;
+    const { from, text } = state.doc.line(line);
+    return from + [...text].slice(0, Math.max(column - 1, 0)).join('').length;
+}
+
+export class Editor {
+    constructor(parent, { text, onChange, onRun, help }) {
+        this.help = help;
+        this.view = new EditorView({
+            parent,
+            state: EditorState.create({
+                doc: text,
+                extensions: [
+                    lineNumbers(), history(), drawSelection(), highlightActiveLine(), bracketMatching(), closeBrackets(),
+                    highlightSelectionMatches(), indentUnit.of('    '), flitter, syntaxHighlighting(colours), lintGutter(), theme,
+                    autocompletion({ override: [context => this.complete(context)] }),
+                    hoverTooltip((view, at) => this.explain(view, at)),
+                    EditorView.contentAttributes.of({ 'aria-label': 'The script', tabindex: '0' }),
+                    EditorView.updateListener.of(update => update.docChanged && onChange(this.text)),
+                    keymap.of([{ key: 'Mod-Enter', run: () => (onRun(), true), preventDefault: true }]),
+                    keymap.of([...closeBracketsKeymap, ...defaultKeymap, ...searchKeymap, ...historyKeymap, ...completionKeymap,
+                        indentWithTab]),
+                ],
+            }),
+        });
+    }
+
+    get text() {
+        return this.view.state.doc.toString();
+    }
+
+    set text(text) {
+        this.view.dispatch({ changes: { from: 0, to: this.view.state.doc.length, insert: text } });
+    }
+
+    show(told) {
+        const { state } = this.view;
+        const problems = told.filter(({ line, level }) => line > 0 && level !== 'note').map(({ line, column, endLine, endColumn, ...rest }) => {
+            const from = offset(state, line, column);
+            return {
+                from, to: Math.max(offset(state, endLine, endColumn), from), severity: rest.level,
+                message: [rest.text, rest.hint].filter(Boolean).join('. ') + (rest.code ? ` [${rest.code}]` : ''),
+            };
+        });
+        this.view.dispatch(setDiagnostics(state, problems.sort((a, b) => a.from - b.from)));
+    }
+
+    goTo(line, column) {
+        const at = offset(this.view.state, line, column);
+        this.view.dispatch({ selection: { anchor: at }, scrollIntoView: true });
+        this.view.focus();
+    }
+
+    complete(context) {
+        const word = context.matchBefore(/[!]?[\p{L}_][\p{L}\p{N}_]*$|!$/u);
+        if (!word || (word.from === word.to && !context.explicit))
+            return null;
+        const kinds = word.text.startsWith('!') ? ['node'] : ['function', 'attribute', 'name'];
+        const seen = new Set(), options = [];
+        for (const row of this.help().filter(({ kind }) => kinds.includes(kind))) {
+            if (seen.has(row.name))
+                continue;
+            seen.add(row.name);
+            options.push({
+                label: (row.kind === 'node' ? '!' : '') + row.name, detail: row.kind === 'function' ? `(${row.parameters})` : row.parameters,
+                info: row.help || undefined, type: { node: 'class', function: 'function', attribute: 'property' }[row.kind] ?? 'variable',
+            });
+        }
+        return { from: word.from, options, validFor: /^!?[\p{L}\p{N}_]*$/u };
+    }
+
+    explain(view, at) {
+        const { from, text } = view.state.doc.lineAt(at), words = [...text.matchAll(/!?[\p{L}_][\p{L}\p{N}_]*/gu)];
+        const word = words.find(({ index, 0: found }) => from + index <= at && at <= from + index + found.length);
+        const rows = word ? this.help().filter(({ kind, name, help }) =>
+            (kind === 'node' ? `!${name}` === word[0] : name === word[0]) && (help || kind === 'function')) : [];
+        if (rows.length === 0)
+            return null;
+        const [row] = rows, head = row.kind === 'function' ? `${row.name}(${row.parameters})` : row.kind === 'node' ? `!${row.name}` : row.name;
+        return {
+            pos: from + word.index, end: from + word.index + word[0].length, above: true,
+            create() {
+                const dom = document.createElement('div');
+                dom.className = 'cm-help';
+                dom.textContent = `${head}: ${row.help}`;
+                return { dom };
+            },
+        };
+    }
+}

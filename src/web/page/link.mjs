@@ -1,0 +1,61 @@
+// link.mjs: a script in a link: `#` and, compressed (deflate-raw, base64url), JSON: v version, t text, n its file's name, c
+// changes of parameters as [after which frame, name, value], f frame, h the hash of the state there.
+
+const VERSION = 1;
+const LONGEST = 100000; // characters: what browsers and mail still pass on
+const MOST_TEXT = 4 << 20; // of what it unpacks to
+
+async function through(stream, bytes, most = Infinity) {
+    const reader = new Blob([bytes]).stream().pipeThrough(stream).getReader(), parts = [];
+    let length = 0;
+    for (;;) {
+        const { done, value } = await reader.read();
+        if (done)
+            break;
+        length += value.length;
+        if (length > most) {
+            reader.cancel().catch(() => {});
+            throw new Error('the link unpacks to more than 4 MiB');
+        }
+        parts.push(value);
+    }
+    return new Uint8Array(await new Blob(parts).arrayBuffer());
+}
+
+export async function packLink({ text, name, changes = [], frame, hash }) {
+    const json = JSON.stringify({ v: VERSION, t: text, n: name, c: changes, f: frame, h: hash });
+    const packed = await through(new CompressionStream('deflate-raw'), new TextEncoder().encode(json));
+    let binary = '';
+    for (const byte of packed)
+        binary += String.fromCharCode(byte);
+    const link = '#' + btoa(binary).replaceAll('+', '-').replaceAll('/', '_').replace(/=+$/, '');
+    if (link.length > LONGEST)
+        throw new Error(`the script is too long for a link: ${link.length} characters, ${LONGEST} at the most; save it as a file`);
+    return link;
+}
+
+const isChange = change => Array.isArray(change) && change.length === 3 && Number.isInteger(change[0])
+    && typeof change[1] === 'string' && typeof change[2] === 'string';
+
+// What packLink was given. Says why, in words for people, where there is none.
+export async function readLink(link) {
+    const packed = link.replace(/^#/, '').replaceAll('-', '+').replaceAll('_', '/');
+    let json;
+    if (packed.length > LONGEST)
+        throw new Error('the link is too long');
+    try {
+        const bytes = Uint8Array.from(atob(packed), character => character.charCodeAt(0));
+        const text = await through(new DecompressionStream('deflate-raw'), bytes, MOST_TEXT);
+        json = JSON.parse(new TextDecoder('utf-8', { fatal: true }).decode(text));
+    } catch (error) {
+        throw new Error(error.message.startsWith('the link') ? error.message
+            : 'the link is damaged: was it cut off when it was copied?', { cause: error });
+    }
+    if (json?.v > VERSION)
+        throw new Error('the link was made by a newer petri, which this one does not understand');
+    const { t: text, n: name = 'script.fl', c: changes = [], f: frame = 0, h: hash = null } = json ?? {};
+    if (typeof text !== 'string' || typeof name !== 'string' || !Array.isArray(changes) || !changes.every(isChange)
+        || !Number.isInteger(frame) || frame < -1 || frame > 1e6 || !(hash === null || typeof hash === 'string'))
+        throw new Error('the link is none of petri\'s');
+    return { text, name, changes, frame, hash };
+}

@@ -1,0 +1,27 @@
+// offline.js: the page works without a network after the first visit: what is fetched is kept, and asked for anew when
+// there is a network.
+const KEPT = 'petri';
+
+self.addEventListener('install', event => {
+    event.waitUntil(caches.open(KEPT).then(cache => cache.addAll(['./', 'style.css', 'page.js', 'worker.js', 'samples.json', 'petri/engine.wasm'])));
+    self.skipWaiting();
+});
+self.addEventListener('activate', event => event.waitUntil(self.clients.claim()));
+self.addEventListener('fetch', event => {
+    if (event.request.method !== 'GET' || new URL(event.request.url).origin !== location.origin)
+        return;
+    event.respondWith((async () => {
+        const cache = await caches.open(KEPT);
+        try {
+            const answer = await fetch(event.request);
+            if (answer.ok)
+                await cache.put(event.request, answer.clone());
+            return answer;
+        } catch (error) {
+            const kept = await cache.match(event.request, { ignoreSearch: true });
+            if (kept)
+                return kept;
+            throw error;
+        }
+    })());
+});

@@ -1,0 +1,52 @@
+// parameters.mjs: the script's parameters as sliders and fields.
+
+export class Parameters {
+    constructor(place, onSet) {
+        this.place = place;
+        this.onSet = onSet;
+        this.shown = '';
+        this.rows = new Map();
+    }
+
+    // Rows are made anew when the script has other parameters; else only values that nobody is changing.
+    show(parameters) {
+        const settable = parameters.filter(parameter => parameter.settable);
+        const signature = JSON.stringify(settable.map(({ name, least, most, step, comment, fallback }) => [name, least, most, step, comment, fallback]));
+        if (signature !== this.shown) {
+            this.shown = signature;
+            this.rows.clear();
+            this.place.replaceChildren(...settable.flatMap(parameter => this.row(parameter)));
+        }
+        for (const { name, value, number } of settable)
+            for (const input of this.rows.get(name))
+                if (input !== document.activeElement)
+                    input.value = Number.isNaN(number) ? value : String(number);
+    }
+
+    row(parameter) {
+        const { name, comment, least, most, number } = parameter, label = document.createElement('label');
+        const field = document.createElement('input'), numeric = !Number.isNaN(parameter.fallbackNumber);
+        label.textContent = name;
+        label.title = comment;
+        label.htmlFor = field.id = `parameter-${name}`;
+        field.type = numeric ? 'number' : 'text';
+        field.title = comment;
+        if (numeric)
+            field.step = parameter.step || 'any';
+        field.onchange = () => field.value !== '' && this.onSet(name, field.value);
+        if (!numeric || !Number.isFinite(least) || !Number.isFinite(most)) {
+            this.rows.set(name, [field]);
+            return [label, document.createElement('span'), field];
+        }
+        const slider = document.createElement('input');
+        const whole = [least, most, number, parameter.fallbackNumber].every(Number.isInteger);
+        Object.assign(slider, { type: 'range', min: least, max: most, step: parameter.step || (whole ? 1 : (most - least) / 200), title: comment });
+        slider.setAttribute('aria-label', `${name}${comment ? `: ${comment}` : ''}`);
+        slider.oninput = () => {
+            field.value = slider.value;
+            this.onSet(name, slider.value);
+        };
+        this.rows.set(name, [slider, field]);
+        return [label, slider, field];
+    }
+}

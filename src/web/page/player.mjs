@@ -1,0 +1,106 @@
+// player.mjs: a script that is run, gone back in and changed: a session with keyframes, in the worker.
+
+const EVERY = 20; // frames between keyframes
+const MOST_KEYFRAMES = 64; // besides those where something was changed
+const MOST_BYTES = 256 << 20;
+
+export class Player {
+    constructor(engine, onDiagnostic) {
+        this.engine = engine;
+        this.onDiagnostic = onDiagnostic;
+        this.files = {};
+        this.session = null;
+    }
+
+    // Opens a session of its own for a script; frame -1. Throws what `load` throws; the one that runs then goes on.
+    load(text, name, changes = []) {
+        const session = this.engine.open({ files: this.files, onDiagnostic: this.onDiagnostic });
+        try {
+            for (const [frame, parameter, value] of changes)
+                if (frame < 0)
+                    session.define(`${parameter}=${value}`);
+            session.load(text, name);
+        } catch (error) {
+            session.close();
+            throw error;
+        }
+        this.forget(-2);
+        this.session?.close();
+        Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, most: -1 });
+    }
+
+    // Drops keyframes behind a frame.
+    forget(frame) {
+        const keep = this.keyframes?.filter(key => key.frame <= frame) ?? [];
+        this.keyframes?.filter(key => key.frame > frame).forEach(key => key.snapshot.free());
+        this.keyframes = keep;
+    }
+
+    step() {
+        this.session.step();
+        this.frame++;
+        this.most = Math.max(this.most, this.frame);
+        const later = this.changes.filter(([frame]) => frame === this.frame);
+        for (const [, name, value] of later)
+            this.session.setParameter(name, value);
+        if (later.length || this.frame % this.every === 0)
+            this.keep(later.length > 0);
+    }
+
+    keep(changed) {
+        const there = this.keyframes.findIndex(key => key.frame === this.frame);
+        if (there >= 0) {
+            if (!changed)
+                return;
+            this.keyframes[there].snapshot.free();
+            this.keyframes.splice(there, 1);
+        }
+        this.keyframes.push({ frame: this.frame, snapshot: this.session.snapshot(), changed });
+        this.keyframes.sort((a, b) => a.frame - b.frame);
+        this.thin();
+    }
+
+    thin() {
+        const bytes = this.keyframes.reduce((sum, key) => sum + key.snapshot.bytes, 0);
+        const usual = this.keyframes.filter(key => !key.changed);
+        if (usual.length < 2 || (usual.length <= MOST_KEYFRAMES && bytes <= MOST_BYTES))
+            return;
+        this.every *= 2;
+        const dropped = usual.filter(key => key.frame % this.every !== 0);
+        dropped.forEach(key => key.snapshot.free());
+        this.keyframes = this.keyframes.filter(key => !dropped.includes(key));
+    }
+
+    // Goes to a frame, from the keyframe before it; the frame's tree is there then. At most `most` steps at once: false if
+    // it is not there yet.
+    seek(frame, most = Infinity) {
+        if (frame < this.frame) {
+            const key = this.keyframes.findLast(other => other.frame < frame);
+            const end = this.most;
+            if (key) {
+                this.session.rewind(key.snapshot);
+                this.frame = key.frame;
+            } else {
+                const { text, name, changes, keyframes } = this;
+                this.keyframes = [];
+                this.load(text, name, changes);
+                keyframes.forEach(old => old.snapshot.free());
+            }
+            this.most = end;
+        }
+        for (let i = 0; this.frame < frame && i < most; i++)
+            this.step();
+        return this.frame >= frame;
+    }
+
+    // Another value for a parameter from the next frame on. What came after is forgotten.
+    set(name, value) {
+        this.session.setParameter(name, value);
+        this.changes = this.changes.filter(([frame, other]) => frame < this.frame || (frame === this.frame && other !== name));
+        this.changes.push([this.frame, name, value]);
+        this.forget(this.frame);
+        this.most = this.frame;
+        if (this.frame >= 0)
+            this.keep(true);
+    }
+}

@@ -1,0 +1,249 @@
+// page.test.mjs: the page in headless Chromium, as a person uses it. Skipped where npm's modules or the browser are not.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+import { gzipSync } from 'node:zlib';
+
+const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+const folder = process.env.PETRI_WEB, browserPath = '/usr/bin/chromium';
+const modules = join(root, 'src/web/page/node_modules/playwright-core/index.mjs');
+const missing = [modules, browserPath, join(folder, 'page.js')].find(path => !existsSync(path));
+const options = { skip: missing ? `there is no ${missing}` : false, timeout: 60000 };
+const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
+let browser, server;
+
+before(async () => {
+    if (missing)
+        return;
+    const { chromium } = await import(pathToFileURL(modules));
+    const { serve } = await import('../../src/web/page/serve.mjs');
+    server = await serve(folder);
+    browser = await chromium.launch({
+        executablePath: browserPath,
+        args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+            '--disable-component-update', '--disable-sync'],
+    });
+});
+
+after(async () => {
+    await browser?.close();
+    server?.close();
+});
+
+// A page of its own, which must say nothing on the console.
+async function opened(hash = '', { settings = {}, use }) {
+    const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, ...settings });
+    const page = await context.newPage(), said = [];
+    // That the tests read pixels is their own affair.
+    page.on('console', message => message.text().includes('willReadFrequently') || said.push(message.text()));
+    page.on('pageerror', error => said.push(error.message));
+    await page.goto(server.url + hash);
+    await page.waitForFunction(() => document.body.dataset.ready);
+    await use(page, context);
+    assert.deepEqual(said, []);
+    await context.close();
+}
+
+const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));
+const atFrame = (page, frame) => page.waitForFunction(wanted => Number(document.body.dataset.frame) === wanted, frame);
+const pixels = page => page.evaluate(() => {
+    const canvas = document.getElementById('picture'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let sum = 0;
+    for (let i = 0; i < data.length; i++)
+        sum = (sum * 31 + data[i]) % 4294967291;
+    return { sum, width: canvas.width, height: canvas.height, all: new Set(data).size };
+});
+async function typed(page, text) {
+    await page.click('.cm-content');
+    await page.keyboard.press('Control+a');
+    await page.keyboard.insertText(text);
+}
+
+test('the page is small', options, () => {
+    const files = ['index.html', 'style.css', 'page.js', 'worker.js', 'samples.json', 'petri/engine.wasm'];
+    const size = files.reduce((sum, name) => sum + gzipSync(readFileSync(join(folder, name)), { level: 9 }).length, 0);
+    assert.ok(size <= 1.5e6, `${size} bytes`);
+});
+
+test('a picture is there, runs, goes back and forth to the same pictures', options, () => opened('', {
+    use: async page => {
+        assert.equal(await frameOf(page), 2);
+        const first = await pixels(page);
+        assert.ok(first.width > 100 && first.all > 20, JSON.stringify(first));
+        await page.click('#run');
+        await page.waitForFunction(() => Number(document.body.dataset.frame) > 45);
+        assert.equal(await page.textContent('#run'), 'Pause');
+        await page.click('#run');
+        const end = await page.waitForFunction(() => document.getElementById('run').textContent === 'Run' && document.body.dataset.frame);
+        const last = Number(await end.jsonValue()), seen = new Map();
+        for (const frame of [last, 31, 2, 44, 31, 2]) {
+            await page.evaluate(wanted => {
+                const time = document.getElementById('time');
+                time.value = wanted;
+                time.dispatchEvent(new Event('input'));
+            }, frame);
+            await atFrame(page, frame);
+            const { sum } = await pixels(page);
+            assert.equal(seen.get(frame) ?? sum, sum, `frame ${frame}`);
+            seen.set(frame, sum);
+        }
+        assert.equal(seen.get(2), first.sum);
+        assert.equal(new Set(seen.values()).size, 4);
+        await page.click('#step');
+        await atFrame(page, 3);
+        await page.click('#back');
+        await atFrame(page, 2);
+        assert.equal((await pixels(page)).sum, first.sum);
+        await page.click('#reset');
+        await atFrame(page, 0);
+    },
+}));
+
+test('an error is shown at its place while one types', options, () => opened('', {
+    use: async page => {
+        await typed(page, '!window size=100;100\n    !canvas\n        !rect size=coss(1) fill=true\n');
+        await page.waitForSelector('.cm-lintRange-warning');
+        assert.equal(await page.textContent('.cm-lintRange-warning'), 'coss');
+        assert.match(await page.textContent('#problems'), /3:20: warning: unbound name 'coss'.*did you mean 'cos'/);
+        await typed(page, '!a x=1)\n');
+        await page.waitForSelector('.cm-lintRange-error');
+        await page.click('#run');
+        await page.waitForSelector('#message.error');
+        assert.match(await page.textContent('#message'), /:1:/);
+        await typed(page, '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;0.5;0 fill=true\n');
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('picture').width === 64);
+        const colour = await page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(30, 10, 1, 1).data]);
+        assert.deepEqual(colour, [255, 128, 0, 255]);
+        assert.equal(await page.textContent('#problems'), '');
+    },
+}));
+
+test('a slider changes a parameter, and a link brings all of it back', options, () => opened('', {
+    use: async (page, context) => {
+        const [slider] = await page.$$('#parameters input[type=range]');
+        const before = (await pixels(page)).sum;
+        const name = (await slider.getAttribute('aria-label')).split(':')[0];
+        await slider.focus();
+        await page.keyboard.press('Home');
+        for (let frame = 3; frame < 8; frame++) {
+            await page.click('#step');
+            await atFrame(page, frame);
+        }
+        const changed = (await pixels(page)).sum, value = await page.inputValue(`#parameter-${name}`);
+        assert.notEqual(changed, before);
+        await page.click('#link');
+        await page.waitForFunction(() => location.hash.length > 1);
+        const hash = await page.evaluate(() => location.hash);
+        const other = await context.newPage();
+        await other.goto(server.url + hash);
+        await other.waitForFunction(() => document.body.dataset.ready);
+        assert.equal(await frameOf(other), 7);
+        assert.match(await other.textContent('#message'), /the same state .* to the last bit/);
+        assert.equal((await pixels(other)).sum, changed);
+        assert.equal(await other.inputValue(`#parameter-${name}`), value);
+        assert.equal(await other.textContent('#problems'), '');
+    },
+}));
+
+test('links that are none are told, and change nothing', options, async () => {
+    const { packLink, readLink } = await import('../../src/web/page/link.mjs');
+    const link = await packLink({ text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64), changes: [[1, 'A', '2']] });
+    assert.match(link, /^#[A-Za-z0-9_-]+$/);
+    assert.deepEqual(await readLink(link), { text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64), changes: [[1, 'A', '2']] });
+    await assert.rejects(readLink(link.slice(0, -9)), /cut off/);
+    await assert.rejects(readLink('#!!'), /damaged/);
+    await assert.rejects(readLink(`#${'A'.repeat(200000)}`), /too long/);
+    await assert.rejects(readLink(await packLink({ text: 7 })), /none of petri's/);
+    await assert.rejects(packLink({ text: Array.from({ length: 90000 }, (_, i) => Math.sin(i)).join(' ') }), /too long for a link/);
+    await opened(await packLink({ text: DISH, name: 'dish.fl', frame: 3, hash: 'f'.repeat(64) }), {
+        use: async page => {
+            assert.match(await page.textContent('#message'), /not that where the link was made/);
+            await page.evaluate(() => (location.hash = '#AAAA'));
+            await page.waitForSelector('#message.error');
+            await page.waitForFunction(() => /damaged|none of petri/.test(document.getElementById('message').textContent));
+            assert.ok((await page.textContent('.cm-content')).length > 100);
+        },
+    });
+});
+
+test('recursion that is too deep does not end the engine, in a worker, either', options, () => opened('', {
+    use: async page => {
+        const names = Array.from({ length: 40 }, (_, i) => `f${i}`), nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
+        const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
+        await typed(page, `${functions.join('')}let fs=${names.join(';')}\n!a x=f0(fs, 9000)\n!window size=48;16\n    !canvas\n`);
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('picture').width === 48);
+        assert.match(await page.textContent('#problems'), /recursion too deep/);
+    },
+}));
+
+test('axe finds nothing serious, dark or light', options, async () => {
+    const axe = readFileSync(join(root, 'src/web/page/node_modules/axe-core/axe.min.js'), 'utf8');
+    for (const colorScheme of ['light', 'dark'])
+        await opened('', {
+            settings: { colorScheme },
+            use: async page => {
+                await page.evaluate(axe);
+                const { violations } = await page.evaluate(() => globalThis.axe.run());
+                const bad = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+                assert.deepEqual(bad.map(({ id, nodes }) => [colorScheme, id, nodes.map(node => node.html.slice(0, 120))]), []);
+            },
+        });
+});
+
+test('text and picture are saved as files', options, () => opened('', {
+    use: async page => {
+        for (const [button, name, begins] of [['#save', 'dish.fl', '-- '], ['#image', 'dish-2.png', '\x89PNG']]) {
+            const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+            assert.equal(download.suggestedFilename(), name);
+            assert.ok(readFileSync(await download.path(), 'latin1').startsWith(begins), name);
+        }
+    },
+}));
+
+test('what runs for ever is stopped, and the text stays', options, () => opened('', {
+    use: async page => {
+        const text = '!a x=sum(i*j for i in ..30000 for j in ..30000)\n';
+        await typed(page, text);
+        await page.click('#run');
+        await page.click('#stop');
+        await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Stopped'));
+        assert.equal(await page.evaluate(() => document.querySelector('.cm-line').textContent), text.trim());
+        await typed(page, '!window size=32;32\n    !canvas\n');
+        await page.click('#run');
+        await page.waitForFunction(() => document.getElementById('picture').width === 32);
+        await page.reload();
+        await page.waitForFunction(() => document.body.dataset.ready);
+        assert.equal(await page.evaluate(() => document.querySelector('.cm-line').textContent), '!window size=32;32');
+    },
+}));
+
+test('the prompt, samples, keyboard alone, dark and light, offline', options, () => opened('', {
+    use: async (page, context) => {
+        await page.fill('#line', '1+2');
+        await page.press('#line', 'Enter');
+        await page.waitForFunction(() => /\? 1\+2\n3\n/.test(document.getElementById('printed').textContent));
+        for (const name of ['aquarium.fl', 'springs.fl', 'orbits.fl', 'barriers.fl']) {
+            await page.evaluate(() => delete document.body.dataset.frame);
+            await page.selectOption('#samples', name);
+            await page.waitForFunction(() => document.body.dataset.frame === '2');
+            assert.equal(await page.textContent('#problems'), '', name);
+            assert.ok((await pixels(page)).all > 3, name);
+        }
+        await page.focus('#run');
+        await page.keyboard.press('Space');
+        await page.waitForFunction(() => Number(document.body.dataset.frame) > 6);
+        await page.keyboard.press('Space');
+        const back = () => page.evaluate(() => getComputedStyle(document.body).backgroundColor);
+        const light = await back();
+        await page.click('#theme');
+        assert.notEqual(await back(), light);
+        await page.waitForFunction(() => navigator.serviceWorker.controller);
+        await context.setOffline(true);
+        await page.reload();
+        await page.waitForFunction(() => document.body.dataset.ready);
+    },
+}));
