@@ -139,14 +139,14 @@ void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all) {
     PhysSystem *local = domain->local;
     Taking taking = {system, domain, all};
     local->radii += all;
-    local->has_own_forces = system->has_own_forces;
-    local->has_eased_forces = system->has_eased_forces;
     phys_parallel(local, phys_shares(local, local->particle_count, PHYS_MIN_FOR_THREADS), take_share, &taking);
 }
 
 static bool take_particles(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     local->dimensions = system->dimensions;
+    local->has_own_forces = system->has_own_forces;
+    local->has_eased_forces = system->has_eased_forces;
     if (!phys_reserve_columns(local) ||
         !phys_buffer_reserve(system, &domain->own, 0, domain->own_count, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->foreign, 0, local->particle_count, sizeof(bool)) ||

@@ -127,7 +127,10 @@ static const Expr *compile_where(Compiler *compiler, const Ast *ast, bool in_chi
 }
 
 static const Expr *compile_for(Compiler *compiler, const Ast *ast, bool in_children) {
-    const Expr *parts[2] = {compile_expr(compiler, ast->children[1])};
+    // A range that is gone through needs no vector, be it constant.
+    const Ast *source = ast->children[1];
+    const Expr *parts[2] = {source->kind == AST_RANGE ? compile_range(compiler, source)
+                                                      : compile_expr(compiler, source)};
     ScopeMark mark = compile_scope_open(compiler);
     uint32_t slot = compile_bind_names(compiler, BINDING_LOOP, ast->children[0], NULL);
     compiler->repeats++;

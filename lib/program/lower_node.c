@@ -169,11 +169,20 @@ void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop) {
 }
 
 void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
-    int32_t source = lower_operand(lowering, expr->children[0]);
+    const Expr *over = expr->children[0];
+    bool spans = over->kind == EXPR_RANGE;
+    int32_t source[3];
+    for (int i = 0; i < (spans ? 3 : 1); i++)
+        source[i] = lower_operand(lowering, spans ? over->children[i] : over);
     uint16_t loop = (uint16_t)lowering->loop_depth++; // expressions are not nested as deeply as that
     if (lowering->loop_depth > lowering->loop_count)
         lowering->loop_count = lowering->loop_depth;
-    Instr round = {.op = OP_FOR, .a = source, .d = (int32_t)expr->slot, .count = expr->slot_count, .loop = loop};
+    if (spans) // no need to make the range
+        lower_emit(lowering, over,
+                   (Instr){.op = OP_SPAN, .loop = loop, .a = source[0], .b = source[1], .c = source[2]});
+    Instr round = {
+        .op = spans ? OP_FOR_SPAN : OP_FOR, .d = (int32_t)expr->slot, .count = expr->slot_count, .loop = loop};
+    round.a = spans ? 0 : source[0];
     uint32_t start = lowering->instr_count;
     lower_emit(lowering, expr, round);
     const Expr *outer_row = lowering->row;

@@ -133,8 +133,8 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
 
 // Memory and work that evaluating one expression ahead may take, and the work of all in a load: what is beyond is done
 // in the frames.
-#define STATIC_BUDGET ((size_t)1 << 28)
-enum { STATIC_WORK = 1 << 24, MOST_STATIC_WORK = 1 << 26 };
+#define STATIC_BUDGET ((size_t)1 << 29)
+enum { STATIC_WORK = 3 << 24, MOST_STATIC_WORK = 1 << 26 };
 
 typedef struct Ahead {
     const Code *code;

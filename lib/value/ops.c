@@ -128,23 +128,27 @@ static bool range_part(Value v, double fallback, double *x) {
     return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);
 }
 
-Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long) {
-    double from, by;
-    if (!range_part(start, 0, &from) || !range_part(step, 1, &by) || by == 0 || stop.len != 1 ||
+OpSpan op_span(Value start, Value stop, Value step, bool *too_long) {
+    OpSpan span = {0};
+    if (!range_part(start, 0, &span.from) || !range_part(step, 1, &span.by) || span.by == 0 || stop.len != 1 ||
         stop.kind != VALUE_NUMBERS)
-        return VALUE_NULL;
-    double count = ceil((stop.as.number - from) / by);
+        return span;
+    double count = ceil((stop.as.number - span.from) / span.by);
     if (!(count > 0) || isinf(count))
-        return VALUE_NULL;
-    if (count > VALUE_MAX_LEN) {
+        return span;
+    if (count > VALUE_MAX_LEN)
         *too_long = true;
-        return VALUE_NULL;
-    }
-    uint32_t len = (uint32_t)count;
-    if (len == 1)
-        return value_number(from + by * 0);
-    double *result = arena_alloc_array(arena, len, sizeof *result);
-    for (uint32_t i = 0; i < len; i++)
-        result[i] = from + by * i;
-    return value_numbers_view(result, len);
+    else
+        span.len = (uint32_t)count;
+    return span;
+}
+
+Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long) {
+    OpSpan span = op_span(start, stop, step, too_long);
+    if (span.len < 2)
+        return span.len ? value_number(op_span_number(&span, 0)) : VALUE_NULL;
+    double *result = arena_alloc_array(arena, span.len, sizeof *result);
+    for (uint32_t i = 0; i < span.len; i++)
+        result[i] = op_span_number(&span, i);
+    return value_numbers_view(result, span.len);
 }

@@ -15,5 +15,15 @@ Value op_negate(Arena *arena, Value v);
 Value op_plus(Value v);
 // start..stop|step (L5.3). *too_long is set if the count exceeds VALUE_MAX_LEN.
 Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long);
+// The same without its vector.
+typedef struct OpSpan {
+    double from;
+    double by;
+    uint32_t len;
+} OpSpan;
+OpSpan op_span(Value start, Value stop, Value step, bool *too_long);
+static inline double op_span_number(const OpSpan *span, uint32_t i) {
+    return span->from + span->by * i;
+}
 
 #endif

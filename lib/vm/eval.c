@@ -65,7 +65,9 @@ NOINLINE static void unpack(Vm *vm, Value *slots, uint32_t count, Value value) {
 // The elements of one round (L10.1), of which the last may be missing.
 NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
-        slots[i] = loop->at + i < loop->source.len ? value_element(vm->arena, loop->source, loop->at + i) : VALUE_NULL;
+        slots[i] = loop->at + i >= loop->source.len    ? VALUE_NULL
+                   : loop->source.kind == VALUE_ABSENT ? value_number(op_span_number(&loop->span, loop->at + i))
+                                                       : value_element(vm->arena, loop->source, loop->at + i);
 }
 
 // The next round of a loop, if there is one.
@@ -73,7 +75,9 @@ static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slot
     if (loop->at >= loop->source.len)
         return false;
     vm_work(vm, instr->at, cost);
-    if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
+    if (instr->count == 1 && loop->source.kind == VALUE_ABSENT)
+        set_number(&slots[instr->d], op_span_number(&loop->span, loop->at));
+    else if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
         set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
     else
         bind_elements(vm, loop, slots + instr->d, instr->count);
@@ -208,6 +212,13 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
                 instr = code->instrs + instr->target - 1;
             break;
         }
+        case OP_SPAN:
+            vm_span(vm, instr->at, &frame->loops[instr->loop], A, B, C);
+            break;
+        case OP_FOR_SPAN:
+            if (!next_round(vm, instr, &frame->loops[instr->loop], slots, 1))
+                instr = code->instrs + instr->target - 1;
+            break;
         case OP_ADD_PART:
             vector_add_part(&frame->loops[instr->loop].result, &A);
             break;

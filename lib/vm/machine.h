@@ -21,7 +21,8 @@ typedef struct Closure {
 
 // A loop that is being run.
 typedef struct Loop {
-    Value source;
+    Value source; // VALUE_ABSENT: `span`, of the same length
+    OpSpan span;
     uint32_t at;
     Vector result;
     // rows.c
@@ -56,6 +57,8 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
 // make.c: the instructions that make or look up something. `slots` are the registers, `list` the numbers of operands.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+// Prepares a loop over a range.
+void vm_span(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step);
 // rows.c: the node of a round of a loop, as a row of a run or by itself.
 void vm_add_row(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Loop *loop);
 Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);

@@ -164,12 +164,25 @@ Value vm_index(Vm *vm, Value vector, Value index) {
     return vector.kind == VALUE_STREAM ? index_stream(vm, vector, index) : value_index(vm->arena, vector, index);
 }
 
+static void range_too_long(Vm *vm, const Origin *at) {
+    vm_fault(vm, at, "too-long", "range too long: the limit is 134217728 elements");
+}
+
 Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step) {
     bool too_long = false;
     Value range = op_range(vm->arena, start, stop, step, &too_long);
     if (too_long)
-        vm_fault(vm, at, "too-long", "range too long: the limit is 134217728 elements");
+        range_too_long(vm, at);
     return range;
+}
+
+void vm_span(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step) {
+    bool too_long = false;
+    vm->at = at;
+    *loop = (Loop){.span = op_span(start, stop, step, &too_long), .result = vector_new(vm->arena)};
+    loop->source = (Value){.len = loop->span.len, .kind = VALUE_ABSENT};
+    if (too_long)
+        range_too_long(vm, at);
 }
 
 // Whole numbers within the vector need no range: its elements are copied.

@@ -96,7 +96,7 @@ static void test_host(void **state) {
 
 // All that a session holds, script, state and engine, by particle.
 static void test_bytes(void **state) {
-    enum { COUNT = 100000, EACH = 360 };
+    enum { COUNT = 100000, EACH = 380 };
     Player *player = *state;
     PetriOptions options = player_options(player);
     options.threads = 1;
