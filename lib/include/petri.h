@@ -510,6 +510,11 @@ typedef struct PetriNodeKind {
     const char *name; // without the `!`
     const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
     const char *help;
+    // Of a force: lines `F = …`, with `if` for cases of which the first counts, and what they take before them; else "".
+    // n dimensions, δ the length of a step; of a particle, or of the first and second of a pair: r radius, m mass,
+    // q charge, v velocity, l the distance of the two, s that from a wall. Above 0 a pair is pushed apart. A force has
+    // the unit mass·length/time², each of them as the script chooses.
+    const char *formula;
 } PetriNodeKind;
 
 typedef struct PetriNodeAttribute {

@@ -6,7 +6,8 @@
 //     vital is beyond all numbers a drawing node is not drawn: where a thing is counts more than how it looks.
 // NAME(ID, "attribute"): all names of attributes, each once.
 // NODE(ID, "kind", PLACE, CHILDREN, "help"), and after it its attributes. PLACE tells where a node may stand and
-//     CHILDREN which may stand in it (PlaceKind). FORCE(ID, "kind", "help"): a node of force_list.h, with the same ID.
+//     CHILDREN which may stand in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h, with
+//     the same ID; the formula is that of lib/physics/README.md, in lines (tests/docs/formulas.sh compares them).
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The field is where the value goes (records.h); NOWHERE: it is
 //     ignored or, in drawings, looked up by its name. The default is IS(x); TOLD(x, "in words"); INHERITED(x, "in
 //     words"), to begin with; or NONE: for a number nan, else null. Of a vector it is the last element; the others are
@@ -23,7 +24,7 @@
 #define NODE(id, text, place, children, help)
 #endif
 #ifndef FORCE
-#define FORCE(id, text, help) NODE(id, text, PHYSICS, NOTHING, help)
+#define FORCE(id, text, help, formula) NODE(id, text, PHYSICS, NOTHING, help)
 #endif
 #ifndef ATTR
 #define ATTR(kind, name, type, field, fallback, unit, help)
@@ -345,22 +346,26 @@ ATTR(ANCHOR, CHARGE, NUMBER, TO_BODY(numbers.charge), IS(0), "", "for !electrost
 
 NODE(GROUP, "group", PHYSICS, PHYSICS, "particles that those in groups beside it do not see, and forces on them alone")
 
-FORCE(CONSTANT, "constant", "the same force, or acceleration, on all particles")
+FORCE(CONSTANT, "constant", "the same force, or acceleration, on all particles",
+    "F = (force + acceleration · m) · strength")
 ATTR(CONSTANT, FORCE, VECTOR, TO_FORCE(force.vector), IS(0), "", "the same on each particle")
 ATTR(CONSTANT, ACCELERATION, VECTOR, TO_FORCE(force.vector2), IS(0), "", "added to the force, times the particle's mass")
 STRENGTH_ROW(CONSTANT)
 EASE_ROW(CONSTANT)
 
-FORCE(RANDOM, "random", "a random force on each particle")
+FORCE(RANDOM, "random", "a random force on each particle",
+    "F = strength · normal(state;run;iteration)[i]")
 ATTR(RANDOM, STRENGTH, NUMBER, TO_FORCE(force.strength), IS(1), "", "standard deviation of each component of the force")
 EASE_ROW(RANDOM)
 
-FORCE(FIELD, "field", "a force that grows with the charge")
+FORCE(FIELD, "field", "a force that grows with the charge",
+    "F = strength · direction · q")
 ATTR(FIELD, DIRECTION, VECTOR, TO_FORCE(force.vector), IS(0), "", "force on a charge of 1")
 STRENGTH_ROW(FIELD)
 EASE_ROW(FIELD)
 
-FORCE(DISTANCE, "distance", "a spring between two particles")
+FORCE(DISTANCE, "distance", "a spring between two particles",
+    "F = strength · (min − l)^power if l < min\nF = −strength · (l − max)^power if l > max\nF = 0")
 ATTR(DISTANCE, FROM, ID, TO_FORCE(from), NONE, "", "one end")
 ATTR(DISTANCE, TO, ID, TO_FORCE(to), NONE, "", "the other end")
 BOUND_ROWS(DISTANCE)
@@ -368,40 +373,47 @@ POWER_ROW(DISTANCE)
 STRENGTH_ROW(DISTANCE)
 EASE_ROW(DISTANCE)
 
-FORCE(COLLISION, "collision", "particles that overlap push each other away")
+FORCE(COLLISION, "collision", "particles that overlap push each other away",
+    "F = strength · (r₁ + r₂ − l)^power if l < r₁ + r₂\nF = 0")
 POWER_ROW(COLLISION)
 STRENGTH_ROW(COLLISION)
 EASE_ROW(COLLISION)
 REACH_ROW(COLLISION)
 
-FORCE(GRAVITY, "gravity", "masses attract each other")
+FORCE(GRAVITY, "gravity", "masses attract each other",
+    "D = max(l, r₁ + r₂)\nF = −strength · m₁ · m₂ / D² if max_distance ≤ 0 or l < max_distance\nF = 0")
 STRENGTH_ROW(GRAVITY)
 EASE_ROW(GRAVITY)
 REACH_ROW(GRAVITY)
 
-FORCE(ELECTROSTATIC, "electrostatic", "equal charges repel each other, others attract")
+FORCE(ELECTROSTATIC, "electrostatic", "equal charges repel each other, others attract",
+    "D = max(l, r₁ + r₂)\nF = strength · q₁ · q₂ / D² if max_distance ≤ 0 or l < max_distance\nF = 0")
 STRENGTH_ROW(ELECTROSTATIC)
 EASE_ROW(ELECTROSTATIC)
 REACH_ROW(ELECTROSTATIC)
 
-FORCE(ADHESION, "adhesion", "particles that touch hold on to each other")
+FORCE(ADHESION, "adhesion", "particles that touch hold on to each other",
+    "o = r₁ + r₂ − l\na = |r₁ − r₂|·overlap + (r₁ + r₂)·(1 − overlap)\nF = −strength · o · (l − a) if l < r₁ + r₂\nF = 0")
 ATTR(ADHESION, OVERLAP, PART, TO_FORCE(force.overlap), IS(0.25), "", "how deep they sink in before they repel: 0 not at all, 1 until one is within the other")
 STRENGTH_ROW(ADHESION)
 EASE_ROW(ADHESION)
 REACH_ROW(ADHESION)
 
-FORCE(DRAG, "drag", "friction of a medium that may flow")
+FORCE(DRAG, "drag", "friction of a medium that may flow",
+    "c = min(strength · |v − flow| · r^(n − 1), m/δ)\nF = −(v − flow) · c")
 ATTR(DRAG, FLOW, VECTOR, TO_FORCE(force.vector), IS(0), "", "velocity of the medium")
 STRENGTH_ROW(DRAG)
 EASE_ROW(DRAG)
 
-FORCE(BUOYANCY, "buoyancy", "weight in a medium")
+FORCE(BUOYANCY, "buoyancy", "weight in a medium",
+    "F = strength · gravity · (m − density·r^n)")
 ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), TOLD(-1, "0;...;0;-1"), "", "acceleration that a weight has in the void")
 ATTR(BUOYANCY, DENSITY, NUMBER, TO_FORCE(force.density), IS(1), "", "mass of the medium that a particle of radius 1 displaces")
 STRENGTH_ROW(BUOYANCY)
 EASE_ROW(BUOYANCY)
 
-FORCE(BARRIER, "barrier", "a wall")
+FORCE(BARRIER, "barrier", "a wall",
+    "F = strength · (min − s)^power if 0 ≤ s and s < min\nF = −strength · (s − max)^power if s > max\nF = 0")
 ATTR(BARRIER, POSITION, VECTOR, TO_FORCE(force.vector), IS(0), "", "a point of the wall")
 ATTR(BARRIER, NORMAL, NORMAL, TO_FORCE(force.vector2), IS(0), "", "away from the wall, of any length but 0; without it there is no wall")
 ATTR(BARRIER, RESTITUTION, PART, TO_FORCE(force.restitution), IS(1), "", "part of the speed that a bounce keeps")

@@ -81,10 +81,19 @@ bool schema_may_stand(NodeKind kind, PlaceKind children) {
 PhysForceKind schema_force(NodeKind kind) {
     static const uint8_t forces[KIND_COUNT] = {
 #define NODE(id, text, place, children, help) [KIND_##id] = PHYS_FORCE_KINDS,
-#define FORCE(id, text, help) [KIND_##id] = PHYS_##id,
+#define FORCE(id, text, help, formula) [KIND_##id] = PHYS_##id,
 #include "schema/schema_list.h"
     };
     return kind < KIND_COUNT ? forces[kind] : PHYS_FORCE_KINDS;
+}
+
+const char *schema_formula(NodeKind kind) {
+    static const char *const formulas[KIND_COUNT] = {
+#define NODE(id, text, place, children, help) [KIND_##id] = "",
+#define FORCE(id, text, help, formula) [KIND_##id] = formula,
+#include "schema/schema_list.h"
+    };
+    return formulas[kind];
 }
 
 NodeKind schema_kind_of_force(PhysForceKind force) {

@@ -157,6 +157,8 @@ extern const WordRow schema_words[WORD_COUNT];
 const SchemaRow *schema_row(NodeKind kind, AttrName name);
 // The force that a kind stands for; PHYS_FORCE_KINDS: none.
 PhysForceKind schema_force(NodeKind kind);
+// Of a force, in lines; "" of other nodes.
+const char *schema_formula(NodeKind kind);
 // The kind that stands for a force.
 NodeKind schema_kind_of_force(PhysForceKind force);
 // May a node of this kind stand where these may?

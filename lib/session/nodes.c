@@ -6,7 +6,11 @@ bool petri_node_kind(size_t number, PetriNodeKind *out) {
         return false;
     const KindRow *kind = &schema_kinds[number];
     bool solid = number == KIND_CANVAS3D || kind->place == PLACE_SCENE3D;
-    *out = (PetriNodeKind){kind->name, kind->place < PLACE_TOP ? "physics" : solid ? "canvas3d" : "canvas", kind->help};
+    *out = (PetriNodeKind){kind->name,
+                           kind->place < PLACE_TOP ? "physics"
+                           : solid                 ? "canvas3d"
+                                                   : "canvas",
+                           kind->help, schema_formula((NodeKind)number)};
     return true;
 }
 

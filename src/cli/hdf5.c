@@ -21,6 +21,9 @@ static bool wait_for(pid_t process) {
     do {
         done = waitpid(process, &status, 0);
     } while (done < 0 && errno == EINTR);
+    if (done == process && WIFSIGNALED(status)) { // else it has told itself
+        message("petri-hdf5, which writes the file, was ended by signal %d", WTERMSIG(status));
+    }
     return done == process && WIFEXITED(status) && WEXITSTATUS(status) == STATUS_DONE;
 }
 

@@ -4,6 +4,7 @@
 
 #include "cli/cli.h"
 #include "cli/output.h"
+#include "petri.h"
 
 // To be ended.
 Output *help_begin(void);
@@ -22,6 +23,10 @@ typedef struct Topic {
     const char *help;
 } Topic;
 extern const Topic TOPICS[];
+
+// The formula of a force, indented, a line each (nothing of other nodes), and what its letters stand for.
+void help_formula(Output *output, const PetriNodeKind *kind);
+extern const char FORMULA_LETTERS[];
 
 // What there is to say of a word of the language, for `petri help` and `.help` at the prompt (topics.c).
 

@@ -60,6 +60,19 @@ static void tell_attributes(Output *output, size_t kind) {
     table_write(&table, output);
 }
 
+const char FORMULA_LETTERS[] =
+    "of a particle, or the first and the second of a pair: r radius, m mass, q charge, v velocity; l their distance, s "
+    "that "
+    "from a wall; n dimensions, δ a step; F > 0 pushes a pair apart, in your units of mass·length/time²";
+
+void help_formula(Output *output, const PetriNodeKind *kind) {
+    for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
+        size_t length = strcspn(line, "\n");
+        output_format(output, "    %.*s\n", (int)length, line);
+        line += length;
+    }
+}
+
 // A kind may belong to several areas, such as `!group`.
 static bool tell_node(Output *output, const char *name) {
     PetriNodeKind kind;
@@ -68,6 +81,10 @@ static bool tell_node(Output *output, const char *name) {
     for (size_t i = 0; petri_node_kind(i, &kind); i++) {
         if (strcmp(kind.name, name) == 0) {
             output_format(output, "!%s (%s): %s\n", kind.name, kind.area, kind.help);
+            help_formula(output, &kind);
+            if (kind.formula[0] != '\0') {
+                output_format(output, "    (%s)\n", FORMULA_LETTERS);
+            }
             tell_attributes(output, i);
             found = true;
         }

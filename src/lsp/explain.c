@@ -72,6 +72,9 @@ static void explain_kinds(Bytes *out, Str name) {
     PetriNodeAttribute attribute;
     for (size_t i = 0; explain_kind(name, &i, &kind); i++) {
         bytes_format(out, "%s**!%s** (%s) — %s\n", out->length > 0 ? "\n---\n" : "", kind.name, kind.area, kind.help);
+        if (kind.formula[0] != '\0') {
+            bytes_format(out, "\n```text\n%s\n```\n%s\n", kind.formula, FORMULA_LETTERS);
+        }
         for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
             bytes_add_text(out, "\n- ");
             explain_attribute(out, &attribute);

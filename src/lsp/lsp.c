@@ -73,15 +73,11 @@ void server_read(Server *server, Document *document) {
 
 // --- documents
 
-// What others made of a document's text is of an older one.
+// Those that import or include the document have it in an older state.
 static void touch(Server *server, const Document *touched) {
     for (size_t i = 0; i < server->document_count; i++) {
         Document *document = server->documents[i];
-        if (texts_hold(&document->used, touched->canonical)) {
-            document->unchecked = true;
-            json_object_put(document->values);
-            document->values = NULL;
-        }
+        document->unchecked = document->unchecked || texts_hold(&document->used, touched->canonical);
     }
 }
 

@@ -52,6 +52,7 @@ static int help_nodes(void) {
             area = kind.area;
         }
         output_format(output, "  !%s: %s\n", kind.name, kind.help);
+        help_formula(output, &kind);
         write_attributes(output, i);
     }
     return help_end(output);

@@ -3,6 +3,7 @@
 #include <stdio.h>
 #include <string.h>
 
+#include "cli/bytes.h"
 #include "cli/help.h"
 #include "packaging/packaging.h"
 #include "packaging/roff.h"
@@ -69,6 +70,23 @@ static void write_attributes(Output *output, size_t kind) {
     output_format(output, ".RE\n");
 }
 
+// In lines; what the letters stand for comes with the first.
+static void write_formula(Output *output, const PetriNodeKind *kind) {
+    for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
+        size_t length = strcspn(line, "\n");
+        SCOPED_TEXT text = memory_copied(line, length);
+        output_format(output, ".br\n");
+        roff_text(output, text);
+        output_format(output, "\n");
+        line += length;
+    }
+    if (strcmp(kind->name, "constant") == 0) {
+        output_format(output, ".br\n(");
+        roff_text(output, FORMULA_LETTERS);
+        output_format(output, ")\n");
+    }
+}
+
 static void write_nodes(Output *output) {
     PetriNodeKind kind;
     const char *area = "";
@@ -82,6 +100,7 @@ static void write_nodes(Output *output) {
         roff_item(output, name, "");
         roff_text(output, kind.help);
         output_format(output, "\n");
+        write_formula(output, &kind);
         write_attributes(output, i);
     }
 }

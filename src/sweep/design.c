@@ -179,10 +179,17 @@ static bool make_sample(Design *design, const char *text) {
 
 // --- what --where leaves out
 
+typedef struct Told {
+    bool any;
+    bool shown;
+} Told;
+
 static void on_diagnostic(void *host, const PetriDiagnostic *diagnostic) {
-    bool *told = host;
-    *told = true;
-    fputs(diagnostic->rendered, stderr);
+    Told *told = host;
+    told->any = true;
+    if (told->shown) {
+        fputs(diagnostic->rendered, stderr);
+    }
 }
 
 // The expression with each name as it is in a run: `(A < B) where A=(1) B=(2)`.
@@ -196,8 +203,20 @@ static bool holds(PetriSession *session, const Design *design, size_t run, const
     return petri_evaluate(session, text.data, text.length, result, NULL, NULL) == PETRI_OK;
 }
 
+// Tells what is wrong with it, as it was written.
+static void explain(PetriSession *session, const Design *design, size_t run, const char *where) {
+    PetriResult result;
+    for (size_t i = 0; i < design->axis_count; i++) {
+        SCOPED_BYTES definition = {0};
+        bytes_format(&definition, "%s=%s", design->axes[i].name, design_value(design, run, i));
+        petri_define(session, definition.data);
+    }
+    petri_evaluate(session, where, PETRI_Z, &result, NULL, NULL);
+}
+
 static bool choose(Design *design, const char *where, const Host *host) {
-    bool told = false, good = true;
+    Told told = {0};
+    bool good = true;
     PetriOptions wanted = petri_default_options();
     wanted.stack_bytes = host->stack_bytes;
     wanted.no_files = true;
@@ -208,9 +227,12 @@ static bool choose(Design *design, const char *where, const Host *host) {
     size_t left = 0, width = design->axis_count;
     for (size_t run = 0; good && run < design->run_count; run++) {
         PetriResult result = {0};
-        good = holds(session, design, run, where, &result) && !told;
+        good = holds(session, design, run, where, &result) && !told.any;
         if (good && result.is_true) {
             memmove(&design->places[left++ * width], &design->places[run * width], width * sizeof *design->places);
+        } else if (!good) {
+            told.shown = true;
+            explain(session, design, run, where);
         }
     }
     petri_close(&session);

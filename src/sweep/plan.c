@@ -1,4 +1,5 @@
 // plan.c: the file of --plan: the words of a command line as YAML, where they get long.
+#include <errno.h>
 #include <stdio.h>
 #include <string.h>
 
@@ -129,7 +130,7 @@ static bool add_entries(const Plan *plan) {
 bool plan_read(const char *path, TextList *words) {
     SCOPED_BYTES text = {0};
     if (!bytes_read_file(&text, path)) {
-        message("cannot read %s", path);
+        message("cannot read %s: %s", path, strerror(errno));
         return false;
     }
     yaml_parser_t parser;

@@ -80,6 +80,17 @@ for formula in "$work"/*.formula; do
         echo "$(basename "$formula" .formula): no script measures this formula"
     }
 done
+# What `petri help` says of the forces, and the manual and editors, is that text.
+"$petri" help nodes | sed -n 's/^  !\([a-z]*\): .*/@\1/p; s/^    \([^ !].*\)/\1/p' >"$work/help"
+awk '/^```formula/ && $2 !~ /^(stability|ease)$/ { print "@" $2; on = 1; next } /^```/ { on = 0 } on' "$reference" |
+    awk '/^@/ { name = $0; next } { print name, $0 }' | sort >"$work/wanted"
+awk '/^@/ { name = $0; next } { print name, $0 }' "$work/help" | sort >"$work/said"
+if cmp -s "$work/wanted" "$work/said" && [ "$(cut -d" " -f 1 "$work/said" | uniq | wc -l)" -ge 11 ]; then
+    passed=$((passed + 1))
+else
+    failed=$((failed + 1))
+    echo "petri help nodes has other formulas: $(diff "$work/wanted" "$work/said" | head -n 3)"
+fi
 "$petri" run --frames 3 --every 2 --print tree "$2/tests/docs/facts.fl" >"$work/facts" 2>&1
 sed '1,/^@2 /d' "$work/facts" >"$work/last"
 facts=$(grep -c '^!fact .* holds=1$' "$work/last")

@@ -96,6 +96,19 @@ for format in $formats; do
     check "$format: killed, and gone on to the end, it is the same" eval 'status_is 0 && empty err && same $way'
     check "… and nothing is left beside it" [ -z "$(find . -name '*.tmp' -o -name '*.part')" ]
 done
+if [ -x "$h5md" ] && [ -e /proc/$$/task/$$/children ]; then
+    rm -f s way.h5
+    "$petri" run w.fl --frames 100000000 --state s --trajectory way.h5 --trace 2>err </dev/null &
+    job=$!
+    while kill -0 $job && [ "$(grep -c 'petri: frame' err)" -lt 5 ]; do :; done
+    kill -9 $(cat /proc/$job/task/*/children)
+    wait $job
+    status=$?
+    check "without petri-hdf5 the run ends" status_is 1
+    check "… which is told" has err "petri-hdf5, which writes the file, was ended by signal 9"
+    petri run w.fl --frames 1 --state s --trajectory way.h5
+    check "… and the next goes on" eval 'status_is 0 && empty err'
+fi
 rm -f s
 (
     trap '' XFSZ # the disk is full

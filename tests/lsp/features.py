@@ -121,6 +121,8 @@ hover = spot("let x=s§in(1)\n", "hover")
 check("a function", "sin(x)" in hover["contents"]["value"])
 check("… where it is", hover["range"]["end"], {"line": 0, "character": 9})
 check("a node", "a particle" in spot("!parti§cle id=1\n", "hover")["contents"]["value"])
+check("a force with its formula", "\nF = strength · (r₁ + r₂ − l)^power if l < r₁ + r₂\n" in spot(
+    "!coll§ision strength=2\n", "hover")["contents"]["value"])
 check("an attribute", "of `!particle`" in spot("!particle ra§dius=1\n", "hover")["contents"]["value"])
 check("a value of petri's", "tempo" in spot("!n a=be§at\n", "hover")["contents"]["value"])
 check("a keyword", "repeats" in spot("fo§r i in 3\n    !n\n", "hover")["contents"]["value"])

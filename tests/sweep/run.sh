@@ -277,6 +277,7 @@ END
     refused "a wrong value" "option '--frames' expects a whole number" --plan wrong.yaml
     printf 'a: [1\n' >wrong.yaml
     refused "no YAML" 'wrong.yaml:2:1: this is no YAML' --plan wrong.yaml
+    refused "a plan that is not there" 'cannot read nope.yaml: No such file' --plan nope.yaml
     sweep --plan "$root/samples/dish.yaml" --frames 2 -D DROPS=5 --summary means.csv
     check "the sample" [ "$(cut -d, -f1-4 out | tail -n 1)" = '3,5,0.5,1' ]
 else
@@ -292,6 +293,7 @@ refused "a value that is missing" 'a value is missing' sum.fl -D 'A=1;;2' --metr
 refused "a name that is a column" 'has a column of this name' sum.fl -D A=1 --metric A=1
 refused "no expression" "option '--metric' expects an expression, not '1+'" sum.fl --metric 'a=1+'
 refused "no expression of names" "option '--where' expects" sum.fl -D A=1 --where 'X > 1' --metric a=A
+check "… which is shown as it was written" has err '    X > 1'
 refused "no combination" "no run is left: 'A > 5' never holds" sum.fl -D A=1 --where 'A > 5' --metric a=A
 refused "no such sample" 'latin:COUNT' sum.fl -D A=1..2 --sample grid --metric a=A
 refused "too many runs" 'runs are too many' sum.fl -D A=1..10000 -D B=1..10000 --metric a=A

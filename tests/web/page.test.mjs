@@ -1,6 +1,8 @@
 // page.test.mjs: the page in headless Chromium, as a person uses it. Skipped where npm's modules or the browser are not.
 import assert from 'node:assert/strict';
-import { existsSync, readFileSync } from 'node:fs';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
 import { fileURLToPath, pathToFileURL } from 'node:url';
@@ -168,6 +170,82 @@ test('links that are none are told, and change nothing', options, async () => {
         },
     });
 });
+
+// How many pixels differ by more than 5 % of a colour from a PNG.
+const differing = (page, png) => page.evaluate(async url => {
+    const image = new Image();
+    image.src = url;
+    await image.decode();
+    const canvas = document.getElementById('picture'), { width, height } = canvas;
+    if (image.width !== width || image.height !== height)
+        return width * height;
+    const other = new OffscreenCanvas(width, height).getContext('2d');
+    other.drawImage(image, 0, 0);
+    const a = canvas.getContext('2d').getImageData(0, 0, width, height).data, b = other.getImageData(0, 0, width, height).data;
+    let count = 0;
+    for (let i = 0; i < a.length; i += 4)
+        count += Math.max(Math.abs(a[i] - b[i]), Math.abs(a[i + 1] - b[i + 1]), Math.abs(a[i + 2] - b[i + 2])) > 13;
+    return count / (width * height);
+}, `data:image/png;base64,${png.toString('base64')}`);
+
+// The frame that `petri render --frames 1` shows: the first where particles are where they will be.
+const PICTURES = { aquarium: 2, barriers: 0, beads: 2, clockwork: 0, dish: 2, hello: 2, springs: 2, terrain: 0, trails: 2 };
+const petri = join(root, 'build/src/petri-pictures');
+const drawn = { ...options, skip: options.skip || (existsSync(petri) ? false : `there is no ${petri}`) };
+
+test('pictures of the samples are those of petri render but for edges', drawn, () => opened('', {
+    use: async page => {
+        for (const [name, frame] of Object.entries(PICTURES)) {
+            const scratch = join(mkdtempSync(join(tmpdir(), 'petri-')), 'a.png');
+            execFileSync(petri, ['render', join(root, `samples/${name}.fl`), '--frames', '1', '-o', scratch, '--quiet']);
+            await page.evaluate(() => delete document.body.dataset.frame);
+            await page.selectOption('#samples', `${name}.fl`);
+            await atFrame(page, 2);
+            if (frame === 0) {
+                await page.click('#reset');
+                await atFrame(page, 0);
+            }
+            const part = await differing(page, readFileSync(scratch));
+            rmSync(dirname(scratch), { recursive: true });
+            assert.ok(part < 0.01, `${name}: ${part} of its pixels`);
+        }
+    },
+}));
+
+test('recursion that is too deep does not end the engine, in a worker, either', options, () => opened('', {
+    use: async page => {
+        const names = Array.from({ length: 40 }, (_, i) => `f${i}`), nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);
+        const functions = names.map((name, i) => `func ${name}(fs, n)\n    ${nested}fs[${(i + 1) % 40}](fs, n-1)${end} if n>0 else 0\n`);
+        await typed(page, `${functions.join('')}let fs=${names.join(';')}\n!a x=f0(fs, 9000)\n!window size=48;16\n    !canvas\n`);
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('picture').width === 48);
+        assert.match(await page.textContent('#problems'), /recursion too deep/);
+    },
+}));
+
+test('axe finds nothing serious, dark or light', options, async () => {
+    const axe = readFileSync(join(root, 'src/web/page/node_modules/axe-core/axe.min.js'), 'utf8');
+    for (const colorScheme of ['light', 'dark'])
+        await opened('', {
+            settings: { colorScheme },
+            use: async page => {
+                await page.evaluate(axe);
+                const { violations } = await page.evaluate(() => globalThis.axe.run());
+                const bad = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+                assert.deepEqual(bad.map(({ id, nodes }) => [colorScheme, id, nodes.map(node => node.html.slice(0, 120))]), []);
+            },
+        });
+});
+
+test('text and picture are saved as files', options, () => opened('', {
+    use: async page => {
+        for (const [button, name, begins] of [['#save', 'dish.fl', '-- '], ['#image', 'dish-2.png', '\x89PNG']]) {
+            const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
+            assert.equal(download.suggestedFilename(), name);
+            assert.ok(readFileSync(await download.path(), 'latin1').startsWith(begins), name);
+        }
+    },
+}));
 
 test('what runs for ever is stopped, and the text stays', options, () => opened('', {
     use: async page => {

@@ -11,7 +11,7 @@ const FIRST = 'dish.fl';
 const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
 
 const encoder = new TextEncoder();
-const state = { name: FIRST, running: false, loaded: null, frame: -1, most: -1, told: [], help: [], images: new Map(), behind: 0, last: 0, files: new Map() };
+const state = { name: FIRST, running: false, loaded: null, frame: -1, most: -1, told: [], help: [], images: new Map(), behind: 0, last: 0, fps: 60, files: new Map() };
 let editor, remote, samples, parameters;
 
 function say(text, bad = false) {
@@ -76,7 +76,7 @@ function draw({ picture }) {
 }
 
 function show(answer) {
-    Object.assign(state, { frame: answer.frame, most: answer.most });
+    Object.assign(state, { frame: answer.frame, most: answer.most, fps: answer.fps });
     addTold(answer.told);
     const undrawn = draw(answer);
     $('number').textContent = `frame ${answer.frame}, ${answer.time.toFixed(2)} s`;
@@ -143,7 +143,7 @@ async function tick(now) {
     if (!state.running)
         return;
     const speed = Number($('speed').value);
-    state.behind = Math.min(state.behind + (now - state.last) / 1000 * 60 * speed, MOST_STEPS);
+    state.behind = Math.min(state.behind + (now - state.last) / 1000 * state.fps * speed, MOST_STEPS);
     state.last = now;
     const count = Math.floor(state.behind);
     if (count > 0) {
@@ -242,13 +242,16 @@ async function copyLink() {
     say(copied ? 'The link is copied; nothing has left this machine.' : 'The link is in the address bar.');
 }
 
-function save() {
+function saveAs(name, blob) {
     const link = document.createElement('a');
-    link.href = URL.createObjectURL(new Blob([editor.text], { type: 'text/plain' }));
-    link.download = state.name;
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
     link.click();
     URL.revokeObjectURL(link.href);
 }
+
+const save = () => saveAs(state.name, new Blob([editor.text], { type: 'text/plain' }));
+const saveImage = () => $('picture').toBlob(blob => blob && saveAs(state.name.replace(/\.fl$/, '') + `-${state.frame}.png`, blob));
 
 // Scripts, and what they read; the script to run is the first, unless one is open and these are files beside it.
 async function takeFiles(files) {
@@ -296,6 +299,7 @@ function listen() {
     $('time').oninput = () => seek(Number($('time').value));
     $('link').onclick = copyLink;
     $('save').onclick = save;
+    $('image').onclick = saveImage;
     $('open').onclick = () => $('file').click();
     $('file').onchange = () => takeFiles($('file').files);
     $('samples').onchange = () => {

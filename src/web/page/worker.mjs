@@ -11,7 +11,7 @@ const tell = diagnostic => told.push(diagnostic);
 function shown(extra = {}) {
     const { session } = player, picture = player.frame >= 0 ? session.picture({ automatic: player.automatic }) : null;
     return {
-        type: 'frame', frame: player.frame, most: player.most, time: player.frame >= 0 ? session.frame.time : 0,
+        type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
         picture, log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
     };
 }
