@@ -165,6 +165,8 @@ void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *pain
 void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint);
 // The pixels of an image and how many there are, to be given back; NULL, after a report, if there is none.
 cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image);
+// The same without a copy: the picture of a node, in memory, or what a file has; false if there is neither.
+bool draw_find_pixels(Canvas *canvas, const ListImage *image, const Texture **texture, cairo_surface_t **file);
 // The picture of an image that stands among pictures, to be freed; NULL, after a report, if there is none.
 Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
                             DiagSink *faults);

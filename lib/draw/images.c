@@ -177,10 +177,10 @@ static bool find_box(const ListImage *image, double width, double height, Box *b
     return box->scale_x != 0 && box->scale_y != 0 && isfinite(box->scale_x) && isfinite(box->scale_y);
 }
 
-static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box, const double point[2],
-                        const ListPaint *paint) {
+// Paints a surface, or on a wide canvas what the shade has.
+static void paint_image(Canvas *canvas, cairo_surface_t *surface, Shade *shade, double width, double height,
+                        const Box *box, const double point[2], const ListPaint *paint) {
     cairo_t *cr = canvas->cr;
-    double width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
     draw_forget_path(canvas);
     cairo_save(cr);
     draw_set_edges(canvas, paint->antialias, FILL_WINDING);
@@ -196,17 +196,22 @@ static void paint_image(Canvas *canvas, cairo_surface_t *surface, const Box *box
     cairo_matrix_init(&placed, box->scale_x, 0, 0, box->scale_y, box->x, box->y);
     cairo_matrix_multiply(&placed, &placed, &matrix);
     if (draw_is_invertible(&placed)) {
+        double alpha = fmin(fmax(paint->color[3], 0), 1);
         cairo_set_matrix(cr, &placed);
-        cairo_set_source_surface(cr, surface, 0, 0);
-        cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
-        cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // up to the edges
         cairo_rectangle(cr, 0, 0, width, height);
         cairo_clip(cr);
-        cairo_set_operator(cr, draw_operator(paint->composite));
-        if (canvas->wide.pixels)
-            light_image(canvas, paint);
-        else
-            cairo_paint_with_alpha(cr, fmin(fmax(paint->color[3], 0), 1));
+        if (surface) {
+            cairo_set_source_surface(cr, surface, 0, 0);
+            cairo_pattern_set_filter(cairo_get_source(cr), CAIRO_FILTER_NEAREST);
+            cairo_pattern_set_extend(cairo_get_source(cr), CAIRO_EXTEND_PAD); // up to the edges
+            cairo_set_operator(cr, draw_operator(paint->composite));
+            cairo_paint_with_alpha(cr, alpha);
+        } else {
+            shade->to_units = placed;
+            shade->alpha = (float)alpha;
+            cairo_matrix_invert(&shade->to_units);
+            light_image(canvas, paint, shade);
+        }
     }
     cairo_restore(cr);
     draw_forget_path(canvas);
@@ -224,11 +229,16 @@ static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *pi
     return found->surface;
 }
 
-// The picture of a node; NULL, after a report, if there is none.
-static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
+// The picture of a node in memory; NULL if there is none.
+static Texture *find_texture(Canvas *canvas, Str id) {
     PetriPainter *painter = canvas->painter;
     Texture *texture = pictures_find(painter->pictures, id);
-    if (!texture || !texture_fetch(painter->gl, texture))
+    return texture && texture_fetch(painter->gl, texture) ? texture : NULL;
+}
+
+static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
+    Texture *texture = find_texture(canvas, id);
+    if (!texture)
         return NULL;
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
     uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
@@ -265,13 +275,29 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
     return !surface ? NULL : canvas->list->linear ? linear_copy(surface) : cairo_surface_reference(surface);
 }
 
+bool draw_find_pixels(Canvas *canvas, const ListImage *image, const Texture **texture, cairo_surface_t **file) {
+    *texture = image->file.len == 0 ? find_texture(canvas, image->id) : NULL;
+    *file = image->file.len == 0
+                ? NULL
+                : find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->faults);
+    return *texture || *file;
+}
+
 void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint) {
-    cairo_surface_t *surface = draw_find_image(canvas, image);
+    Shade shade = {.file = NULL};
+    cairo_surface_t *surface = NULL;
     Box box;
-    if (!surface)
+    if (canvas->wide.pixels)
+        draw_find_pixels(canvas, image, &shade.texture, &shade.file);
+    else
+        surface = draw_find_image(canvas, image);
+    cairo_surface_t *pixels = surface ? surface : shade.file;
+    if (!pixels && !shade.texture)
         return;
-    if (find_box(image, cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface), &box))
-        paint_image(canvas, surface, &box, image->point, paint);
+    int width = pixels ? cairo_image_surface_get_width(pixels) : shade.texture->width;
+    int height = pixels ? cairo_image_surface_get_height(pixels) : shade.texture->height;
+    if (find_box(image, width, height, &box))
+        paint_image(canvas, surface, &shade, width, height, &box, image->point, paint);
     cairo_surface_destroy(surface);
 }
 

@@ -12,6 +12,7 @@ typedef struct Stamp {
     const Sheet *sheet;      // at x, y; or
     int x;
     int y;
+    const Shade *shade; // or
     float color[4];
     CompositeMode mode;
 } Stamp;
@@ -49,6 +50,10 @@ static const unsigned char *row_of(const Pixels *pixels, int y) {
 // The colour at x, y of the target.
 static inline void find_color(const Stamp *stamp, const Pixels *colors, int x, int y, float color[4]) {
     const float *from = stamp->color;
+    if (stamp->shade) {
+        light_shade_at(stamp->shade, x + 0.5, y + 0.5, color);
+        return;
+    }
     if (stamp->sheet) {
         const Sheet *sheet = stamp->sheet;
         static const float nothing[4];
@@ -120,10 +125,14 @@ void light_figure(Canvas *canvas, const ListCommand *command, const ListPaint *p
     cairo_t *cr = canvas->cr;
     Stamp stamp = {.mode = (CompositeMode)paint->composite};
     float alpha = (float)fmin(fmax(paint->color[3], 0), 1);
-    draw_set_source(canvas, paint); // from which control may leave
+    Shade shade;
+    if (paint->source != LIST_NONE && light_shade_source(canvas, paint->source, alpha, &shade))
+        stamp.shade = &shade;
+    else
+        draw_set_source(canvas, paint); // from which control may leave
     cairo_save(cr);
     draw_clip_to_box(canvas, command, paint);
-    if (paint->source != LIST_NONE)
+    if (paint->source != LIST_NONE && !stamp.shade)
         stamp.colors = make_group(cr, CAIRO_CONTENT_COLOR_ALPHA, 1);
     for (int k = 0; k < 3; k++)
         stamp.color[k] = (float)paint->color[k] * alpha;
@@ -133,9 +142,8 @@ void light_figure(Canvas *canvas, const ListCommand *command, const ListPaint *p
     cairo_restore(cr);
 }
 
-void light_image(Canvas *canvas, const ListPaint *paint) {
-    Stamp stamp = {.mode = (CompositeMode)paint->composite};
-    stamp.colors = make_group(canvas->cr, CAIRO_CONTENT_COLOR_ALPHA, fmin(fmax(paint->color[3], 0), 1));
+void light_image(Canvas *canvas, const ListPaint *paint, const Shade *image) {
+    Stamp stamp = {.shade = image, .mode = (CompositeMode)paint->composite};
     stamp.cover = make_group(canvas->cr, CAIRO_CONTENT_ALPHA, 1);
     lay_stamp(canvas, &stamp);
 }

@@ -171,8 +171,8 @@ typedef struct PetriOptions {
     // thread that draws a picture; nothing of the session may be called by it.
     const char *(*read)(void *read_host, const char *name, size_t *length);
     void *read_host;
-    // The text that stands for a file on the disk which a script imports or includes, such as one that an editor has not
-    // saved yet, or NULL: then the file counts. `name` is its canonical path; the rest is as for `read`.
+    // The text that stands for a file on the disk which a script imports or includes, such as one that an editor has
+    // not saved yet, or NULL: then the file counts. `name` is its canonical path; the rest is as for `read`.
     const char *(*unsaved)(void *read_host, const char *name, size_t *length);
 } PetriOptions;
 
@@ -432,7 +432,7 @@ PETRI_API void petri_call_fault(PetriCall *call, const char *text);
 // Numbers of the particles of a system where they lie: those of particle i begin at `data[i * stride]`.
 typedef struct PetriColumn {
     const double *data; // NULL if there are none
-    size_t stride; // 0: all particles have the same
+    size_t stride;      // 0: all particles have the same
 } PetriColumn;
 
 // A particle system of the last frame. Anchors are particles, too. Its columns point into the session, and nothing is
@@ -510,8 +510,8 @@ typedef struct PetriNodeKind {
     const char *name; // without the `!`
     const char *area; // "physics", "canvas" or "canvas3d"; `group` is a kind of each
     const char *help;
-    // Of a force: lines `F = …`, with `if` for cases of which the first counts, and what they take before them; else "".
-    // n dimensions, δ the length of a step; of a particle, or of the first and second of a pair: r radius, m mass,
+    // Of a force: lines `F = …`, with `if` for cases of which the first counts, and what they take before them; else
+    // "". n dimensions, δ the length of a step; of a particle, or of the first and second of a pair: r radius, m mass,
     // q charge, v velocity, l the distance of the two, s that from a wall. Above 0 a pair is pushed apart. A force has
     // the unit mass·length/time², each of them as the script chooses.
     const char *formula;

@@ -28,8 +28,8 @@ typedef struct Options {
     bool unreadable;    // some path could not be read
     const char *(*unsaved)(void *host, const char *path, size_t *length); // see PetriOptions; NULL
     void *unsaved_host;
-    bool prompt;        // the session keeps forces to show and can be interrupted
-    int argc;           // the words of the command line, from behind the command's name
+    bool prompt; // the session keeps forces to show and can be interrupted
+    int argc;    // the words of the command line, from behind the command's name
     char **argv;
 } Options;
 

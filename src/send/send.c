@@ -76,7 +76,8 @@ const Command SEND_COMMAND = {
         "true}.\n"
         "The text is evaluated as at the prompt of petri repl: expressions once, what binds names and nodes in each\n"
         "frame, after the script. '.set NAME VALUE' sets a parameter ('.set NAME' its default), '.back N' goes back N\n"
-        "frames, '.drop' forgets what was sent before, '.reset' starts the script anew. The exit status is 1 if the text\n"
+        "frames, '.drop' forgets what was sent before, '.reset' starts the script anew. The exit status is 1 if the "
+        "text\n"
         "was not taken.",
     .examples = "  petri view dish.fl --listen /tmp/dish &\n"
                 "  petri send /tmp/dish 'len($)'\n"

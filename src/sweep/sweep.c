@@ -295,7 +295,8 @@ static int make_runs(Sweep *sweep, Journal *journal) {
 // Before the work begins: a table that nothing is sent to is dropped.
 static bool can_write(const char *output) {
     Hdf5 writer;
-    return output == NULL || !hdf5_is_wanted(output) || (hdf5_start(&writer, "table", output, NULL) && hdf5_end(&writer));
+    return output == NULL || !hdf5_is_wanted(output) ||
+           (hdf5_start(&writer, "table", output, NULL) && hdf5_end(&writer));
 }
 
 static int run_sweep(Sweep *sweep) {

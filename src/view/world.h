@@ -36,7 +36,7 @@ typedef struct World {
     bool lacking;   // there was no memory for a picture, which was told
     StateFile state;
     bool remembers;        // frames are kept, to go back to them
-    FrameHistory history;       // … here
+    FrameHistory history;  // … here
     bool wrong_definition; // the script cannot take a value of -D
     // Messages
     bool mute;         // standard error belongs to the display: messages are kept in `log` until it is closed

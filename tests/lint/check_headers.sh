@@ -13,7 +13,7 @@ for header in lib/*/*.h src/*/*.h tests/support/*.h; do
     # What takes a library is for builds that have it.
     isa=
     case $header in
-    lib/draw/draw.h | lib/draw/light.h | lib/draw/sheets.h)
+    lib/draw/draw.h | lib/draw/light.h | lib/draw/shade.h | lib/draw/sheets.h)
         pkg-config --exists pangocairo 2>/dev/null || continue
         isa=$(pkg-config --cflags pangocairo)
         ;;

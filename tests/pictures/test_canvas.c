@@ -339,6 +339,48 @@ static void test_wide(void **state) {
     }
 }
 
+// A grey of so much light.
+static void check_light(const Drawn *drawn, int x, int y, double light, const char *what) {
+    double grey = model_enc(light);
+    check_pixel(drawn, x, y, (double[]){grey, grey, grey}, what);
+}
+
+// Gradients, colours, mixtures, images and patterns of such canvases are not rounded to bytes, nor cut off at 1.
+static void test_wide_sources(void **state) {
+    (void)state;
+    static const char script[] =
+        "!window size=60;60 alpha=0.125\n"
+        "    !canvas size=2;2 id=:dark hidden=true\n"
+        "        !rect size=2;2 fill=true color=0.04\n"
+        "    !canvas linear=true colorbits=32 size=2;2 id=:bright hidden=true\n"
+        "        !rect size=2;2 fill=true color=6\n        !rect size=1;2 fill=true color=2\n"
+        "    !canvas linear=true colorbits=32\n"
+        "        !group\n            !gradient start=0;0 end=60;0\n                !stop color=0\n"
+        "                !stop color=0.4\n            !rect size=60;10 fill=true\n"
+        "        !group color=0;0;0;0.5\n            !gradient radius=60 point=0;15\n                !stop color=0\n"
+        "                !stop color=0.4\n            !rect point=0;10 size=60;10 fill=true\n"
+        "        !group\n            !blend ratio=0.25\n                !color color=2\n"
+        "                !color color=6\n            !rect point=0;20 size=60;10 fill=true\n"
+        "        !image image_id=:dark point=0;30 size=60;10\n"
+        "        !image image_id=:bright point=0;40 size=60;10\n"
+        "        !group\n            !pattern image_id=:bright translate=1;0\n"
+        "            !rect point=0;50 size=60;10 fill=true\n";
+    Drawn drawn;
+    drawn_open(&drawn, script, 1);
+    assert_string_equal(drawn.told, "");
+    double end = model_lin(102 / 255.0) * 0.125;
+    for (int x = 0; x < 60; x++) {
+        check_light(&drawn, x, 5, (x + 0.5) / 60 * end, "linear");
+        double far = sqrt((x + 0.5) * (x + 0.5) + 0.25) / 60;
+        check_light(&drawn, x, 15, fmin(far, 1) * end / 2, "radial");
+        check_light(&drawn, x, 25, 3 * 0.125, "blend");
+        check_light(&drawn, x, 35, model_lin(10 / 255.0) * 0.125, "bytes");
+        check_light(&drawn, x, 45, (x < 30 ? 2 : 6) * 0.125, "light");
+        check_light(&drawn, x, 55, (x % 2 == 1 ? 2 : 6) * 0.125, "pattern");
+    }
+    drawn_close(&drawn);
+}
+
 static void test_noise(void **state) {
     (void)state;
     static Turbulence t;
@@ -637,12 +679,19 @@ static void test_bad_input(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_modes),         cmocka_unit_test(test_filter_blend),
-        cmocka_unit_test(test_color_matrix),  cmocka_unit_test(test_blur),
-        cmocka_unit_test(test_other_filters), cmocka_unit_test(test_wide),
-        cmocka_unit_test(test_noise),         cmocka_unit_test(test_arc_to),
-        cmocka_unit_test(test_path_effects),  cmocka_unit_test(test_jitter),
-        cmocka_unit_test(test_memory),        cmocka_unit_test(test_pictures_of_nodes),
+        cmocka_unit_test(test_modes),
+        cmocka_unit_test(test_filter_blend),
+        cmocka_unit_test(test_color_matrix),
+        cmocka_unit_test(test_blur),
+        cmocka_unit_test(test_other_filters),
+        cmocka_unit_test(test_wide),
+        cmocka_unit_test(test_wide_sources),
+        cmocka_unit_test(test_noise),
+        cmocka_unit_test(test_arc_to),
+        cmocka_unit_test(test_path_effects),
+        cmocka_unit_test(test_jitter),
+        cmocka_unit_test(test_memory),
+        cmocka_unit_test(test_pictures_of_nodes),
         cmocka_unit_test(test_bad_input),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

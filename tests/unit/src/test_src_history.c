@@ -1,7 +1,7 @@
 // test_src_history.c: going back and forth in the frames of a session: the same bits, in bounded memory.
 #include "cli/cli.h"
-#include "player.h"
 #include "cli/history.h"
+#include "player.h"
 
 #include <stdarg.h>
 

@@ -1,0 +1,128 @@
+// shade.c: see shade.h.
+#include "draw/shade.h"
+
+#include "draw/blend.h"
+
+#include <math.h>
+
+// Blends of blends are no deeper than scripts can nest them.
+static bool is_known(const List *list, uint32_t number) {
+    const ListSource *source = &list->sources.at[number];
+    const double *ends = source->ends;
+    switch (source->kind) {
+    case SOURCE_COLOR:
+    case SOURCE_RADIAL:
+        return true;
+    case SOURCE_LINEAR:
+        return ends[0] != ends[2] || ends[1] != ends[3];
+    case SOURCE_BLEND:
+        return is_known(list, source->first_stop) && is_known(list, source->stop_count);
+    case SOURCE_PATTERN:
+    case SOURCE_NOISE:
+        break;
+    }
+    return false;
+}
+
+bool light_shade_source(Canvas *canvas, uint32_t source, double alpha, Shade *shade) {
+    const ListSource *from = &canvas->list->sources.at[source];
+    const ListMatrix *m = &from->matrix;
+    *shade = (Shade){.list = canvas->list, .source = source, .alpha = (float)alpha};
+    cairo_get_matrix(canvas->cr, &shade->to_units);
+    if (from->kind == SOURCE_PATTERN) {
+        cairo_matrix_t own = {m->xx, m->yx, m->xy, m->yy, m->x0, m->y0};
+        cairo_matrix_multiply(&shade->to_units, &own, &shade->to_units);
+        shade->repeats = true;
+        if (!draw_find_pixels(canvas, &canvas->list->images.at[from->image], &shade->texture, &shade->file))
+            return false;
+    } else if (!is_known(canvas->list, source)) {
+        return false;
+    }
+    return cairo_matrix_invert(&shade->to_units) == CAIRO_STATUS_SUCCESS;
+}
+
+// Colours go over into each other without their alpha.
+static void find_stop(const List *list, const ListSource *source, double at, float color[4]) {
+    const ListStop *stops = &list->stops.at[source->first_stop];
+    uint32_t next = 0, last = source->stop_count - 1;
+    while (next <= last && stops[next].offset <= at)
+        next++;
+    const ListStop *to = &stops[next < last ? next : last], *from = next > 0 ? &stops[next - 1] : to;
+    double way = to->offset - from->offset, share = way > 0 ? (at - from->offset) / way : 0;
+    share = share < 1 ? share : 1;
+    for (int k = 0; k < 4; k++)
+        color[k] = (float)(from->color[k] + share * (to->color[k] - from->color[k]));
+    for (int k = 0; k < 3; k++)
+        color[k] *= color[3];
+}
+
+static void find_source(const List *list, uint32_t number, double x, double y, float color[4]) {
+    const ListSource *source = &list->sources.at[number];
+    const double *ends = source->ends, dx = ends[2] - ends[0], dy = ends[3] - ends[1];
+    const ListMatrix *m = &source->matrix;
+    if (source->kind == SOURCE_LINEAR) {
+        find_stop(list, source, ((x - ends[0]) * dx + (y - ends[1]) * dy) / (dx * dx + dy * dy), color);
+    } else if (source->kind == SOURCE_RADIAL) {
+        double size = m->xx * m->yy - m->xy * m->yx, u = x - m->x0, v = y - m->y0;
+        find_stop(list, source, hypot((m->yy * u - m->xy * v) / size, (m->xx * v - m->yx * u) / size), color);
+    } else if (source->kind == SOURCE_COLOR) {
+        color[3] = (float)fmin(fmax(source->color[3], 0), 1);
+        for (int k = 0; k < 3; k++)
+            color[k] = (float)source->color[k] * color[3];
+    } else {
+        float second[4], share = (float)source->ratio;
+        find_source(list, source->first_stop, x, y, color);
+        find_source(list, source->stop_count, x, y, second);
+        if (isnan(source->ratio))
+            blend_colors((CompositeMode)source->mode, second, color, color);
+        for (int k = 0; k < 4 && !isnan(source->ratio); k++)
+            color[k] += share * (second[k] - color[k]);
+    }
+}
+
+static int place(const Shade *shade, double at, int size) {
+    const double LEAST = 1.0 / 65536; // what is on the edge between two belongs to the second, however it was rounded
+    at += LEAST;
+    at -= shade->repeats ? floor(at / size) * size : 0;
+    return at >= 1 ? at < size ? (int)at : size - 1 : 0;
+}
+
+static void find_bytes(uint32_t pixel, bool straight, float color[4]) {
+    color[3] = (float)(pixel >> 24) / 255;
+    for (unsigned k = 0; k < 3; k++) {
+        unsigned c = pixel >> (16 - 8 * k) & 255, alpha = pixel >> 24;
+        unsigned plain = straight && alpha > 0 ? (c * 255 + alpha / 2) / alpha : c;
+        color[k] = texture_decode(plain < 255 ? plain : 255) * (straight ? color[3] : 1);
+    }
+}
+
+// The nearest pixel. The colours of a file are decoded without their alpha, those of pictures with it.
+static void find_pixel(const Shade *shade, double x, double y, float color[4]) {
+    const Texture *texture = shade->texture;
+    if (texture) {
+        size_t at =
+            (size_t)place(shade, y, texture->height) * (size_t)texture->width + (size_t)place(shade, x, texture->width);
+        if (!texture->linear)
+            find_bytes(texture->bytes[at], false, color);
+        for (size_t k = 0; k < 4 && texture->linear; k++)
+            color[k] = texture->linear[4 * at + k];
+        return;
+    }
+    const unsigned char *row = cairo_image_surface_get_data(shade->file) +
+                               (size_t)place(shade, y, cairo_image_surface_get_height(shade->file)) *
+                                   (size_t)cairo_image_surface_get_stride(shade->file);
+    uint32_t pixel = ((const uint32_t *)(const void *)row)[place(shade, x, cairo_image_surface_get_width(shade->file))];
+    if (cairo_image_surface_get_format(shade->file) != CAIRO_FORMAT_ARGB32)
+        pixel |= 0xff000000u;
+    find_bytes(pixel, true, color);
+}
+
+void light_shade_at(const Shade *shade, double x, double y, float color[4]) {
+    cairo_matrix_transform_point(&shade->to_units, &x, &y);
+    if (shade->texture || shade->file)
+        find_pixel(shade, x, y, color);
+    else
+        find_source(shade->list, shade->source, x, y, color);
+    for (int k = 0; k < 4; k++)
+        color[k] *= shade->alpha;
+}
