@@ -26,10 +26,12 @@ static void start_share(void *context, int share, int shares) {
     size_t count = phys_share(columns->count, share + 1, shares) - first;
     for (size_t k = 0; k < n; k++) {
         double *force = columns->force + k * stride + first;
-        const double *own_force = columns->own_force + k * stride + first;
-        if (!system->has_own_forces)
+        if (!system->has_own_forces) { // nor a column of them
             memset(force, 0, count * sizeof *force);
-        else if (!system->has_eased_forces)
+            continue;
+        }
+        const double *own_force = columns->own_force + k * stride + first;
+        if (!system->has_eased_forces)
             memcpy(force, own_force, count * sizeof *force);
         else
             for (size_t i = 0; i < count; i++)

@@ -133,7 +133,7 @@ const Node *const *node_children(Arena *arena, const Node *node, uint32_t *count
         return node->children;
     if (all > UINT32_MAX) // more than there can be memory for
         arena_exhausted(arena);
-    const Node **nodes = arena_alloc_array(arena, all, sizeof *nodes), **to = nodes;
+    const Node **nodes = arena_alloc_array(arena, *count, sizeof *nodes), **to = nodes;
     for (uint32_t i = 0; i < node->child_count; i++)
         if (node->children[i]->is_run)
             to = make_rows(arena, node_run(node->children[i]), to);
