@@ -1,5 +1,5 @@
-// light.h: canvases whose light does not end at 1 (spec canvas.md 1.5): Cairo makes figures, of 8 bits; colours are made
-// (shade.h) and combined here, as numbers.
+// light.h: canvases whose light does not end at 1 (spec canvas.md 1.5): Cairo makes figures, of 8 bits; colours are
+// made (shade.h) and combined here, as numbers.
 #ifndef PETRI_DRAW_LIGHT_H
 #define PETRI_DRAW_LIGHT_H
 
