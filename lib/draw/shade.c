@@ -2,6 +2,7 @@
 #include "draw/shade.h"
 
 #include "draw/blend.h"
+#include "maths/maths.h"
 
 #include <math.h>
 
@@ -64,7 +65,7 @@ static void find_source(const List *list, uint32_t number, double x, double y, f
         find_stop(list, source, ((x - ends[0]) * dx + (y - ends[1]) * dy) / (dx * dx + dy * dy), color);
     } else if (source->kind == SOURCE_RADIAL) {
         double size = m->xx * m->yy - m->xy * m->yx, u = x - m->x0, v = y - m->y0;
-        find_stop(list, source, hypot((m->yy * u - m->xy * v) / size, (m->xx * v - m->yx * u) / size), color);
+        find_stop(list, source, maths_hypot((m->yy * u - m->xy * v) / size, (m->xx * v - m->yx * u) / size), color);
     } else if (source->kind == SOURCE_COLOR) {
         color[3] = (float)fmin(fmax(source->color[3], 0), 1);
         for (int k = 0; k < 3; k++)

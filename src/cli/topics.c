@@ -61,9 +61,8 @@ static void tell_attributes(Output *output, size_t kind) {
 }
 
 const char FORMULA_LETTERS[] =
-    "of a particle, or the first and the second of a pair: r radius, m mass, q charge, v velocity; l their distance, s "
-    "that "
-    "from a wall; n dimensions, δ a step; F > 0 pushes a pair apart, in your units of mass·length/time²";
+    "of a particle, or the first and the second of a pair: r radius, m mass, q charge, v velocity; l their distance, "
+    "s that from a wall; n dimensions, δ a step; F > 0 pushes a pair apart, in your units of mass·length/time²";
 
 void help_formula(Output *output, const PetriNodeKind *kind) {
     for (const char *line = kind->formula; *line != '\0'; line += line[0] == '\n') {
