@@ -108,10 +108,11 @@ void gl_close(Gl *gl) {
     if (!gl)
         return;
     if (gl->context != EGL_NO_CONTEXT) {
-        if (gl_enter(gl, &problem)) {
+        gl->lost = !gl_enter(gl, &problem);
+        gl_programs_close(gl);
+        gl_store_close(gl);
+        if (!gl->lost) {
             gl_images_close(gl);
-            gl_programs_close(gl);
-            gl_store_close(gl);
             glDeleteFramebuffers(1, &gl->framebuffer);
             glDeleteVertexArrays(1, &gl->strip);
             glDeleteBuffers(1, &gl->corners);

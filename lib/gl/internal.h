@@ -15,6 +15,7 @@ struct Gl {
     void *display; // EGLDisplay
     void *context; // EGLContext
     bool adopted;  // it is the host's
+    bool lost;     // and gone: what it has is gone with it, and only memory is given back
     int largest;
     bool floats; // can be drawn to
     bool halves;

@@ -31,8 +31,9 @@ static char *copy(Str text) {
     return out;
 }
 
-static void free_program(GlProgram *program) {
-    glDeleteProgram(program->program);
+static void free_program(const Gl *gl, GlProgram *program) {
+    if (!gl->lost)
+        glDeleteProgram(program->program);
     heap_give(program->vertex);
     heap_give(program->fragment);
     heap_give(program->problem);
@@ -42,7 +43,7 @@ static void free_program(GlProgram *program) {
 void gl_programs_close(Gl *gl) {
     for (GlProgram *program = gl->programs, *next; program; program = next) {
         next = program->next;
-        free_program(program);
+        free_program(gl, program);
     }
     gl->programs = NULL;
 }
@@ -103,7 +104,7 @@ unsigned gl_program(Gl *gl, Arena *arena, Str vertex, Str fragment, GlFault *fau
         program->fragment = copy(fragment);
         program->next = gl->programs;
         if (!program->vertex || !program->fragment) {
-            free_program(program);
+            free_program(gl, program);
             arena_exhausted(arena);
         }
         gl->programs = program;

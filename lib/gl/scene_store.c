@@ -30,18 +30,22 @@ GlStore *gl_store(Gl *gl) {
     return store;
 }
 
-static void free_kept(SceneKept *kept) {
-    glDeleteVertexArrays(1, &kept->shape.array);
-    glDeleteBuffers(1, &kept->shape.corners);
-    glDeleteBuffers(1, &kept->shape.indices);
+static void free_kept(bool lost, SceneKept *kept) {
+    if (!lost) {
+        glDeleteVertexArrays(1, &kept->shape.array);
+        glDeleteBuffers(1, &kept->shape.corners);
+        glDeleteBuffers(1, &kept->shape.indices);
+    }
     heap_give(kept);
 }
 
 static void free_target(Gl *gl, SceneTarget *target) {
     meter_give(gl->meter, target->charged);
-    glDeleteFramebuffers(1, &target->framebuffer);
-    glDeleteRenderbuffers(1, &target->color);
-    glDeleteRenderbuffers(1, &target->depth);
+    if (!gl->lost) {
+        glDeleteFramebuffers(1, &target->framebuffer);
+        glDeleteRenderbuffers(1, &target->color);
+        glDeleteRenderbuffers(1, &target->depth);
+    }
     *target = (SceneTarget){.framebuffer = 0};
 }
 
@@ -51,13 +55,15 @@ void gl_store_close(Gl *gl) {
         return;
     for (SceneKept *kept = store->kept, *next; kept; kept = next) {
         next = kept->next;
-        free_kept(kept);
+        free_kept(gl->lost, kept);
     }
     for (int i = 0; i < SCENE_TARGETS; i++)
         free_target(gl, &store->targets[i]);
-    glDeleteBuffers(1, &store->instances);
-    glDeleteBuffers(1, &store->light_block);
-    glDeleteTextures(1, &store->light_texture);
+    if (!gl->lost) {
+        glDeleteBuffers(1, &store->instances);
+        glDeleteBuffers(1, &store->light_block);
+        glDeleteTextures(1, &store->light_texture);
+    }
     heap_give(store);
     gl->store = NULL;
 }
@@ -67,7 +73,7 @@ static void forget_old(GlStore *store) {
         SceneKept *kept = *at;
         if (kept->used + KEEP_FOR < store->now) {
             *at = kept->next;
-            free_kept(kept);
+            free_kept(false, kept);
         } else {
             at = &kept->next;
         }
