@@ -10,6 +10,7 @@ enum {
     REST_LONGEST = 1024,
     ENTRIES_A_UNIT = 4,
     LIFE_FIRST = 8, // steps that a list is expected to serve at first
+    LIFE_LEAST = 8, // and that it should serve
 };
 
 void phys_neighbours_free(Neighbours *list) {
@@ -166,10 +167,11 @@ static double cost_of_step(const Neighbours *list) {
 }
 
 // A longer skin makes longer lists that serve more steps. Each life tries another one, in the same direction until it
-// costs more than the last.
+// costs more than the last; but motion changes costs, too, and must not lead to lists that serve hardly any step.
 static void try_skin(Neighbours *list) {
     double cost = cost_of_step(list);
-    list->shorter ^= list->cost > 0 && cost > list->cost;
+    bool worse = list->cost > 0 && cost > list->cost;
+    list->shorter = list->life >= LIFE_LEAST && list->shorter != worse;
     list->cost = cost;
     list->skin *= list->shorter ? 1 / 1.2 : 1.2;
     list->skin = fmax(SKIN_LEAST * list->base, fmin(list->skin, SKIN_MOST * list->base));
@@ -177,7 +179,7 @@ static void try_skin(Neighbours *list) {
 
 // Neither many steps nor few are best.
 void phys_adapt_skin(Neighbours *list, uint32_t life) {
-    if (life < 8)
+    if (life < LIFE_LEAST)
         list->skin = fmin(list->skin * 1.25, SKIN_MOST * list->base);
     else if (life > 24)
         list->skin = fmax(list->skin / 1.15, SKIN_LEAST * list->base);
