@@ -3,6 +3,7 @@
 
 #include "base/heap.h"
 
+#include <dlfcn.h>
 #include <epoxy/egl.h>
 #include <pthread.h>
 #include <stdlib.h>
@@ -73,6 +74,12 @@ static bool adopt_context(Gl *gl, const char **problem) {
     return !epoxy_is_desktop_gl() && epoxy_gl_version() >= 30;
 }
 
+// libepoxy ends the process where one of them is missing. They stay loaded, for it to find.
+static bool are_installed(const char **problem) {
+    *problem = "EGL or OpenGL ES is not installed (Debian: libegl1, libgles2)";
+    return dlopen("libEGL.so.1", RTLD_LAZY) && dlopen("libGLESv2.so.2", RTLD_LAZY);
+}
+
 static Gl *open_with(bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
     Gl *gl = heap_zeroed(1, sizeof *gl);
     *problem = NULL;
@@ -84,7 +91,7 @@ static Gl *open_with(bool (*find_context)(Gl *gl, const char **problem), const c
     if (!getenv("EGL_LOG_LEVEL"))
         setenv("EGL_LOG_LEVEL", "fatal", 0);
     pthread_mutex_lock(&one_thread);
-    bool good = find_context(gl, problem);
+    bool good = are_installed(problem) && find_context(gl, problem);
     pthread_mutex_unlock(&one_thread);
     if (good && gl_enter(gl, problem)) {
         look_at_limits(gl);
