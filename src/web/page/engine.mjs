@@ -26,6 +26,8 @@ export class Remote {
         const worker = this.worker = startWorker(new URL('./worker.js', import.meta.url));
         this.waiting = new Map();
         worker.onmessage = ({ data }) => {
+            if (data.type === 'progress')
+                return this.progress?.(data);
             const { resolve, reject } = this.waiting.get(data.id);
             this.waiting.delete(data.id);
             if (data.type === 'failed' || data.type === 'broken' || data.type === 'stopped')

@@ -1,6 +1,8 @@
 // worker.mjs: the engine's thread. Messages come one at a time and each is answered, so that the page knows when it is free.
 import { loadEngine } from '../engine/petri.mjs';
+import { makeFilm, makeState, makeTable } from './exports.mjs';
 import { Player } from './player.mjs';
+import { StateTable, Watches } from './tables.mjs';
 
 const SEEK_STEPS = 50; // frames between looks at what the page wants
 let engine, player, checker, told = [], flag = null, current = 0;
@@ -9,12 +11,16 @@ let engine, player, checker, told = [], flag = null, current = 0;
 const wantsEnd = () => flag !== null && Atomics.load(flag, 0) >= current;
 const tell = diagnostic => told.push(diagnostic);
 
+const watches = new Watches(told), stateTable = new StateTable();
+
+const picture = automatic => player.frame >= 0 ? player.session.picture({ automatic }) : null;
+
 // What the page shows after a frame.
 function shown(extra = {}) {
-    const { session } = player, picture = player.frame >= 0 ? session.picture({ automatic: player.automatic }) : null;
+    const { session } = player;
     return {
         type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
-        picture, log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
+        picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
     };
 }
 
@@ -24,7 +30,7 @@ const acts = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
-        player = new Player(engine, { onDiagnostic: tell, wantsEnd });
+        player = new Player(engine, { onDiagnostic: tell, wantsEnd }, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
     files({ files }) {
@@ -39,6 +45,7 @@ const acts = {
     },
     load({ text, name, changes }) {
         player.load(text, name, changes);
+        watches.forget(-1);
         player.automatic = false;
         player.step();
         // Particles are not where they will be seen before frame 2.
@@ -81,6 +88,22 @@ const acts = {
     },
     prompt({ text }) {
         return { type: 'printed', text: player.session.prompt(text), told: take() };
+    },
+    state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
+    watch({ texts }) {
+        watches.set(texts);
+        if (player.frame >= 0)
+            watches.refill(player, wantsEnd);
+        return { type: 'done' };
+    },
+    series: () => ({ type: 'series', series: watches.series(player.most), frame: player.frame }),
+    // Files to be saved, of frames from one to another.
+    async save({ id, kind, from, to }) {
+        const range = { from, to, wantsEnd, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
+        return {
+            type: 'saved',
+            blob: await (kind === 'film' ? makeFilm(player, picture, range) : kind === 'particles' ? makeTable(player, range) : makeState(player)),
+        };
     },
     pointer({ inside, x, y, buttons }) {
         player.session.pointer(inside, x, y, buttons);
