@@ -68,10 +68,15 @@ function draw({ picture }) {
     const canvas = $('picture');
     if (!picture)
         return [];
-    const [width, height] = picture.numbers;
+    const [width, height] = picture.image ? [picture.image.width, picture.image.height] : picture.numbers;
     if (canvas.width !== width || canvas.height !== height)
         Object.assign(canvas, { width, height });
     document.title = picture.title ? `${picture.title} · petri` : 'petri';
+    if (picture.image) {
+        canvas.getContext('2d').drawImage(picture.image, 0, 0);
+        picture.image.close();
+        return picture.undrawn;
+    }
     return drawPicture(canvas.getContext('2d'), picture.numbers, { image: name => state.images.get(name.replace(/^.*\//, '')) });
 }
 

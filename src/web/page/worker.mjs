@@ -9,7 +9,7 @@ const tell = diagnostic => told.push(diagnostic);
 
 // What the page shows after a frame.
 function shown(extra = {}) {
-    const { session } = player, picture = player.frame >= 0 ? session.picture({ automatic: player.automatic }) : null;
+    const { session } = player, picture = player.frame >= 0 ? session.show({ automatic: player.automatic }) : null;
     return {
         type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
         picture, log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
@@ -89,7 +89,7 @@ onmessage = ({ data }) => {
     last = last.then(async () => {
         try {
             const answer = await acts[data.act](data);
-            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.numbers.buffer] : []);
+            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);
         } catch (error) {
             postMessage({
                 type: engine?.broken ? 'broken' : 'failed', id: data.id, message: error.message, told: take(),
