@@ -85,10 +85,16 @@ bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *nod
     return true;
 }
 
-// Makes width x height units fill a box of the target, keeping their proportions.
-static void fit(cairo_t *cr, double width, double height, double box_width, double box_height) {
+double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top) {
     double scale = fmin(box_width / width, box_height / height);
-    cairo_translate(cr, (box_width - width * scale) / 2, (box_height - height * scale) / 2);
+    *left = (box_width - width * scale) / 2;
+    *top = (box_height - height * scale) / 2;
+    return scale;
+}
+
+static void fit(cairo_t *cr, double width, double height, double box_width, double box_height) {
+    double left, top, scale = draw_fit(width, height, box_width, box_height, &left, &top);
+    cairo_translate(cr, left, top);
     cairo_scale(cr, scale, scale);
 }
 
