@@ -38,6 +38,7 @@ class Engine {
         const now = () => this.session;
         this.memory = instantiate(module, {
             write: (at, length) => now().written.push(this.memory.text(at, length)),
+            wants_end: () => (now().wantsEnd?.() ? 1 : 0),
             read: (name, length) => now().readFile(text(name), length),
             diagnostic: (level, file, message, code, hint, rendered, line, column, endLine, endColumn) =>
                 now().tell({
@@ -81,10 +82,11 @@ class Engine {
 }
 
 export class Session {
-    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, onDiagnostic } = {}) {
+    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, onDiagnostic, wantsEnd } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;
+        this.wantsEnd = wantsEnd;
         this.files = new Map();
         this.kept = []; // addresses of files, until the session is closed
         this.written = [];
