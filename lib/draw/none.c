@@ -1,7 +1,6 @@
 // none.c: paint.h in a build without Cairo: the host draws the canvases, if anyone does.
 #include "draw/painter.h"
 
-#include <math.h>
 #include <string.h>
 
 bool draw_tools_open(PetriPainter *painter) {
@@ -112,11 +111,10 @@ PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, con
 static void scale_texture(const Texture *texture, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                           size_t stride) {
     const Sampler sampler = {.clamped = true};
-    double scale = fmin(width / picture->width, height / picture->height);
-    double wide = picture->width * scale, high = picture->height * scale;
+    double left, top, scale = draw_fit(picture->width, picture->height, width, height, &left, &top);
     for (int y = 0; y < height; y++)
         for (int x = 0; x < width; x++) {
-            double u = (x + 0.5 - (width - wide) / 2) / wide, v = (y + 0.5 - (height - high) / 2) / high;
+            double u = (x + 0.5 - left) / (picture->width * scale), v = (y + 0.5 - top) / (picture->height * scale);
             float color[4] = {0};
             if (u >= 0 && u <= 1 && v >= 0 && v <= 1)
                 texture_sample(texture, &sampler, u, v, color);

@@ -36,10 +36,10 @@ void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level, const c
     va_end(args);
 }
 
-// Makes width x height units fill a box of the target, keeping their proportions.
+// Makes width x height units fill a box of the target.
 static void fit(cairo_t *cr, double width, double height, double box_width, double box_height) {
-    double scale = fmin(box_width / width, box_height / height);
-    cairo_translate(cr, (box_width - width * scale) / 2, (box_height - height * scale) / 2);
+    double left, top, scale = draw_fit(width, height, box_width, box_height, &left, &top);
+    cairo_translate(cr, left, top);
     cairo_scale(cr, scale, scale);
 }
 

@@ -4,6 +4,7 @@
 #include "base/heap.h"
 #include "draw/resize.h"
 
+#include <math.h>
 #include <string.h>
 
 PetriPainter *petri_painter_open(void) {
@@ -64,6 +65,13 @@ bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *nod
                 "%s: a picture of %d x %d pixels takes more memory than a script may have (--memory); it is left out",
                 node, width, height);
     return true;
+}
+
+double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top) {
+    double scale = fmin(box_width / width, box_height / height);
+    *left = (box_width - width * scale) / 2;
+    *top = (box_height - height * scale) / 2;
+    return scale;
 }
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {

@@ -210,12 +210,15 @@ void texture_sample(const Texture *texture, const Sampler *sampler, double u, do
     }
 }
 
+unsigned texture_plain(unsigned byte, unsigned alpha) {
+    unsigned plain = alpha > 0 ? (byte * 255 + alpha / 2) / alpha : byte;
+    return plain < 255 ? plain : 255;
+}
+
 uint32_t texture_linear_pixel(uint32_t pixel) {
     uint32_t alpha = pixel >> 24, out = alpha << 24;
-    for (unsigned k = 0; k < 24 && alpha > 0; k += 8) {
-        uint32_t c = ((pixel >> k & 255) * 255 + alpha / 2) / alpha;
-        out |= (uint32_t)lrintf(texture_decode(c > 255 ? 255 : c) * (float)alpha) << k;
-    }
+    for (unsigned k = 0; k < 24 && alpha > 0; k += 8)
+        out |= (uint32_t)lrintf(texture_decode(texture_plain(pixel >> k & 255, alpha)) * (float)alpha) << k;
     return out;
 }
 

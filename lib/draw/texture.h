@@ -38,6 +38,9 @@ const float *texture_thresholds(void);
 // lin(byte/255).
 float texture_decode(unsigned byte);
 
+// A byte that was multiplied by its alpha, without it.
+unsigned texture_plain(unsigned byte, unsigned alpha);
+
 // A row as ARGB32 pixels. Of a picture that is shown opaquely, over black; otherwise a linear one is encoded without
 // alpha, which then multiplies it again.
 void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);

@@ -24,6 +24,11 @@ static bool write_text(void *host, const char *text, size_t length) {
     return true;
 }
 
+static bool wants_end(void *host) {
+    (void)host;
+    return host_wants_end();
+}
+
 // fps, memory in bytes, work of a call and stack in bytes: 0 is the default.
 EXPORT(PetriSession *, web_open, double fps, double memory, double work, double stack) {
     PetriOptions options = petri_default_options();
@@ -35,6 +40,7 @@ EXPORT(PetriSession *, web_open, double fps, double memory, double work, double 
     options.interruptible = true;
     options.diagnostic = tell;
     options.read = read_file;
+    options.wants_end = wants_end;
     return petri_open(&options);
 }
 

@@ -15,6 +15,8 @@
 
 // A piece of text that was asked for.
 HOST(write) void host_write(const char *text, size_t length);
+// Whether what is under way is to end: asked every ten microseconds or so.
+HOST(wants_end) bool host_wants_end(void);
 // The bytes of a file, which stay where they are; NULL if there is none.
 HOST(read) const char *host_read(const char *name, size_t *length);
 HOST(diagnostic)

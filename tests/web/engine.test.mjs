@@ -91,6 +91,21 @@ test('a script that asks for too much is given up, and the session goes on', () 
     session.close();
 });
 
+test('what goes on for long is ended when the host wants it, and has changed nothing', () => {
+    let asked = 0, wanted = false;
+    const session = engine.open({ wantsEnd: () => (asked++, wanted) });
+    session.load('!counter state=:c rate=1\n!a x=sum(i*j for i in ..3000 for j in ..(3000 if frame==2 else 1))\n').step().step();
+    const before = session.print('state');
+    [asked, wanted] = [0, true];
+    assert.throws(() => session.step(), error => error.status === 'interrupted');
+    assert.equal(asked, 1);
+    wanted = false;
+    assert.equal(session.print('state'), before);
+    assert.equal(session.step().frame.number, 2);
+    assert.ok(asked > 100, `${asked}`);
+    session.close();
+});
+
 test('recursion that is too deep is told, and the engine goes on', () => {
     const names = Array.from({ length: 40 }, (_, i) => `f${i}`);
     const nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);

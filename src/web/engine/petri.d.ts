@@ -41,6 +41,11 @@ export interface Options {
     /** What scripts may read and import, by name. They reach nothing else. */
     files?: Record<string, string | Uint8Array>;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
+    /**
+     * Asked every ten microseconds or so of a call: true ends it, with the status "interrupted", and nothing has changed.
+     * It may look at a clock, or at a SharedArrayBuffer that another thread writes.
+     */
+    wantsEnd?: () => boolean;
 }
 
 export interface Engine {

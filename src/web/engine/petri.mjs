@@ -40,6 +40,7 @@ class Engine {
         const now = () => this.session;
         this.memory = instantiate(module, {
             write: (at, length) => now().written.push(this.memory.text(at, length)),
+            wants_end: () => (now().wantsEnd?.() ? 1 : 0),
             read: (name, length) => now().readFile(text(name), length),
             diagnostic: (level, file, message, code, hint, rendered, line, column, endLine, endColumn) =>
                 now().tell({
@@ -89,10 +90,11 @@ class Engine {
 }
 
 export class Session {
-    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic } = {}) {
+    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, wantsEnd } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;
+        this.wantsEnd = wantsEnd;
         this.image = image;
         this.painter = null; // 0: there can be none
         this.undrawn = new Set();
