@@ -1,6 +1,6 @@
 // dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
 import { Remote } from './engine.mjs';
-import { addImage, paint, pictureSize } from './paint.mjs';
+import { addImage, paint, sizeOf } from './paint.mjs';
 
 const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
 const SLOW = 500; // ms: what takes longer, a person may want to stop
@@ -53,7 +53,7 @@ export class Dish {
     draw({ picture }) {
         if (!picture)
             return [];
-        const { canvas } = this, [width, height] = pictureSize(picture);
+        const { canvas } = this, { width, height } = sizeOf(picture);
         if (canvas.width !== width || canvas.height !== height)
             Object.assign(canvas, { width, height });
         return paint(canvas.getContext('2d'), picture, this.images);

@@ -1,6 +1,6 @@
 // exports.mjs: the frames of a script as a film or a table, made in the worker from whatever frame on.
 import { Film } from './film.mjs';
-import { addImage, paint, pictureSize } from './paint.mjs';
+import { paint, sizeOf } from './paint.mjs';
 
 const TELL_EVERY = 10; // frames
 
@@ -16,14 +16,11 @@ async function each(player, { from, to, wantsEnd, tell }, see) {
     }
 }
 
-export async function makeFilm(player, show, range) {
-    const images = new Map();
-    for (const [name, bytes] of Object.entries(player.files))
-        await addImage(images, name, bytes);
+export async function makeFilm(player, images, show, range) {
     let film = null, automatic = false;
     await each(player, range, async () => {
         let picture = show(automatic);
-        film ??= await Film.begin(...(picture ? pictureSize(picture) : [640, 480]), player.session.frame.fps);
+        film ??= await Film.begin(picture ? sizeOf(picture) : { width: 640, height: 480 }, player.session.frame.fps);
         if (picture && paint(film.context, picture, images).includes('canvas3d')) {
             automatic = true;
             picture = show(automatic);

@@ -16,7 +16,7 @@ async function chooseCodec(settings) {
 }
 
 export class Film {
-    static async begin(width, height, fps) {
+    static async begin({ width, height }, fps) {
         const settings = { width, height, framerate: fps, bitrate: Math.max(width * height * fps * BITS, 2e5), latencyMode: 'quality' };
         const [codec, name] = await chooseCodec(settings), film = new Film();
         Object.assign(film, { width, height, fps, codec: name, count: 0, chunks: [], error: null });

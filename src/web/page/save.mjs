@@ -71,6 +71,7 @@ export class SaveDialog {
         } else {
             $('saving-said').textContent = 'It could not be saved; the message under the picture says why.';
         }
-        await dish.seek(at);
+        if (dish.loaded !== null)
+            await dish.seek(at);
     }
 }

@@ -1,6 +1,7 @@
 // worker.mjs: the engine's thread. Messages come one at a time and each is answered, so that the page knows when it is free.
 import { loadEngine } from '../engine/petri.mjs';
 import { makeFilm, makeState, makeTable } from './exports.mjs';
+import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
 import { StateTable, Watches } from './tables.mjs';
 
@@ -9,11 +10,12 @@ let engine, player, checker, told = [], flag = null, current = 0;
 
 // The page writes which question is to be given up, and all before it.
 const wantsEnd = () => flag !== null && Atomics.load(flag, 0) >= current;
+const images = new Map();
 const tell = diagnostic => told.push(diagnostic);
 
 const watches = new Watches(told), stateTable = new StateTable();
 
-const picture = automatic => player.frame >= 0 ? player.session.picture({ automatic }) : null;
+const picture = automatic => player.frame >= 0 ? player.session.show({ automatic }) : null;
 
 // What the page shows after a frame.
 function shown(extra = {}) {
@@ -30,10 +32,12 @@ const acts = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
-        player = new Player(engine, { onDiagnostic: tell, wantsEnd }, watches);
+        player = new Player(engine, { onDiagnostic: tell, wantsEnd, image: name => imageOf(images, name) }, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
-    files({ files }) {
+    async files({ files }) {
+        for (const [name, bytes] of Object.entries(files))
+            await addImage(images, name, bytes);
         player.files = files;
         Object.entries(files).forEach(([name, bytes]) => player.session?.setFile(name, bytes));
         return { type: 'done' };
@@ -102,7 +106,7 @@ const acts = {
         const range = { from, to, wantsEnd, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
         return {
             type: 'saved',
-            blob: await (kind === 'film' ? makeFilm(player, picture, range) : kind === 'particles' ? makeTable(player, range) : makeState(player)),
+            blob: await (kind === 'film' ? makeFilm(player, images, picture, range) : kind === 'particles' ? makeTable(player, range) : makeState(player)),
         };
     },
     pointer({ inside, x, y, buttons }) {
@@ -125,7 +129,7 @@ onmessage = ({ data }) => {
             if (wantsEnd())
                 throw Object.assign(new Error('stopped'), { status: 'interrupted' });
             const answer = await acts[data.act](data);
-            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.numbers.buffer] : []);
+            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);
         } catch (error) {
             postMessage({ type: failure(error), id: data.id, message: error.message, told: take(), diagnostics: error.diagnostics ?? [] });
         }
