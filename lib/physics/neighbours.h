@@ -42,7 +42,8 @@ typedef struct Neighbours {
     bool built;
     ListView view;
     uint32_t *key;  // by place: position in the order of the pass
-    uint32_t *cell; // by position in the order of the pass
+    uint32_t *cell; // by column of the ranges, counted through
+    const uint32_t *order; // by column: position in the order of the pass; NULL: columns are in that order
     uint32_t total; // places; those after view.listed are idle: not finite, or without the size for a contact
     double base;    // length that the skin is measured by: the usual distance of contact
     double skin;

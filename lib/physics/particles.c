@@ -200,6 +200,7 @@ bool phys_load(PhysSystem *system) {
     phys_parallel(system, shares_for(system), load_share, system);
     system->arrangement++;
     system->radii++;
+    system->updates++;
     return true;
 }
 
