@@ -214,9 +214,9 @@ void phys_link_groups(PhysSystem *system);
 // step.c: one step of `delta` at `clock`; false if it was given up half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// settle.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says whether
-// the system is one that can; phys_unsettle puts the columns back into the order of the description, and drops the list;
-// phys_forget_order does so for columns that are made anew.
+// settle.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says
+// whether the system is one that can; phys_unsettle puts the columns back into the order of the description, and drops
+// the list; phys_forget_order does so for columns that are made anew.
 bool phys_can_settle(const PhysSystem *system);
 void phys_settle(PhysSystem *system, struct Neighbours *list);
 void phys_unsettle(PhysSystem *system);
