@@ -89,13 +89,6 @@ typedef struct Columns {
     bool *anchor;
 } Columns;
 
-// The end of a step, for who can do it along with the pairs.
-typedef struct Motion {
-    double delta;
-    double speed_of_light;
-    bool done;
-} Motion;
-
 struct PhysSystem {
     Arena home;     // holds this struct
     uint64_t bytes; // capacity of all buffers together
@@ -144,12 +137,11 @@ struct PhysSystem {
     // in the order of a list (settle.c)
     bool may_settle; // one group has all particles, and nothing but its one pass over pairs asks for their order
     bool settled;    // columns are in the order of the places of the list of that pass
-    Motion *motion;  // what follows the pairs of this step; NULL: nothing is to
     // on several processes (domain.h)
     uint64_t arrangement; // counts how often the columns have been filled
     uint64_t radii;       // another number whenever a radius has changed
     bool touched;         // particles were given new numbers since the last frame
-    uint64_t updates;     // counts how often columns have changed but for steps
+    bool behind;          // positions and velocities are in the rows only, not in the columns
     Buffer domain;        // Domain
     PhysTraffic traffic;
     const bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
@@ -203,8 +195,14 @@ static inline const ParticleRecord *phys_record(const PhysSystem *system, uint32
 enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // marks of `not_finite` and `from_attribute`
 bool phys_clear_not_finite(PhysSystem *system);
 bool phys_load(PhysSystem *system);
+// Positions and velocities alone.
+void phys_load_motion(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);
 void phys_store(PhysSystem *system, bool keep_last_finite);
+// PhysTime.keep_last_finite for one particle: numbers go into its row or, if they may not, are put back to the row's.
+// `stride` doubles from one component to the next. Returns marks of `not_finite`, which it sets.
+uint8_t phys_keep_row(const PhysSystem *system, size_t n, uint32_t handle, double *position, double *velocity,
+                      size_t stride);
 
 // particles.c: points the columns into their memory.
 bool phys_reserve_columns(PhysSystem *system);

@@ -1,9 +1,10 @@
 // settle.c: columns in the order of the places of a neighbour list.
 //
-// A list sorts particles by the cells of a grid, so that neighbours lie near each other. As long as its system is one of
-// those that can, the columns are brought into the same order whenever a list has been made: then the kernels need not
-// look for the column of each place, and partners are near in memory. Which particle is in a column says system->order.
-// As all particles are of one group, their handles count up in the order of the description, which is that of sums.
+// A list sorts particles by the cells of a grid, so that neighbours lie near each other. As long as its system is one
+// of those that can, the columns are brought into the same order whenever a list has been made: then the kernels need
+// not look for the column of each place, and partners are near in memory. Which particle is in a column says
+// system->order. As all particles are of one group, their handles count up in the order of the description, which is
+// that of sums.
 #include "physics/neighbours.h"
 #include "physics/threads.h"
 
@@ -140,10 +141,10 @@ void phys_forget_order(PhysSystem *system) {
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         system->lists[i].built = false;
     system->settled = false;
-    system->updates++;
 }
 
-// In place, as there may be no memory: a particle that is not where it belongs changes places with the one that is there.
+// In place, as there may be no memory: a particle that is not where it belongs changes places with the one that is
+// there.
 void phys_unsettle(PhysSystem *system) {
     Settling settling = {.system = system};
     uint32_t *order = system->order;
