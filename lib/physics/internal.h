@@ -134,6 +134,9 @@ struct PhysSystem {
     // kept from step to step and from frame to frame
     uint64_t frame; // number of this frame
     struct Neighbours *lists;
+    // in the order of a list (settle.c)
+    bool may_settle; // one group has all particles, and nothing but its one pass over pairs asks for their order
+    bool settled;    // columns are in the order of the places of the list of that pass
     // on several processes (domain.h)
     uint64_t arrangement; // counts how often the columns have been filled
     uint64_t radii;       // another number whenever a radius has changed
@@ -208,6 +211,14 @@ void phys_link_groups(PhysSystem *system);
 
 // step.c: one step of `delta` at `clock`; false if it was given up half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
+
+// settle.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says
+// whether the system is one that can; phys_unsettle puts the columns back into the order of the description, and drops
+// the list; phys_forget_order does so for columns that are made anew.
+bool phys_can_settle(const PhysSystem *system);
+void phys_settle(PhysSystem *system, struct Neighbours *list);
+void phys_unsettle(PhysSystem *system);
+void phys_forget_order(PhysSystem *system);
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);
