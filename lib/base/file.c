@@ -132,6 +132,14 @@ bool file_read(Arena *arena, const Reach *reach, const char *path, bool regular,
     return !reading.problem;
 }
 
+int file_open_at(int folder, const char *name, int flags, mode_t mode) {
+    int file;
+    do
+        file = openat(folder, name, flags | O_CLOEXEC | O_NOCTTY, mode);
+    while (file < 0 && errno == EINTR);
+    return file;
+}
+
 bool file_write(int file, const char *bytes, size_t len) {
     while (len > 0) {
         ssize_t put = write(file, bytes, len);

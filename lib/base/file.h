@@ -4,6 +4,8 @@
 
 #include "base/reach.h"
 
+#include <sys/types.h>
+
 // Reads a file of at most `limit` bytes into the arena, followed by a NUL byte; a pipe too unless it must be `regular`.
 // False with a reason (borrowed) if that cannot be done. *version, if not NULL, gets a text that changes when the file
 // does. Only within `reach`, unless that is NULL.
@@ -16,6 +18,8 @@ bool file_version(Arena *arena, const Reach *reach, const char *path, Str *versi
 const char *file_replace(const char *path, Str bytes, unsigned flags);
 // The same for a file that is begun, which is ended in any case.
 const char *file_finish(Replacement *replacement, Str bytes);
+// openat, in spite of signals, of a file that no other program is given. Folder AT_FDCWD: the current one.
+int file_open_at(int folder, const char *name, int flags, mode_t mode);
 // Writes all bytes to an open file; false with errno set.
 bool file_write(int file, const char *bytes, size_t len);
 // Cuts off what comes after the first `len` bytes. False with errno if that fails.

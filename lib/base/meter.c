@@ -1,7 +1,7 @@
 // meter.c: see meter.h.
 #include "base/meter.h"
 
-void meter_begin(Meter *meter, uint64_t work_limit, const atomic_bool *interrupt) {
+void meter_begin(Meter *meter, uint64_t work_limit, atomic_bool *interrupt) {
     meter->work = meter->pause = 0;
     meter->work_limit = work_limit < UINT64_MAX / 2 ? work_limit : UINT64_MAX / 2;
     meter->interrupt = interrupt;
@@ -11,6 +11,8 @@ void meter_begin(Meter *meter, uint64_t work_limit, const atomic_bool *interrupt
 MeterAnswer meter_look(Meter *meter) {
     enum { BETWEEN_LOOKS = 1024 };
     meter->pause = 0; // once it is to end, each charge comes here
+    if (meter->interrupt && meter->wants_end && meter->wants_end(meter->host))
+        atomic_store(meter->interrupt, true);
     if (meter->interrupt && atomic_load_explicit(meter->interrupt, memory_order_relaxed))
         return METER_INTERRUPTED;
     if (meter->work > meter->work_limit)

@@ -18,10 +18,12 @@ typedef struct Meter {
     uint64_t work_limit;
     size_t memory; // bytes held
     size_t memory_limit;
-    bool memory_refused;          // since meter_begin
-    const atomic_bool *interrupt; // true: the host wants an end; NULL: nobody can ask for one
-    bool keeps;                   // the host still looks at what is to be freed (arena_retire)
-    void *kept;                   // … which is here: ArenaBlock
+    bool memory_refused;           // since meter_begin
+    atomic_bool *interrupt;        // true: the host wants an end; NULL: nobody can ask for one
+    bool (*wants_end)(void *host); // asked for such a wish, by the thread that charges; NULL: nobody
+    void *host;
+    bool keeps; // the host still looks at what is to be freed (arena_retire)
+    void *kept; // … which is here: ArenaBlock
 } Meter;
 
 // What an array of so many bytes costs that is filled or looked at in a simple loop.
@@ -32,7 +34,7 @@ enum { METER_PORTION = 1 << 14 };
 typedef enum MeterAnswer { METER_GOES_ON, METER_WORK, METER_INTERRUPTED } MeterAnswer;
 
 // Begins a piece of work with a budget of its own.
-void meter_begin(Meter *meter, uint64_t work_limit, const atomic_bool *interrupt);
+void meter_begin(Meter *meter, uint64_t work_limit, atomic_bool *interrupt);
 // What comes of a charge that went past `pause`.
 MeterAnswer meter_look(Meter *meter);
 

@@ -131,19 +131,11 @@ bool reach_resolve(const Reach *reach, ReachKind kind, const char *path, char re
     return reach_has(reach, kind, resolved);
 }
 
-static int open_at(int folder, const char *name, int flags) {
-    int file;
-    do
-        file = openat(folder, name, flags | O_CLOEXEC | O_NOCTTY);
-    while (file < 0 && errno == EINTR);
-    return file;
-}
-
 // Part by part, for systems that cannot do it at once.
 static int walk(int folder, char *rest, int flags) {
     for (char *slash; (slash = strchr(rest, '/')) != NULL; rest = slash + 1) {
         *slash = '\0';
-        int next = open_at(folder, rest, O_PATH | O_DIRECTORY | O_NOFOLLOW);
+        int next = file_open_at(folder, rest, O_PATH | O_DIRECTORY | O_NOFOLLOW, 0);
         int error = errno;
         close(folder);
         errno = error;
@@ -151,7 +143,7 @@ static int walk(int folder, char *rest, int flags) {
             return -1;
         folder = next;
     }
-    int file = open_at(folder, rest[0] ? rest : ".", flags | O_NOFOLLOW);
+    int file = file_open_at(folder, rest[0] ? rest : ".", flags | O_NOFOLLOW, 0);
     int error = errno;
     close(folder);
     errno = error;
@@ -160,7 +152,7 @@ static int walk(int folder, char *rest, int flags) {
 
 // Opens a canonical path below a folder without following any link. It is taken apart meanwhile.
 static int open_below(const Str *folder, char *path, int flags) {
-    int start = open_at(AT_FDCWD, folder->bytes, O_PATH | O_DIRECTORY);
+    int start = file_open_at(AT_FDCWD, folder->bytes, O_PATH | O_DIRECTORY, 0);
     char *rest = path + folder->len;
     rest += rest[0] == '/';
     if (start < 0)
@@ -185,7 +177,7 @@ static int open_below(const Str *folder, char *path, int flags) {
 int reach_open(const Reach *reach, const char *path, int flags) {
     char resolved[PATH_MAX];
     if (!reach)
-        return open_at(AT_FDCWD, path, flags);
+        return file_open_at(AT_FDCWD, path, flags, 0);
     if (!reach_resolve(reach, REACH_READ, path, resolved))
         return -1;
     return open_below(find_folder(reach, REACH_READ, resolved), resolved, flags);

@@ -23,14 +23,6 @@
 #define SUFFIX ".tmp"
 enum { PREFIX_LENGTH = sizeof PREFIX - 1, DIGITS = 16, MOST_TRIES = 100, MOST_SWEPT = 4096 };
 
-static int open_at(int folder, const char *name, int flags, mode_t mode) {
-    int file;
-    do
-        file = openat(folder, name, flags | O_CLOEXEC | O_NOCTTY, mode);
-    while (file < 0 && errno == EINTR);
-    return file;
-}
-
 // By hand, for a signal handler may need it.
 static bool make_name(char name[NAME_MAX + 1]) {
     uint64_t number = 0;
@@ -51,11 +43,12 @@ static bool is_ours(const char *name) {
 
 // Removes what a process left that was killed at the wrong moment: nobody has it locked.
 static void sweep(int folder) {
-    int again = open_at(folder, ".", O_RDONLY | O_DIRECTORY, 0);
+    int again = file_open_at(folder, ".", O_RDONLY | O_DIRECTORY, 0);
     DIR *entries = again < 0 ? NULL : fdopendir(again);
     const struct dirent *entry;
     for (int i = 0; entries && i < MOST_SWEPT && (entry = readdir(entries)); i++) {
-        int file = is_ours(entry->d_name) ? open_at(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0) : -1;
+        int file =
+            is_ours(entry->d_name) ? file_open_at(folder, entry->d_name, O_RDONLY | O_NOFOLLOW | O_NONBLOCK, 0) : -1;
         if (file >= 0 && flock(file, LOCK_EX | LOCK_NB) == 0)
             unlinkat(folder, entry->d_name, 0);
         if (file >= 0)
@@ -94,7 +87,7 @@ static bool link_file(const Replacement *r, const char *name) {
 // Opens a file that has no name. False if there is no such thing here, or it could not get one later.
 static bool open_unnamed(Replacement *r) {
 #ifdef O_TMPFILE
-    r->file = open_at(r->folder, ".", O_TMPFILE | O_WRONLY, 0666);
+    r->file = file_open_at(r->folder, ".", O_TMPFILE | O_WRONLY, 0666);
     if (r->file < 0)
         return false;
     if (lock(r->file) && link_file(r, NULL))
@@ -108,7 +101,7 @@ static bool open_unnamed(Replacement *r) {
 static bool open_named(Replacement *r) {
     struct stat info;
     for (int i = 0; i < MOST_TRIES && make_name(r->beside); i++) {
-        r->file = open_at(r->folder, r->beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
+        r->file = file_open_at(r->folder, r->beside, O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW, 0666);
         if (r->file < 0 && errno != EEXIST)
             break;
         // Who sweeps may have been faster than the lock.
@@ -167,7 +160,7 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
         int stream = find_stream(&info);
         r->direct = stream >= 0 || !S_ISREG(info.st_mode);
         if (r->direct) {
-            r->file = stream >= 0 ? fcntl(stream, F_DUPFD_CLOEXEC, 0) : open_at(AT_FDCWD, path, O_WRONLY, 0);
+            r->file = stream >= 0 ? fcntl(stream, F_DUPFD_CLOEXEC, 0) : file_open_at(AT_FDCWD, path, O_WRONLY, 0);
             return r->file >= 0;
         }
     }
@@ -176,9 +169,9 @@ bool replace_begin(Replacement *r, const char *path, unsigned flags) {
     char *name = strrchr(target, '/') + 1;
     char first = name[0];
     name[0] = '\0';
-    int folder = open_at(AT_FDCWD, target, O_RDONLY | O_DIRECTORY, 0);
+    int folder = file_open_at(AT_FDCWD, target, O_RDONLY | O_DIRECTORY, 0);
     if (folder < 0 && errno == EACCES)
-        folder = open_at(AT_FDCWD, target, O_PATH | O_DIRECTORY, 0);
+        folder = file_open_at(AT_FDCWD, target, O_PATH | O_DIRECTORY, 0);
     name[0] = first;
     if (folder < 0)
         return false;

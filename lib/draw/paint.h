@@ -49,6 +49,8 @@ typedef struct Recorded {
 PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults);
 // What was made of the picture's window; NULL: nothing, or it is drawn otherwise.
 const Texture *draw_made(const PetriPainter *painter, const CanvasPicture *picture);
+// How much larger width x height are drawn so that they fill a box, keeping their proportions, and where in it.
+double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top);
 // Draws into premultiplied ARGB32 pixels. Whatever is wrong is reported to `faults`; after PETRI_INVALID one of them
 // is an error.
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,

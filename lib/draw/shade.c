@@ -91,9 +91,8 @@ static int place(const Shade *shade, double at, int size) {
 static void find_bytes(uint32_t pixel, bool straight, float color[4]) {
     color[3] = (float)(pixel >> 24) / 255;
     for (unsigned k = 0; k < 3; k++) {
-        unsigned c = pixel >> (16 - 8 * k) & 255, alpha = pixel >> 24;
-        unsigned plain = straight && alpha > 0 ? (c * 255 + alpha / 2) / alpha : c;
-        color[k] = texture_decode(plain < 255 ? plain : 255) * (straight ? color[3] : 1);
+        unsigned c = pixel >> (16 - 8 * k) & 255;
+        color[k] = straight ? texture_decode(texture_plain(c, pixel >> 24)) * color[3] : texture_decode(c);
     }
 }
 

@@ -210,12 +210,15 @@ void texture_sample(const Texture *texture, const Sampler *sampler, double u, do
     }
 }
 
+unsigned texture_plain(unsigned byte, unsigned alpha) {
+    unsigned plain = alpha > 0 ? (byte * 255 + alpha / 2) / alpha : byte;
+    return plain < 255 ? plain : 255;
+}
+
 uint32_t texture_linear_pixel(uint32_t pixel) {
     uint32_t alpha = pixel >> 24, out = alpha << 24;
-    for (unsigned k = 0; k < 24 && alpha > 0; k += 8) {
-        uint32_t c = ((pixel >> k & 255) * 255 + alpha / 2) / alpha;
-        out |= (uint32_t)lrintf(texture_decode(c > 255 ? 255 : c) * (float)alpha) << k;
-    }
+    for (unsigned k = 0; k < 24 && alpha > 0; k += 8)
+        out |= (uint32_t)lrintf(texture_decode(texture_plain(pixel >> k & 255, alpha)) * (float)alpha) << k;
     return out;
 }
 
@@ -232,11 +235,16 @@ void texture_linear_row(const Texture *texture, int y, uint32_t *row) {
     }
 }
 
-Texture *texture_of_linear(Meter *meter, const Texture *bytes) {
-    Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
-    size_t count = texture ? (size_t)bytes->width * (size_t)bytes->height : 0;
+void texture_copy_linear(const Texture *bytes, float *linear) {
+    size_t count = (size_t)bytes->width * (size_t)bytes->height;
     for (size_t i = 0; i < count; i++)
         for (unsigned k = 0; k < 4; k++)
-            texture->linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+            linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+}
+
+Texture *texture_of_linear(Meter *meter, const Texture *bytes) {
+    Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
+    if (texture)
+        texture_copy_linear(bytes, texture->linear);
     return texture;
 }

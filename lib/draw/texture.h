@@ -38,6 +38,9 @@ const float *texture_thresholds(void);
 // lin(byte/255).
 float texture_decode(unsigned byte);
 
+// A byte that was multiplied by its alpha, without it.
+unsigned texture_plain(unsigned byte, unsigned alpha);
+
 // A row as ARGB32 pixels. Of a picture that is shown opaquely, over black; otherwise a linear one is encoded without
 // alpha, which then multiplies it again.
 void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
@@ -45,7 +48,8 @@ void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 // The same as linear light, in bytes; and such a pixel of an sRGB one.
 void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
-// Such pixels as a picture; NULL if memory is used up.
+// Such pixels as numbers; and as a picture, NULL if memory is used up.
+void texture_copy_linear(const Texture *bytes, float *linear);
 Texture *texture_of_linear(Meter *meter, const Texture *bytes);
 
 // How a picture is read beyond its edges, and between its pixels (pictures.md 1.5).

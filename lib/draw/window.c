@@ -1,5 +1,5 @@
 // window.c: pictures on a host's window, by its own OpenGL.
-#include "draw/draw.h"
+#include "draw/painter.h"
 
 #include "base/heap.h"
 #include "draw/picture.h"
@@ -74,10 +74,10 @@ static void show(void *context) {
     PetriPainter *painter = showing->painter;
     if (showing->texture) {
         const CanvasPicture *picture = &showing->picture->picture;
-        double scale = fmin(showing->width / picture->width, showing->height / picture->height);
-        GlBox box = {.width = picture->width * scale, .height = picture->height * scale};
-        box.x = (showing->width - box.width) / 2;
-        box.y = (showing->height - box.height) / 2;
+        GlBox box;
+        double scale = draw_fit(picture->width, picture->height, showing->width, showing->height, &box.x, &box.y);
+        box.width = picture->width * scale;
+        box.height = picture->height * scale;
         showing->done = gl_show_image(painter->gl, &painter->arena, showing->texture->image, &box, showing->width,
                                       showing->height, texture_thresholds(), picture->opaque);
     } else {

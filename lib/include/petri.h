@@ -174,6 +174,10 @@ typedef struct PetriOptions {
     // The text that stands for a file on the disk which a script imports or includes, such as one that an editor has
     // not saved yet, or NULL: then the file counts. `name` is its canonical path; the rest is as for `read`.
     const char *(*unsaved)(void *read_host, const char *name, size_t *length);
+    // For hosts whose other threads cannot call petri_interrupt, having none or sharing no memory: asked with `host`
+    // every ten microseconds or so of a call, by its thread; true is such a wish. Nothing of the session may be called
+    // by it. NULL (the default): nobody is asked.
+    bool (*wants_end)(void *host);
 } PetriOptions;
 
 // Writes the defaults of the first `size` bytes of options.

@@ -4,7 +4,10 @@
 
 #include "physics/neighbours.h"
 
-enum { PHYS_MOST_LANES = 8 }; // of any kernel
+enum {
+    PHYS_MOST_LANES = 8,   // of any kernel
+    PHYS_MOST_NEAR = 1024, // entries of the longest list
+};
 
 typedef struct Grid {
     size_t dimensions;

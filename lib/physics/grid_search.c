@@ -5,7 +5,7 @@
 enum {
     ENTRIES_FIRST = 12, // room in the lists for so many entries a particle, at first
     ENTRIES_MOST = 160, // and at most
-    ENTRIES_SPARE = 1024 * PHYS_MOST_LANES,
+    ENTRIES_SPARE = PHYS_MOST_NEAR * PHYS_MOST_LANES,
 };
 
 // The lists of all blocks, made by several workers, each with a part of the blocks and of the memory.

@@ -3,7 +3,6 @@
 #include "physics/lanes.h"
 
 enum {
-    NEAR_MOST = 1024,  // longest list
     ROWS_MOST = 9 + 1, // of cells around one, and the large particles
     WORDS = LANES < 4 ? 4 : 8,
 };
@@ -16,9 +15,9 @@ typedef struct Finder {
     uint32_t rows;
     uint32_t candidates; // in all rows
     uint32_t first[ROWS_MOST], end[ROWS_MOST];
-    uint32_t near[NEAR_MOST + LANES];
-    Words keys[NEAR_MOST / WORDS + 1];  // where they stand in the order of the pass
-    Words ranks[NEAR_MOST / WORDS + 1]; // and among each other
+    uint32_t near[PHYS_MOST_NEAR + LANES];
+    Words keys[PHYS_MOST_NEAR / WORDS + 1];  // where they stand in the order of the pass
+    Words ranks[PHYS_MOST_NEAR / WORDS + 1]; // and among each other
 } Finder;
 
 static void add_row(Finder *finder, uint32_t first, uint32_t end) {
@@ -47,7 +46,7 @@ static void look_around(const ListSearch *search, Finder *finder) {
     add_row(finder, search->list->view.regular, search->list->view.listed);
 }
 
-// Collects who is nearer to a place than max(radius + radius, bound) + skin; stops beyond NEAR_MOST.
+// Collects who is nearer to a place than max(radius + radius, bound) + skin; stops beyond PHYS_MOST_NEAR.
 KERNEL size_t find_near(const ListSearch *search, Finder *finder, size_t dimensions, uint32_t place) {
     const ListView *view = &search->list->view;
     Real here[PHYS_VECTOR_DIMENSIONS], radius = real_set(view->radius[place]);
@@ -56,7 +55,7 @@ KERNEL size_t find_near(const ListSearch *search, Finder *finder, size_t dimensi
         here[k] = real_set(view->built[k][place]);
     size_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++)
-        for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= NEAR_MOST; s += LANES) {
+        for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= PHYS_MOST_NEAR; s += LANES) {
             Real square = real_zero();
             for (size_t k = 0; k < dimensions; k++) {
                 Real d = real_load(view->built[k] + s) - here[k];
@@ -112,7 +111,7 @@ KERNEL bool search_block(const ListSearch *search, ListPart *part, Finder *finde
         }
         part->scanned += finder->candidates;
         size_t count = find_near(search, finder, dimensions, place);
-        if (count > NEAR_MOST || part->scanned > search->scan_limit) {
+        if (count > PHYS_MOST_NEAR || part->scanned > search->scan_limit) {
             part->crowded = true;
             return false;
         }

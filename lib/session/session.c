@@ -214,6 +214,8 @@ PetriSession *petri_open(const PetriOptions *options) {
     session->options = *options;
     session->meter.memory_limit =
         options->memory_bytes < SIZE_MAX - OWN_BYTES ? options->memory_bytes + OWN_BYTES : SIZE_MAX;
+    session->meter.wants_end = options->wants_end;
+    session->meter.host = options->host;
     meter_begin(&session->meter, options->work, NULL);
     session_arena(session, &session->arena, "session", SIZE_MAX);
     session_arena(session, &session->text_arena, "text", SIZE_MAX);

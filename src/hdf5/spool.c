@@ -46,9 +46,7 @@ static bool lock(int file) {
 static bool open_locked(Spool *spool) {
     struct stat info = {0};
     for (int i = 0; i < 2; i++) {
-        do {
-            spool->file = open(spool->path.data, O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
-        } while (spool->file < 0 && errno == EINTR);
+        spool->file = file_open_at(AT_FDCWD, spool->path.data, O_RDWR | O_CREAT | O_NOFOLLOW, 0666);
         if (spool->file < 0) {
             return complain(spool, strerror(errno));
         }

@@ -133,9 +133,7 @@ static bool take(ResumeFile *file, const char *path, bool csv, int64_t after) {
 
 bool resume_open(ResumeFile *file, const char *path, bool csv, int64_t after) {
     *file = (ResumeFile){.last = -1};
-    do {
-        file->fd = open(path, O_RDWR | O_CLOEXEC | O_NOCTTY | O_NONBLOCK);
-    } while (file->fd < 0 && errno == EINTR);
+    file->fd = file_open_at(AT_FDCWD, path, O_RDWR | O_NONBLOCK, 0);
     if (file->fd < 0) {
         return errno == ENOENT || complain(path, strerror(errno));
     }

@@ -318,6 +318,10 @@ static void run_loop(View *view) {
             look_after_display(view);
         }
     }
+    // However quick a run was, its last frame is seen.
+    if (view->redraw && at_end(view) && !view->broken) {
+        draw(view);
+    }
 }
 
 // A window if there is a screen for it, else the terminal.

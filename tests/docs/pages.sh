@@ -13,6 +13,9 @@
 #                               as much in it; --update stores what was made
 #   [text](PATH#HEADING)        there is such a file with such a heading
 # A failure is a line with the place in the page. Too few examples are a failure, too.
+#
+# Films took nine tenths of the time, so they are made of two pictures, and nothing but their size is compared. PAGES=whole
+# makes them as the page has them; CI does.
 set -u
 LC_ALL=C.UTF-8
 export LC_ALL
@@ -24,6 +27,8 @@ least=90
 petri=$(cd "$(dirname "$1")" && pwd)/$(basename "$1")
 root=$(cd "$2" && pwd)
 update=${3:-}
+whole=${update:+yes}
+[ "${PAGES:-}" != whole ] || whole=yes
 work=$(mktemp -d "${TMPDIR:-/tmp}/petri-pages.XXXXXX") || exit 1
 trap 'rm -rf "$work"' EXIT
 trap 'exit 130' INT TERM HUP
@@ -150,7 +155,12 @@ run_command() { # PLACE COMMAND WANT
     *render*) [ -n "$can_draw" ] || return 0 ;;
     *libpetri.a* | ./*) [ -n "$can_link" ] || return 0 ;;
     esac
-    timeout 120 sh "$2" >out 2>&1 </dev/null
+    if [ "$whole" ]; then
+        cp "$2" command
+    else
+        sed 's/petri render .*\(%05d\|\.gif\|\.mp4\).*/& --frames 13/' "$2" >command
+    fi
+    timeout 120 sh ./command >out 2>&1 </dev/null
     [ $? -ne 124 ] || bad "$1" "takes too long"
     fault=$(difference "$3" out)
     if [ -n "$fault" ]; then bad "$1" "$fault"; else good; fi
@@ -179,6 +189,8 @@ compare_picture() { # PLACE LINK FOLDER-OF-PAGE
     old=$(wc -c <"$stored" || echo 0)
     if [ "$(size_of "$made")" != "$(size_of "$stored")" ]; then
         bad "$1" "$made has another size than the stored picture"
+    elif [ "${made%.gif}" != "$made" ] && [ ! "$whole" ]; then
+        good
     elif [ "$new" -gt $((2 * old)) ] || [ "$old" -gt $((2 * new)) ]; then
         bad "$1" "$made has $new bytes, the stored picture $old"
     elif [ "$old" -gt 1000000 ]; then

@@ -222,6 +222,15 @@ start left.fl --frames 10
 check "--frames ends it" ended 0
 start left.fl --runtime 1 --lockstep
 check "--runtime ends it" ended 0
+cat >last.fl <<'END'
+!window size=640;384
+    !canvas
+        !rect size=640;384 fill=true color=((0;1;0) if frame==4 else (1;0;0))
+END
+wipe
+type_keys "clear; script -qec '$petri view --terminal --lockstep --frames 5 last.fl' typed >/dev/null; echo status \$?" Enter
+check "a short run ends" soon shows 'status 0'
+check "and its last frame was seen, however quick it was" grep -aq '8;2;0;255;0m\|8;5;46m' typed
 wipe
 type_keys "clear; echo before; $petri view left.fl --frames 12; echo status \$?" Enter
 check "on the screen that is there again one line sums up" soon shows 'petri: 12 frames in '

@@ -46,7 +46,7 @@ test('types are there for each method, and no others', () => {
     const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
-    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn'];
+    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'giveImage'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
     session.close();
@@ -88,6 +88,21 @@ test('a script that asks for too much is given up, and the session goes on', () 
     session.load('!a x=len((1 for i in ..10000000))\n');
     assert.throws(() => session.step(), told('limit'));
     assert.match(session.load('!a x=1\n').step().print('tree'), /!a x=1/);
+    session.close();
+});
+
+test('what goes on for long is ended when the host wants it, and has changed nothing', () => {
+    let asked = 0, wanted = false;
+    const session = engine.open({ wantsEnd: () => (asked++, wanted) });
+    session.load('!counter state=:c rate=1\n!a x=sum(i*j for i in ..3000 for j in ..(3000 if frame==2 else 1))\n').step().step();
+    const before = session.print('state');
+    [asked, wanted] = [0, true];
+    assert.throws(() => session.step(), error => error.status === 'interrupted');
+    assert.equal(asked, 1);
+    wanted = false;
+    assert.equal(session.print('state'), before);
+    assert.equal(session.step().frame.number, 2);
+    assert.ok(asked > 100, `${asked}`);
     session.close();
 });
 

@@ -1,67 +1,14 @@
-// page.test.mjs: the page in headless Chromium, as a person uses it. Skipped where npm's modules or the browser are not.
+// page.test.mjs: the page in headless Chromium, as a person uses it.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
 import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
-import { after, before, test } from 'node:test';
-import { fileURLToPath, pathToFileURL } from 'node:url';
+import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
+import { atFrame, folder, frameOf, opened, options, pixels, root, typed, world } from './browser.mjs';
 
-const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
-const folder = process.env.PETRI_WEB, browserPath = '/usr/bin/chromium';
-const modules = join(root, 'src/web/page/node_modules/playwright-core/index.mjs');
-const missing = [modules, browserPath, join(folder, 'page.js')].find(path => !existsSync(path));
-const options = { skip: missing ? `there is no ${missing}` : false, timeout: 60000 };
 const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
-let browser, server;
-
-before(async () => {
-    if (missing)
-        return;
-    const { chromium } = await import(pathToFileURL(modules));
-    const { serve } = await import('../../src/web/page/serve.mjs');
-    server = await serve(folder);
-    browser = await chromium.launch({
-        executablePath: browserPath,
-        args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
-            '--disable-component-update', '--disable-sync'],
-    });
-});
-
-after(async () => {
-    await browser?.close();
-    server?.close();
-});
-
-// A page of its own, which must say nothing on the console.
-async function opened(hash = '', { settings = {}, use }) {
-    const context = await browser.newContext({ viewport: { width: 1200, height: 800 }, ...settings });
-    const page = await context.newPage(), said = [];
-    // That the tests read pixels is their own affair.
-    page.on('console', message => message.text().includes('willReadFrequently') || said.push(message.text()));
-    page.on('pageerror', error => said.push(error.message));
-    await page.goto(server.url + hash);
-    await page.waitForFunction(() => document.body.dataset.ready);
-    await use(page, context);
-    assert.deepEqual(said, []);
-    await context.close();
-}
-
-const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));
-const atFrame = (page, frame) => page.waitForFunction(wanted => Number(document.body.dataset.frame) === wanted, frame);
-const pixels = page => page.evaluate(() => {
-    const canvas = document.getElementById('picture'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
-    let sum = 0;
-    for (let i = 0; i < data.length; i++)
-        sum = (sum * 31 + data[i]) % 4294967291;
-    return { sum, width: canvas.width, height: canvas.height, all: new Set(data).size };
-});
-async function typed(page, text) {
-    await page.click('.cm-content');
-    await page.keyboard.press('Control+a');
-    await page.keyboard.insertText(text);
-}
 
 test('the page is small', options, () => {
     const files = ['index.html', 'style.css', 'page.js', 'worker.js', 'samples.json', 'petri/engine.wasm'];
@@ -140,7 +87,7 @@ test('a slider changes a parameter, and a link brings all of it back', options, 
         await page.waitForFunction(() => location.hash.length > 1);
         const hash = await page.evaluate(() => location.hash);
         const other = await context.newPage();
-        await other.goto(server.url + hash);
+        await other.goto(world.server.url + hash);
         await other.waitForFunction(() => document.body.dataset.ready);
         assert.equal(await frameOf(other), 7);
         assert.match(await other.textContent('#message'), /the same state .* to the last bit/);
@@ -244,6 +191,29 @@ test('text and picture are saved as files', options, () => opened('', {
             assert.equal(download.suggestedFilename(), name);
             assert.ok(readFileSync(await download.path(), 'latin1').startsWith(begins), name);
         }
+    },
+}));
+
+test('what takes long is stopped, and goes on from the frame before', options, () => opened('', {
+    use: async page => {
+        assert.ok(await page.evaluate(() => crossOriginIsolated));
+        await typed(page, 'let LONG=LONG or 1 -- 1..2\n!window size=64;8\n    !canvas\n        '
+            + '!rect size=(sum(i*j*frame for i in ..30000 for j in ..30000) if frame==9 and LONG==1 else frame);8 fill=true\n');
+        await page.click('#run');
+        await page.waitForFunction(() => document.querySelector('.busy'));
+        await page.click('#stop');
+        await page.waitForFunction(() => document.getElementById('message').textContent === 'Stopped; the frame before is still there.');
+        await atFrame(page, 8);
+        const { sum } = await pixels(page);
+        await page.click('#back');
+        await atFrame(page, 7);
+        await page.fill('#parameter-LONG', '2');
+        await page.press('#parameter-LONG', 'Enter');
+        await page.click('#step');
+        await atFrame(page, 8);
+        assert.equal((await pixels(page)).sum, sum);
+        await page.click('#step');
+        await atFrame(page, 9);
     },
 }));
 

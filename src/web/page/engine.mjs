@@ -1,32 +1,48 @@
 // engine.mjs: the worker as the page sees it: questions and answers, and what to do when it does not come back.
 
+const PATIENCE = 1000; // ms: frames that hear nothing for so long are ended with the engine
+
+// Workers must come from where the page comes from; a page elsewhere has one that imports the other.
+function startWorker(url) {
+    if (url.origin === location.origin)
+        return new Worker(url, { type: 'module' });
+    const own = URL.createObjectURL(new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' }));
+    const worker = new Worker(own, { type: 'module' });
+    setTimeout(() => URL.revokeObjectURL(own), 60000);
+    return worker;
+}
+
 export class Remote {
+    // source: what `loadEngine` takes, or a promise of it.
     constructor(source) {
         this.source = source;
+        // Which question is to be given up: threads share memory on pages that are isolated from others only.
+        this.flag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
+        this.number = 0;
         this.start();
     }
 
     start() {
-        this.worker = new Worker(new URL('./worker.js', import.meta.url), { type: 'module' });
+        const worker = this.worker = startWorker(new URL('./worker.js', import.meta.url));
         this.waiting = new Map();
-        this.number = 0;
-        this.worker.onmessage = ({ data }) => {
+        worker.onmessage = ({ data }) => {
             const { resolve, reject } = this.waiting.get(data.id);
             this.waiting.delete(data.id);
-            if (data.type === 'failed' || data.type === 'broken')
+            if (data.type === 'failed' || data.type === 'broken' || data.type === 'stopped')
                 reject(Object.assign(new Error(data.message), data));
             else
                 resolve(data);
         };
-        this.worker.onerror = event => this.fail(event.message || 'the engine cannot be started');
-        this.ready = this.ask('open', { source: this.source });
+        worker.onerror = event => this.fail(event.message || 'the engine cannot be started', 'broken');
+        this.ready = Promise.resolve(this.source).then(source => this.ask('open', { source, flag: this.flag }));
+        this.ready.catch(() => {}); // who waits for it hears of it
         return this.ready;
     }
 
-    fail(message) {
+    fail(message, type) {
         const waiting = [...this.waiting.values()];
         this.waiting.clear();
-        waiting.forEach(({ reject }) => reject(Object.assign(new Error(message), { type: 'stopped', told: [], diagnostics: [] })));
+        waiting.forEach(({ reject }) => reject(Object.assign(new Error(message), { type, told: [], diagnostics: [] })));
     }
 
     get busy() {
@@ -41,10 +57,25 @@ export class Remote {
         });
     }
 
-    // Ends whatever the engine is at, for good, and starts another one.
-    restart() {
+    // Ends what the engine is at, and all that waits. True if it is as it was before; else it must be ended.
+    async stop() {
+        if (!this.flag)
+            return !this.busy;
+        Atomics.store(this.flag, 0, this.number);
+        const end = performance.now() + PATIENCE;
+        while (this.busy && performance.now() < end)
+            await new Promise(resolve => setTimeout(resolve, 5));
+        return !this.busy;
+    }
+
+    // Ends the engine for good.
+    end() {
         this.worker.terminate();
-        this.fail('stopped');
+        this.fail('stopped', 'ended');
+    }
+
+    restart() {
+        this.end();
         return this.start();
     }
 }

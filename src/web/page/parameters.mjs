@@ -19,7 +19,7 @@ export class Parameters {
         }
         for (const { name, value, number } of settable)
             for (const input of this.rows.get(name))
-                if (input !== document.activeElement)
+                if (!input.matches(':focus'))
                     input.value = Number.isNaN(number) ? value : String(number);
     }
 

@@ -5,16 +5,17 @@ const MOST_KEYFRAMES = 64; // besides those where something was changed
 const MOST_BYTES = 256 << 20;
 
 export class Player {
-    constructor(engine, onDiagnostic) {
+    // options: of the sessions, but for files.
+    constructor(engine, options) {
         this.engine = engine;
-        this.onDiagnostic = onDiagnostic;
+        this.options = options;
         this.files = {};
         this.session = null;
     }
 
     // Opens a session of its own for a script; frame -1. Throws what `load` throws; the one that runs then goes on.
     load(text, name, changes = []) {
-        const session = this.engine.open({ files: this.files, onDiagnostic: this.onDiagnostic });
+        const session = this.engine.open({ ...this.options, files: this.files });
         try {
             for (const [frame, parameter, value] of changes)
                 if (frame < 0)
@@ -26,7 +27,7 @@ export class Player {
         }
         this.forget(-2);
         this.session?.close();
-        Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, most: -1 });
+        Object.assign(this, { session, text, name, changes, keyframes: [], every: EVERY, frame: -1, most: -1, torn: false });
     }
 
     // Drops keyframes behind a frame.
@@ -37,7 +38,9 @@ export class Player {
     }
 
     step() {
+        this.torn = true; // until the frame is made, there is nothing to see
         this.session.step();
+        this.torn = false;
         this.frame++;
         this.most = Math.max(this.most, this.frame);
         const later = this.changes.filter(([frame]) => frame === this.frame);
@@ -74,7 +77,7 @@ export class Player {
     // Goes to a frame, from the keyframe before it; the frame's tree is there then. At most `most` steps at once: false if
     // it is not there yet.
     seek(frame, most = Infinity) {
-        if (frame < this.frame) {
+        if (frame < this.frame || (frame === this.frame && this.torn)) {
             const key = this.keyframes.findLast(other => other.frame < frame);
             const end = this.most;
             if (key) {

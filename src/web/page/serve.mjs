@@ -11,6 +11,10 @@ const TYPES = { '.html': 'text/html; charset=utf-8', '.js': 'text/javascript', '
 const HEADERS = {
     'Content-Security-Policy': "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; style-src 'self' 'unsafe-inline'; "
         + "img-src 'self' data: blob:; connect-src 'self'; object-src 'none'; base-uri 'none'",
+    // The stop button's flag is memory that threads share, which browsers give to pages that nobody else can look into.
+    'Cross-Origin-Opener-Policy': 'same-origin', 'Cross-Origin-Embedder-Policy': 'require-corp',
+    // <petri-dish> works in pages from elsewhere.
+    'Cross-Origin-Resource-Policy': 'cross-origin', 'Access-Control-Allow-Origin': '*',
     'X-Content-Type-Options': 'nosniff', 'Cache-Control': 'no-cache',
 };
 

@@ -3,13 +3,16 @@ import { loadEngine } from '../engine/petri.mjs';
 import { Player } from './player.mjs';
 
 const SEEK_STEPS = 50; // frames between looks at what the page wants
-let engine, player, checker, told = [];
+let engine, player, checker, told = [], flag = null, current = 0;
 
+// The page writes which question is to be given up, and all before it.
+const wantsEnd = () => flag !== null && Atomics.load(flag, 0) >= current;
+const images = new Map(), baseName = name => name.replace(/^.*\//, '');
 const tell = diagnostic => told.push(diagnostic);
 
 // What the page shows after a frame.
 function shown(extra = {}) {
-    const { session } = player, picture = player.frame >= 0 ? session.picture({ automatic: player.automatic }) : null;
+    const { session } = player, picture = player.frame >= 0 ? session.show({ automatic: player.automatic }) : null;
     return {
         type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
         picture, log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
@@ -19,18 +22,22 @@ function shown(extra = {}) {
 const take = () => told.splice(0);
 
 const acts = {
-    async open({ source }) {
+    async open({ source, flag: shared }) {
+        flag = shared;
         engine = await loadEngine(source);
-        player = new Player(engine, tell);
+        player = new Player(engine, { onDiagnostic: tell, wantsEnd, image: name => images.get(baseName(name)) });
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
-    files({ files }) {
+    async files({ files }) {
+        for (const [name, bytes] of Object.entries(files))
+            if (/\.(png|jpe?g|gif|webp)$/i.test(name))
+                images.set(baseName(name), await createImageBitmap(new Blob([bytes])).catch(() => null));
         player.files = files;
         Object.entries(files).forEach(([name, bytes]) => player.session?.setFile(name, bytes));
         return { type: 'done' };
     },
     check({ text, name }) {
-        checker ??= engine.open({ files: player.files });
+        checker ??= engine.open({ files: player.files, wantsEnd });
         Object.entries(player.files).forEach(([file, bytes]) => checker.setFile(file, bytes));
         return { type: 'checked', told: checker.diagnose(text, name) };
     },
@@ -55,8 +62,13 @@ const acts = {
         return shown();
     },
     async seek({ frame }) {
-        while (!player.seek(frame, SEEK_STEPS))
+        while (!wantsEnd() && !player.seek(frame, SEEK_STEPS))
             await new Promise(resolve => setTimeout(resolve));
+        return shown();
+    },
+    // Where it is, after a frame that was given up.
+    shown() {
+        player.seek(player.frame);
         return shown();
     },
     // The particles themselves, for what the page cannot draw.
@@ -84,17 +96,19 @@ const acts = {
     },
 };
 
+const failure = error => engine?.broken ? 'broken' : error.status === 'interrupted' ? 'stopped' : 'failed';
+
 let last = Promise.resolve();
 onmessage = ({ data }) => {
     last = last.then(async () => {
+        current = data.id;
         try {
+            if (wantsEnd())
+                throw Object.assign(new Error('stopped'), { status: 'interrupted' });
             const answer = await acts[data.act](data);
-            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.numbers.buffer] : []);
+            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);
         } catch (error) {
-            postMessage({
-                type: engine?.broken ? 'broken' : 'failed', id: data.id, message: error.message, told: take(),
-                diagnostics: error.diagnostics ?? [],
-            });
+            postMessage({ type: failure(error), id: data.id, message: error.message, told: take(), diagnostics: error.diagnostics ?? [] });
         }
     });
 };

@@ -110,6 +110,37 @@ static void check_interrupted(Player *player) {
     free(before);
 }
 
+static int looks_left;
+static void *asked_host;
+
+static bool tires(void *host) {
+    asked_host = host;
+    return looks_left > 0 && --looks_left == 0;
+}
+
+// A host without another thread is asked meanwhile: of a frame that it ends nothing is left.
+static void test_wants_end(void **state) {
+    Player *player = *state;
+    PetriOptions options = player_options(player);
+    options.interruptible = true;
+    options.wants_end = tires;
+    player_reopen(player, &options);
+    player_run(player,
+               "!physics state=:a dimensions=1 time=time\n    !particle id=0 velocity=1\n"
+               "!a x=sum(i*j for i in ..1000 for j in ..(1000 if frame==3 else 1))",
+               3);
+    assert_ptr_equal(asked_host, options.host);
+    char *before = frame_text(player);
+    looks_left = 100;
+    assert_int_equal(petri_step(player->session), PETRI_INTERRUPTED);
+    assert_int_equal(petri_frame(player->session).number, 2);
+    assert_non_null(strstr(before, player_state(player)));
+    assert_false(petri_interrupted(player->session));
+    player_step(player, 1);
+    assert_int_equal(petri_frame(player->session).number, 3);
+    free(before);
+}
+
 static void test_interrupts(void **state) {
     Player *player = *state;
     PetriOptions options = player_options(player);
@@ -209,7 +240,7 @@ static void test_clock(void **state) {
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_snapshots), PLAYER_TEST(test_configs), PLAYER_TEST(test_interrupts),
-        PLAYER_TEST(test_reload),    PLAYER_TEST(test_clock),
+        PLAYER_TEST(test_wants_end), PLAYER_TEST(test_reload),  PLAYER_TEST(test_clock),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -86,7 +86,7 @@ static void make_frame(void *runner) {
 }
 
 // How the frame of a script ends that may take so much work.
-static ArenaEnd metered(Runner *runner, const char *script, uint64_t work, const atomic_bool *interrupt) {
+static ArenaEnd metered(Runner *runner, const char *script, uint64_t work, atomic_bool *interrupt) {
     Meter meter = {.memory_limit = SIZE_MAX};
     Arena *frame = &runner->frame;
     meter_begin(&meter, work, interrupt);

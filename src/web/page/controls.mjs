@@ -1,0 +1,58 @@
+// controls.mjs: the buttons under a picture, the time line and the parameters, in the page and in <petri-dish> alike.
+import { Parameters } from './parameters.mjs';
+
+export const CONTROLS = `
+<div id="controls" part="controls" role="group" aria-label="Run">
+  <button id="run" title="Run or pause">Run</button>
+  <button id="back" title="Back one frame" aria-label="Back one frame">◀</button>
+  <button id="step" title="Forward one frame" aria-label="Forward one frame">▶</button>
+  <button id="reset" title="Start anew">Reset</button>
+  <button id="stop" title="End what takes too long">Stop</button>
+  <label>Speed <select id="speed"><option>0.25</option><option>0.5</option><option selected>1</option><option>2</option><option>4</option></select></label>
+  <output id="number">no frame</output>
+</div>
+<input id="time" type="range" min="0" max="0" value="0" aria-label="Frame">
+<div id="parameters" part="parameters" aria-label="Parameters" role="group"></div>`;
+
+export class Controls {
+    // root: what has the elements; ready: loads what is to run, false if that failed.
+    constructor(root, dish, ready) {
+        this.root = root;
+        this.dish = dish;
+        const $ = this.get = id => root.getElementById(id);
+        this.parameters = new Parameters($('parameters'), (name, value) => dish.set(name, value));
+        $('run').onclick = () => this.toggle(ready);
+        $('step').onclick = async () => {
+            const before = dish.loaded;
+            if (await ready() && before !== null)
+                await dish.step();
+        };
+        $('back').onclick = () => dish.seek(dish.frame - 1);
+        $('reset').onclick = () => ready({ always: true });
+        $('stop').onclick = () => dish.stop();
+        $('speed').onchange = () => (dish.speed = Number($('speed').value));
+        $('time').oninput = () => dish.seek(Number($('time').value));
+        this.refresh();
+    }
+
+    async toggle(ready) {
+        if (this.dish.running)
+            this.dish.pause();
+        else if (await ready())
+            this.dish.run();
+    }
+
+    show(answer) {
+        const $ = this.get;
+        $('number').textContent = `frame ${answer.frame}, ${answer.time.toFixed(2)} s`;
+        Object.assign($('time'), { max: Math.max(answer.most, 0), value: answer.frame });
+        this.parameters.show(answer.parameters);
+    }
+
+    refresh() {
+        const { dish, get: $ } = this, loaded = dish.loaded !== null;
+        $('run').textContent = dish.running ? 'Pause' : 'Run';
+        $('back').disabled = !loaded || dish.frame < 1;
+        $('step').disabled = $('reset').disabled = $('time').disabled = !loaded;
+    }
+}

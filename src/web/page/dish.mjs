@@ -1,0 +1,224 @@
+// dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
+import { drawPicture, pictureSize } from '../engine/drawing.mjs';
+import { Remote } from './engine.mjs';
+
+const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
+const SLOW = 500; // ms: what takes longer, a person may want to stop
+const FIRST_SEEN = 2; // before, particles are not where they will be seen
+
+export class Dish {
+    // host: what is called: shown(answer, left out), failed(error, what was told), changed() when it runs or
+    // not any more; and, where they are, loaded() and slow(whether).
+    constructor(canvas, source, host) {
+        Object.assign(this, {
+            canvas, host, running: false, loaded: null, name: null, frame: -1, most: -1, fps: 60, speed: 1, behind: 0, last: 0,
+            files: new Map(), images: new Map(), wanted: null,
+        });
+        this.remote = new Remote(source);
+    }
+
+    // Asks the engine; null after a failure, which the host is told of.
+    async attempt(act, message) {
+        const slow = setTimeout(() => this.host.slow?.(true), SLOW);
+        try {
+            return await this.remote.ask(act, message);
+        } catch (error) {
+            await this.fail(error);
+            return null;
+        } finally {
+            clearTimeout(slow);
+            this.host.slow?.(false);
+        }
+    }
+
+    async fail(error) {
+        this.running = false;
+        const seen = new Set(), told = [...(error.diagnostics ?? []), ...(error.told ?? [])];
+        this.host.failed(error, told.filter(({ rendered }) => !seen.has(rendered) && seen.add(rendered)));
+        if (error.type === 'broken')
+            await this.restart();
+        this.host.changed();
+    }
+
+    async restart() {
+        this.running = false;
+        this.loaded = null;
+        this.remote.restart();
+        await this.giveFiles();
+        this.host.changed();
+    }
+
+    // --- pictures
+
+    draw({ picture }) {
+        if (!picture)
+            return [];
+        const { canvas } = this, { width, height } = picture.image ?? pictureSize(picture.numbers);
+        if (canvas.width !== width || canvas.height !== height)
+            Object.assign(canvas, { width, height });
+        if (picture.image) {
+            canvas.getContext('2d').drawImage(picture.image, 0, 0);
+            picture.image.close();
+            return picture.undrawn;
+        }
+        return drawPicture(canvas.getContext('2d'), picture.numbers, { image: name => this.images.get(name.replace(/^.*\//, '')) });
+    }
+
+    show(answer) {
+        Object.assign(this, { frame: answer.frame, most: answer.most, fps: answer.fps, parameters: answer.parameters });
+        const left = this.draw(answer);
+        this.host.shown(answer, left);
+        if (left.includes('canvas3d'))
+            this.attempt('automatic').then(other => other?.picture && this.draw(other));
+        this.host.changed();
+    }
+
+    async showAnswer(act, message) {
+        const answer = await this.attempt(act, message);
+        if (answer)
+            this.show(answer);
+        return answer;
+    }
+
+    // --- running
+
+    async load(text, name, changes = []) {
+        this.running = false;
+        const answer = await this.attempt('load', { text, name, changes });
+        if (!answer)
+            return false;
+        Object.assign(this, { loaded: text, name });
+        this.host.loaded?.();
+        this.show(answer);
+        return true;
+    }
+
+    // Loads, and goes to a frame. True; false after a failure; or the hash of the state if it is another one.
+    async open(text, name, { changes = [], frame = 0, hash = null } = {}) {
+        if (!await this.load(text, name, changes) || !await this.showAnswer('seek', { frame: frame || FIRST_SEEN }))
+            return false;
+        const answer = hash && await this.attempt('hash');
+        return !answer || answer.hash === hash || answer.hash;
+    }
+
+    run() {
+        if (this.running || this.loaded === null)
+            return;
+        Object.assign(this, { running: true, last: performance.now(), behind: 0 });
+        this.host.changed();
+        requestAnimationFrame(now => this.tick(now));
+    }
+
+    pause() {
+        this.running = false;
+        this.host.changed();
+    }
+
+    // At display rate: as many frames as the time since the last one is worth, when the engine is free.
+    async tick(now) {
+        if (!this.running)
+            return;
+        this.behind = Math.min(this.behind + Math.max(now - this.last, 0) / 1000 * this.fps * this.speed, MOST_STEPS);
+        this.last = now;
+        const count = Math.floor(this.behind);
+        this.behind -= count;
+        if (count > 0)
+            await this.showAnswer('step', { count });
+        requestAnimationFrame(later => this.tick(later));
+    }
+
+    async step() {
+        this.running = false;
+        await this.showAnswer('step', { count: 1 });
+    }
+
+    // One question at a time: while a drag goes on, only where it has come to counts.
+    async seek(frame) {
+        this.running = false;
+        const waits = this.wanted !== null;
+        this.wanted = Math.max(frame, 0);
+        if (waits)
+            return;
+        for (let at = null; this.wanted !== at;) {
+            at = this.wanted;
+            await this.showAnswer('seek', { frame: at });
+        }
+        this.wanted = null;
+    }
+
+    async set(name, value) {
+        const answer = await this.attempt('set', { name, value });
+        if (answer && !this.running)
+            this.show(answer);
+    }
+
+    // Ends what the engine is at. True if it could be ended alone; else the engine has gone with it.
+    async stop() {
+        const { busy } = this.remote;
+        this.pause();
+        const alone = !busy || await this.remote.stop();
+        if (!alone)
+            await this.restart();
+        else if (busy && this.loaded !== null)
+            await this.showAnswer('shown');
+        return alone;
+    }
+
+    end() {
+        this.running = false;
+        this.remote.end();
+    }
+
+    // --- what it is given
+
+    // A script reads what is given, and nothing else.
+    async addFile(name, bytes) {
+        this.files.set(name, bytes);
+        if (/\.(png|jpe?g|gif|webp)$/i.test(name))
+            this.images.set(name.replace(/^.*\//, ''), await createImageBitmap(new Blob([bytes])).catch(() => null));
+    }
+
+    giveFiles() {
+        return this.attempt('files', { files: Object.fromEntries(this.files) });
+    }
+
+    // The pointer and keys go to the script while the picture has the focus.
+    listen() {
+        const { canvas } = this;
+        canvas.onpointermove = canvas.onpointerdown = canvas.onpointerup = event => this.point(event, true);
+        canvas.onpointerleave = event => this.point(event, false);
+        canvas.onkeydown = event => this.key(event, true);
+        canvas.onkeyup = event => this.key(event, false);
+    }
+
+    point(event, inside) {
+        if (this.loaded === null)
+            return;
+        const box = this.canvas.getBoundingClientRect(), share = (x, from, size) => Math.min(Math.max((x - from) / size, 0), 1);
+        const [left, right, middle] = [event.buttons & 1, event.buttons & 2, event.buttons & 4];
+        this.attempt('pointer', {
+            inside, x: share(event.clientX, box.left, box.width), y: share(event.clientY, box.top, box.height),
+            buttons: left | (middle ? 2 : 0) | (right ? 4 : 0),
+        });
+    }
+
+    key(event, pressed) {
+        const name = KEYS[event.key] ?? (/^[a-z0-9]$/i.test(event.key) ? event.key.toLowerCase() : null);
+        if (this.loaded === null || !name || event.ctrlKey || event.metaKey || event.altKey)
+            return;
+        event.preventDefault();
+        this.remote.ask('key', { name, pressed }).catch(() => {});
+    }
+}
+
+const KEYS = { ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'return' };
+
+// Whether the browser has WebAssembly with SIMD: a function that uses it.
+export const hasEngine = () => typeof WebAssembly !== 'undefined' && WebAssembly.validate(new Uint8Array([
+    0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]));
+export const NO_ENGINE = 'This browser has no WebAssembly with SIMD, which petri takes: one of 2021 or later has.';
+
+// What to say of an error.
+export const sayError = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'
+    : error.type === 'ended' ? 'Stopped. What the frame was at is given up; Run starts anew.'
+        : error.type === 'broken' ? `${error.message}. Run starts anew.` : error.message.split('\n')[0];

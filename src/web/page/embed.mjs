@@ -1,0 +1,211 @@
+// embed.mjs: <petri-dish>, a script in any page: see src/web/README.md for what it takes and gives. Its engine starts when
+// the element comes into view, and is that of the folder where this file is.
+import { loadEngine } from '../engine/petri.mjs';
+import { CONTROLS, Controls } from './controls.mjs';
+import { Dish, NO_ENGINE, hasEngine, sayError } from './dish.mjs';
+import style from './embed.css';
+import { packLink } from './link.mjs';
+
+// Fetched and compiled once for all elements of a page.
+let compiled = null;
+const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
+
+// Element names and their attributes, most of all `on…`, stay out of this.
+const TEMPLATE = `<style>${style}</style>
+<div id="frame" part="frame"><canvas id="picture" part="picture" tabindex="0" width="300" height="150"></canvas>
+<button id="start" aria-label="Run">▶</button></div>
+<div id="below" hidden>${CONTROLS}<a id="open" part="link" target="_blank" rel="noopener">Open in petri</a></div>
+<textarea id="text" part="text" spellcheck="false" autocapitalize="off" aria-label="The script" hidden></textarea>
+<p id="message" part="message" role="status"></p>`;
+
+class PetriDish extends HTMLElement {
+    static observedAttributes = ['src', 'controls', 'editor'];
+
+    connectedCallback() {
+        if (!this.shadowRoot)
+            this.attachShadow({ mode: 'open' }).innerHTML = TEMPLATE;
+        this.get = id => this.shadowRoot.getElementById(id);
+        this.arrange();
+        // What is written between the tags may come after the element.
+        this.seen = new IntersectionObserver(entries => this.look(entries.at(-1).isIntersecting), { rootMargin: '300px' });
+        if (document.readyState === 'loading')
+            document.addEventListener('DOMContentLoaded', () => this.seen?.observe(this), { once: true });
+        else
+            this.seen.observe(this);
+    }
+
+    disconnectedCallback() {
+        this.seen.disconnect();
+        this.seen = null;
+        this.dish?.end();
+        this.dish = null;
+    }
+
+    // What nobody sees does not run.
+    look(inView) {
+        if (!this.dish && inView)
+            this.begin();
+        else if (this.rests && inView)
+            this.dish.run();
+        this.rests = !inView && (this.rests || this.running);
+        if (this.rests)
+            this.dish.pause();
+    }
+
+    attributeChangedCallback(name) {
+        if (!this.get)
+            return;
+        this.arrange();
+        if (name === 'src' && this.dish)
+            this.read().then(() => this.reset());
+    }
+
+    arrange() {
+        this.get('below').hidden = !this.hasAttribute('controls');
+        this.get('text').hidden = !this.hasAttribute('editor');
+        this.get('picture').setAttribute('aria-label', this.getAttribute('label') ?? 'The picture of the script');
+    }
+
+    say(text, bad = false) {
+        this.get('message').textContent = text;
+        this.get('message').classList.toggle('error', bad);
+    }
+
+    tell(type, detail) {
+        this.dispatchEvent(new CustomEvent(type, { detail, bubbles: true }));
+    }
+
+    // Starts the engine and shows the first picture; a second call does nothing.
+    async begin() {
+        if (this.dish || !this.isConnected)
+            return;
+        if (!hasEngine()) {
+            this.say(NO_ENGINE, true);
+            return;
+        }
+        const dish = this.dish = new Dish(this.get('picture'), engine(), {
+            shown: answer => this.shown(answer), failed: (error, told) => this.failed(error, told), changed: () => this.changed(),
+            loaded: () => this.say(''),
+        });
+        this.controls = new Controls(this.shadowRoot, dish, options => this.ready(options));
+        dish.listen();
+        this.get('start').onclick = () => this.run();
+        this.get('open').onclick = event => this.linkOut(event);
+        this.get('text').onkeydown = event => {
+            if (event.key === 'Enter' && (event.ctrlKey || event.metaKey))
+                this.run({ always: true });
+        };
+        try {
+            await dish.remote.ready;
+            await this.read();
+        } catch (error) {
+            this.failed(error, []);
+            return;
+        }
+        if (this.dish !== dish)
+            return;
+        const frame = Number(this.getAttribute('frame') ?? 0);
+        const shown = await dish.open(this.text, this.name, { frame: Number.isInteger(frame) && frame > 0 ? frame : 0 });
+        if (shown && this.hasAttribute('autoplay') && !matchMedia('(prefers-reduced-motion: reduce)').matches)
+            dish.run();
+        this.tell('petri-ready', { frame: dish.frame });
+    }
+
+    // The script: of `src`, with the files beside it that `files` names, or what is written between the tags.
+    async read() {
+        const from = this.getAttribute('src'), url = new URL(from ?? '', document.baseURI);
+        const fetched = async name => {
+            const answer = await fetch(new URL(name, url));
+            if (!answer.ok)
+                throw new Error(`cannot read ${name}: the server answers ${answer.status}`);
+            return new Uint8Array(await answer.arrayBuffer());
+        };
+        for (const name of (this.getAttribute('files') ?? '').split(/\s+/).filter(Boolean))
+            await this.dish.addFile(name, await fetched(name));
+        await this.dish.giveFiles();
+        this.name = url.pathname.match(/[^/]+\.fl$/)?.[0] ?? 'script.fl';
+        this.text = from === null ? plain((this.querySelector('script, template, pre') ?? this).textContent)
+            : new TextDecoder().decode(await fetched(from));
+    }
+
+    get text() {
+        return this.get?.('text').value ?? '';
+    }
+
+    set text(text) {
+        this.get('text').value = text;
+        this.get('text').rows = Math.min(text.split('\n').length, 24);
+    }
+
+    async ready({ always = false } = {}) {
+        await this.begin();
+        return (!always && this.dish.loaded === this.text) || this.dish.load(this.text, this.name);
+    }
+
+    async run(options) {
+        if (await this.ready(options))
+            this.dish.run();
+    }
+
+    pause() {
+        this.dish?.pause();
+    }
+
+    async reset() {
+        return this.ready({ always: true });
+    }
+
+    async seek(frame) {
+        if (await this.ready())
+            await this.dish.seek(frame);
+    }
+
+    async set(name, value) {
+        if (await this.ready())
+            await this.dish.set(name, String(value));
+    }
+
+    get frame() {
+        return this.dish?.frame ?? -1;
+    }
+
+    get running() {
+        return this.dish?.running ?? false;
+    }
+
+    shown(answer) {
+        this.controls.show(answer);
+        this.get('picture').dataset.frame = answer.frame;
+        this.tell('petri-frame', { frame: answer.frame, time: answer.time });
+    }
+
+    failed(error, told) {
+        const [problem] = told.filter(({ level }) => level !== 'note');
+        this.say(problem?.rendered ?? sayError(error), true);
+        this.tell('petri-error', { message: error.message, diagnostics: told });
+    }
+
+    changed() {
+        this.controls?.refresh();
+        this.get('start').hidden = this.dish?.running || this.hasAttribute('controls') || this.dish?.frame > 2;
+    }
+
+    // The page with the script, as it is now, in its address.
+    async linkOut(event) {
+        event.preventDefault();
+        const answer = this.dish.loaded === this.text ? await this.dish.attempt('hash') : null;
+        const link = await packLink({ text: this.text, name: this.name, ...(answer ?? {}) }).catch(error => this.say(error.message, true));
+        if (link)
+            open(new URL('./', import.meta.url).href + link, '_blank', 'noopener');
+    }
+}
+
+// Without the lines around a script in HTML, nor what all of its lines are indented by.
+function plain(text) {
+    const lines = text.replace(/^\s*\n/, '').trimEnd().split('\n');
+    const indent = Math.min(...lines.filter(line => line.trim()).map(line => line.match(/^ */)[0].length));
+    return `${lines.map(line => line.slice(indent)).join('\n')}\n`;
+}
+
+if (!customElements.get('petri-dish'))
+    customElements.define('petri-dish', PetriDish);

@@ -1,0 +1,31 @@
+// problems.mjs: what petri has told of the script: under the very words, and as a list.
+
+const MOST = 50;
+
+export class Problems {
+    constructor(place, editor) {
+        this.place = place;
+        this.editor = editor;
+        this.told = [];
+    }
+
+    show(told, name = this.name) {
+        Object.assign(this, { told, name });
+        this.editor.show(told.filter(({ file }) => file === name || file === null));
+        this.place.replaceChildren(...told.filter(({ level }) => level !== 'note').slice(0, MOST).map(problem => this.item(problem)));
+    }
+
+    add(told) {
+        if (told?.length)
+            this.show([...this.told, ...told]);
+    }
+
+    item({ level, file, line, column, text, hint }) {
+        const item = document.createElement('li'), button = document.createElement('button');
+        button.className = level;
+        button.textContent = `${line ? `${file === this.name ? '' : `${file}:`}${line}:${column}: ` : ''}${level}: ${text}${hint ? `. ${hint}` : ''}`;
+        button.onclick = () => line && this.editor.goTo(line, column);
+        item.append(button);
+        return item;
+    }
+}

@@ -1,0 +1,43 @@
+// prompt.mjs: a line for expressions and definitions, as `petri repl` has, and what was printed.
+
+const LINES = 200;
+
+export class Prompt {
+    constructor(root, dish) {
+        this.dish = dish;
+        this.line = root.getElementById('line');
+        this.printed = root.getElementById('printed');
+        this.before = [];
+        this.at = 0;
+        root.getElementById('prompt').onsubmit = event => {
+            event.preventDefault();
+            this.take(this.line.value);
+        };
+        this.line.onkeydown = event => {
+            if (event.key !== 'ArrowUp' && event.key !== 'ArrowDown')
+                return;
+            event.preventDefault();
+            this.at = Math.min(Math.max(this.at + (event.key === 'ArrowUp' ? -1 : 1), 0), this.before.length);
+            this.line.value = this.before[this.at] ?? '';
+        };
+    }
+
+    async take(text) {
+        if (!text.trim())
+            return;
+        this.line.value = '';
+        this.before = [...this.before.filter(old => old !== text), text];
+        this.at = this.before.length;
+        this.print(`? ${text}\n`);
+        const answer = await this.dish.remote.ask('prompt', { text: `${text}\n` })
+            .catch(error => ({ text: `${error.message}\n`, told: [] }));
+        this.print(answer.text + answer.told.map(({ rendered }) => rendered).join(''));
+    }
+
+    print(text) {
+        if (!text)
+            return;
+        this.printed.textContent = (this.printed.textContent + text).split('\n').slice(-LINES).join('\n');
+        this.printed.scrollTop = this.printed.scrollHeight;
+    }
+}

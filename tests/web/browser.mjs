@@ -1,0 +1,67 @@
+// browser.mjs: headless Chromium and a server for the tests of the page, which are skipped without npm's modules or the browser.
+import assert from 'node:assert/strict';
+import { existsSync } from 'node:fs';
+import { dirname, join } from 'node:path';
+import { after, before } from 'node:test';
+import { fileURLToPath, pathToFileURL } from 'node:url';
+
+export const root = join(dirname(fileURLToPath(import.meta.url)), '../..');
+export const folder = process.env.PETRI_WEB;
+const browserPath = '/usr/bin/chromium';
+const modules = join(root, 'src/web/page/node_modules/playwright-core/index.mjs');
+const missing = [modules, browserPath, join(folder, 'page.js')].find(path => !existsSync(path));
+export const options = { skip: missing ? `there is no ${missing}` : false, timeout: 60000 };
+export const world = {}; // browser, server
+
+before(async () => {
+    if (missing)
+        return;
+    const { chromium } = await import(pathToFileURL(modules));
+    const { serve } = await import('../../src/web/page/serve.mjs');
+    world.server = await serve(folder);
+    world.browser = await chromium.launch({
+        executablePath: browserPath,
+        args: ['--headless', '--no-sandbox', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking',
+            '--disable-component-update', '--disable-sync'],
+    });
+});
+
+after(async () => {
+    await world.browser?.close();
+    world.server?.close();
+});
+
+// A page of its own, which must say nothing on the console.
+export async function visited(url, { settings = {}, prepare, ready, use, expected = /willReadFrequently/ }) {
+    const context = await world.browser.newContext({ viewport: { width: 1200, height: 800 }, ...settings });
+    const page = await context.newPage(), said = [];
+    // That the tests read pixels is their own affair.
+    page.on('console', message => expected.test(message.text()) || said.push(message.text()));
+    page.on('pageerror', error => said.push(error.message));
+    await prepare?.(page, context);
+    await page.goto(url);
+    await page.waitForFunction(ready);
+    await use(page, context);
+    assert.deepEqual(said, []);
+    await context.close();
+}
+
+export const opened = (hash, how) => visited(world.server.url + hash, { ready: () => document.body.dataset.ready, ...how });
+
+export const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));
+export const atFrame = (page, frame) => page.waitForFunction(wanted => Number(document.body.dataset.frame) === wanted, frame);
+
+// What a canvas shows, as a number.
+export const pixels = (page, selector = '#picture') => page.locator(selector).first().evaluate(canvas => {
+    const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+    let sum = 0;
+    for (let i = 0; i < data.length; i++)
+        sum = (sum * 31 + data[i]) % 4294967291;
+    return { sum, width: canvas.width, height: canvas.height, all: new Set(data).size };
+});
+
+export async function typed(page, text) {
+    await page.click('.cm-content');
+    await page.keyboard.press('Control+a');
+    await page.keyboard.insertText(text);
+}

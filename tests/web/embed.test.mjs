@@ -1,0 +1,123 @@
+// embed.test.mjs: <petri-dish> in pages that come from elsewhere and know nothing of petri.
+import assert from 'node:assert/strict';
+import { createServer } from 'node:http';
+import { readFileSync } from 'node:fs';
+import { join } from 'node:path';
+import { after, before, test } from 'node:test';
+import { opened, options, pixels, root, visited, world } from './browser.mjs';
+
+const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
+const SQUARE = '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;(frame/100);0 fill=true\n';
+let other, html = '';
+
+// A server as anybody has: no headers of petri's.
+before(() => new Promise(resolve => {
+    other = createServer((request, response) => {
+        const [type, text] = request.url === '/dish.fl' ? ['text/plain', DISH] : request.url === '/m.fl' ? ['text/plain', 'let N=7\n']
+            : request.url === '/' ? ['text/html', html] : [null, ''];
+        response.writeHead(type ? 200 : 404, { 'Content-Type': type ?? 'text/plain' }).end(text);
+    }).listen(0, '127.0.0.1', resolve);
+}));
+after(() => other.close());
+
+// A page with this in it; each element must have come to its first picture.
+function embedded(body, use, how = {}) {
+    html = `<!doctype html><meta charset="utf-8"><link rel="icon" href="data:,"><title>t</title>
+<style>button, canvas, input { border: 9px solid red !important; width: 3px } p { color: rgb(1, 2, 3) }</style>
+<script type="module" src="${world.server.url}petri-dish.js"></script><p id="text">text</p><button id="button">b</button>${body}`;
+    return visited(`http://127.0.0.1:${other.address().port}/`, {
+        ready: () => [...document.querySelectorAll('petri-dish')].every(({ frame }) => frame >= 0), use, ...how,
+    });
+}
+
+const within = selector => `petri-dish >> ${selector}`;
+const shown = (page, frame) => page.waitForFunction(wanted => document.querySelector('petri-dish').frame === wanted, frame);
+
+test('a script in a page from elsewhere, by src and between the tags, with controls', options, () => embedded(
+    `<petri-dish src="dish.fl" controls></petri-dish><petri-dish class="b"><script type="text/plain">
+        ${SQUARE.replaceAll('\n', '\n        ')}
+    </script></petri-dish>`, async page => {
+        const first = await pixels(page, within('#picture'));
+        assert.ok(first.width > 100 && first.all > 20, JSON.stringify(first));
+        const [r, g, b] = await page.locator('petri-dish.b >> #picture').evaluate(canvas => canvas.getContext('2d').getImageData(30, 10, 1, 1).data);
+        assert.deepEqual([r, g, b], [255, 5, 0]);
+        assert.equal(await page.evaluate(() => globalThis.crossOriginIsolated), false);
+        await page.click(within('#run'));
+        await page.waitForFunction(() => document.querySelector('petri-dish').frame > 12);
+        await page.click(within('#run'));
+        await page.locator(within('#time')).first().fill('2');
+        await shown(page, 2);
+        assert.equal((await pixels(page, within('#picture'))).sum, first.sum);
+        await page.click(within('#step'));
+        await shown(page, 3);
+        assert.notEqual((await pixels(page, within('#picture'))).sum, first.sum);
+        assert.ok(await page.locator(within('#parameters input')).count() > 0);
+        assert.ok(await page.locator('petri-dish.b >> #run').isHidden());
+    }));
+
+test('a page looks as without it, and it looks as without the page', options, () => embedded(
+    `<petri-dish src="dish.fl" controls></petri-dish>`, async page => {
+        const style = (selector, name) => page.locator(selector).first().evaluate((element, of) => getComputedStyle(element)[of], name);
+        assert.equal(await style('#text', 'color'), 'rgb(1, 2, 3)');
+        assert.equal(await style('#button', 'borderTopWidth'), '9px');
+        assert.equal(await style(within('#run'), 'borderTopWidth'), '1px');
+        assert.equal(await style(within('#picture'), 'borderTopWidth'), '0px');
+        const added = await page.evaluate(() => [document.title, document.head.children.length, document.querySelectorAll('petri-dish > *').length]);
+        assert.deepEqual(added, ['t', 5, 0]);
+    }));
+
+test('a script that the reader changes, and a link to the page with what it has become', options, () => embedded(
+    `<petri-dish controls editor frame="7"><pre>${SQUARE}</pre></petri-dish>`, async (page, context) => {
+        await shown(page, 7);
+        const text = page.locator(within('#text'));
+        assert.equal(await text.inputValue(), SQUARE);
+        await text.fill(SQUARE.replace('size=64;32\n', 'size=40;20\n'));
+        await text.press('Control+Enter');
+        await page.waitForFunction(() => document.querySelector('petri-dish').shadowRoot.getElementById('picture').width === 40);
+        await page.waitForFunction(() => document.querySelector('petri-dish').running && document.querySelector('petri-dish').frame > 3);
+        await page.click(within('#run'));
+        await text.fill('!a x=)\n');
+        await page.click(within('#run'));
+        await page.waitForFunction(() => /script\.fl:1:6: error/.test(document.querySelector('petri-dish').shadowRoot.getElementById('message').textContent));
+        await text.fill(SQUARE.replace('size=64;32\n', 'size=40;20\n'));
+        const [linked] = await Promise.all([context.waitForEvent('page'), page.click(within('#open'))]);
+        await linked.waitForFunction(() => document.body.dataset.ready);
+        assert.equal(await linked.evaluate(() => document.getElementById('picture').width), 40);
+    }));
+
+test('a page commands it and hears of it', options, () => embedded(
+    `<petri-dish src="nothing.fl"></petri-dish><script>
+        globalThis.heard = [];
+        for (const type of ['petri-ready', 'petri-frame', 'petri-error'])
+            document.addEventListener(type, event => heard.push([type, event.detail]));
+    </script>`, async page => {
+        await page.waitForFunction(() => globalThis.heard.some(([type]) => type === 'petri-error'));
+        assert.match(await page.textContent(within('#message')), /cannot read nothing\.fl: the server answers 404/);
+        const done = await page.evaluate(async script => {
+            const dish = document.createElement('petri-dish');
+            dish.setAttribute('files', 'm.fl');
+            dish.textContent = script;
+            document.querySelector('petri-dish').replaceWith(dish);
+            await new Promise(resolve => dish.addEventListener('petri-ready', resolve));
+            await dish.seek(9);
+            await dish.set('A', 5);
+            await dish.seek(12);
+            const { frame, running } = dish;
+            dish.run();
+            return { frame, running, frames: globalThis.heard.filter(([type]) => type === 'petri-frame').map(([, detail]) => detail.frame) };
+        }, "import N from 'm.fl'\nlet A=A or N\n!window size=8;8\n    !canvas\n        !rect size=A;8 fill=true\n");
+        assert.deepEqual([done.frame, done.running], [12, false]);
+        assert.deepEqual(done.frames, [0, 2, 9, 9, 12]);
+        await page.waitForFunction(() => document.querySelector('petri-dish').frame > 14);
+        await page.evaluate(() => document.querySelector('petri-dish').remove());
+    }, { ready: () => document.querySelector('petri-dish'), expected: /404|willReadFrequently/ }));
+
+test('the page of petri itself may have it, too', options, () => opened('', {
+    use: async page => {
+        await page.evaluate(async () => {
+            await import('./petri-dish.js');
+            document.body.append(Object.assign(document.createElement('petri-dish'), { textContent: '!window size=9;9\n    !canvas\n' }));
+        });
+        await page.waitForFunction(() => document.querySelector('petri-dish').frame === 2);
+    },
+}));
