@@ -19,12 +19,13 @@ pkg-config --exists epoxy egl : libepoxy-dev libegl-dev
 ls /usr/lib/*/dri/swrast_dri.so : libgl1-mesa-dri libegl1 libgles2
 test -f /usr/share/fonts/truetype/dejavu/DejaVuSans.ttf : fonts-dejavu-core
 '
-# For windows, films, plans of petri sweep, files in HDF5 and editors:
+# For windows, films, plans of petri sweep, links, files in HDF5 and editors:
 BUILD_NEEDS="$RUN_NEEDS
 pkg-config --exists sdl2  : libsdl2-dev
 command -v ffmpeg         : ffmpeg
 pkg-config --exists yaml-0.1: libyaml-dev
 pkg-config --exists json-c: libjson-c-dev
+pkg-config --exists zlib  : zlib1g-dev
 pkg-config --exists hdf5  : libhdf5-dev
 "
 # For the module for Python:
@@ -102,10 +103,10 @@ command -v xz               : xz-utils
 STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
-    -Dhdf5=disabled -Djson=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
+    -Dhdf5=disabled -Djson=disabled -Dzlib=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
 FRESH_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
-OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 hdf5 json-c cmocka x11 ompi-c mpfr python3'
+OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 json-c cmocka x11 ompi-c mpfr python3'
 
 # missing NEEDS: the packages for what is not there.
 missing() {

@@ -19,7 +19,7 @@ enum { STATUS_DONE = 0, STATUS_FAILED = 1, STATUS_USAGE = 2, STATUS_SIGNAL = 128
 // Which commands an option is for.
 // clang-format off
 enum { FOR_RUN = 1, FOR_RENDER = 2, FOR_VIEW = 4, FOR_REPL = 8, FOR_TEST = 16, FOR_CHECK = 32, FOR_GOLDEN = 64,
-       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512 };
+       FOR_SWEEP = 128, FOR_FMT = 256, FOR_LSP = 512, FOR_LINK = 1024, FOR_OPEN = 2048 };
 // clang-format on
 
 // One option.
@@ -79,6 +79,8 @@ extern const Command CHECK_COMMAND;
 extern const Command FMT_COMMAND;
 extern const Command LSP_COMMAND;
 extern const Command SEND_COMMAND;
+extern const Command LINK_COMMAND;
+extern const Command OPEN_COMMAND;
 extern const Command NEW_COMMAND;
 extern const Command HELP_COMMAND;
 

@@ -318,6 +318,7 @@ int options_open(const Options *options, const Host *host,
     wanted.read_folders = (const char *const *)options->read_folders.items;
     wanted.write_folders = (const char *const *)options->write_folders.items;
     wanted.no_files = options->no_files;
+    wanted.read = options->read;
     wanted.unsaved = options->unsaved;
     wanted.read_host = options->unsaved_host;
     wanted.diagnostic = diagnostic;

@@ -26,6 +26,7 @@ typedef struct Options {
     const char *script; // the operand that came last; NULL: none was given
     ScriptList scripts; // of commands for many, sorted
     bool unreadable;    // some path could not be read
+    const char *(*read)(void *host, const char *path, size_t *length);    // … likewise, with the same host
     const char *(*unsaved)(void *host, const char *path, size_t *length); // see PetriOptions; NULL
     void *unsaved_host;
     bool prompt; // the session keeps forces to show and can be interrupted

@@ -20,7 +20,7 @@ enum { HAS_ALL = false };
 #endif
 
 bool pass_on_wanted(const char *first) {
-    static const char *const words[] = {"view", "render", "repl", "help", "--help", "-h"};
+    static const char *const words[] = {"view", "render", "repl", "link", "open", "help", "--help", "-h"};
     for (size_t i = 0; i < sizeof words / sizeof words[0]; i++) {
         if (strcmp(first, words[i]) == 0) {
             return !HAS_ALL;

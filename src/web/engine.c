@@ -2,6 +2,7 @@
 // like that is exported as it is (meson.build); what has structs or callbacks is here.
 #include "web/host.h"
 
+#include "cli/particles.h"
 #include "petri-draw.h"
 
 #include <stdio.h>
@@ -52,6 +53,40 @@ EXPORT(void, web_frame, const PetriSession *session) {
     PetriFrame frame = petri_frame(session);
     host_frame((double)frame.number, frame.time, frame.beat, frame.fps, frame.tempo, (double)frame.physics_steps,
                frame.evaluation_seconds, frame.physics_seconds);
+}
+
+// Many short texts are one for JavaScript.
+typedef struct Gathered {
+    size_t used;
+    char text[1 << 14];
+} Gathered;
+
+static void pass_on(Gathered *gathered) {
+    host_write(gathered->text, gathered->used);
+    gathered->used = 0;
+}
+
+static bool gather(void *host, const char *text, size_t length) {
+    Gathered *gathered = host;
+    if (gathered->used + length > sizeof gathered->text)
+        pass_on(gathered);
+    if (length > sizeof gathered->text)
+        return write_text(NULL, text, length);
+    memcpy(gathered->text + gathered->used, text, length);
+    gathered->used += length;
+    return true;
+}
+
+// The particles of the last frame, as rows; the dimensions that their columns have. 0: as many as they need, after a
+// line with the columns' names. Gives that, or 0 if memory is used up.
+EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
+    Gathered gathered = {.used = 0};
+    uint32_t have = dimensions ? dimensions : particles_dimensions(session);
+    if (!dimensions)
+        particles_header(have, gather, &gathered);
+    bool done = particles_rows(session, have, gather, &gathered);
+    pass_on(&gathered);
+    return done ? have : 0;
 }
 
 EXPORT(PetriStatus, web_print, PetriSession *session, unsigned sections) {
@@ -121,18 +156,57 @@ EXPORT(double, web_evaluate, PetriSession *session, const char *text, size_t len
     return result.number;
 }
 
-// The picture of the last frame, as numbers that are there during the call.
-EXPORT(PetriStatus, web_picture, PetriSession *session, bool automatic) {
+static bool draw_canvas(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
+    (void)host;
+    return host_draw(numbers, count, width, height, pixels);
+}
+
+static const uint32_t *find_image(void *host, const char *file, int *width, int *height) {
+    (void)host;
+    return host_image(file, width, height);
+}
+
+// NULL without WebGL 2.
+EXPORT(PetriPainter *, web_painter, void) {
+    const PetriCanvasHost host = {.draw = draw_canvas, .image = find_image};
+    PetriPainter *painter = petri_painter_open();
+    if (painter && (petri_painter_use_host(painter, &host) != PETRI_OK || petri_painter_use_gl(painter) != PETRI_OK))
+        petri_painter_close(&painter);
+    return painter;
+}
+
+EXPORT(void, web_painter_close, PetriPainter *painter) {
+    petri_painter_close(&painter);
+}
+
+static PetriStatus give_numbers(PetriPicture *picture, bool ready) {
+    const double *numbers;
+    size_t count;
+    PetriStatus status = petri_picture_numbers(picture, &numbers, &count);
+    if (status == PETRI_OK)
+        host_picture(numbers, count, petri_picture_title(picture), ready);
+    return status;
+}
+
+// The picture of the last frame, as numbers that are there during the call; or if they are not all of it and there is a
+// painter, on the host's screen.
+EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, bool automatic) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     PetriPicture *picture;
     PetriStatus status = petri_picture(session, &options, &picture);
-    const double *numbers;
-    size_t count;
-    if (status == PETRI_OK)
-        status = petri_picture_numbers(picture, &numbers, &count);
-    if (status == PETRI_OK)
-        host_picture(numbers, count, petri_picture_title(picture), petri_picture_ready(session, &options));
+    bool ready = petri_picture_ready(session, &options);
+    if (status == PETRI_OK && painter && !petri_picture_is_numbers(picture)) {
+        int width, height;
+        petri_picture_size(picture, &width, &height);
+        host_screen(width, height);
+        status = petri_painter_show(painter, picture, NULL, 0, 1, width, height);
+        petri_picture_tell(session, picture);
+        if (status == PETRI_OK)
+            host_shown(petri_picture_title(picture), ready);
+    } else if (status == PETRI_OK) {
+        status = give_numbers(picture, ready);
+    }
     petri_picture_free(&picture);
     return status;
 }

@@ -22,10 +22,11 @@ petri() {
 out_is() { [ "$(cat out)" = "$1" ]; }
 # One clear message: rejected without a crash, with exactly one error on standard error.
 one_error() { status_is 1 && count_is err "error: " 1 && empty out; }
+one_message() { status_is 1 && lines_are err 1 && has err "$1" && empty out; }
 last_line_is() { [ "$(tail -n 1 "$1")" = "$2" ]; }
 
 shift
-for part in ${*:-command suggest streams parameters check habits bad_input state record render golden new fmt}; do
+for part in ${*:-command suggest streams parameters check habits bad_input state record render golden new fmt link}; do
     # shellcheck source=/dev/null
     . "$here/$part.sh"
 done

@@ -101,6 +101,7 @@ chafa) test -e "$WORK/later/libchafa-dev" ;;
 libedit) test -e "$WORK/later/libedit-dev" ;;
 sdl2) test -e "$WORK/later/libsdl2-dev" ;;
 yaml-0.1) test -e "$WORK/later/libyaml-dev" ;;
+zlib) test -e "$WORK/later/zlib1g-dev" ;;
 hdf5) test -e "$WORK/later/libhdf5-dev" ;;
 ompi-c) test -e "$WORK/later/libopenmpi-dev" ;;
 cmocka) test -e "$WORK/later/libcmocka-dev" ;;

@@ -130,6 +130,15 @@ export interface Help {
 
 export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
 
+/** A picture that WebGL 2 has drawn. */
+export interface Shown {
+    image: ImageBitmap;
+    title: string;
+    ready: boolean;
+    /** What is left out, as words. */
+    undrawn: string[];
+}
+
 /** One script that runs. Calls that fail throw a PetriError; what they were to change is then as before. */
 export interface Session {
     /** Loads a script; frames count from 0 again, the state is kept. */
@@ -159,6 +168,11 @@ export interface Session {
     readonly state: Map<string, number[] | string>;
     /** The SHA-256 of the state: the same on every machine. */
     hash(): string;
+    /**
+     * The particles of the last frame as comma-separated values, as `petri run --trajectory way.csv` writes them: the first
+     * call gives a header, too, and the dimensions that the columns have, for the calls in later frames.
+     */
+    table(dimensions?: number): { text: string; dimensions: number };
     /** The last frame as `petri run --print` shows it. */
     print(...sections: Section[]): string;
     /** What debug() said in the last frame. */
@@ -170,6 +184,11 @@ export interface Session {
     readonly drawable: boolean;
     /** What the last frame shows, as numbers for `drawPicture`; null if there is nothing to draw. */
     picture(options?: { automatic?: boolean }): Picture | null;
+    /**
+     * The same, but with all that takes WebGL 2 (three dimensions, effects, several canvases), as an image that is the
+     * caller's; numbers where they are all of it, or there is no WebGL 2.
+     */
+    show(options?: { automatic?: boolean }): Picture | Shown | null;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;

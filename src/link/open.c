@@ -1,0 +1,144 @@
+// open.c: `petri open`: the frame that a link shows, and whether it is the same here.
+#include <errno.h>
+#include <inttypes.h>
+#include <string.h>
+#include <unistd.h>
+
+#include "base/file.h"
+#include "cli/output.h"
+#include "cli/script.h"
+#include "link/linking.h"
+#include "petri-draw.h"
+
+static bool read_link(Linked *linked, const char *operand) {
+    static const size_t most_bytes = (size_t)1 << 20;
+    SCOPED_BYTES link = {0};
+    if (!script_is_stdin(operand)) {
+        bytes_add_text(&link, operand);
+    } else if (!bytes_read(&link, STDIN_FILENO, most_bytes)) {
+        message("cannot read standard input: %s", strerror(errno));
+        return false;
+    }
+    return link_read(linked, &link);
+}
+
+static int save_picture(PetriSession *session, const char *file) {
+    PetriPictureOptions wanted = {0};
+    petri_picture_options_init(&wanted, sizeof wanted);
+    PetriPicture *picture = NULL;
+    PetriPainter *painter = petri_painter_open();
+    bool saved = painter != NULL && petri_picture(session, &wanted, &picture) == PETRI_OK &&
+                 petri_picture_save(picture, painter, file) == PETRI_OK;
+    if (picture != NULL) {
+        petri_picture_tell(session, picture);
+    }
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+    return saved ? STATUS_DONE : STATUS_FAILED;
+}
+
+static int write_script(const Host *host, const Linked *linked, const char *file) {
+    if (strcmp(file, "-") == 0) {
+        return output_text(linked->text.data, linked->text.length, STATUS_DONE);
+    }
+    const char *problem = file_replace(file, (Str){linked->text.data, linked->text.length}, 0);
+    if (problem != NULL) {
+        message("cannot write %s: %s", file, problem);
+        return STATUS_FAILED;
+    }
+    SCOPED_BYTES changes = {0};
+    for (size_t i = 0; i < linked->change_count; i++) {
+        const LinkedChange *change = &linked->changes[i];
+        bytes_format(&changes, i == 0 ? " %s=%s" : ", %s=%s", change->name, change->value);
+        if (change->frame >= 0) {
+            bytes_format(&changes, " after frame %" PRId64, change->frame);
+        }
+    }
+    if (changes.length > 0) {
+        message("the link also has%s, which is not in %s", changes.data, file);
+    }
+    hint_pictures(host, file);
+    return STATUS_DONE;
+}
+
+static bool is_script(const char *file) {
+    return strcmp(file, "-") == 0 || str_ends_with(str_from(file), STR(".fl"));
+}
+
+static bool check_output(const char *file) {
+    bool good = file == NULL || is_script(file) || petri_picture_format(file);
+    if (!good) {
+        message("'%s' should end in .fl, for the script, or in .png, .svg or .pdf, for the picture", file);
+    }
+    return good;
+}
+
+// Tells whether the frame is that of the link; without --output its hash goes to standard output, as petri run prints
+// it.
+static int compare(const Linking *linking, const Options *options) {
+    const Linked *linked = &linking->linked;
+    SCOPED_BYTES text = {0};
+    petri_print(linking->frames.session, PETRI_PRINT_HASH, bytes_collect, &text);
+    int status = options->output == NULL ? output_text(text.data, text.length, STATUS_DONE) : STATUS_DONE;
+    SCOPED_TEXT hash = linking_hash(linking);
+    if (linked->hash == NULL) {
+        message("%s: the link tells of no state to compare with", linked->name);
+        return status;
+    }
+    bool same = strcmp(hash, linked->hash) == 0;
+    message(same ? "%s: frame %" PRId64 " has the same state as where the link was made, to the last bit"
+                 : "%s: the state of frame %" PRId64 " is not that where the link was made; it was made by another "
+                   "version of petri, perhaps",
+            linked->name, linked->frame);
+    return same ? status : STATUS_FAILED;
+}
+
+static int open_link(const Host *host, Options *options, Linking *linking) {
+    Linked *linked = &linking->linked;
+    if (!check_output(options->output)) {
+        return STATUS_USAGE;
+    }
+    if (!link_possible() || !read_link(linked, options->script)) {
+        return STATUS_FAILED;
+    }
+    const char *file = options->output;
+    int wrote = file != NULL && is_script(file) ? write_script(host, linked, file) : STATUS_DONE;
+    int status = linking_run(linking, host, options);
+    linking_tell(linking, "the script asks for ", ", and links hold no files");
+    if (status != OPTIONS_READ) {
+        return status == STATUS_USAGE ? STATUS_FAILED : status;
+    }
+    if (file != NULL && !is_script(file)) {
+        wrote = save_picture(linking->frames.session, file);
+    }
+    status = linked->frame < 0 ? STATUS_DONE : compare(linking, options);
+    return wrote != STATUS_DONE ? wrote : status;
+}
+
+static int open_run(const Host *host, Options *options) {
+    Linking linking = {0};
+    int status = open_link(host, options, &linking);
+    linking_close(&linking);
+    return status;
+}
+
+const Command OPEN_COMMAND = {
+    .name = "open",
+    .operands = "LINK",
+    .summary = "run what a link holds to its frame, and tell whether the state is the same",
+    .details =
+        "Runs the script that is in a link, of petri link or of the page in a browser, to the frame that the link\n"
+        "names, with the parameters as they were changed, and tells whether the state has the same hash: the exit\n"
+        "status is 1 if not. The hash goes to standard output; with --output a file gets the script (FILE.fl, or -\n"
+        "for standard output) or the picture of the frame. The script neither reads nor writes files.\n"
+        "\n"
+        "LINK is the whole address, or what begins with '#', in quotes because of that; - is standard input.",
+    .examples = "  petri open 'http://127.0.0.1:8080/#q1bKU...'    is the frame the same here?\n"
+                "  petri open '#q1bKU...' -o dish.fl               the script, too\n"
+                "  petri open '#q1bKU...' -o dish.png              the picture, too\n"
+                "  petri link dish.fl --frame 99 | petri open -    there and back\n",
+    .needed = "no link was given (what begins with '#' needs quotes)",
+    .second = "one link is opened at a time; '%s' is too many (a link needs quotes)",
+    .options = FOR_OPEN,
+    .run = open_run,
+};
