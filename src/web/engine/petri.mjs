@@ -296,13 +296,16 @@ export class Session {
         return !!this.run(wasm => wasm.petri_looks_back(this.handle));
     }
 
-    // Makes the pictures of the last frame, which nobody looks at, if later ones depend on them.
+    // Makes the pictures of the last frame, which nobody looks at, if later ones depend on them; whether they do.
     follow() {
+        if (!this.looksBack)
+            return false;
         const { number } = this.frame;
-        if (!this.looksBack || this.followed?.number === number || !this.openPainter())
-            return;
-        this.forgetPicture();
-        this.followed = { number, at: this.run(wasm => wasm.web_follow(this.handle, this.painter)) };
+        if (this.followed?.number !== number && this.openPainter()) {
+            this.forgetPicture();
+            this.followed = { number, at: this.run(wasm => wasm.web_follow(this.handle, this.painter)) };
+        }
+        return true;
     }
 
     openPainter() {
@@ -326,8 +329,7 @@ export class Session {
     show({ automatic = false } = {}) {
         this.openPainter();
         this.undrawn.clear();
-        this.follow();
-        const followed = automatic || !this.looksBack ? 0 : this.followed?.at ?? 0;
+        const followed = this.follow() && !automatic ? this.followed?.at ?? 0 : 0;
         this.run(wasm => wasm.web_picture(this.handle, this.painter, followed, automatic ? 1 : 0));
         const shown = this.taken[0] ?? null;
         return shown?.image ? { ...shown, undrawn: [...this.undrawn] } : shown;
