@@ -4,10 +4,8 @@
 
 #include <pango/pangocairo.h>
 
-#include "draw/list.h"
-#include "draw/pictures.h"
+#include "draw/painter.h"
 
-typedef struct Picture Picture;         // of an image file: images.c
 typedef struct SheetMemory SheetMemory; // sheets.c
 
 // Red, green, blue and alpha of each pixel, multiplied by alpha, 0 to 1; rows from the top.
@@ -19,24 +17,13 @@ typedef struct Sheet {
     int y;
 } Sheet;
 
-struct PetriPainter {
-    Arena arena; // reset with each picture
-    Meter meter; // of the memory that drawing may have
+// Fonts, and what the layout is set to.
+struct Letters {
     PangoFontMap *fonts;
-    PangoContext *text_context;
+    PangoContext *context;
     PangoLayout *layout;
-    ListSizes sizes;    // of the list that was built last
-    const char *family; // what the layout is set to; NULL at first in each picture
+    const char *family; // NULL at first in each picture
     ListText font;
-    Picture *images;
-    Pictures *pictures;
-    Gl *gl;                 // opened when it is needed
-    const char *gl_problem; // why it cannot be; borrowed
-    bool on_window;         // gl draws on a host's window
-    uint32_t *window;       // pixels for it
-    size_t window_room;
-    uint64_t made;  // serial number of the picture whose tree was made last
-    Texture *shown; // of its window; or NULL
 };
 
 // A picture being drawn.
@@ -73,13 +60,6 @@ __attribute__((format(printf, 4, 5))) void draw_fault(Canvas *canvas, DiagLevel 
 __attribute__((format(printf, 5, 6))) void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level,
                                                          const char *code, const char *format, ...);
 
-// The place may be NULL.
-__attribute__((format(printf, 5, 6))) void draw_report(DiagSink *faults, const Origin *place, DiagLevel level,
-                                                       const char *code, const char *format, ...);
-// Whether memory was lacking because of the limit and not of the machine; tells that a node is left out then.
-bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
-                     DiagSink *faults);
-
 // apart.c
 // Charges bytes to the picture; false if it may not have so many.
 bool draw_take(Canvas *canvas, size_t bytes);
@@ -94,16 +74,6 @@ bool draw_spend(Canvas *canvas, const Origin *place, double work, const char *ou
 void draw_lacks(Canvas *canvas, const Origin *place, const char *what, bool lacking);
 // Gives back whatever is still held.
 void draw_close(Canvas *canvas);
-
-// paint.c
-// Sets how much memory the painter may take from here on.
-void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
-// Reports that a drawing was given up because of that: PETRI_INVALID, or PETRI_MEMORY without room for it.
-PetriStatus draw_tell_limit(DiagSink *faults);
-// Draws a canvas into a cleared picture of its size: sRGB, or linear light. PETRI_OK, PETRI_INVALID after an error was
-// reported, or PETRI_MEMORY.
-PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
-                        DiagSink *faults);
 
 // show.c
 // Draws a list. The matrix in force is that of its units.
@@ -167,9 +137,6 @@ void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint);
 cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image);
 // The same without a copy: the picture of a node, in memory, or what a file has; false if there is neither.
 bool draw_find_pixels(Canvas *canvas, const ListImage *image, const Texture **texture, cairo_surface_t **file);
-// The picture of an image that stands among pictures, to be freed; NULL, after a report, if there is none.
-Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
-                            DiagSink *faults);
 void draw_images_close(PetriPainter *painter);
 // The pixels of a JPEG file; NULL with a reason, or without one if memory is used up.
 cairo_surface_t *draw_read_jpeg(Str bytes, const char **problem);

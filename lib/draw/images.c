@@ -5,12 +5,11 @@
 #include "base/heap.h"
 #include "base/source.h"
 #include "draw/light.h"
-#include "draw/resize.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_BYTES = 64 << 20, MOST_SIDE = 16384, MOST_PIXELS = 1 << 26, MOST_KEPT = 64 };
+enum { MOST_BYTES = 64 << 20, MOST_SIDE = DRAW_MOST_SIDE, MOST_PIXELS = DRAW_MOST_PIXELS, MOST_KEPT = 64 };
 
 struct Picture {
     Picture *next;
@@ -309,20 +308,8 @@ Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture,
                                    : NULL;
     if (!surface)
         return NULL;
-    int width = cairo_image_surface_get_width(surface), height = cairo_image_surface_get_height(surface);
-    pictures_size(node, &width, &height);
-    if (width < 1 || height < 1 || width > MOST_SIDE || height > MOST_SIDE || (int64_t)width * height > MOST_PIXELS) {
-        draw_report(faults, &node->place, DIAG_WARNING, "bad-size",
-                    "!image: a picture can have 1 to %d pixels in width and height", MOST_SIDE);
-        return NULL;
-    }
-    cairo_format_t format = cairo_image_surface_get_format(surface);
-    Texture *texture =
-        resize_pixels(&painter->meter, (const uint32_t *)(const void *)cairo_image_surface_get_data(surface),
-                      cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
-                      (size_t)cairo_image_surface_get_stride(surface), format == CAIRO_FORMAT_ARGB32, width, height,
-                      draw_word(node, ATTR_FLIP));
-    if (!texture && !draw_is_refused(painter, &node->place, "!image", width, height, faults))
-        arena_exhausted(&painter->arena);
-    return texture;
+    return draw_sized_image(painter, node, (const uint32_t *)(const void *)cairo_image_surface_get_data(surface),
+                            cairo_image_surface_get_width(surface), cairo_image_surface_get_height(surface),
+                            (size_t)cairo_image_surface_get_stride(surface),
+                            cairo_image_surface_get_format(surface) == CAIRO_FORMAT_ARGB32, faults);
 }

@@ -44,14 +44,14 @@ PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels
     cairo_t *cr = cairo_create(target);
     PangoFontDescription *font = pango_font_description_from_string("monospace");
     cairo_scale(cr, scale, scale);
-    pango_cairo_update_layout(cr, painter->layout);
-    pango_layout_set_attributes(painter->layout, NULL);
-    painter->family = NULL;
+    pango_cairo_update_layout(cr, painter->letters->layout);
+    pango_layout_set_attributes(painter->letters->layout, NULL);
+    painter->letters->family = NULL;
     for (size_t i = 0; i < count; i++) {
         pango_font_description_set_absolute_size(font, labels[i].size * PANGO_SCALE);
-        pango_layout_set_font_description(painter->layout, font);
+        pango_layout_set_font_description(painter->letters->layout, font);
         draw_panel(cr, &labels[i]);
-        draw_lines(cr, painter->layout, &labels[i]);
+        draw_lines(cr, painter->letters->layout, &labels[i]);
     }
     PetriStatus status = cairo_status(cr) == CAIRO_STATUS_SUCCESS ? PETRI_OK : PETRI_MEMORY;
     pango_font_description_free(font);

@@ -1,21 +1,22 @@
-// none.c: paint.h in a build without Cairo.
-#include "draw/paint.h"
+// none.c: paint.h in a build without Cairo: the host draws the canvases, if anyone does.
+#include "draw/painter.h"
 
-#include "base/heap.h"
+#include <string.h>
 
-struct PetriPainter {
-    char nothing;
-};
-
-PetriPainter *petri_painter_open(void) {
-    return heap_zeroed(1, sizeof(PetriPainter));
+bool draw_tools_open(PetriPainter *painter) {
+    (void)painter;
+    return true;
 }
 
-void petri_painter_close(PetriPainter **handle) {
-    if (!handle)
-        return;
-    heap_give(*handle);
-    *handle = NULL;
+void draw_tools_close(PetriPainter *painter) {
+    (void)painter;
+}
+
+PetriStatus petri_painter_use_host(PetriPainter *painter, const PetriCanvasHost *functions) {
+    if (!painter || !functions || !functions->draw || painter->made > 0)
+        return PETRI_INVALID;
+    painter->host = *functions;
+    return PETRI_OK;
 }
 
 static void report_missing(void *faults) {
@@ -30,30 +31,10 @@ static PetriStatus missing(DiagSink *faults) {
     return arena_protect(arenas, 1, report_missing, faults) == ARENA_DONE ? PETRI_MISSING : PETRI_MEMORY;
 }
 
-PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
-                        size_t stride, DiagSink *faults) {
-    (void)painter, (void)picture;
-    for (int y = 0; y < height; y++)
-        for (int x = 0; x < width; x++)
-            pixels[(size_t)y * (stride / sizeof *pixels) + (size_t)x] = 0;
-    return missing(faults);
-}
-
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
                         Encoded *out, DiagSink *faults) {
     (void)painter, (void)picture, (void)format, (void)width, (void)height, (void)out;
     return missing(faults);
-}
-
-PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    (void)painter, (void)picture;
-    return missing(faults);
-}
-
-const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
-    (void)painter, (void)picture;
-    *count = 0;
-    return NULL;
 }
 
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,
@@ -68,17 +49,118 @@ PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels
     return PETRI_MISSING;
 }
 
-PetriStatus petri_painter_use_gl(PetriPainter *painter) {
-    return painter ? PETRI_MISSING : PETRI_INVALID;
+// A drawing by the host.
+typedef struct Hosted {
+    PetriPainter *painter;
+    const CanvasPicture *picture;
+    const DrawNode *canvas; // NULL: what the picture is without programs
+    int width;
+    int height;
+    uint32_t *pixels;
+    DiagSink *faults;
+    bool done;
+} Hosted;
+
+static void ask_host(void *context) {
+    Hosted *hosted = context;
+    Arena *arena = &hosted->painter->arena;
+    const PetriCanvasHost *host = &hosted->painter->host;
+    size_t count;
+    const double *numbers = hosted->canvas
+                                ? draw_canvas_numbers(arena, hosted->canvas, hosted->width, hosted->height, &count)
+                                : draw_picture_numbers(arena, hosted->picture, &count);
+    hosted->done = host->draw(host->host, numbers, count, hosted->width, hosted->height, hosted->pixels);
+    if (!hosted->done)
+        draw_report(hosted->faults, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn");
 }
 
-PetriStatus petri_painter_show(PetriPainter *painter, PetriPicture *picture, const PetriLabel *labels, size_t count,
-                               double scale, int width, int height) {
-    (void)painter, (void)picture, (void)labels, (void)count, (void)scale, (void)width, (void)height;
-    return PETRI_INVALID;
+static PetriStatus draw_hosted(Hosted *hosted) {
+    PetriPainter *painter = hosted->painter;
+    if (!painter->host.draw)
+        return missing(hosted->faults);
+    Arena *arenas[] = {&painter->arena, hosted->faults->arena};
+    draw_limit(painter, hosted->picture);
+    ArenaMark mark = arena_mark(&painter->arena);
+    ArenaEnd end = arena_protect(arenas, 2, ask_host, hosted);
+    arena_rewind(&painter->arena, mark);
+    if (end == ARENA_BUDGET)
+        return draw_tell_limit(hosted->faults);
+    return end != ARENA_DONE ? PETRI_MEMORY : hosted->done ? PETRI_OK : PETRI_INVALID;
 }
 
-uint64_t petri_painter_read_backs(const PetriPainter *painter) {
-    (void)painter;
-    return 0;
+PetriStatus draw_canvas(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node, Texture *texture,
+                        DiagSink *faults) {
+    Texture *bytes = texture->bytes ? texture : texture_new(&painter->meter, texture->width, texture->height, false);
+    if (!bytes)
+        return painter->meter.memory_refused ? draw_tell_limit(faults) : PETRI_MEMORY;
+    PetriStatus status = draw_hosted(&(Hosted){.painter = painter,
+                                               .picture = picture,
+                                               .canvas = node,
+                                               .width = texture->width,
+                                               .height = texture->height,
+                                               .pixels = bytes->bytes,
+                                               .faults = faults});
+    if (bytes != texture) {
+        texture_copy_linear(bytes, texture->linear);
+        texture_free(bytes);
+    }
+    return status;
+}
+
+// A picture in another size, in the middle.
+static void scale_texture(const Texture *texture, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                          size_t stride) {
+    const Sampler sampler = {.clamped = true};
+    double left, top, scale = draw_fit(picture->width, picture->height, width, height, &left, &top);
+    for (int y = 0; y < height; y++)
+        for (int x = 0; x < width; x++) {
+            double u = (x + 0.5 - left) / (picture->width * scale), v = (y + 0.5 - top) / (picture->height * scale);
+            float color[4] = {0};
+            if (u >= 0 && u <= 1 && v >= 0 && v <= 1)
+                texture_sample(texture, &sampler, u, v, color);
+            Texture one = {.width = 1, .height = 1, .linear = color};
+            texture_row(&one, 0, picture->opaque, (uint32_t *)(void *)((char *)pixels + (size_t)y * stride) + x);
+        }
+}
+
+PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
+                        size_t stride, DiagSink *faults) {
+    draw_clear(pixels, width, height, stride);
+    if (!painter->host.draw)
+        return missing(faults);
+    PetriStatus status = draw_make_pixels(painter, picture, faults);
+    const Texture *shown = status == PETRI_OK ? draw_made(painter, picture) : NULL;
+    if (shown && shown->width == width && shown->height == height) {
+        draw_texture(shown, picture->opaque, pixels, stride);
+    } else if (shown) {
+        scale_texture(shown, picture, pixels, width, height, stride);
+    } else if (status == PETRI_OK && (picture->direct || picture->automatic)) {
+        if (stride != (size_t)width * sizeof *pixels)
+            return PETRI_INVALID;
+        status = draw_hosted(&(Hosted){.painter = painter,
+                                       .picture = picture,
+                                       .width = width,
+                                       .height = height,
+                                       .pixels = pixels,
+                                       .faults = faults});
+    }
+    return status;
+}
+
+Texture *draw_picture_image(PetriPainter *painter, const CanvasPicture *picture, const DrawNode *node,
+                            DiagSink *faults) {
+    (void)picture;
+    const AttrValue *name = draw_attr(node, ATTR_FILENAME);
+    const PetriCanvasHost *host = &painter->host;
+    int width = 0, height = 0;
+    if (!name || name->as.text.len == 0)
+        return NULL;
+    const uint32_t *pixels =
+        host->image ? host->image(host->host, str_to_c(&painter->arena, name->as.text), &width, &height) : NULL;
+    if (!pixels || width < 1 || height < 1) {
+        draw_report(faults, &node->place, DIAG_WARNING, "cannot-read",
+                    "!image: cannot read '%s': there is no such picture", name->as.text.bytes);
+        return NULL;
+    }
+    return draw_sized_image(painter, node, pixels, width, height, (size_t)width * sizeof *pixels, true, faults);
 }

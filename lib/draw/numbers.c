@@ -1,4 +1,5 @@
 // numbers.c: a picture as one array of numbers, for hosts that draw by themselves; see petri-draw.h.
+#include "draw/painter.h"
 #include "draw/picture.h"
 
 #include "draw/list.h"
@@ -6,7 +7,7 @@
 #include <math.h>
 
 typedef struct Numbers {
-    const PetriPicture *picture;
+    const CanvasPicture *picture; // or NULL, of a canvas
     Arena *arena;
     LIST_ARRAY(double) out;
     const List *list;
@@ -191,9 +192,16 @@ static const DrawNode *find_canvas(Numbers *numbers, const DrawNode *node, int d
     return found;
 }
 
+static void add_canvas(Numbers *numbers, const DrawNode *canvas) {
+    ListSizes sizes = {0};
+    numbers->list = list_build(numbers->arena, canvas, &sizes);
+    for (uint32_t i = 0; i < numbers->list->commands.count; i++)
+        add_command(numbers, &numbers->list->commands.at[i]);
+}
+
 static void make(void *context) {
     Numbers *numbers = context;
-    const CanvasPicture *canvases = &numbers->picture->picture;
+    const CanvasPicture *canvases = numbers->picture;
     ADD(canvases->width, canvases->height);
     if (canvases->automatic) {
         ADD(PETRI_DRAW_SYSTEMS, canvases->automatic->count);
@@ -202,18 +210,34 @@ static void make(void *context) {
         return;
     }
     const DrawNode *canvas = find_canvas(numbers, canvases->window, 0);
-    ListSizes sizes = {0};
-    if (!canvas)
-        return;
-    numbers->list = list_build(numbers->arena, canvas, &sizes);
-    for (uint32_t i = 0; i < numbers->list->commands.count; i++)
-        add_command(numbers, &numbers->list->commands.at[i]);
+    if (canvas)
+        add_canvas(numbers, canvas);
+}
+
+const double *draw_canvas_numbers(Arena *arena, const DrawNode *canvas, double width, double height, size_t *count) {
+    Numbers made = {.arena = arena, .matrix = LIST_NONE, .paint = LIST_NONE};
+    Numbers *numbers = &made;
+    ADD(width, height);
+    add_canvas(numbers, canvas);
+    *count = made.out.count;
+    return made.out.at;
+}
+
+const double *draw_picture_numbers(Arena *arena, const CanvasPicture *picture, size_t *count) {
+    Numbers made = {.picture = picture, .arena = arena, .matrix = LIST_NONE, .paint = LIST_NONE};
+    make(&made);
+    *count = made.out.count;
+    return made.out.at;
+}
+
+bool petri_picture_is_numbers(const PetriPicture *picture) {
+    return picture && (!picture->picture.window || (picture->picture.direct && !picture->picture.looks_back));
 }
 
 PetriStatus petri_picture_numbers(PetriPicture *picture, const double **numbers, size_t *count) {
     if (!picture || !numbers || !count)
         return PETRI_INVALID;
-    Numbers made = {.picture = picture, .arena = &picture->arena, .matrix = LIST_NONE, .paint = LIST_NONE};
+    Numbers made = {.picture = &picture->picture, .arena = &picture->arena, .matrix = LIST_NONE, .paint = LIST_NONE};
     Arena *arenas[] = {&picture->arena};
     bool done = arena_protect(arenas, 1, make, &made) == ARENA_DONE;
     *numbers = done ? made.out.at : NULL;

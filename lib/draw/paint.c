@@ -1,7 +1,6 @@
 // paint.c: see paint.h: surfaces to draw on, and the canvases of a window one over the other.
 #include "draw/paint.h"
 
-#include "base/heap.h"
 #include "draw/draw.h"
 #include "draw/encode.h"
 
@@ -10,88 +9,34 @@
 #include <math.h>
 #include <string.h>
 
-PetriPainter *petri_painter_open(void) {
-    PetriPainter *painter = heap_zeroed(1, sizeof *painter);
-    if (!painter)
-        return NULL;
-    arena_init(&painter->arena, "painter", SIZE_MAX);
-    painter->meter.memory_limit = SIZE_MAX;
-    meter_begin(&painter->meter, UINT64_MAX, NULL);
-    painter->arena.meter = &painter->meter;
-    painter->pictures = pictures_new();
-    if (painter->pictures && draw_text_open(painter))
-        return painter;
-    petri_painter_close(&painter);
-    return NULL;
+bool draw_tools_open(PetriPainter *painter) {
+    return draw_text_open(painter);
 }
 
-void petri_painter_close(PetriPainter **handle) {
-    if (!handle)
-        return;
-    PetriPainter *painter = *handle;
-    *handle = NULL;
-    if (!painter)
-        return;
+void draw_tools_close(PetriPainter *painter) {
     draw_text_close(painter);
     draw_images_close(painter);
-    pictures_free(painter);
-    gl_close(painter->gl);
-    heap_give(painter->window);
-    arena_free(&painter->arena);
-    heap_give(painter);
 }
 
-static void report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format,
-                   va_list args) {
-    Text text = text_new(faults->arena);
-    text_add_va(&text, format, args);
-    Diag diag = {.level = level, .text = text_str(&text), .code = code};
-    if (place) {
-        diag.source = place->source;
-        diag.span = place->span;
-    }
-    diag_report(faults, &diag);
+PetriStatus petri_painter_use_host(PetriPainter *painter, const PetriCanvasHost *functions) {
+    return painter && functions ? PETRI_MISSING : PETRI_INVALID;
 }
 
 void draw_fault(Canvas *canvas, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    report(canvas->faults, NULL, level, code, format, args);
+    draw_report_args(canvas->faults, NULL, level, code, format, args);
     va_end(args);
 }
 
 void draw_fault_at(Canvas *canvas, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
     va_list args;
     va_start(args, format);
-    report(canvas->faults, place, level, code, format, args);
+    draw_report_args(canvas->faults, place, level, code, format, args);
     va_end(args);
 }
 
-void draw_report(DiagSink *faults, const Origin *place, DiagLevel level, const char *code, const char *format, ...) {
-    va_list args;
-    va_start(args, format);
-    report(faults, place, level, code, format, args);
-    va_end(args);
-}
-
-bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
-                     DiagSink *faults) {
-    if (!painter->meter.memory_refused)
-        return false;
-    painter->meter.memory_refused = false;
-    draw_report(faults, place, DIAG_WARNING, "memory-limit",
-                "%s: a picture of %d x %d pixels takes more memory than a script may have (--memory); it is left out",
-                node, width, height);
-    return true;
-}
-
-double draw_fit(double width, double height, double box_width, double box_height, double *left, double *top) {
-    double scale = fmin(box_width / width, box_height / height);
-    *left = (box_width - width * scale) / 2;
-    *top = (box_height - height * scale) / 2;
-    return scale;
-}
-
+// Makes width x height units fill a box of the target.
 static void fit(cairo_t *cr, double width, double height, double box_width, double box_height) {
     double left, top, scale = draw_fit(width, height, box_width, box_height, &left, &top);
     cairo_translate(cr, left, top);
@@ -119,7 +64,7 @@ static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels) {
 // Draws the whole page. False if Cairo gave up.
 static bool draw_page(Canvas *canvas, const Page *page, double width, double height) {
     cairo_t *cr = canvas->cr;
-    canvas->painter->family = NULL;
+    canvas->painter->letters->family = NULL;
     cairo_set_tolerance(cr, 0.1);
     if (page->black) {
         cairo_set_source_rgb(cr, 0, 0, 0);
@@ -156,20 +101,6 @@ typedef struct Drawing {
 static void draw_protected(void *context) {
     Drawing *drawing = context;
     drawing->done = draw_page(&drawing->canvas, drawing->page, drawing->width, drawing->height);
-}
-
-void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
-    painter->meter.memory_limit = picture->memory;
-    painter->meter.memory_refused = false;
-}
-
-static void report_limit(void *faults) {
-    draw_report(faults, NULL, DIAG_ERROR, "memory-limit",
-                "drawing takes more memory than a script may have (--memory): the picture is not drawn");
-}
-
-PetriStatus draw_tell_limit(DiagSink *faults) {
-    return arena_protect(&faults->arena, 1, report_limit, faults) == ARENA_DONE ? PETRI_INVALID : PETRI_MEMORY;
 }
 
 // Draws on a surface of width x height.
@@ -236,78 +167,6 @@ static void make_opaque(uint32_t *pixels, int width, int height, size_t stride) 
     }
 }
 
-static void clear(uint32_t *pixels, int width, int height, size_t stride) {
-    for (int y = 0; y < height; y++)
-        memset((unsigned char *)pixels + (size_t)y * stride, 0, (size_t)width * sizeof *pixels);
-}
-
-// Makes the tree of pictures, once for each picture.
-static PetriStatus make_pictures(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    if (painter->made == picture->serial)
-        return PETRI_OK;
-    painter->shown = NULL;
-    PetriStatus result = pictures_make(painter, picture, faults, &painter->shown);
-    painter->made = result == PETRI_OK ? picture->serial : 0;
-    return result;
-}
-
-PetriStatus draw_make(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    if (picture->window && (picture->looks_back || !picture->direct))
-        return make_pictures(painter, picture, faults);
-    if (painter->made > 0) { // nothing of this frame can be continued in the next
-        pictures_forget(painter);
-        painter->made = 0;
-        painter->shown = NULL;
-    }
-    return PETRI_OK;
-}
-
-const Texture *draw_made(const PetriPainter *painter, const CanvasPicture *picture) {
-    return picture->window && painter->made == picture->serial ? painter->shown : NULL;
-}
-
-typedef struct Fetching {
-    PetriPainter *painter;
-    const CanvasPicture *picture;
-    DiagSink *faults;
-} Fetching;
-
-// Reads what was made of the window back. If the script may not have the memory it has no picture.
-static void fetch(void *context) {
-    Fetching *fetching = context;
-    PetriPainter *painter = fetching->painter;
-    Texture *shown = painter->shown;
-    const char *problem;
-    bool good = gl_enter(painter->gl, &problem);
-    if (good) {
-        good = texture_fetch(painter->gl, shown);
-        gl_leave(painter->gl);
-    }
-    if (good)
-        return;
-    painter->shown = NULL;
-    if (!draw_is_refused(painter, &fetching->picture->window->place, "!window", shown->width, shown->height,
-                         fetching->faults))
-        arena_exhausted(fetching->faults->arena);
-}
-
-// Makes the pictures, and has the window's in memory if it is made of them.
-static PetriStatus make_pixels(PetriPainter *painter, const CanvasPicture *picture, DiagSink *faults) {
-    PetriStatus result = draw_make(painter, picture, faults);
-    const Texture *made = result == PETRI_OK ? draw_made(painter, picture) : NULL;
-    Fetching fetching = {painter, picture, faults};
-    if (made && !made->bytes && !made->linear && arena_protect(&faults->arena, 1, fetch, &fetching) != ARENA_DONE)
-        result = PETRI_MEMORY;
-    return result;
-}
-
-static void draw_texture(const Texture *texture, bool opaque, uint32_t *pixels, size_t stride) {
-    for (int y = 0; y < texture->height; y++) {
-        uint32_t *row = (uint32_t *)(void *)((unsigned char *)pixels + (size_t)y * stride);
-        texture_row(texture, y, opaque, row);
-    }
-}
-
 // On a surface of its own size, to be destroyed.
 static cairo_surface_t *surface_of_texture(const Texture *texture, bool opaque) {
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
@@ -332,8 +191,8 @@ static Page page_of(const PetriPainter *painter, const CanvasPicture *picture, b
 
 PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uint32_t *pixels, int width, int height,
                         size_t stride, DiagSink *faults) {
-    clear(pixels, width, height, stride);
-    PetriStatus result = make_pixels(painter, picture, faults);
+    draw_clear(pixels, width, height, stride);
+    PetriStatus result = draw_make_pixels(painter, picture, faults);
     if (result != PETRI_OK)
         return result;
     const Texture *shown = draw_made(painter, picture);
@@ -348,7 +207,7 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
     cairo_surface_finish(surface);
     cairo_surface_destroy(surface);
     if (result != PETRI_OK)
-        clear(pixels, width, height, stride);
+        draw_clear(pixels, width, height, stride);
     else if (picture->opaque)
         make_opaque(pixels, width, height, stride);
     return result;
@@ -394,7 +253,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
 
 PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, CanvasFormat format, int width, int height,
                         Encoded *out, DiagSink *faults) {
-    PetriStatus result = make_pixels(painter, picture, faults);
+    PetriStatus result = draw_make_pixels(painter, picture, faults);
     if (result == PETRI_OK && format == CANVAS_PNG) {
         result = encode_png(painter, picture, width, height, out, faults);
     } else if (result == PETRI_OK) {
@@ -403,11 +262,6 @@ PetriStatus draw_encode(PetriPainter *painter, const CanvasPicture *picture, Can
         cairo_surface_destroy(page.pixels);
     }
     return result;
-}
-
-const Recorded *draw_records(const PetriPainter *painter, const CanvasPicture *picture, uint32_t *count) {
-    *count = 0;
-    return painter->made == picture->serial ? pictures_records(painter->pictures, count) : NULL;
 }
 
 PetriStatus draw_encode_record(PetriPainter *painter, const CanvasPicture *picture, const Recorded *record,

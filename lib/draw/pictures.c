@@ -2,12 +2,13 @@
 #include "draw/pictures.h"
 
 #include "base/heap.h"
-#include "draw/draw.h"
 #include "draw/mix.h"
+#include "draw/painter.h"
 #include "gl/effect.h"
 #include "gl/scene.h"
 
 #include <math.h>
+#include <stdio.h>
 #include <string.h>
 
 enum { DEEPEST = 100, USUAL_SIZE = 512 };

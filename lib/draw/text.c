@@ -3,6 +3,8 @@
 // Letters are not fitted to the grid of pixels: they look the same whatever the transform and the desktop's settings.
 #include "draw/draw.h"
 
+#include "base/heap.h"
+
 #include <math.h>
 #include <string.h>
 #include <strings.h>
@@ -11,29 +13,34 @@ enum { LONGEST_TEXT = 10000 };           // bytes
 static const double LARGEST_FONT = 4000; // pixels
 
 bool draw_text_open(PetriPainter *painter) {
-    painter->fonts = pango_cairo_font_map_new();
-    if (!painter->fonts)
+    Letters *letters = painter->letters = heap_zeroed(1, sizeof *letters);
+    if (!letters)
         return false;
-    painter->text_context = pango_font_map_create_context(painter->fonts);
+    letters->fonts = pango_cairo_font_map_new();
+    if (!letters->fonts)
+        return false;
+    letters->context = pango_font_map_create_context(letters->fonts);
     cairo_font_options_t *options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
     cairo_font_options_set_hint_metrics(options, CAIRO_HINT_METRICS_OFF);
     cairo_font_options_set_antialias(options, CAIRO_ANTIALIAS_GRAY);
-    pango_cairo_context_set_font_options(painter->text_context, options);
+    pango_cairo_context_set_font_options(letters->context, options);
     cairo_font_options_destroy(options);
-    pango_context_set_round_glyph_positions(painter->text_context, FALSE);
-    painter->layout = pango_layout_new(painter->text_context);
-    pango_layout_set_single_paragraph_mode(painter->layout, TRUE);
+    pango_context_set_round_glyph_positions(letters->context, FALSE);
+    letters->layout = pango_layout_new(letters->context);
+    pango_layout_set_single_paragraph_mode(letters->layout, TRUE);
     return true;
 }
 
 void draw_text_close(PetriPainter *painter) {
-    if (painter->layout)
-        g_object_unref(painter->layout);
-    if (painter->text_context)
-        g_object_unref(painter->text_context);
-    if (painter->fonts)
-        g_object_unref(painter->fonts);
+    Letters *letters = painter->letters;
+    if (letters && letters->layout)
+        g_object_unref(letters->layout);
+    if (letters && letters->context)
+        g_object_unref(letters->context);
+    if (letters && letters->fonts)
+        g_object_unref(letters->fonts);
+    heap_give(letters);
 }
 
 // Names that stand for whatever the machine has.
@@ -50,7 +57,7 @@ static bool is_installed(PetriPainter *painter, const char *name) {
     PangoFontFamily **families;
     int count;
     bool found = is_generic(name);
-    pango_font_map_list_families(painter->fonts, &families, &count);
+    pango_font_map_list_families(painter->letters->fonts, &families, &count);
     for (int i = 0; i < count && !found; i++)
         found = !strcasecmp(name, pango_font_family_get_name(families[i]));
     g_free(families);
@@ -117,8 +124,8 @@ static void set_plain_letters(PangoLayout *layout) {
 
 static void set_font(Canvas *canvas, const ListText *text) {
     static const PangoStyle styles[] = {PANGO_STYLE_NORMAL, PANGO_STYLE_OBLIQUE, PANGO_STYLE_ITALIC};
-    PetriPainter *painter = canvas->painter;
-    if (painter->family && same_font(&painter->font, text))
+    Letters *letters = canvas->painter->letters;
+    if (letters->family && same_font(&letters->font, text))
         return;
     const char *family = find_family(canvas, text->family); // from which control may leave
     PangoFontDescription *font = pango_font_description_new();
@@ -127,11 +134,11 @@ static void set_font(Canvas *canvas, const ListText *text) {
     pango_font_description_set_weight(font, (PangoWeight)fmax(text->weight, 1));
     pango_font_description_set_stretch(font, stretch_of(text->width));
     pango_font_description_set_style(font, styles[text->slant]);
-    pango_layout_set_font_description(painter->layout, font);
+    pango_layout_set_font_description(letters->layout, font);
     pango_font_description_free(font);
-    set_plain_letters(painter->layout);
-    painter->family = text->family;
-    painter->font = *text;
+    set_plain_letters(letters->layout);
+    letters->family = text->family;
+    letters->font = *text;
 }
 
 // The size on the target decides what the font library can do.
@@ -164,7 +171,7 @@ void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *pain
         draw_fault(canvas, DIAG_WARNING, "long-text", "!text: texts of more than %d bytes are not drawn", LONGEST_TEXT);
         return;
     }
-    PangoLayout *layout = canvas->painter->layout;
+    PangoLayout *layout = canvas->painter->letters->layout;
     double point[2] = {text->point[0], text->point[1]};
     set_font(canvas, text);
     pango_cairo_update_layout(canvas->cr, layout);

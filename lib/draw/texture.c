@@ -235,11 +235,16 @@ void texture_linear_row(const Texture *texture, int y, uint32_t *row) {
     }
 }
 
-Texture *texture_of_linear(Meter *meter, const Texture *bytes) {
-    Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
-    size_t count = texture ? (size_t)bytes->width * (size_t)bytes->height : 0;
+void texture_copy_linear(const Texture *bytes, float *linear) {
+    size_t count = (size_t)bytes->width * (size_t)bytes->height;
     for (size_t i = 0; i < count; i++)
         for (unsigned k = 0; k < 4; k++)
-            texture->linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+            linear[4 * i + k] = (float)(bytes->bytes[i] >> (k < 3 ? 16 - 8 * k : 24) & 255) / 255;
+}
+
+Texture *texture_of_linear(Meter *meter, const Texture *bytes) {
+    Texture *texture = texture_new(meter, bytes->width, bytes->height, true);
+    if (texture)
+        texture_copy_linear(bytes, texture->linear);
     return texture;
 }

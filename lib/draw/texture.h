@@ -48,7 +48,8 @@ void texture_row(const Texture *texture, int y, bool opaque, uint32_t *row);
 // The same as linear light, in bytes; and such a pixel of an sRGB one.
 void texture_linear_row(const Texture *texture, int y, uint32_t *row);
 uint32_t texture_linear_pixel(uint32_t pixel);
-// Such pixels as a picture; NULL if memory is used up.
+// Such pixels as numbers; and as a picture, NULL if memory is used up.
+void texture_copy_linear(const Texture *bytes, float *linear);
 Texture *texture_of_linear(Meter *meter, const Texture *bytes);
 
 // How a picture is read beyond its edges, and between its pixels (pictures.md 1.5).

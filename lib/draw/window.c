@@ -1,5 +1,5 @@
 // window.c: pictures on a host's window, by its own OpenGL.
-#include "draw/draw.h"
+#include "draw/painter.h"
 
 #include "base/heap.h"
 #include "draw/picture.h"

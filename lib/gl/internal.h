@@ -4,7 +4,11 @@
 
 #include "gl/gl.h"
 
+#ifdef __EMSCRIPTEN__
+#include <GLES3/gl3.h>
+#else
 #include <epoxy/gl.h>
+#endif
 
 typedef struct GlProgram GlProgram;
 typedef struct GlStore GlStore; // of scenes
@@ -13,7 +17,7 @@ enum { GL_SPARE_IMAGES = 32 };
 
 struct Gl {
     void *display; // EGLDisplay
-    void *context; // EGLContext
+    void *context; // EGLContext; NULL: none yet
     bool adopted;  // it is the host's
     bool lost;     // and gone: what it has is gone with it, and only memory is given back
     int largest;
@@ -32,6 +36,13 @@ struct Gl {
     GlProgram *programs;
     GlStore *store; // made by the first scene
 };
+
+// context.c, or context_web.c: what gl_open, gl_adopt and gl_close do first or last; gl_enter and gl_leave are there,
+// too.
+bool gl_context_open(Gl *gl, const char **problem);
+bool gl_context_adopt(Gl *gl, const char **problem);
+void gl_context_close(Gl *gl);
+bool gl_context_has(const Gl *gl, const char *extension);
 
 void gl_images_close(Gl *gl);
 // Bytes of a pixel.

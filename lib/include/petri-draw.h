@@ -171,6 +171,20 @@ enum { // move x, y; line x, y; curves with one and two control points; arcs tha
 // The picture as numbers, for hosts that draw by themselves; it takes no Cairo. Of a window it is the first canvas.
 // Valid as long as the picture. PETRI_MEMORY.
 PETRI_API PetriStatus petri_picture_numbers(PetriPicture *picture, const double **numbers, size_t *count);
+// Whether these are all of it: neither programs nor pictures of other nodes are needed.
+PETRI_API bool petri_picture_is_numbers(const PetriPicture *picture);
+// What a host does that draws by itself where petri is built without Cairo; petri makes all other pictures of them.
+typedef struct PetriCanvasHost {
+    // Draws what petri_picture_numbers writes, scaled to fit and centred, into cleared pixels, rows without gaps, as
+    // petri_picture_draw has them. False if it cannot.
+    bool (*draw)(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels);
+    // The pixels of an image, likewise, which stay until the next call; NULL: there is none.
+    const uint32_t *(*image)(void *host, const char *file, int *width, int *height);
+    void *host;
+} PetriCanvasHost;
+// Lets a painter that has made nothing yet draw canvases by these functions. PETRI_MISSING in a build with Cairo, which
+// draws them.
+PETRI_API PetriStatus petri_painter_use_host(PetriPainter *painter, const PetriCanvasHost *functions);
 // Whether petri_picture_save knows the name's suffix: .png, .svg or .pdf.
 PETRI_API bool petri_picture_format(const char *file);
 // Writes a file as a whole: the old bytes or the new ones are there, never a part. The same picture gives the

@@ -65,11 +65,13 @@ void phys_domain_free(PhysSystem *system) {
     Domain *domain = system->domain.bytes;
     if (!domain)
         return;
-    Buffer *buffers[] = {&domain->plot_owners, &domain->owners,   &domain->columns,     &domain->own,
-                         &domain->foreign,     &domain->built,    &domain->movers,      &domain->draws,
-                         &domain->to.starts,   &domain->to.items, &domain->from.starts, &domain->from.items,
-                         &domain->parcels,     &domain->table,    &domain->numbers,     &domain->whole,
-                         &domain->starts,      &domain->loads};
+    Buffer *buffers[] = {&domain->plot_owners, &domain->inland,   &domain->owners,        &domain->counts,
+                         &domain->columns,     &domain->own,      &domain->local_numbers, &domain->last_columns,
+                         &domain->foreign,     &domain->built,    &domain->movers,        &domain->draws,
+                         &domain->to.starts,   &domain->to.items, &domain->from.starts,   &domain->from.items,
+                         &domain->parcels,     &domain->table,    &domain->numbers,       &domain->whole,
+                         &domain->starts,      &domain->loads,    &domain->shore.columns, &domain->fresh.columns,
+                         &domain->sources,     &domain->spare,    &domain->nexts};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     phys_neighbours_free(&domain->survey);
@@ -104,8 +106,12 @@ static bool uneven(const PhysSystem *system, const Domain *domain) {
 }
 
 static bool deal(PhysSystem *system, Domain *domain) {
-    domain->made =
-        phys_domain_deal(system, domain) && phys_domain_find_halo(system, domain) && phys_domain_gather(system, domain);
+    if (system->behind)
+        phys_load_motion(system);
+    if (!phys_domain_deal(system, domain) || !phys_domain_find_halo(system, domain))
+        return false;
+    domain->made = false; // for what is there is not to be taken along
+    domain->made = phys_domain_gather(system, domain);
     domain->arrangement = system->arrangement;
     return domain->made;
 }
@@ -123,13 +129,13 @@ static bool begin(PhysSystem *system, const Domain *reach) {
     if (again)
         domain->patience *= 2;
     again |= !same || domain->contact != reach->contact || domain->bound != reach->bound ||
-             (system->touched && grown(system, domain));
+             (system->touched && (!domain->age || grown(system, domain)));
     domain->contact = reach->contact;
     domain->bound = reach->bound;
     if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
         return false;
     if (!again && system->touched)
-        phys_domain_reload(system, domain, true);
+        phys_domain_reload(system, domain);
     domain->local->frame = system->frame;
     return true;
 }
@@ -139,6 +145,8 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     bool shared = worth(system, time) && !any_far(system, &reach) && begin(system, &reach);
     if (!shared && domain)
         domain->made = false; // it does not know of what happens in this frame
+    if (!shared && system->behind && !system->failed)
+        phys_load_motion(system);
     system->touched = false;
     system->traffic.sharing = shared ? PHYS_BY_REGION : PHYS_ALONE;
     return shared;
@@ -151,7 +159,7 @@ static bool stirred(const Domain *domain) {
     const double *built = domain->built.bytes;
     size_t n = columns->dimensions, count = domain->own_count;
     double most = phys_skin_square(domain->survey.skin);
-    bool still = true;
+    bool still = domain->noted;
     for (size_t i = 0; i < count && still; i++) {
         double square = 0;
         bool finite = true;
@@ -167,7 +175,7 @@ static bool stirred(const Domain *domain) {
 
 static bool move_on(PhysSystem *system, Domain *domain) {
     phys_adapt_skin(&domain->survey, domain->age);
-    phys_domain_give_back(system, domain);
+    phys_domain_give_back_items(system, domain->local);
     return phys_domain_move(system, domain) && phys_domain_find_halo(system, domain) &&
            phys_domain_gather(system, domain);
 }
@@ -216,75 +224,4 @@ bool phys_domain_step(PhysSystem *system, double clock, double delta, double spe
     if (domain->local->failed)
         system->failed = true;
     return !system->failed;
-}
-
-// Where the particles of each rank begin among the numbers of all; after them comes how long the rank has worked.
-static size_t *lay_out(PhysSystem *system, Domain *domain, size_t width) {
-    size_t ranks = (size_t)system->options.ranks.count;
-    if (!phys_buffer_reserve(system, &domain->starts, 0, 2 * ranks + 1, sizeof(size_t)) ||
-        !phys_buffer_reserve(system, &domain->whole, 0, width * system->particle_count + ranks, sizeof(double)))
-        return NULL;
-    size_t *starts = domain->starts.bytes;
-    memset(starts, 0, (ranks + 1) * sizeof *starts);
-    for (uint32_t i = 0; i < system->particle_count; i++)
-        starts[phys_owners(domain)[i] + 1] += width;
-    for (size_t r = 0; r < ranks; r++)
-        starts[r + 1] += starts[r] + 1;
-    return starts;
-}
-
-static void pack_own(const Domain *domain, bool forces, double *to) {
-    const Columns *columns = &domain->local->columns;
-    const uint32_t *own = domain->own.bytes;
-    size_t n = columns->dimensions, stride = columns->stride;
-    for (uint32_t i = 0; i < domain->own_count; i++) {
-        for (size_t k = 0; k < n; k++)
-            *to++ = columns->position[k * stride + own[i]];
-        for (size_t k = 0; k < n; k++)
-            *to++ = columns->velocity[k * stride + own[i]];
-        for (size_t k = 0; k < n && forces; k++)
-            *to++ = columns->force[k * stride + own[i]];
-    }
-    *to = domain->seconds;
-}
-
-static void unpack_all(const PhysSystem *system, const Domain *domain, bool forces, size_t *next) {
-    const Columns *columns = &system->columns;
-    const double *whole = domain->whole.bytes;
-    const uint32_t *owners = phys_owners(domain);
-    size_t n = columns->dimensions, stride = columns->stride;
-    for (uint32_t i = 0; i < columns->count; i++) {
-        const double *from = whole + next[owners[i]];
-        next[owners[i]] += (forces ? 3 : 2) * n;
-        for (size_t k = 0; k < n; k++) {
-            columns->position[k * stride + i] = from[k];
-            columns->velocity[k * stride + i] = from[n + k];
-        }
-        for (size_t k = 0; k < n && forces; k++)
-            columns->force[k * stride + i] = from[2 * n + k];
-    }
-}
-
-bool phys_domain_store(PhysSystem *system, bool keep_last_finite) {
-    Domain *domain = system->domain.bytes;
-    const PhysRanks *ranks = &system->options.ranks;
-    bool forces = system->options.keep_forces;
-    size_t width = (forces ? 3 : 2) * (size_t)system->dimensions, *starts = lay_out(system, domain, width);
-    domain->made = false;
-    if (!starts)
-        return false;
-    double *whole = domain->whole.bytes, *loads = domain->loads.bytes;
-    pack_own(domain, forces, whole + starts[ranks->rank]);
-    ranks->gather(ranks->host, whole, starts);
-    system->traffic.frame_bytes += (starts[ranks->rank + 1] - starts[ranks->rank]) * sizeof *whole;
-    if (!phys_goes_on(system))
-        return false;
-    for (int r = 0; r < ranks->count; r++)
-        loads[r] = whole[starts[r + 1] - 1];
-    size_t *next = starts + ranks->count + 1;
-    memcpy(next, starts, (size_t)ranks->count * sizeof *next);
-    unpack_all(system, domain, forces, next);
-    phys_store(system, keep_last_finite);
-    phys_domain_reload(system, domain, false);
-    return domain->made = true;
 }

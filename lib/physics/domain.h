@@ -8,7 +8,8 @@
 //
 // A halo holds until something has moved by half of a margin, the skin, as neighbour lists do. Then, on all ranks
 // together, particles move to the owners of the plots where they are, and halos and lists are made anew. At the end of
-// a frame all positions and velocities are made whole on every rank.
+// a frame the rows of all particles are made whole on every rank; the system's columns are not, for nobody needs them
+// as long as the ranks go on like that.
 #ifndef PETRI_PHYSICS_DOMAIN_H
 #define PETRI_PHYSICS_DOMAIN_H
 
@@ -27,9 +28,15 @@ typedef struct Parcels {
     Buffer items; // uint32_t
 } Parcels;
 
+typedef struct ColumnList {
+    uint32_t count;
+    Buffer columns; // uint32_t
+} ColumnList;
+
 typedef struct Domain {
     bool made; // all that follows is there
     PhysSystem *local;
+    Buffer spare;         // memory for its columns: they are made anew from those before
     uint64_t arrangement; // of the system's columns that it is for
     // how far particles see
     bool contact;  // some force acts on contact
@@ -41,17 +48,25 @@ typedef struct Domain {
     // who owns what
     Grid plots;
     Buffer plot_owners; // uint32_t
+    Buffer inland;      // uint32_t by plot: what is there, nobody else needs; 0 if somebody may
     Buffer owners;      // uint32_t by column
-    Buffer columns;     // uint32_t: by local number the column, then by column the local number
-    uint32_t *column;
-    uint32_t *local_of; // of own particles and of the halo
-    Buffer own;         // uint32_t: local numbers of own particles, ascending
+    Buffer counts;      // uint32_t by rank: particles that it owns
+    Buffer local_numbers;
+    uint32_t *local_of; // by column: the local number of own particles and of the halo, else UINT32_MAX
+    Buffer columns, last_columns;
+    uint32_t *column; // by local number
+    Buffer own;       // uint32_t: local numbers of own particles, ascending
     uint32_t own_count;
     Buffer foreign;   // bool by local number: of the halo
     Buffer built;     // own particles when the halo was made: n columns of positions, one of radii
+    bool noted;       // … if that was wanted
     Buffer movers;    // uint32_t by column: particles of its group before it that move; if a force is random
     Buffer draws;     // the same by local number
     Parcels to, from; // the halo, by local number
+    // while a halo is made: what others get is in the system's columns meanwhile, and what comes from others
+    ColumnList shore; // own particles that others may need
+    ColumnList fresh; // those that have come, to be owned or of the halo
+    Buffer sources;   // uint32_t by local number: where its numbers were before
     // on the way
     Buffer parcels; // Parcel
     uint32_t parcel_count;
@@ -59,6 +74,7 @@ typedef struct Domain {
     Buffer numbers; // of messages
     Buffer whole;   // all particles, by rank
     Buffer starts;  // size_t
+    Buffer nexts;   // size_t
     // when
     uint32_t age; // steps that the halo has served
     uint64_t padded;
@@ -72,18 +88,23 @@ typedef struct Domain {
 // same. False with system->failed if memory is used up.
 bool phys_domain_begin(PhysSystem *system, const PhysTime *time);
 bool phys_domain_step(PhysSystem *system, double clock, double delta, double speed_of_light);
-// Makes all particles whole and stores them, as phys_store; false if it was given up.
-bool phys_domain_store(PhysSystem *system, bool keep_last_finite);
 void phys_domain_free(PhysSystem *system);
+
+// domain_store.c: makes the rows of all particles whole, as phys_store does, but not the columns: system->behind. False
+// if it was given up; rows are as they were then.
+bool phys_domain_store(PhysSystem *system, bool keep_last_finite);
 
 // domain_deal.c: deals the plots out to the ranks, by what their particles cost. The columns must be whole. False if
 // plots cannot be made, or memory is used up.
 bool phys_domain_deal(PhysSystem *system, Domain *domain);
-// The owner of the plot where a particle is.
-uint32_t phys_domain_owner(const Domain *domain, const double *position, size_t stride);
 
 // How far along a Hilbert curve a cell is, in a cube of 2^levels cells along each of n axes (1 to 3).
 uint64_t phys_curve_place(const uint32_t *cell, uint32_t n, uint32_t levels);
+
+// domain_wish.c: finds out which plots are inland: no other rank can see into them, as far as skins reach now.
+bool phys_domain_find_inland(PhysSystem *system, Domain *domain);
+// Adds a parcel for each rank that needs one of the particles on the shore; their columns must be up to date.
+bool phys_domain_wish(PhysSystem *system, Domain *domain);
 
 // domain_halo.c: lets particles move to the owners of their plots.
 bool phys_domain_move(PhysSystem *system, Domain *domain);
@@ -91,15 +112,20 @@ bool phys_domain_move(PhysSystem *system, Domain *domain);
 bool phys_domain_find_halo(PhysSystem *system, Domain *domain);
 // Gets the positions of the halo for a step.
 bool phys_domain_exchange(PhysSystem *system, Domain *domain);
+bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column);
+bool phys_add_parcel(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column);
+// Each number becomes the largest that a rank has.
+void phys_domain_reduce(PhysSystem *system, double *numbers, size_t count);
 
-// domain_local.c: makes the system of own particles and of the halo.
+// domain_local.c: makes the system of own particles and of the halo: from the one before and what is fresh, or, if
+// there is none (!domain->made), from the system's columns.
 bool phys_domain_gather(PhysSystem *system, Domain *domain);
 // Brings its forces up to date.
 bool phys_domain_take_forces(PhysSystem *system, Domain *domain);
-// Own particles, as they are within a frame, into the system's columns.
-void phys_domain_give_back(PhysSystem *system, const Domain *domain);
-// The system's columns into the local ones; only positions and velocities unless `all` are wanted.
-void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all);
+// How far the streams of random numbers are: the same on all ranks.
+void phys_domain_give_back_items(PhysSystem *system, const PhysSystem *local);
+// Brings its particles up to date that were given new numbers. Rows must be whole.
+void phys_domain_reload(const PhysSystem *system, Domain *domain);
 
 static inline uint32_t *phys_owners(const Domain *domain) {
     return domain->owners.bytes;

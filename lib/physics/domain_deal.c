@@ -81,24 +81,16 @@ static void deal_out(Plot *plots, uint32_t count, uint32_t ranks, uint32_t *owne
     }
 }
 
-uint32_t phys_domain_owner(const Domain *domain, const double *position, size_t stride) {
-    return ((const uint32_t *)domain->plot_owners.bytes)[phys_cell_of(&domain->plots, position, stride)];
-}
-
 // What a particle of each rank has cost, if that is known.
-static void price(const PhysSystem *system, Domain *domain, double *prices) {
-    const uint32_t *owners = phys_owners(domain);
+static void price(const PhysSystem *system, const Domain *domain, double *prices) {
+    const uint32_t *counts = domain->counts.bytes;
     const double *loads = domain->loads.bytes;
     int ranks = system->options.ranks.count;
-    for (int r = 0; r < ranks; r++)
-        prices[r] = 0;
-    for (uint32_t i = 0; domain->steps && i < system->particle_count; i++)
-        prices[owners[i]] += 1;
-    for (int r = 0; r < ranks; r++)
-        prices[r] = prices[r] > 0 && loads[r] > 0 ? loads[r] / prices[r] : 0;
     double highest = 0;
-    for (int r = 0; r < ranks; r++)
+    for (int r = 0; r < ranks; r++) {
+        prices[r] = domain->steps && counts[r] && loads[r] > 0 ? loads[r] / counts[r] : 0;
         highest = prices[r] > highest ? prices[r] : highest;
+    }
     for (int r = 0; r < ranks; r++) // a rank that had nothing knows no price
         prices[r] = prices[r] > 0 ? prices[r] : highest > 0 ? highest : 1;
 }
@@ -136,6 +128,22 @@ static bool lay_plots(PhysSystem *system, Domain *domain) {
     return true;
 }
 
+// Who owns which particle, and which of this rank are on the shore.
+static bool take_owners(PhysSystem *system, Domain *domain) {
+    const uint32_t *at = domain->survey.cell, *plot_owners = domain->plot_owners.bytes, *inland = domain->inland.bytes;
+    uint32_t *owners = phys_owners(domain), *counts = domain->counts.bytes;
+    memset(counts, 0, (size_t)system->options.ranks.count * sizeof *counts);
+    domain->shore.count = domain->fresh.count = 0;
+    for (uint32_t i = 0; i < system->particle_count; i++) {
+        owners[i] = plot_owners[at[i]];
+        counts[owners[i]]++;
+        if (owners[i] == (uint32_t)system->options.ranks.rank && !inland[at[i]] &&
+            !phys_list_column(system, &domain->shore, i))
+            return false;
+    }
+    return true;
+}
+
 bool phys_domain_deal(PhysSystem *system, Domain *domain) {
     const Columns *columns = &system->columns;
     uint32_t count = system->particle_count, ranks = (uint32_t)system->options.ranks.count;
@@ -147,23 +155,21 @@ bool phys_domain_deal(PhysSystem *system, Domain *domain) {
         !phys_buffer_reserve(system, &domain->plot_owners, 0, cells, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->owners, (uint64_t)domain->made * count * sizeof(uint32_t), count,
                              sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->counts, 0, ranks, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->loads, 0, ranks, sizeof(double)))
         return false;
     Plot *plots = domain->numbers.bytes;
     double *prices = (double *)(plots + cells);
-    uint32_t *owners = phys_owners(domain);
     price(system, domain, prices);
     order_plots(&domain->plots, plots, cells);
     for (uint32_t i = 0; i < count; i++) {
         at[i] = phys_cell_of(&domain->plots, columns->position + i, columns->stride);
-        plots[at[i]].load += prices[domain->steps ? owners[i] : 0];
+        plots[at[i]].load += prices[domain->steps ? phys_owners(domain)[i] : 0];
     }
     qsort(plots, cells, sizeof *plots, by_place);
     deal_out(plots, cells, ranks, domain->plot_owners.bytes);
-    for (uint32_t i = 0; i < count; i++)
-        owners[i] = ((const uint32_t *)domain->plot_owners.bytes)[at[i]];
     memset(domain->loads.bytes, 0, ranks * sizeof(double));
     domain->steps = 0;
     domain->seconds = 0;
-    return true;
+    return phys_domain_find_inland(system, domain) && take_owners(system, domain);
 }

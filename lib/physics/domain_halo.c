@@ -3,14 +3,21 @@
 // Each message is one that both sides expect: who sends how many is made known to all first.
 #include "physics/domain.h"
 
-#include <stdlib.h>
 #include <string.h>
 
-static bool add_parcel(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column) {
+bool phys_add_parcel(PhysSystem *system, Domain *domain, uint32_t rank, uint32_t column) {
     uint64_t count = domain->parcel_count;
     if (!phys_buffer_reserve(system, &domain->parcels, count * sizeof(Parcel), count + 1, sizeof(Parcel)))
         return false;
     ((Parcel *)domain->parcels.bytes)[domain->parcel_count++] = (Parcel){rank, column};
+    return true;
+}
+
+bool phys_list_column(PhysSystem *system, ColumnList *list, uint32_t column) {
+    uint64_t count = list->count;
+    if (!phys_buffer_reserve(system, &list->columns, count * sizeof column, count + 1, sizeof column))
+        return false;
+    ((uint32_t *)list->columns.bytes)[list->count++] = column;
     return true;
 }
 
@@ -39,7 +46,7 @@ static bool sort_parcels(PhysSystem *system, const Domain *domain, Parcels *to) 
     return true;
 }
 
-static void reduce(PhysSystem *system, double *numbers, size_t count) {
+void phys_domain_reduce(PhysSystem *system, double *numbers, size_t count) {
     const PhysRanks *ranks = &system->options.ranks;
     ranks->most(ranks->host, numbers, count);
     system->traffic.reductions++;
@@ -100,6 +107,13 @@ static void pack_numbers(const uint32_t *columns, size_t count, double *to) {
         to[i] = columns[i];
 }
 
+static void pass_on(const Domain *domain, uint32_t from, uint32_t to, uint32_t column) {
+    uint32_t *counts = domain->counts.bytes;
+    counts[from]--;
+    counts[to]++;
+    phys_owners(domain)[column] = to;
+}
+
 // Particles that move go to their new owner with all that they have; everybody gets to know.
 static bool send_movers(PhysSystem *system, Domain *domain, const Parcels *to) {
     const Columns *columns = &system->columns;
@@ -134,152 +148,75 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
     receive(system, domain, from, all + 2 * n * mine);
     for (uint32_t r = 0; r < ranks; r++)
         for (size_t i = 0; i < (size_t)row[r]; i++, next++) {
-            phys_owners(domain)[(uint32_t)numbers[next]] = r;
-            if (r == self)
-                ((uint32_t *)movers->items.bytes)[i] = (uint32_t)numbers[next];
+            uint32_t column = (uint32_t)numbers[next];
+            pass_on(domain, from, r, column);
+            if (r != self)
+                continue;
+            ((uint32_t *)movers->items.bytes)[i] = column;
+            if (!phys_list_column(system, &domain->fresh, column) || !phys_list_column(system, &domain->shore, column))
+                return false;
         }
     unpack(columns->position, n, columns->stride, movers->items.bytes, mine, numbers + all);
     unpack(columns->velocity, n, columns->stride, movers->items.bytes, mine, numbers + all + n * mine);
     return true;
 }
 
-bool phys_domain_move(PhysSystem *system, Domain *domain) {
-    const Columns *columns = &system->columns;
-    uint32_t ranks = (uint32_t)system->options.ranks.count, self = (uint32_t)system->options.ranks.rank;
-    uint32_t *owners = phys_owners(domain);
-    domain->parcel_count = 0;
-    for (uint32_t i = 0; i < domain->own_count; i++) {
-        uint32_t column = domain->column[((const uint32_t *)domain->own.bytes)[i]];
-        uint32_t owner = phys_domain_owner(domain, columns->position + column, columns->stride);
-        if (owner != self && !add_parcel(system, domain, owner, column))
-            return false;
-        owners[column] = owner;
+// A particle as it is within a frame, into the system's columns.
+static void give_back(const PhysSystem *system, const Domain *domain, uint32_t here, uint32_t column) {
+    const Columns *from = &domain->local->columns, *to = &system->columns;
+    for (size_t k = 0; k < to->dimensions; k++) {
+        to->position[k * to->stride + column] = from->position[k * from->stride + here];
+        to->velocity[k * to->stride + column] = from->velocity[k * from->stride + here];
     }
+}
+
+// The ends of links are sent wherever they are.
+static void give_ends_back(const PhysSystem *system, const Domain *domain) {
+    const Force *forces = system->forces.bytes;
+    for (uint32_t f = 0; f < system->force_count; f++) {
+        if (phys_force_row(forces[f].given.kind).stage != STAGE_LINK)
+            continue;
+        uint32_t ends[2] = {forces[f].given.from, forces[f].given.to};
+        for (int i = 0; i < 2; i++)
+            if (phys_owners(domain)[ends[i]] == (uint32_t)system->options.ranks.rank)
+                give_back(system, domain, domain->local_of[ends[i]], ends[i]);
+    }
+}
+
+// Own particles that are not inland: they move, or are on the shore.
+static bool look_along_shore(PhysSystem *system, Domain *domain) {
+    const Columns *columns = &domain->local->columns;
+    const uint32_t *own = domain->own.bytes, *inland = domain->inland.bytes, *owners = domain->plot_owners.bytes;
+    uint32_t self = (uint32_t)system->options.ranks.rank;
+    for (uint32_t i = 0; i < domain->own_count; i++) {
+        uint32_t plot = phys_cell_of(&domain->plots, columns->position + own[i], columns->stride);
+        if (inland[plot])
+            continue;
+        uint32_t column = domain->column[own[i]];
+        give_back(system, domain, own[i], column);
+        if (owners[plot] == self ? !phys_list_column(system, &domain->shore, column)
+                                 : !phys_add_parcel(system, domain, owners[plot], column))
+            return false;
+    }
+    return true;
+}
+
+bool phys_domain_move(PhysSystem *system, Domain *domain) {
+    uint32_t ranks = (uint32_t)system->options.ranks.count, self = (uint32_t)system->options.ranks.rank;
+    domain->parcel_count = domain->shore.count = domain->fresh.count = 0;
     const double *table;
-    if (!sort_parcels(system, domain, &domain->to) || !(table = tell_counts(system, domain, &domain->to)) ||
+    give_ends_back(system, domain);
+    if (!phys_domain_find_inland(system, domain) || !look_along_shore(system, domain) ||
+        !sort_parcels(system, domain, &domain->to) || !(table = tell_counts(system, domain, &domain->to)) ||
         !send_movers(system, domain, &domain->to))
         return false;
+    for (uint32_t r = 0; r < ranks; r++)
+        for (size_t i = 0; i < phys_parcel_count(&domain->to, r); i++)
+            pass_on(domain, self, r, phys_parcel(&domain->to, r)[i]);
     bool done = true;
     for (uint32_t r = 0; r < ranks && done; r++)
         done = r == self || receive_movers(system, domain, table, r, &domain->from);
     return done && phys_goes_on(system);
-}
-
-// How far a particle with this radius may be from one of its partners, except for large ones.
-static double reach(const Domain *domain, double radius, double partner) {
-    double touch = domain->contact ? radius + partner : 0;
-    return (fmax(touch, domain->bound) + domain->survey.skin) * (1 + 1e-9);
-}
-
-// All plots that a particle can see into, rounding included, because the number of a plot rises with the position.
-static bool wish_for_plots(PhysSystem *system, Domain *domain, uint32_t column, uint32_t *told) {
-    const Columns *columns = &system->columns;
-    const Grid *grid = &domain->plots;
-    uint32_t low[PHYS_VECTOR_DIMENSIONS] = {0}, high[PHYS_VECTOR_DIMENSIONS] = {0};
-    double far = reach(domain, columns->radius[column], domain->widest);
-    for (size_t k = 0; k < grid->dimensions; k++) {
-        double x = columns->position[k * columns->stride + column];
-        low[k] = phys_axis_cell(grid, k, x - far);
-        high[k] = phys_axis_cell(grid, k, x + far);
-    }
-    for (uint32_t z = low[2]; z <= high[2]; z++)
-        for (uint32_t y = low[1]; y <= high[1]; y++)
-            for (uint32_t x = low[0]; x <= high[0]; x++) {
-                uint32_t plot = (z * grid->cells[1] + y) * grid->cells[0] + x;
-                uint32_t owner = ((const uint32_t *)domain->plot_owners.bytes)[plot];
-                if (told[owner] == column + 1)
-                    continue;
-                told[owner] = column + 1;
-                if (!add_parcel(system, domain, owner, column))
-                    return false;
-            }
-    return true;
-}
-
-// Those that a large particle of another rank can see.
-static bool wish_for_large(PhysSystem *system, Domain *domain, uint32_t column, const double *places, uint32_t *told) {
-    const Columns *columns = &system->columns;
-    size_t n = columns->dimensions;
-    for (uint32_t l = 0; l < domain->large_count; l++) {
-        uint32_t owner = phys_owners(domain)[domain->large[l]];
-        double far = reach(domain, columns->radius[column], columns->radius[domain->large[l]]);
-        bool near = told[owner] != column + 1;
-        for (size_t k = 0; k < n; k++)
-            near &= fabs(columns->position[k * columns->stride + column] - places[l * n + k]) <= far;
-        if (!near)
-            continue;
-        told[owner] = column + 1;
-        if (!add_parcel(system, domain, owner, column))
-            return false;
-    }
-    return true;
-}
-
-// Where large particles are must be known to all.
-static const double *large_places(PhysSystem *system, Domain *domain) {
-    const Columns *columns = &system->columns;
-    size_t n = columns->dimensions;
-    double *places = reserve_numbers(system, domain, domain->large_count * n);
-    for (uint32_t l = 0; places && l < domain->large_count; l++)
-        for (size_t k = 0; k < n; k++) {
-            double x = columns->position[k * columns->stride + domain->large[l]];
-            bool own = phys_owners(domain)[domain->large[l]] == (uint32_t)system->options.ranks.rank;
-            places[l * n + k] = own && !isnan(x) ? x : -INFINITY;
-        }
-    if (places && domain->large_count)
-        reduce(system, places, domain->large_count * n);
-    return places;
-}
-
-static int by_rank(const void *left, const void *right) {
-    const Parcel *a = left, *b = right;
-    if (a->rank != b->rank)
-        return a->rank < b->rank ? -1 : 1;
-    return (a->column > b->column) - (a->column < b->column);
-}
-
-// A link takes its ends along, however far apart.
-static bool wish_for_links(PhysSystem *system, Domain *domain) {
-    const Force *forces = system->forces.bytes;
-    const uint32_t *owners = phys_owners(domain);
-    uint32_t self = (uint32_t)system->options.ranks.rank, before = domain->parcel_count;
-    for (uint32_t f = 0; f < system->force_count; f++) {
-        const PhysForce *link = &forces[f].given;
-        if (phys_force_row(link->kind).stage != STAGE_LINK || owners[link->from] == owners[link->to])
-            continue;
-        if ((owners[link->from] == self && !add_parcel(system, domain, owners[link->to], link->from)) ||
-            (owners[link->to] == self && !add_parcel(system, domain, owners[link->from], link->to)))
-            return false;
-    }
-    if (domain->parcel_count == before)
-        return true;
-    Parcel *parcels = domain->parcels.bytes;
-    uint32_t kept = 0;
-    qsort(parcels, domain->parcel_count, sizeof *parcels, by_rank);
-    for (uint32_t i = 0; i < domain->parcel_count; i++)
-        if (!kept || by_rank(&parcels[i], &parcels[kept - 1]))
-            parcels[kept++] = parcels[i];
-    domain->parcel_count = kept;
-    return true;
-}
-
-static bool collect_wishes(PhysSystem *system, Domain *domain) {
-    uint32_t self = (uint32_t)system->options.ranks.rank, ranks = (uint32_t)system->options.ranks.count;
-    const double *places = large_places(system, domain);
-    if (!places || !phys_buffer_reserve(system, &domain->to.items, 0, ranks, sizeof(uint32_t)))
-        return false;
-    uint32_t *told = domain->to.items.bytes; // by rank: the last particle that it was given, plus 1
-    memset(told, 0, ranks * sizeof *told);
-    domain->parcel_count = 0;
-    for (uint32_t column = 0; column < system->particle_count; column++) {
-        if (phys_owners(domain)[column] != self)
-            continue;
-        told[self] = column + 1;
-        if (!wish_for_plots(system, domain, column, told) ||
-            (domain->large_count && !wish_for_large(system, domain, column, places, told)))
-            return false;
-    }
-    return wish_for_links(system, domain);
 }
 
 static bool send_halo(PhysSystem *system, Domain *domain) {
@@ -319,8 +256,11 @@ static bool receive_halo(PhysSystem *system, Domain *domain, const double *table
             return false;
         receive(system, domain, r, (1 + n) * count);
         uint32_t *items = (uint32_t *)from->items.bytes + from->start[r];
-        for (size_t i = 0; i < count; i++)
+        for (size_t i = 0; i < count; i++) {
             items[i] = (uint32_t)numbers[i];
+            if (!phys_list_column(system, &domain->fresh, items[i]))
+                return false;
+        }
         unpack(columns->position, n, columns->stride, items, count, numbers + count);
     }
     return true;
@@ -328,7 +268,7 @@ static bool receive_halo(PhysSystem *system, Domain *domain, const double *table
 
 bool phys_domain_find_halo(PhysSystem *system, Domain *domain) {
     const double *table;
-    return collect_wishes(system, domain) && sort_parcels(system, domain, &domain->to) &&
+    return phys_domain_wish(system, domain) && sort_parcels(system, domain, &domain->to) &&
            (table = tell_counts(system, domain, &domain->to)) && send_halo(system, domain) &&
            receive_halo(system, domain, table) && phys_goes_on(system); // else what came is not what was sent
 }

@@ -2,32 +2,69 @@
 #include "physics/domain.h"
 #include "physics/threads.h"
 
-#include <string.h>
+#include <stdlib.h>
 
-// Marks whom the rank knows and numbers them in the order of the columns.
-static bool number_columns(PhysSystem *system, Domain *domain) {
-    uint32_t count = system->particle_count, self = (uint32_t)system->options.ranks.rank, next = 0;
-    uint32_t halo = domain->from.start[system->options.ranks.count];
-    if (!phys_buffer_reserve(system, &domain->columns, 0, 2 * (uint64_t)count, sizeof(uint32_t)))
+static int by_number(const void *left, const void *right) {
+    uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
+    return (a > b) - (a < b);
+}
+
+static void put(Domain *domain, uint32_t column, uint32_t source) {
+    uint32_t number = domain->local->particle_count++;
+    domain->column[number] = column;
+    domain->local_of[column] = number;
+    ((uint32_t *)domain->sources.bytes)[number] = source;
+}
+
+// Without a local system before: all own particles, whose numbers are in the system's columns.
+static bool list_own(PhysSystem *system, Domain *domain) {
+    uint32_t self = (uint32_t)system->options.ranks.rank, next = 0;
+    const uint32_t *owners = phys_owners(domain);
+    if (!phys_buffer_reserve(system, &domain->local_numbers, 0, system->particle_count, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->columns, 0, ((uint32_t *)domain->counts.bytes)[self], sizeof(uint32_t)))
         return false;
-    domain->local_of = domain->columns.bytes;
-    domain->column = domain->local_of + count;
-    const uint32_t *owners = phys_owners(domain), *items = domain->from.items.bytes;
-    for (uint32_t i = 0; i < count; i++)
-        domain->local_of[i] = owners[i] == self;
-    for (uint32_t i = 0; i < halo; i++)
-        domain->local_of[items[i]] = true;
-    domain->own_count = 0;
-    for (uint32_t i = 0; i < count; i++) {
-        if (!domain->local_of[i]) {
+    domain->local_of = domain->local_numbers.bytes;
+    domain->column = domain->columns.bytes;
+    for (uint32_t i = 0; i < system->particle_count; i++)
+        if (owners[i] == self)
+            domain->column[next++] = i;
+        else
             domain->local_of[i] = UINT32_MAX;
-            continue;
-        }
-        domain->own_count += owners[i] == self;
-        domain->column[next] = i;
-        domain->local_of[i] = next++;
-    }
     domain->local->particle_count = next;
+    return true;
+}
+
+// Numbers whom the rank knows from now on in the order of the columns: own particles that stay, and fresh ones.
+static bool number_columns(PhysSystem *system, Domain *domain) {
+    uint32_t self = (uint32_t)system->options.ranks.rank, fresh = domain->fresh.count, next = 0;
+    if (!domain->made && !list_own(system, domain))
+        return false;
+    Buffer columns = domain->columns;
+    domain->columns = domain->last_columns;
+    domain->last_columns = columns;
+    uint32_t last = domain->local->particle_count;
+    const uint32_t *last_column = columns.bytes, *owners = phys_owners(domain);
+    const bool *foreign = domain->made ? domain->foreign.bytes : NULL;
+    uint32_t *come = domain->fresh.columns.bytes;
+    if (!phys_buffer_reserve(system, &domain->columns, 0, (uint64_t)last + fresh, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->sources, 0, (uint64_t)last + fresh, sizeof(uint32_t)))
+        return false;
+    domain->column = domain->columns.bytes;
+    domain->local->particle_count = 0;
+    if (fresh)
+        qsort(come, fresh, sizeof *come, by_number);
+    for (uint32_t i = 0; i < last; i++) {
+        uint32_t column = last_column[i];
+        domain->local_of[column] = UINT32_MAX;
+        if ((foreign && foreign[i]) || owners[column] != self)
+            continue;
+        for (; next < fresh && come[next] < column; next++)
+            put(domain, come[next], 0);
+        put(domain, column, foreign ? i : column);
+    }
+    while (next < fresh)
+        put(domain, come[next++], 0);
+    domain->own_count = ((const uint32_t *)domain->counts.bytes)[self];
     return true;
 }
 
@@ -106,54 +143,103 @@ static void take(const uint32_t *column, size_t first, size_t end, const double 
 typedef struct Taking {
     const PhysSystem *system;
     const Domain *domain;
-    bool all; // not only what a frame changes
+    Columns from;
+    const uint32_t *sources; // columns of `from`
 } Taking;
+
+static void take_attributes(const Taking *taking, size_t first, size_t end) {
+    const PhysSystem *system = taking->system;
+    const Columns *from = &taking->from, *to = &taking->domain->local->columns;
+    const uint32_t *sources = taking->sources;
+    take(sources, first, end, from->radius, to->radius);
+    take(sources, first, end, from->mass, to->mass);
+    take(sources, first, end, from->charge, to->charge);
+    if (is_needed(system, NEED_SECTION))
+        take(sources, first, end, from->section, to->section);
+    if (is_needed(system, NEED_VOLUME))
+        take(sources, first, end, from->volume, to->volume);
+    if (system->has_eased_forces)
+        take(sources, first, end, from->ease, to->ease);
+    for (size_t k = 0; k < to->dimensions && system->has_own_forces; k++)
+        take(sources, first, end, from->own_force + k * from->stride, to->own_force + k * to->stride);
+}
 
 static void take_share(void *context, int share, int shares) {
     const Taking *taking = context;
-    const PhysSystem *system = taking->system;
-    const Columns *from = &system->columns, *to = &taking->domain->local->columns;
-    const uint32_t *column = taking->domain->column;
+    const Columns *from = &taking->from, *to = &taking->domain->local->columns;
     size_t first = phys_share(to->count, share, shares), end = phys_share(to->count, share + 1, shares);
-    for (size_t k = 0; k < to->dimensions && first < end; k++) {
-        size_t there = k * from->stride, here = k * to->stride;
-        take(column, first, end, from->position + there, to->position + here);
-        take(column, first, end, from->velocity + there, to->velocity + here);
-        if (taking->all && system->has_own_forces)
-            take(column, first, end, from->own_force + there, to->own_force + here);
+    for (size_t k = 0; k < to->dimensions; k++) {
+        take(taking->sources, first, end, from->position + k * from->stride, to->position + k * to->stride);
+        take(taking->sources, first, end, from->velocity + k * from->stride, to->velocity + k * to->stride);
     }
-    if (!taking->all)
-        return;
-    take(column, first, end, from->radius, to->radius);
-    take(column, first, end, from->mass, to->mass);
-    take(column, first, end, from->charge, to->charge);
-    if (is_needed(system, NEED_SECTION))
-        take(column, first, end, from->section, to->section);
-    if (is_needed(system, NEED_VOLUME))
-        take(column, first, end, from->volume, to->volume);
-    if (system->has_eased_forces)
-        take(column, first, end, from->ease, to->ease);
+    take_attributes(taking, first, end);
 }
 
-void phys_domain_reload(const PhysSystem *system, Domain *domain, bool all) {
+// Attributes are in the system's columns, the rest is in the rows.
+static void reload_share(void *context, int share, int shares) {
+    const Taking *taking = context;
+    const PhysSystem *system = taking->system;
+    const Columns *to = &taking->domain->local->columns;
+    size_t n = to->dimensions, end = phys_share(to->count, share + 1, shares);
+    for (size_t i = phys_share(to->count, share, shares); i < end; i++) {
+        const double *row = phys_row(system, system->order[taking->sources[i]]);
+        for (size_t k = 0; k < n; k++) {
+            to->position[k * to->stride + i] = row[k];
+            to->velocity[k * to->stride + i] = row[n + k];
+        }
+    }
+    take_attributes(taking, phys_share(to->count, share, shares), end);
+}
+
+static int shares_for(const PhysSystem *local) {
+    return phys_shares(local, local->particle_count, PHYS_MIN_FOR_THREADS);
+}
+
+void phys_domain_reload(const PhysSystem *system, Domain *domain) {
+    Taking taking = {system, domain, system->columns, domain->column};
+    domain->local->radii++;
+    phys_parallel(domain->local, shares_for(domain->local), reload_share, &taking);
+}
+
+static void take_fresh(const PhysSystem *system, const Domain *domain) {
+    const Columns *from = &system->columns, *to = &domain->local->columns;
+    const uint32_t *fresh = domain->fresh.columns.bytes;
+    Taking taking = {system, domain, *from, domain->column};
+    for (uint32_t f = 0; f < domain->fresh.count; f++) {
+        size_t here = domain->local_of[fresh[f]];
+        for (size_t k = 0; k < to->dimensions; k++) {
+            to->position[k * to->stride + here] = from->position[k * from->stride + fresh[f]];
+            to->velocity[k * to->stride + here] = from->velocity[k * from->stride + fresh[f]];
+        }
+        take_attributes(&taking, here, here + 1);
+    }
+}
+
+// The numbers of all into new columns.
+static bool take_numbers(const PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    Taking taking = {system, domain, all};
-    local->radii += all;
-    phys_parallel(local, phys_shares(local, local->particle_count, PHYS_MIN_FOR_THREADS), take_share, &taking);
+    Taking taking = {system, domain, domain->made ? local->columns : system->columns, domain->sources.bytes};
+    Buffer memory = domain->spare;
+    domain->spare = local->column_data;
+    local->column_data = memory;
+    local->dimensions = system->dimensions;
+    local->has_own_forces = system->has_own_forces;
+    local->has_eased_forces = system->has_eased_forces;
+    if (!phys_reserve_columns(local))
+        return false;
+    local->radii++;
+    if (taking.from.count)
+        phys_parallel(local, shares_for(local), take_share, &taking);
+    take_fresh(system, domain);
+    return true;
 }
 
 static bool take_particles(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    local->dimensions = system->dimensions;
-    local->has_own_forces = system->has_own_forces;
-    local->has_eased_forces = system->has_eased_forces;
-    if (!phys_reserve_columns(local) ||
+    if (!take_numbers(system, domain) ||
         !phys_buffer_reserve(system, &domain->own, 0, domain->own_count, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->foreign, 0, local->particle_count, sizeof(bool)) ||
-        !phys_buffer_reserve(system, &domain->built, 0, (system->dimensions + 1) * (uint64_t)domain->own_count,
-                             sizeof(double)))
+        !phys_buffer_reserve(system, &domain->foreign, 0, local->particle_count, sizeof(bool)))
         return false;
-    phys_domain_reload(system, domain, true);
     const uint32_t *owners = phys_owners(domain);
     bool *foreign = domain->foreign.bytes;
     uint32_t *own = domain->own.bytes;
@@ -167,25 +253,33 @@ static bool take_particles(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Where own particles were when the halo was made, and how large.
-static void note_places(const Domain *domain) {
+// Where own particles were when the halo was made, and how large, if some pass had no list so far.
+static bool note_places(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const uint32_t *own = domain->own.bytes;
+    domain->noted = domain->local->unlisted;
+    if (!domain->noted)
+        return true;
+    if (!phys_buffer_reserve(system, &domain->built, 0, (columns->dimensions + 1) * (uint64_t)domain->own_count,
+                             sizeof(double)))
+        return false;
     double *built = domain->built.bytes;
     for (size_t k = 0; k < columns->dimensions && domain->own_count; k++, built += domain->own_count)
         take(own, 0, domain->own_count, columns->position + k * columns->stride, built);
     take(own, 0, domain->own_count, columns->radius, built);
+    return true;
 }
 
 bool phys_domain_gather(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     if (!number_columns(system, domain) || !take_groups(system, domain) || !take_particles(system, domain) ||
-        !phys_domain_take_forces(system, domain))
+        !phys_domain_take_forces(system, domain) || !note_places(system, domain)) {
+        system->failed = true;
         return false;
+    }
     uint32_t ranks = (uint32_t)system->options.ranks.count;
     localize(domain, &domain->to, domain->to.start[ranks]);
     localize(domain, &domain->from, domain->from.start[ranks]);
-    note_places(domain);
     phys_lists_drop(local, domain->survey.skin);
     local->unlisted = false;
     domain->age = 0;
@@ -227,23 +321,10 @@ bool phys_domain_take_forces(PhysSystem *system, Domain *domain) {
     return take_draws(system, domain);
 }
 
-// How far the streams of random numbers are: the same on all ranks.
-static void give_back_items(PhysSystem *system, const PhysSystem *local) {
+void phys_domain_give_back_items(PhysSystem *system, const PhysSystem *local) {
     Force *to = system->forces.bytes;
     const Force *from = local->forces.bytes;
     for (uint64_t s = STAGE_SINGLE; s < (uint64_t)system->group_count * STAGE_COUNT; s += STAGE_COUNT)
         for (uint32_t f = 0; f < system->starts[s + 1] - system->starts[s]; f++)
             to[system->starts[s] + f].item = from[local->starts[s] + f].item;
-}
-
-void phys_domain_give_back(PhysSystem *system, const Domain *domain) {
-    give_back_items(system, domain->local);
-    const Columns *from = &domain->local->columns, *to = &system->columns;
-    const uint32_t *own = domain->own.bytes;
-    for (size_t k = 0; k < to->dimensions; k++)
-        for (uint32_t i = 0; i < domain->own_count; i++) {
-            size_t here = k * from->stride + own[i], there = k * to->stride + domain->column[own[i]];
-            to->position[there] = from->position[here];
-            to->velocity[there] = from->velocity[here];
-        }
 }

@@ -120,6 +120,8 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     Pass pass = prepare_pass(system, phys_forces(system, level, STAGE_PAIR));
     if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level))
         return;
+    if (system->settled)
+        phys_unsettle(system);
     system->unlisted = true;
     size_t first = group->first, end = first + group->count;
     if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))

@@ -127,7 +127,7 @@ static void choose_cells(const Survey *survey, double width, double most, Grid *
 
 static void put_into_place(const PairPass *pass, Neighbours *list, uint32_t place, uint32_t rank, size_t column) {
     list->view.column[place] = (uint32_t)column;
-    list->key[place] = rank;
+    list->key[place] = list->order ? list->order[column] : rank;
     for (size_t k = 0; k < pass->dimensions; k++)
         list->view.built[k][place] = pass->position[k * pass->stride + column];
     list->view.radius[place] = pass->radius[column];
@@ -231,6 +231,8 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     Survey survey;
     Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
     list->total = (uint32_t)phys_ranges_total(&list->ranges);
+    list->order = system->settled ? system->order : NULL;
+    list->view.direct = false;
     if (!reserve_arrays(system, pass, list) || !lay(pass, list, INFINITY, &survey, &grid))
         return false;
     list->view.moved = phys_skin_square(list->skin);

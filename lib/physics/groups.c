@@ -10,10 +10,10 @@ static size_t slot_of(const ForceRecord *record) {
 // from the end of each range to its beginning.
 static void arrange_particles(PhysSystem *system) {
     Group *groups = system->groups.bytes;
-    if (system->group_count == 1) { // in order already
+    if (system->group_count == 1) { // in order already, or in that of a list
         groups[0].first = 0;
         groups[0].count = system->particle_count;
-        for (uint32_t i = 0; i < system->particle_count; i++)
+        for (uint32_t i = 0; i < system->particle_count && !system->settled; i++)
             system->order[i] = system->place[i] = i;
         return;
     }
@@ -77,7 +77,10 @@ void phys_link_groups(PhysSystem *system) {
 
 bool phys_arrange(PhysSystem *system) {
     uint64_t particles = system->particle_count, slots = (uint64_t)system->group_count * STAGE_COUNT;
-    if (!phys_buffer_reserve(system, &system->indices, 0, 2 * particles + slots + 1, sizeof(uint32_t)))
+    if (system->settled && (system->group_count > 1 || system->particle_count != system->columns.count))
+        phys_forget_order(system);
+    uint64_t kept = system->settled ? 2 * particles * sizeof(uint32_t) : 0;
+    if (!phys_buffer_reserve(system, &system->indices, kept, 2 * particles + slots + 1, sizeof(uint32_t)))
         return false;
     system->order = system->indices.bytes;
     system->place = system->order + particles;

@@ -134,10 +134,14 @@ struct PhysSystem {
     // kept from step to step and from frame to frame
     uint64_t frame; // number of this frame
     struct Neighbours *lists;
+    // in the order of a list (settle.c)
+    bool may_settle; // one group has all particles, and nothing but its one pass over pairs asks for their order
+    bool settled;    // columns are in the order of the places of the list of that pass
     // on several processes (domain.h)
     uint64_t arrangement; // counts how often the columns have been filled
     uint64_t radii;       // another number whenever a radius has changed
     bool touched;         // particles were given new numbers since the last frame
+    bool behind;          // positions and velocities are in the rows only, not in the columns
     Buffer domain;        // Domain
     PhysTraffic traffic;
     const bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
@@ -191,8 +195,14 @@ static inline const ParticleRecord *phys_record(const PhysSystem *system, uint32
 enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // marks of `not_finite` and `from_attribute`
 bool phys_clear_not_finite(PhysSystem *system);
 bool phys_load(PhysSystem *system);
+// Positions and velocities alone.
+void phys_load_motion(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);
 void phys_store(PhysSystem *system, bool keep_last_finite);
+// PhysTime.keep_last_finite for one particle: numbers go into its row or, if they may not, are put back to the row's.
+// `stride` doubles from one component to the next. Returns marks of `not_finite`, which it sets.
+uint8_t phys_keep_row(const PhysSystem *system, size_t n, uint32_t handle, double *position, double *velocity,
+                      size_t stride);
 
 // particles.c: points the columns into their memory.
 bool phys_reserve_columns(PhysSystem *system);
@@ -201,6 +211,14 @@ void phys_link_groups(PhysSystem *system);
 
 // step.c: one step of `delta` at `clock`; false if it was given up half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
+
+// settle.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says
+// whether the system is one that can; phys_unsettle puts the columns back into the order of the description, and drops
+// the list; phys_forget_order does so for columns that are made anew.
+bool phys_can_settle(const PhysSystem *system);
+void phys_settle(PhysSystem *system, struct Neighbours *list);
+void phys_unsettle(PhysSystem *system);
+void phys_forget_order(PhysSystem *system);
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);

@@ -25,6 +25,11 @@ KERNEL PairEnd quad_end(const PairPass *pass, PairShape shape, const ListView *v
     return end;
 }
 
+// What a column has for LANES places from one on.
+KERNEL Real load_at(const double *column, const ListView *view, size_t place) {
+    return view->direct ? real_load(column + place) : real_gather(column, view->column + place);
+}
+
 KERNEL void block_forces(const PairPass *pass, PairShape shape, const ListView *view, size_t block) {
     const uint32_t *entries = view->entries + view->at[block], *column = view->column + block * LANES;
     size_t most = view->most[block], left = view->regular - block * LANES;
@@ -37,15 +42,20 @@ KERNEL void block_forces(const PairPass *pass, PairShape shape, const ListView *
     PairEnd target = quad_end(pass, shape, view, self);
     Real sum[PHYS_VECTOR_DIMENSIONS];
     for (size_t m = 0; m < shape.dimensions; m++)
-        sum[m] = real_gather(pass->force + m * pass->stride, column);
+        sum[m] = load_at(pass->force + m * pass->stride, view, block * LANES);
     for (size_t k = 0; k < most; k++) {
         PairEnd partner = quad_end(pass, shape, view, entries + k * LANES);
         PairGeometry pair;
         if (pair_geometry(shape, &target, &partner, live, &pair))
             add_rest(pass, shape, &pair, &target, &partner, sum, NULL, 0);
     }
-    for (size_t m = 0; m < shape.dimensions; m++)
-        real_scatter_where(live, pass->force + m * pass->stride, column, sum[m]);
+    for (size_t m = 0; m < shape.dimensions; m++) {
+        double *force = pass->force + m * pass->stride;
+        if (view->direct)
+            real_store_where(live, force + block * LANES, sum[m]);
+        else
+            real_scatter_where(live, force, column, sum[m]);
+    }
 }
 
 KERNEL void blocks(const PairPass *pass, PairShape shape, const ListView *view, size_t first, size_t end) {
@@ -88,13 +98,13 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
         Mask live = mask_first(end - s);
         Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
         for (size_t k = 0; k < dimensions; k++) {
-            parts[k] = real_gather(pass->position + k * pass->stride, view->column + s);
+            parts[k] = load_at(pass->position + k * pass->stride, view, s);
             Real d = parts[k] - real_load(view->built[k] + s);
             square += d * d;
         }
         Real radius = real_load(view->radius + s), built = radius;
         if (!view->same_radii)
-            radius = real_gather(pass->radius, view->column + s);
+            radius = load_at(pass->radius, view, s);
         parts[radius_part(dimensions)] = radius;
         real_store_quads(view->quads + 4 * s, parts);
         // Written so that a NaN counts as a move.
@@ -107,8 +117,9 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
 
 static void refresh_sources(const PairPass *pass, const ListView *view, size_t first, size_t end) {
     for (size_t s = first; s < end; s++) {
-        view->sources[2 * s] = pass->mass[view->column[s]];
-        view->sources[2 * s + 1] = pass->charge[view->column[s]];
+        size_t column = view->direct ? s : view->column[s];
+        view->sources[2 * s] = pass->mass[column];
+        view->sources[2 * s + 1] = pass->charge[column];
     }
 }
 

@@ -149,18 +149,29 @@ KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     return mask_bits(finite) == ALL_LANES;
 }
 
-static bool other_zero(const double *row, double (*parts)[LANES], size_t count, size_t lane) {
+KERNEL bool other_zero(const double *row, const Real *parts, size_t count, size_t lane) {
     for (size_t k = 0; k < count; k++)
         if (row[k] == 0 && parts[k][lane] == 0 && signbit(row[k]) != signbit(parts[k][lane]))
             return true;
     return false;
 }
 
-KERNEL bool in_a_row(const uint32_t *order) {
-    for (uint32_t lane = 1; lane < LANES; lane++)
-        if (order[lane] != order[0] + lane)
-            return false;
-    return true;
+// The rows of LANES particles, each of 2 n numbers.
+KERNEL void store_parts(size_t n, const uint32_t *order, double *rows, const Real *parts) {
+    double *row[LANES];
+    for (size_t lane = 0; lane < LANES; lane++)
+        row[lane] = rows + 2 * n * order[lane];
+    if (n == 1) {
+        for (size_t lane = 0; lane < LANES; lane++)
+            for (size_t k = 0; k < 2; k++)
+                row[lane][k] = parts[k][lane];
+        return;
+    }
+    real_store_rows(row, parts);
+    for (size_t lane = 0; lane < LANES && n == 3; lane++)
+        row[lane] += 2;
+    if (n == 3)
+        real_store_rows(row, parts + 2);
 }
 
 // Where all numbers are finite, keeping the last finite ones (particles.c) is to copy: numbers that are equal to those
@@ -175,20 +186,12 @@ KERNEL size_t store(const Columns *columns, size_t n, const uint32_t *order, dou
         Lanes zeros;
         if (!all_finite(parts, 2 * n, &zeros))
             return first;
-        if (n == 2 && !zeros && in_a_row(order + first)) {
-            real_store_quads(rows + 4 * (size_t)order[first], parts);
-            continue;
-        }
-        double numbers[2 * PHYS_VECTOR_DIMENSIONS][LANES];
-        for (size_t k = 0; k < 2 * n; k++)
-            real_store(numbers[k], parts[k]);
-        for (; zeros; zeros &= zeros - 1)
-            if (other_zero(rows + 2 * n * order[first + (size_t)__builtin_ctz(zeros)], numbers, 2 * n,
-                           (size_t)__builtin_ctz(zeros)))
+        for (; zeros; zeros &= zeros - 1) {
+            size_t lane = (size_t)__builtin_ctz(zeros);
+            if (other_zero(rows + 2 * n * order[first + lane], parts, 2 * n, lane))
                 return first;
-        for (size_t lane = 0; lane < LANES; lane++)
-            for (size_t k = 0; k < 2 * n; k++)
-                rows[2 * n * order[first + lane] + k] = numbers[k][lane];
+        }
+        store_parts(n, order + first, rows, parts);
     }
     return first;
 }

@@ -64,7 +64,8 @@ typedef struct PairKernel {
 typedef struct ListView {
     uint32_t regular;
     uint32_t listed;                       // regular and large ones
-    uint32_t *column;                      // by place; readable for LANES beyond the last
+    bool direct;                           // columns are in the order of places
+    uint32_t *column;                      // else by place; readable for LANES beyond the last
     double *built[PHYS_VECTOR_DIMENSIONS]; // positions for which the lists were made
     double *radius;                        // and radii
     bool same_radii;                       // which are those of now

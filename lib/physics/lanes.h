@@ -260,25 +260,39 @@ KERNEL void real_load_quads(const double *quads, const uint32_t *index, Real *pa
     real_load_rows(rows, parts);
 }
 
-// LANES quads from their parts.
-KERNEL void real_store_quads(double *quads, const Real *parts) {
+// Element lane of parts[m] to element m of row `lane`: real_load_rows the other way round.
+KERNEL void real_store_rows(double *const *rows, const Real *parts) {
 #if LANES == 2
     for (int lane = 0; lane < LANES; lane++)
         for (int m = 0; m < 4; m++)
-            quads[4 * lane + m] = parts[m][lane];
+            rows[lane][m] = parts[m][lane];
+#elif LANES == 4
+    Real r[4] = {parts[0], parts[1], parts[2], parts[3]};
+    quads_transpose(r);
+    for (int lane = 0; lane < LANES; lane++)
+        real_store(rows[lane], r[lane]);
 #else
-    double lanes[4][LANES];
-    for (int m = 0; m < 4; m++)
-        real_store(lanes[m], parts[m]);
-    for (int half = 0; half < LANES; half += 4) {
-        Quad r[4];
-        for (int m = 0; m < 4; m++)
-            r[m] = _mm256_loadu_pd(lanes[m] + half);
-        quads_transpose(r);
-        for (int m = 0; m < 4; m++)
-            _mm256_storeu_pd(quads + 4 * (half + m), r[m]);
+    Real even[2], odd[2];
+    for (int m = 0; m < 2; m++) {
+        even[m] = _mm512_unpacklo_pd(parts[2 * m], parts[2 * m + 1]);
+        odd[m] = _mm512_unpackhi_pd(parts[2 * m], parts[2 * m + 1]);
+    }
+    __m512i low = _mm512_set_epi64(13, 12, 5, 4, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 11, 10, 3, 2);
+    Real r[4] = {_mm512_permutex2var_pd(even[0], low, even[1]), _mm512_permutex2var_pd(odd[0], low, odd[1]),
+                 _mm512_permutex2var_pd(even[0], high, even[1]), _mm512_permutex2var_pd(odd[0], high, odd[1])};
+    for (int lane = 0; lane < 4; lane++) {
+        _mm256_storeu_pd(rows[lane], _mm512_castpd512_pd256(r[lane]));
+        _mm256_storeu_pd(rows[lane + 4], _mm512_extractf64x4_pd(r[lane], 1));
     }
 #endif
+}
+
+// LANES quads from their parts.
+KERNEL void real_store_quads(double *quads, const Real *parts) {
+    double *rows[LANES];
+    for (int lane = 0; lane < LANES; lane++)
+        rows[lane] = quads + 4 * lane;
+    real_store_rows(rows, parts);
 }
 
 // Writes base + lane for the lanes of a mask side by side and returns how many. `to` has room for LANES.

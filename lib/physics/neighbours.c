@@ -62,7 +62,7 @@ static Neighbours *find_list(PhysSystem *system, uint32_t group, uint32_t level)
 
 static bool still_idle(const PairPass *pass, const Neighbours *list) {
     for (uint32_t place = list->view.listed; place < list->total; place++) {
-        size_t column = list->view.column[place];
+        size_t column = list->view.direct ? place : list->view.column[place];
         bool idle = list->touch_only && pass->radius[column] == 0;
         for (size_t k = 0; k < pass->dimensions; k++)
             idle |= !isfinite(pass->position[k * pass->stride + column]);
@@ -185,13 +185,24 @@ void phys_adapt_skin(Neighbours *list, uint32_t life) {
         list->skin = fmax(list->skin / 1.15, SKIN_LEAST * list->base);
 }
 
+// Large particles meet all others in the order of the columns, and so do all where there is no list.
+static bool sort(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
+    bool sorted = phys_grid_build(system, kernels, pass, list);
+    if (!system->settled || (sorted && list->view.listed == list->view.regular))
+        return sorted;
+    phys_unsettle(system);
+    return sorted && phys_grid_build(system, kernels, pass, list);
+}
+
 static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
-    list->built = phys_grid_build(system, kernels, pass, list);
+    list->built = sort(system, kernels, pass, list);
     list->radii = system->radii;
     system->failed = false; // lists may fail, the frame need not
     list->age = 0;
     if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays(list))) {
         list->backoff = 0;
+        if (system->may_settle)
+            phys_settle(system, list);
         return true;
     }
     list->built = false;

@@ -41,10 +41,11 @@ typedef struct Neighbours {
     // what it is
     bool built;
     ListView view;
-    uint32_t *key;  // by place: position in the order of the pass
-    uint32_t *cell; // by position in the order of the pass
-    uint32_t total; // places; those after view.listed are idle: not finite, or without the size for a contact
-    double base;    // length that the skin is measured by: the usual distance of contact
+    uint32_t *key;         // by place: position in the order of the pass
+    uint32_t *cell;        // by column of the ranges, counted through
+    const uint32_t *order; // by column: position in the order of the pass; NULL: columns are in that order
+    uint32_t total;        // places; those after view.listed are idle: not finite, or without the size for a contact
+    double base;           // length that the skin is measured by: the usual distance of contact
     double skin;
     uint64_t radii;   // PhysSystem.radii for which it was made
     bool skin_given;  // by the domain that the particles are of

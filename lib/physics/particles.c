@@ -71,6 +71,22 @@ void phys_raise_radii(PhysSystem *system) {
     system->touched |= section || volume;
 }
 
+static void load_motion_of(const PhysSystem *system, size_t i) {
+    const Columns *columns = &system->columns;
+    const double *row = phys_row(system, system->order[i]);
+    for (size_t k = 0, n = columns->dimensions; k < n; k++) {
+        columns->position[k * columns->stride + i] = row[k];
+        columns->velocity[k * columns->stride + i] = row[n + k];
+    }
+}
+
+static void load_motion_share(void *context, int worker, int workers) {
+    const PhysSystem *system = context;
+    size_t end = phys_share(system->columns.count, worker + 1, workers);
+    for (size_t i = phys_share(system->columns.count, worker, workers); i < end; i++)
+        load_motion_of(system, i);
+}
+
 static void load_share(void *context, int worker, int workers) {
     PhysSystem *system = context;
     const Columns *columns = &system->columns;
@@ -82,11 +98,7 @@ static void load_share(void *context, int worker, int workers) {
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;
         columns->anchor[i] = particle->anchor;
-        const double *row = phys_row(system, handle);
-        for (size_t k = 0; k < n; k++) {
-            columns->position[k * stride + i] = row[k];
-            columns->velocity[k * stride + i] = row[n + k];
-        }
+        load_motion_of(system, i);
         if (!system->has_own_forces)
             continue;
         const double *own_force = (const double *)system->own_forces.bytes + n * handle;
@@ -118,6 +130,20 @@ static inline bool keep_last_finite(double *column, size_t stride, double *row, 
     return finite;
 }
 
+uint8_t phys_keep_row(const PhysSystem *system, size_t n, uint32_t handle, double *position, double *velocity,
+                      size_t stride) {
+    double *row = (double *)system->rows.bytes + 2 * n * handle;
+    uint8_t *from = system->any_from_attribute ? (uint8_t *)system->from_attribute.bytes + handle : NULL;
+    bool kept = keep_last_finite(position, stride, row, n, from && (*from & PHYS_POSITION));
+    bool kept_too = keep_last_finite(velocity, stride, row + n, n, from && (*from & PHYS_VELOCITY));
+    uint8_t marks = (uint8_t)((kept ? 0 : PHYS_POSITION) | (kept_too ? 0 : PHYS_VELOCITY));
+    if (from)
+        *from &= marks;
+    if (marks)
+        ((uint8_t *)system->not_finite.bytes)[handle] = marks;
+    return marks;
+}
+
 static inline void copy_to_row(PhysSystem *system, size_t n, size_t i) {
     const Columns *columns = &system->columns;
     double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
@@ -130,20 +156,9 @@ static inline void copy_to_row(PhysSystem *system, size_t n, size_t i) {
 static inline void keep_range(Storing *storing, size_t n, size_t i, size_t end, int worker) {
     PhysSystem *system = storing->system;
     const Columns *columns = &system->columns;
-    size_t stride = columns->stride;
-    for (; i < end; i++) {
-        double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
-        uint8_t *from = system->any_from_attribute ? (uint8_t *)system->from_attribute.bytes + system->order[i] : NULL;
-        bool position = keep_last_finite(columns->position + i, stride, row, n, from && (*from & PHYS_POSITION));
-        bool velocity = keep_last_finite(columns->velocity + i, stride, row + n, n, from && (*from & PHYS_VELOCITY));
-        uint8_t marks = (uint8_t)((position ? 0 : PHYS_POSITION) | (velocity ? 0 : PHYS_VELOCITY));
-        if (from)
-            *from &= marks;
-        if (!marks)
-            continue;
-        ((uint8_t *)system->not_finite.bytes)[system->order[i]] = marks;
-        storing->any_not_finite[worker] = true;
-    }
+    for (; i < end; i++)
+        if (phys_keep_row(system, n, system->order[i], columns->position + i, columns->velocity + i, columns->stride))
+            storing->any_not_finite[worker] = true;
 }
 
 static void store_share(void *context, int worker, int workers) {
@@ -200,7 +215,13 @@ bool phys_load(PhysSystem *system) {
     phys_parallel(system, shares_for(system), load_share, system);
     system->arrangement++;
     system->radii++;
+    system->behind = false;
     return true;
+}
+
+void phys_load_motion(PhysSystem *system) {
+    phys_parallel(system, shares_for(system), load_motion_share, system);
+    system->behind = false;
 }
 
 void phys_store(PhysSystem *system, bool keep) {

@@ -28,6 +28,12 @@ static bool arrange(PhysSystem *system) {
         if (!system->forces_arranged)
             return false;
     }
+    system->may_settle = phys_can_settle(system);
+    if (system->settled && !system->may_settle) {
+        phys_unsettle(system);
+        if (!phys_arrange_forces(system)) // links name columns
+            return false;
+    }
     if (!system->radii_raised)
         phys_raise_radii(system);
     Force *forces = system->forces.bytes;

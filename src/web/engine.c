@@ -121,18 +121,57 @@ EXPORT(double, web_evaluate, PetriSession *session, const char *text, size_t len
     return result.number;
 }
 
-// The picture of the last frame, as numbers that are there during the call.
-EXPORT(PetriStatus, web_picture, PetriSession *session, bool automatic) {
+static bool draw_canvas(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
+    (void)host;
+    return host_draw(numbers, count, width, height, pixels);
+}
+
+static const uint32_t *find_image(void *host, const char *file, int *width, int *height) {
+    (void)host;
+    return host_image(file, width, height);
+}
+
+// NULL without WebGL 2.
+EXPORT(PetriPainter *, web_painter, void) {
+    const PetriCanvasHost host = {.draw = draw_canvas, .image = find_image};
+    PetriPainter *painter = petri_painter_open();
+    if (painter && (petri_painter_use_host(painter, &host) != PETRI_OK || petri_painter_use_gl(painter) != PETRI_OK))
+        petri_painter_close(&painter);
+    return painter;
+}
+
+EXPORT(void, web_painter_close, PetriPainter *painter) {
+    petri_painter_close(&painter);
+}
+
+static PetriStatus give_numbers(PetriPicture *picture, bool ready) {
+    const double *numbers;
+    size_t count;
+    PetriStatus status = petri_picture_numbers(picture, &numbers, &count);
+    if (status == PETRI_OK)
+        host_picture(numbers, count, petri_picture_title(picture), ready);
+    return status;
+}
+
+// The picture of the last frame, as numbers that are there during the call; or if they are not all of it and there is a
+// painter, on the host's screen.
+EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, bool automatic) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
     PetriPicture *picture;
     PetriStatus status = petri_picture(session, &options, &picture);
-    const double *numbers;
-    size_t count;
-    if (status == PETRI_OK)
-        status = petri_picture_numbers(picture, &numbers, &count);
-    if (status == PETRI_OK)
-        host_picture(numbers, count, petri_picture_title(picture), petri_picture_ready(session, &options));
+    bool ready = petri_picture_ready(session, &options);
+    if (status == PETRI_OK && painter && !petri_picture_is_numbers(picture)) {
+        int width, height;
+        petri_picture_size(picture, &width, &height);
+        host_screen(width, height);
+        status = petri_painter_show(painter, picture, NULL, 0, 1, width, height);
+        petri_picture_tell(session, picture);
+        if (status == PETRI_OK)
+            host_shown(petri_picture_title(picture), ready);
+    } else if (status == PETRI_OK) {
+        status = give_numbers(picture, ready);
+    }
     petri_picture_free(&picture);
     return status;
 }

@@ -36,6 +36,12 @@ HOST(column) void host_column(const char *name, const double *data, size_t strid
 HOST(entry) void host_entry(const char *key, const double *numbers, uint32_t length, const char *text);
 // A picture, as petri_picture_numbers has it.
 HOST(picture) void host_picture(const double *numbers, size_t count, const char *title, bool ready);
+// A painter draws on the host's screen, of that size, from here on, and has done so.
+HOST(screen) void host_screen(int width, int height);
+HOST(shown) void host_shown(const char *title, bool ready);
+// A canvas into cleared pixels, and an image, as PetriCanvasHost has them.
+HOST(draw) bool host_draw(const double *numbers, size_t count, int width, int height, uint32_t *pixels);
+HOST(image) const uint32_t *host_image(const char *file, int *width, int *height);
 HOST(token) void host_token(int kind, size_t start, size_t end);
 // What there is to know for help: a row of a table.
 HOST(help)

@@ -79,6 +79,7 @@ class Painter {
         this.layers = [];
         this.undrawn = new Set();
         this.image = options.image ?? (() => null);
+        this.background = options.background === undefined ? '#000' : options.background;
         const { width, height } = context.canvas, scale = Math.min(width / numbers[0], height / numbers[1]);
         this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
         this.matrix = [1, 0, 0, 1, 0, 0];
@@ -273,8 +274,10 @@ class Painter {
     draw() {
         const { canvas } = this.context;
         this.context.reset?.();
-        this.context.fillStyle = '#000';
-        this.context.fillRect(0, 0, canvas.width, canvas.height);
+        if (this.background) {
+            this.context.fillStyle = this.background;
+            this.context.fillRect(0, 0, canvas.width, canvas.height);
+        }
         while (this.at < this.n.length)
             this.command(this.n[this.at++]);
         return [...this.undrawn];

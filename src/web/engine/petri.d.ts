@@ -130,6 +130,15 @@ export interface Help {
 
 export type Section = 'tree' | 'state' | 'log' | 'error' | 'hash';
 
+/** A picture that WebGL 2 has drawn. */
+export interface Shown {
+    image: ImageBitmap;
+    title: string;
+    ready: boolean;
+    /** What is left out, as words. */
+    undrawn: string[];
+}
+
 /** One script that runs. Calls that fail throw a PetriError; what they were to change is then as before. */
 export interface Session {
     /** Loads a script; frames count from 0 again, the state is kept. */
@@ -170,6 +179,11 @@ export interface Session {
     readonly drawable: boolean;
     /** What the last frame shows, as numbers for `drawPicture`; null if there is nothing to draw. */
     picture(options?: { automatic?: boolean }): Picture | null;
+    /**
+     * The same, but with all that takes WebGL 2 (three dimensions, effects, several canvases), as an image that is the
+     * caller's; numbers where they are all of it, or there is no WebGL 2.
+     */
+    show(options?: { automatic?: boolean }): Picture | Shown | null;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;

@@ -1,5 +1,7 @@
 // petri.mjs: sessions of petri for JavaScript: load a script, step it, look at values. petri.d.ts has the types; what
 // holds for petri.h holds here.
+import { drawPicture } from './drawing.mjs';
+import { pixelContext, readPixels } from './pixels.mjs';
 import { compile, instantiate } from './wasm.mjs';
 
 export const STATUS = ['ok', 'invalid', 'limit', 'memory', 'missing', 'interrupted'];
@@ -63,6 +65,12 @@ class Engine {
                 }),
             picture: (numbers, count, title, ready) =>
                 now().taken.push({ numbers: this.memory.numbers(numbers, count).slice(), title: text(title), ready: !!ready }),
+            gl_ready: () => this.memory.screen.ready,
+            gl_has: name => this.memory.screen.extensions.has(text(name)),
+            screen: (width, height) => this.memory.screen.resize(width, height),
+            shown: (title, ready) => now().taken.push({ image: this.memory.screen.take(), title: text(title), ready: !!ready }),
+            draw: (numbers, count, width, height, pixels) => now().drawCanvas(numbers, count, width, height, pixels),
+            image: (name, width, height) => now().giveImage(text(name), width, height),
             token: (kind, start, end) => now().taken.push({ kind: TOKENS[kind], start, end }),
             help: (kind, name, parameters, fallback, unit, help) =>
                 now().taken.push({
@@ -82,11 +90,14 @@ class Engine {
 }
 
 export class Session {
-    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, onDiagnostic, wantsEnd } = {}) {
+    constructor(engine, { fps = 0, memory = MEMORY, work = CALL_WORK, files = {}, image = () => null, onDiagnostic, wantsEnd } = {}) {
         this.engine = engine;
         this.memory = engine.memory;
         this.onDiagnostic = onDiagnostic;
         this.wantsEnd = wantsEnd;
+        this.image = image;
+        this.painter = null; // 0: there can be none
+        this.undrawn = new Set();
         this.files = new Map();
         this.kept = []; // addresses of files, until the session is closed
         this.written = [];
@@ -100,10 +111,14 @@ export class Session {
     }
 
     close() {
+        if (this.painter)
+            this.run(wasm => wasm.web_painter_close(this.painter));
+        this.painter = 0;
         if (this.handle)
             this.run(wasm => wasm.web_close(this.handle));
         this.handle = 0;
-        this.kept.forEach(at => this.memory.wasm.free(at));
+        [...this.kept, this.pixels ?? 0].forEach(at => this.memory.wasm.free(at));
+        this.pixels = 0;
         this.kept = [];
     }
 
@@ -263,8 +278,41 @@ export class Session {
 
     // What the last frame shows, as numbers that drawing.mjs knows; null if there is nothing to draw.
     picture({ automatic = false } = {}) {
-        this.run(wasm => wasm.web_picture(this.handle, automatic ? 1 : 0));
+        this.run(wasm => wasm.web_picture(this.handle, 0, automatic ? 1 : 0));
         return this.taken[0] ?? null;
+    }
+
+    // The same with all that takes WebGL 2, as an image; as numbers where there is none, or no need of it.
+    show({ automatic = false } = {}) {
+        this.painter ??= this.run(wasm => wasm.web_painter());
+        this.undrawn.clear();
+        this.run(wasm => wasm.web_picture(this.handle, this.painter, automatic ? 1 : 0));
+        const shown = this.taken[0] ?? null;
+        return shown?.image ? { ...shown, undrawn: [...this.undrawn] } : shown;
+    }
+
+    drawCanvas(numbers, count, width, height, pixels) {
+        const context = pixelContext(width, height), { image } = this;
+        const undrawn = drawPicture(context, this.memory.numbers(numbers, count), { image, background: null });
+        undrawn.forEach(what => this.undrawn.add(what));
+        readPixels(context, this.memory.words(pixels, width * height));
+        return true;
+    }
+
+    // The pixels of an image, which stay until the next one is wanted.
+    giveImage(name, width, height) {
+        const image = this.image(name);
+        this.memory.wasm.free(this.pixels ?? 0);
+        this.pixels = image ? this.memory.wasm.malloc(4 * image.width * image.height) : 0;
+        if (!this.pixels)
+            return 0;
+        const context = pixelContext(image.width, image.height);
+        context.reset();
+        context.drawImage(image, 0, 0);
+        readPixels(context, this.memory.words(this.pixels, image.width * image.height));
+        this.memory.setWord(width, image.width);
+        this.memory.setWord(height, image.height);
+        return this.pixels;
     }
 
     get drawable() {

@@ -1,5 +1,6 @@
 // wasm.mjs: loads engine.wasm, in pages, workers and Node.js, without what emscripten would put around it: the engine
 // needs no operating system but for a clock, and calls functions of JavaScript by the names of src/web/host.h.
+import { Screen } from './webgl.mjs';
 
 const encoder = new TextEncoder();
 const decoder = new TextDecoder();
@@ -68,17 +69,27 @@ export function instantiate(module, host) {
             return 0;
         },
     };
+    const memory = {
+        bytes,
+        text,
+        floats: (at, length) => new Float32Array(wasm.memory.buffer, at, length),
+        words: (at, length) => new Int32Array(wasm.memory.buffer, at, length),
+        word: at => new DataView(wasm.memory.buffer).getUint32(at, true),
+        setWord: (at, value) => new DataView(wasm.memory.buffer).setUint32(at, value, true),
+    };
+    const screen = new Screen(memory);
     const imports = {};
     for (const { module: from, name } of WebAssembly.Module.imports(module)) {
         const none = from === 'env' ? () => -ENOSYS : () => EBADF; // there are no files
-        const given = from === 'petri' ? host[name] : name.startsWith('invoke_') ? invoke : system[name];
+        const given = from === 'petri' ? host[name] : name.startsWith('invoke_') ? invoke : system[name] ?? screen.functions[name];
         (imports[from] ??= {})[name] = given ?? none;
     }
     wasm = new WebAssembly.Instance(module, imports).exports;
     wasm._initialize();
     return {
+        ...memory,
         wasm,
-        text,
+        screen,
         // Calls `use` with the address and length of a text, in memory for so long.
         withText: (string, use) => {
             const encoded = typeof string === 'string' ? encoder.encode(string) : string;
@@ -102,6 +113,5 @@ export function instantiate(module, host) {
             return at;
         },
         numbers: (at, length) => new Float64Array(wasm.memory.buffer, at, length),
-        setWord: (at, value) => new DataView(wasm.memory.buffer).setUint32(at, value, true),
     };
 }

@@ -1,5 +1,5 @@
 // dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
-import { drawPicture } from '../engine/drawing.mjs';
+import { drawPicture, pictureSize } from '../engine/drawing.mjs';
 import { Remote } from './engine.mjs';
 
 const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
@@ -53,9 +53,14 @@ export class Dish {
     draw({ picture }) {
         if (!picture)
             return [];
-        const { canvas } = this, [width, height] = picture.numbers;
+        const { canvas } = this, { width, height } = picture.image ?? pictureSize(picture.numbers);
         if (canvas.width !== width || canvas.height !== height)
             Object.assign(canvas, { width, height });
+        if (picture.image) {
+            canvas.getContext('2d').drawImage(picture.image, 0, 0);
+            picture.image.close();
+            return picture.undrawn;
+        }
         return drawPicture(canvas.getContext('2d'), picture.numbers, { image: name => this.images.get(name.replace(/^.*\//, '')) });
     }
 

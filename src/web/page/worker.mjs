@@ -7,11 +7,12 @@ let engine, player, checker, told = [], flag = null, current = 0;
 
 // The page writes which question is to be given up, and all before it.
 const wantsEnd = () => flag !== null && Atomics.load(flag, 0) >= current;
+const images = new Map(), baseName = name => name.replace(/^.*\//, '');
 const tell = diagnostic => told.push(diagnostic);
 
 // What the page shows after a frame.
 function shown(extra = {}) {
-    const { session } = player, picture = player.frame >= 0 ? session.picture({ automatic: player.automatic }) : null;
+    const { session } = player, picture = player.frame >= 0 ? session.show({ automatic: player.automatic }) : null;
     return {
         type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
         picture, log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
@@ -24,10 +25,13 @@ const acts = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
-        player = new Player(engine, { onDiagnostic: tell, wantsEnd });
+        player = new Player(engine, { onDiagnostic: tell, wantsEnd, image: name => images.get(baseName(name)) });
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
-    files({ files }) {
+    async files({ files }) {
+        for (const [name, bytes] of Object.entries(files))
+            if (/\.(png|jpe?g|gif|webp)$/i.test(name))
+                images.set(baseName(name), await createImageBitmap(new Blob([bytes])).catch(() => null));
         player.files = files;
         Object.entries(files).forEach(([name, bytes]) => player.session?.setFile(name, bytes));
         return { type: 'done' };
@@ -102,7 +106,7 @@ onmessage = ({ data }) => {
             if (wantsEnd())
                 throw Object.assign(new Error('stopped'), { status: 'interrupted' });
             const answer = await acts[data.act](data);
-            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.numbers.buffer] : []);
+            postMessage({ ...answer, id: data.id }, answer.picture ? [answer.picture.image ?? answer.picture.numbers.buffer] : []);
         } catch (error) {
             postMessage({ type: failure(error), id: data.id, message: error.message, told: take(), diagnostics: error.diagnostics ?? [] });
         }

@@ -361,13 +361,77 @@ static void test_numbers(void **state) {
     petri_picture_free(&picture);
 }
 
+static void check_whole(Player *player, const char *script, bool whole) {
+    player_run(player, script, 1);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    assert_int_equal(petri_picture_is_numbers(picture), whole);
+    petri_picture_free(&picture);
+}
+
+static void test_whole(void **state) {
+    Player *player = *state;
+    check_whole(player, "!window\n    !canvas\n", true);
+    check_whole(player, "!window\n    !canvas\n    !canvas\n", false);
+    check_whole(player, "!window\n    !canvas3d\n", false);
+    check_whole(player, "!window\n    !bloom\n        !canvas\n", false);
+    check_whole(player, "!physics state=:p dimensions=2 time=time\n    !particle id=1\n", true);
+    assert_false(petri_picture_is_numbers(NULL));
+}
+
+// Fills the left half, or the whole of what is taller than it is wide; green for each command there is.
+static bool fill(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {
+    ++*(int *)host;
+    assert_int_equal(numbers[0], width);
+    assert_int_equal(numbers[1], height);
+    for (int i = 0; i < width * height; i++)
+        pixels[i] = i % width < width / 2 ? 0xff000000u | (uint32_t)count << 8 : 0;
+    return count > 2;
+}
+
+static const uint32_t *give(void *host, const char *file, int *width, int *height) {
+    static const uint32_t pixels[] = {0xff0000ffu, 0xff0000ffu};
+    (void)host;
+    *width = 2, *height = 1;
+    return strcmp(file, "a.png") == 0 ? pixels : NULL;
+}
+
+// A host draws canvases where Cairo does not; petri makes pictures of them.
+static void test_host(void **state) {
+    Player *player = *state;
+    PetriPainter *painter = petri_painter_open();
+    int calls = 0;
+    uint32_t pixels[8];
+    PetriCanvasHost host = {.draw = fill, .image = give, .host = &calls};
+    assert_int_equal(petri_painter_use_host(NULL, &host), PETRI_INVALID);
+    assert_int_equal(petri_painter_use_host(painter, NULL), PETRI_INVALID);
+    PetriStatus status = petri_painter_use_host(painter, &host);
+    player_run(player,
+               "!window size=4;2\n    !image filename='a.png' size=4;2\n    !image filename='b.png'\n    !canvas\n"
+               "        !rect size=1 fill=true\n",
+               1);
+    PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
+    if (status != PETRI_MISSING) {
+        assert_int_equal(status, PETRI_OK);
+        assert_int_equal(petri_picture_draw(picture, painter, pixels, 4, 2, 4 * sizeof *pixels), PETRI_OK);
+        petri_picture_tell(player->session, picture);
+        assert_non_null(strstr(player_told(player), "cannot read 'b.png'"));
+        assert_int_equal(calls, 1);
+        assert_int_equal(pixels[1] >> 16, 0xff00);
+        assert_true((pixels[1] & 0xff00) > 0 && (pixels[1] & 0xff) == 0);
+        assert_int_equal(pixels[2], 0xff0000ffu);
+    }
+    petri_picture_free(&picture);
+    petri_painter_close(&painter);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         PLAYER_TEST(test_independent), PLAYER_TEST(test_sizes),
         PLAYER_TEST(test_choice),      PLAYER_TEST(test_bytes),
         PLAYER_TEST(test_misuse),      PLAYER_TEST(test_ready),
         PLAYER_TEST(test_labels),      PLAYER_TEST(test_images_of_the_host),
-        PLAYER_TEST(test_numbers),
+        PLAYER_TEST(test_numbers),     PLAYER_TEST(test_whole),
+        PLAYER_TEST(test_host),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -1,0 +1,100 @@
+// context.c: contexts of EGL; see internal.h.
+#include "gl/internal.h"
+
+#include <dlfcn.h>
+#include <epoxy/egl.h>
+#include <pthread.h>
+#include <stdlib.h>
+#include <string.h>
+
+// Contexts of one process share more than they should: with Mesa 22.3 a thread that draws looks into the scenes of
+// other contexts, and crashes while another thread draws there. So one thread at a time has OpenGL.
+static pthread_mutex_t one_thread = PTHREAD_MUTEX_INITIALIZER;
+
+// Mesa can do without any display. Else the usual one, without a surface.
+static EGLDisplay find_display(void) {
+    const char *extensions = eglQueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
+    if (extensions && strstr(extensions, "EGL_MESA_platform_surfaceless"))
+        return eglGetPlatformDisplayEXT(EGL_PLATFORM_SURFACELESS_MESA, EGL_DEFAULT_DISPLAY, NULL);
+    return eglGetDisplay(EGL_DEFAULT_DISPLAY);
+}
+
+static bool find_own(Gl *gl, const char **problem) {
+    static const EGLint wanted[] = {EGL_SURFACE_TYPE, 0, EGL_RENDERABLE_TYPE, EGL_OPENGL_ES3_BIT, EGL_NONE};
+    static const EGLint version[] = {EGL_CONTEXT_MAJOR_VERSION, 3, EGL_NONE};
+    EGLConfig config;
+    EGLint count;
+    gl->display = find_display();
+    *problem = "EGL does not start";
+    if (gl->display == EGL_NO_DISPLAY || !eglInitialize(gl->display, NULL, NULL))
+        return false;
+    *problem = "EGL has no OpenGL ES 3 that works without a window";
+    if (!eglBindAPI(EGL_OPENGL_ES_API) || !eglChooseConfig(gl->display, wanted, &config, 1, &count) || count < 1)
+        return false;
+    gl->context = eglCreateContext(gl->display, config, EGL_NO_CONTEXT, version);
+    return gl->context != EGL_NO_CONTEXT;
+}
+
+static bool find_current(Gl *gl, const char **problem) {
+    *problem = "no context of EGL is current";
+    gl->context = eglGetCurrentContext();
+    gl->adopted = true;
+    if (gl->context == EGL_NO_CONTEXT)
+        return false;
+    *problem = "the window's context is not one of OpenGL ES 3";
+    return !epoxy_is_desktop_gl() && epoxy_gl_version() >= 30;
+}
+
+// libepoxy ends the process where one of them is missing. They stay loaded, for it to find.
+static bool are_installed(const char **problem) {
+    *problem = "EGL or OpenGL ES is not installed (Debian: libegl1, libgles2)";
+    return dlopen("libEGL.so.1", RTLD_LAZY) && dlopen("libGLESv2.so.2", RTLD_LAZY);
+}
+
+static bool find(Gl *gl, bool (*find_context)(Gl *gl, const char **problem), const char **problem) {
+    // A driver that is not there says so at length on standard error; *problem is enough.
+    if (!getenv("EGL_LOG_LEVEL"))
+        setenv("EGL_LOG_LEVEL", "fatal", 0);
+    pthread_mutex_lock(&one_thread);
+    bool good = are_installed(problem) && find_context(gl, problem);
+    pthread_mutex_unlock(&one_thread);
+    return good;
+}
+
+bool gl_context_open(Gl *gl, const char **problem) {
+    return find(gl, find_own, problem);
+}
+
+bool gl_context_adopt(Gl *gl, const char **problem) {
+    return find(gl, find_current, problem);
+}
+
+void gl_context_close(Gl *gl) {
+    pthread_mutex_lock(&one_thread);
+    if (!gl->adopted)
+        eglDestroyContext(gl->display, gl->context);
+    pthread_mutex_unlock(&one_thread);
+}
+
+bool gl_context_has(const Gl *gl, const char *extension) {
+    (void)gl;
+    bool drawn = strcmp(extension, "GL_EXT_color_buffer_float") == 0; // which 3.2 has without it
+    return (drawn && epoxy_gl_version() >= 32) || epoxy_has_gl_extension(extension);
+}
+
+bool gl_enter(Gl *gl, const char **problem) {
+    *problem = "OpenGL's context cannot be used";
+    pthread_mutex_lock(&one_thread);
+    if (gl->adopted ? eglGetCurrentContext() == gl->context
+                    : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context))
+        return true;
+    pthread_mutex_unlock(&one_thread);
+    return false;
+}
+
+void gl_leave(Gl *gl) {
+    glFinish();
+    if (!gl->adopted)
+        eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    pthread_mutex_unlock(&one_thread);
+}

@@ -1,0 +1,38 @@
+// context_web.c: the context of WebGL 2 that a page has made: all painters there share it, and one thread; see
+// internal.h.
+#include "gl/internal.h"
+
+#define HOST(name) __attribute__((import_module("petri"), import_name(#name)))
+
+// Whether there is one, and it is not lost; JavaScript makes it when it is first asked.
+HOST(gl_ready) bool gl_web_ready(void);
+HOST(gl_has) bool gl_web_has(const char *extension);
+
+bool gl_context_open(Gl *gl, const char **problem) {
+    *problem = "there is no WebGL 2 here";
+    gl->context = gl_web_ready() ? gl : NULL;
+    return gl->context != NULL;
+}
+
+bool gl_context_adopt(Gl *gl, const char **problem) {
+    return gl_context_open(gl, problem);
+}
+
+void gl_context_close(Gl *gl) {
+    (void)gl;
+}
+
+bool gl_context_has(const Gl *gl, const char *extension) {
+    (void)gl;
+    return gl_web_has(extension);
+}
+
+bool gl_enter(Gl *gl, const char **problem) {
+    (void)gl;
+    *problem = "the browser has taken WebGL away";
+    return gl_web_ready();
+}
+
+void gl_leave(Gl *gl) {
+    (void)gl;
+}

@@ -1,0 +1,189 @@
+// test_settled.c: columns in the order of a neighbour list (lib/physics/settle.c) give the bits of all pairs in the
+// order of the description, whatever happens to the system in between.
+#include "support.h"
+
+#include "physics/neighbours.h"
+
+enum { SIDE = 24, COUNT = SIDE * SIDE };
+
+// A system and one that takes no lists, which go through the same.
+typedef struct Twins {
+    PhysSystem *plain, *listed;
+    size_t dimensions;
+    int frame;
+} Twins;
+
+static Twins twins_of(size_t dimensions, const PhysOptions *options) {
+    Twins twins = {phys_new(), phys_new(), dimensions, 0};
+    assert_non_null(twins.plain);
+    assert_non_null(twins.listed);
+    phys_set_options(twins.plain, &(PhysOptions){.threads = 1, .neighbours = PHYS_NEIGHBOURS_NEVER});
+    phys_set_options(twins.listed, options);
+    return twins;
+}
+
+// Discs on a grid, in no order of places: numbers that follow each other are far apart.
+static void describe(PhysSystem *system, size_t dimensions, uint32_t count, uint32_t groups, bool pushed) {
+    Dice dice = {77};
+    phys_begin(system, (uint32_t)dimensions);
+    for (uint32_t g = 1; g < groups; g++)
+        phys_add_group(system, 0);
+    for (uint32_t i = 0; i < count; i++) {
+        uint32_t spot = i * 241 % COUNT;
+        double place[3] = {spot % SIDE * 0.9, spot / SIDE * 0.9, spot % 7 * 0.05}, velocity[3], force[3] = {0};
+        for (int k = 0; k < 3; k++)
+            velocity[k] = (double)(dice_next(&dice) % 1000) * 0.004 - 2;
+        PhysParticle p = {.position = place, .velocity = velocity, .radius = 0.5, .mass = 1};
+        force[0] = i % 3;
+        p.force = pushed ? force : NULL;
+        p.ease = pushed ? 0.5 : 0;
+        phys_add_particle(system, groups - 1, &p);
+    }
+}
+
+static PhysForce wall(const double *at, const double *along) {
+    PhysForce force = force_of(PHYS_BARRIER);
+    force.vector = at;
+    force.vector2 = along;
+    return force;
+}
+
+static void add_forces(PhysSystem *system, uint32_t group) {
+    const double low[3] = {-1, -1, -1}, high[3] = {SIDE, SIDE, 2}, right[3] = {1, 0, 0}, left[3] = {-1, 0, 0};
+    PhysForce forces[] = {force_of(PHYS_COLLISION), force_of(PHYS_DRAG), wall(low, right), wall(high, left)};
+    forces[0].strength = 300;
+    forces[1].strength = 0.02;
+    for (size_t i = 0; i < COUNT_OF(forces); i++)
+        phys_add_force(system, group, &forces[i]);
+}
+
+static void begin_forces(Twins *twins) {
+    phys_begin_forces(twins->plain);
+    phys_begin_forces(twins->listed);
+    add_forces(twins->plain, 0);
+    add_forces(twins->listed, 0);
+}
+
+// The forces, and one more.
+static void add(Twins *twins, PhysForceKind kind) {
+    PhysForce force = force_of(kind);
+    begin_forces(twins);
+    force.from = 3;
+    force.to = 200;
+    force.has_maximum = true;
+    force.maximum = 1;
+    force.key = 5;
+    phys_add_force(twins->plain, 0, &force);
+    phys_add_force(twins->listed, 0, &force);
+}
+
+static void begin(Twins *twins, uint32_t count, uint32_t groups, bool pushed) {
+    describe(twins->plain, twins->dimensions, count, groups, pushed);
+    describe(twins->listed, twins->dimensions, count, groups, pushed);
+    add_forces(twins->plain, groups - 1);
+    add_forces(twins->listed, groups - 1);
+}
+
+// Another radius and mass, at the place of now.
+static void change(Twins *twins, uint32_t particle, double radius, double mass) {
+    PhysParticle p = {.radius = radius, .mass = mass};
+    PhysPreserve preserve = {.position = true, .velocity = true};
+    phys_update_particle(twins->plain, particle, &p, preserve);
+    phys_update_particle(twins->listed, particle, &p, preserve);
+}
+
+static void put(Twins *twins, uint32_t particle, double x) {
+    PhysParticle p = {.position = VEC(x, 1, 1), .radius = 0.5, .mass = 1};
+    phys_update_particle(twins->plain, particle, &p, (PhysPreserve){.velocity = true});
+    phys_update_particle(twins->listed, particle, &p, (PhysPreserve){.velocity = true});
+}
+
+static void check_same(const Twins *twins, int line) {
+    size_t bytes = 2 * twins->dimensions * sizeof(double);
+    for (uint32_t i = 0; i < phys_particle_count(twins->plain); i++)
+        if (memcmp(phys_position(twins->plain, i), phys_position(twins->listed, i), bytes)) {
+            print_error("line %d: particle %u differs\n", line, i);
+            fail();
+        }
+}
+
+static void frames(Twins *twins, int count, bool settled, int line) {
+    for (int f = 0; f < count; f++, twins->frame++) {
+        double now = twins->frame * 0.04;
+        PhysTime time = {.last = now, .now = now + 0.04, .clock = now, .resolution = 0.01, .lockstep = true};
+        time.performance = 1;
+        time.keep_last_finite = twins->frame % 4 != 3;
+        assert_int_equal(phys_simulate(twins->plain, &time).status, PHYS_OK);
+        assert_int_equal(phys_simulate(twins->listed, &time).status, PHYS_OK);
+        check_same(twins, line);
+    }
+    if (twins->listed->settled == settled)
+        return;
+    print_error("line %d: settled is %d\n", line, twins->listed->settled);
+    fail();
+}
+
+#define FRAMES(twins, count, settled) frames(twins, count, settled, __LINE__)
+
+static void go_through(size_t dimensions, const PhysOptions *options) {
+    PhysOptions never = *options;
+    never.neighbours = PHYS_NEIGHBOURS_NEVER;
+    Twins twins = twins_of(dimensions, options);
+    begin(&twins, COUNT, 1, false);
+    FRAMES(&twins, 6, true);
+    change(&twins, 5, 0.4, 2);
+    change(&twins, 300, 0.6, 0);
+    FRAMES(&twins, 3, true);
+    add(&twins, PHYS_DISTANCE); // a link names columns
+    FRAMES(&twins, 2, false);
+    begin_forces(&twins);
+    FRAMES(&twins, 7, true);
+    add(&twins, PHYS_RANDOM); // whose numbers come in the order of particles
+    FRAMES(&twins, 2, false);
+    begin_forces(&twins);
+    FRAMES(&twins, 7, true);
+    add(&twins, PHYS_GRAVITY); // without a reach
+    FRAMES(&twins, 2, false);
+    begin_forces(&twins);
+    FRAMES(&twins, 7, true);
+    change(&twins, 100, 4, 1); // large ones meet all others in order
+    FRAMES(&twins, 2, false);
+    change(&twins, 100, 0.5, 1);
+    put(&twins, 17, NAN);
+    FRAMES(&twins, 7, true);
+    put(&twins, 17, 1);
+    change(&twins, 18, 0, 1);
+    FRAMES(&twins, 3, true);
+    phys_set_options(twins.listed, &never);
+    FRAMES(&twins, 1, false);
+    phys_set_options(twins.listed, options);
+    begin(&twins, COUNT, 1, true); // the same number again, with forces of their own
+    FRAMES(&twins, 3, true);
+    begin(&twins, COUNT, 1, false);
+    FRAMES(&twins, 1, true);
+    begin(&twins, COUNT - 1, 1, true);
+    FRAMES(&twins, 1, true);
+    begin(&twins, COUNT - 1, 2, false);
+    FRAMES(&twins, 3, true);
+    phys_free(twins.plain);
+    phys_free(twins.listed);
+}
+
+static void test_all_levels(void **state) {
+    (void)state;
+    for (int cpu = 0; cpu <= (int)cpu_here.level; cpu++)
+        for (size_t n = 2; n <= 3; n++)
+            go_through(n,
+                       &(PhysOptions){.threads = cpu + 1, .cpu = (CpuLevel)cpu, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
+}
+
+static void test_kept_forces(void **state) {
+    (void)state;
+    go_through(2, &(PhysOptions){
+                      .threads = 4, .keep_forces = true, .cpu = cpu_here.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels), cmocka_unit_test(test_kept_forces)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
