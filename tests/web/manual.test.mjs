@@ -6,6 +6,7 @@ import { join } from 'node:path';
 import { test } from 'node:test';
 import { pathToFileURL } from 'node:url';
 import { loadEngine } from '../../src/web/engine/petri.mjs';
+import { outcome } from '../../src/web/site/try.mjs';
 import { folder, options, pixels, root, visited, world } from './browser.mjs';
 
 const site = join(folder, 'manual'), built = { skip: existsSync(join(site, 'index.html')) ? false : 'there is no manual' };
@@ -21,7 +22,6 @@ function hasState(printed, wanted) {
 }
 
 test('examples give in WebAssembly what the manual shows', built, async () => {
-    const { outcome } = await import(pathToFileURL(join(site, 'try.mjs')));
     const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm'))), examples = JSON.parse(read('examples.json'));
     for (const example of examples) {
         const { page, kind, text, result, files } = example, where = `${page}: ${text}`;

@@ -3,6 +3,7 @@
 import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
 import { dirname, join, resolve } from 'node:path';
 import { fileURLToPath } from 'node:url';
+import { build } from '../page/node_modules/esbuild/lib/main.js';
 import { loadEngine } from '../engine/petri.mjs';
 import { Examples } from './examples.mjs';
 import { GENERATED } from './generated.mjs';
@@ -35,7 +36,7 @@ const html = (page, title, body, sections) => `<!doctype html>
 <link rel="stylesheet" href="site.css">
 <script src="site.js" defer></script>
 <script type="module" src="../petri-dish.js"></script>
-<script type="module" src="try.mjs"></script>
+<script type="module" src="try.js"></script>
 </head>
 <body>
 <a class="skip" href="#text">To the text</a>
@@ -95,7 +96,8 @@ example of these pages: change a number, or move a slider.</p>
 ${cards}`, []));
 writeFileSync(join(output, 'index.js'), `globalThis.PETRI_INDEX = ${JSON.stringify(index)};\n`);
 writeFileSync(join(output, 'examples.json'), JSON.stringify(site.examples.all));
-for (const name of ['site.css', 'site.js', 'try.mjs'])
+for (const name of ['site.css', 'site.js'])
     copyFileSync(join(here, name), join(output, name));
+await build({ entryPoints: [join(here, 'try.mjs')], outfile: join(output, 'try.js'), bundle: true, minify: true, format: 'esm', external: ['node:fs/promises'], logLevel: 'warning' });
 const count = kind => site.examples.all.filter(one => one.kind === kind || (kind === 'text' && one.kind !== 'dish')).length;
 console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other examples that run`);

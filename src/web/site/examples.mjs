@@ -1,7 +1,7 @@
 // examples.mjs: examples of the texts, which run on the pages: as <petri-dish> where they have a picture, else as text with
 // what comes of it (try.mjs). What comes of them is found out here, by the same engine.
-import { existsSync, readFileSync, readdirSync } from 'node:fs';
-import { join } from 'node:path';
+import { readFileSync, readdirSync } from 'node:fs';
+import { basename, join } from 'node:path';
 import { drawPicture } from '../engine/drawing.mjs';
 import { escape } from './text.mjs';
 
@@ -36,7 +36,9 @@ export class Examples {
             if (!session.drawable)
                 return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
             const picture = session.picture();
-            return picture && drawPicture(nothing, picture.numbers).length === 0 ? 'dish' : 'text';
+            // Nodes by their names are drawn by WebGL, which is not here; other things are drawn nowhere.
+            const left = picture ? drawPicture(nothing, picture.numbers) : [' '];
+            return left.every(what => /^\w+$/.test(what)) ? 'dish' : 'text';
         } catch {
             return 'none';
         } finally {
@@ -92,7 +94,7 @@ export class Examples {
         if (kind !== 'flitter')
             return this.plain(content);
         if (name.endsWith('.png'))
-            return this.excerpt(name.slice(0, -4), content, label, env);
+            return this.code(content); // an excerpt of the script behind the picture above it
         const told = next?.type === 'fence' ? next.info.trim().split(/\s+/) : [];
         if (told[0] === 'tree' && next.content.trim() === 'error')
             return this.code(content);
@@ -107,12 +109,11 @@ export class Examples {
         return this.try('eval', 0, lines.map(([text]) => `${text.trimEnd()}\n`).join(''), lines.map(([, result = '']) => `${result}\n`).join(''), env);
     }
 
-    // A piece of a script of tests/pictures, whose picture stands above it; the whole runs.
-    excerpt(name, content, label, env) {
-        const file = join(this.root, 'tests/pictures', `${name}.fl`), text = existsSync(file) ? readFileSync(file, 'utf8') : null;
-        if (text === null || this.kindOf(text, {}) !== 'dish')
-            return this.code(content);
-        return `${this.code(content)}<details class="whole"><summary>Run it</summary>\n${this.dish(text, label, env)}</details>\n`;
+    // The script behind a picture, to be run below it.
+    behind(file, env) {
+        const text = readFileSync(join(this.root, file), 'utf8');
+        return this.kindOf(text, {}) === 'dish'
+            ? `<details><summary>Run ${basename(file)}</summary>\n${this.dish(text, `The picture of ${basename(file)}`, env)}</details>\n` : '';
     }
 
     // What stands below the heading of a node of physics.

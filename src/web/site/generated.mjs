@@ -90,6 +90,14 @@ export const GENERATED = {
         }).join('');
     },
 
+    // The scenes of the tests, with what petri draws of them.
+    scenes({ root, examples, text }, env) {
+        const folder = 'tests/pictures/scenes', names = readdirSync(join(root, folder)).filter(name => name.endsWith('.png')).map(name => name.slice(0, -4));
+        return section(env, 2, 'scenes-to-run', 'Scenes to run') + names.map(name =>
+            `${section(env, 3, `scene-${name}`, name)}<p>${text.image(`${name}.png`, `The scene ${name}`, { file: `${folder}/x` })}</p>\n${
+                examples.behind(`${folder}/${name}.fl`, env)}`).join('');
+    },
+
     // Each sample that draws, with the modules that it reads; the picture stands in where nothing runs.
     gallery({ root, output, examples, text }, env) {
         const folder = join(root, 'samples'), names = readdirSync(folder).filter(name => name.endsWith('.fl'));

@@ -24,7 +24,8 @@ export const GROUPS = [
         { name: 'effects', title: 'Effects', about: 'Blur, bloom, feedback, shaders and the tree of pictures',
             parts: [['lib/gl/README.md', null, 'For those who change effects']] },
         { name: 'scenes', title: 'Three dimensions', about: 'Scenes, materials, lights, cameras',
-            parts: [['lib/gl/SCENE.md', null, 'For those who change it']] },
+            parts: [['lib/gl/SCENE.md', null, 'For those who change it']],
+            made: 'scenes' },
         { name: 'nodes', title: 'All nodes', about: 'Each attribute with type, unit and default', made: 'nodes' },
     ]],
     ['To use', [

@@ -98,6 +98,6 @@
             await navigator.serviceWorker.ready;
             const cache = await caches.open('petri');
             const pages = [...document.querySelectorAll('nav[aria-label=Pages] a')].map(link => link.getAttribute('href'));
-            await cache.addAll(['index.html', 'index.js', 'site.css', 'site.js', 'try.mjs', '../petri/petri.mjs', '../petri/wasm.mjs', ...pages].map(name => new URL(name, location.href).href));
+            await cache.addAll(['index.html', 'index.js', 'site.css', 'site.js', 'try.js', ...pages].map(name => new URL(name, location.href).href));
         }).catch(() => {});
 }

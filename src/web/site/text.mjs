@@ -52,12 +52,16 @@ export class Text {
         rules.image = (tokens, i, _, env) => own.image(tokens[i].attrGet('src'), own.plain(tokens[i]), env);
         rules.link_open = (tokens, i, _, env) => {
             const target = own.target(tokens[i].attrGet('href'), env);
+            const script = normalize(join(dirname(env.file), tokens[i].attrGet('href')));
+            if (/^tests\/pictures\/.*\.fl$/.test(script))
+                env.behind.push(script);
             env.open.push(target !== null);
             return target === null ? '' : `<a href="${escape(target)}">`;
         };
         rules.link_close = (tokens, i, _, env) => env.open.pop() ? '</a>' : '';
         rules.table_open = () => '<div class="table" tabindex="0" role="region" aria-label="Table"><table>\n';
-        rules.table_close = () => '</table></div>\n';
+        rules.table_close = (tokens, i, _, env) => `</table></div>\n${own.behind(env)}`;
+        rules.paragraph_close = (tokens, i, _, env) => tokens[i].hidden ? '' : `</p>\n${own.behind(env)}`;
         // A header without words is no header.
         rules.th_open = (tokens, i) => tokens[i + 1].content.trim() ? '<th>' : '<td>';
         rules.th_close = (tokens, i) => tokens[i - 1].content.trim() ? '</th>' : '</td>';
@@ -97,13 +101,12 @@ export class Text {
 
     // The HTML of a part; env collects sections for the search.
     render(markdown, env) {
-        env.open ??= [];
-        const tokens = this.md.parse(markdown, env);
-        const html = this.md.renderer.render(tokens, this.md.options, env);
-        return html;
+        Object.assign(env, { open: [], behind: [] });
+        return this.md.render(markdown, env);
     }
 
-    inline(text) {
-        return this.md.renderInline(text, { open: [], file: '' });
+    // What runs the scripts that pictures of this paragraph or table lead to.
+    behind(env) {
+        return env.behind.splice(0).map(script => this.site.examples.behind(script, env)).join('');
     }
 }

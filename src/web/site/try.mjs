@@ -1,6 +1,6 @@
 // try.mjs: examples that give text: a reader changes the script, and sees what comes of it. The engine is fetched when the
 // first is changed.
-import { loadEngine } from '../petri/petri.mjs';
+import { loadEngine } from '../engine/petri.mjs';
 
 const LIMITS = { work: 2 ** 22, memory: 256 << 20 }; // of a frame: some hundredths of a second, for the page waits for it
 const PAUSE = 250; // ms after the last letter
