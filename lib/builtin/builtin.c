@@ -7,8 +7,8 @@
 #include <string.h>
 
 const Builtin builtin_table[] = {
-#define BUILTIN(name, parameters, required, fixed, variadic, named, pure, help)                                        \
-    {#name, builtin_##name, parameters, required, fixed, variadic, named, pure, help},
+#define BUILTIN(name, parameters, required, fixed, variadic, named, pure, each, help)                                  \
+    {#name, builtin_##name, parameters, required, fixed, variadic, named, pure, each, help},
 #include "builtin/builtin_list.h"
 #undef BUILTIN
 };

@@ -38,6 +38,10 @@ typedef struct Builtin {
     bool variadic;
     bool named; // accepts parameters by name (B0.3)
     bool pure;  // B0.5
+    // With so many arguments or more it is element-wise (B0.4): for numbers and vectors of one length the result is the
+    // vector of the results for their elements, where it is a vector of that length. 0: it is not.
+    uint8_t each;
+#define BUILTIN_EACH_POINT UINT8_MAX // noise: see builtin_noise_points
     const char *help;
 } Builtin;
 

@@ -162,6 +162,14 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
     return value_numbers_view(result, grid.len);
 }
 
+void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
+                          double *to) {
+    uint8_t local[256];
+    const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, seed), local);
+    for (uint32_t i = 0; i < count; i++)
+        to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
+}
+
 // Far more than the number of doublings that a double survives near 1: a mistake, and it would take for ever.
 enum { MOST_OCTAVES = 1024 };
 

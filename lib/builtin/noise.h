@@ -5,10 +5,14 @@
 #ifndef PETRI_BUILTIN_NOISE_H
 #define PETRI_BUILTIN_NOISE_H
 
-typedef struct NoiseCache NoiseCache;
+#include "builtin/builtin.h"
 
 // Lives until freed; for one thread at a time.
 NoiseCache *noise_cache_new(void);
 void noise_cache_free(NoiseCache *cache);
+
+// What noise gives for each of `count` points of the plane.
+void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
+                          double *to);
 
 #endif

@@ -10,6 +10,7 @@
 
 #include <math.h>
 #include <stdbool.h>
+#include <string.h>
 
 enum { MOST_DIMS = 4, MOST_EXTRA = 3 };
 
@@ -145,19 +146,24 @@ static inline Choice choose_at_corner(const NoisePoint *point, int dims, bool fa
 
 // --- two dimensions (B10.7)
 
-// add_vertex for the vertex (a, b) with `units` squish units. In two dimensions nothing is subtracted late, and the
-// arguments are constants nearly everywhere, so that this comes to a few operations.
+// `yes` where the condition holds, else `no`: without a branch, for points are as random as can be.
+static inline double choose(bool condition, double yes, double no) {
+    uint64_t mask = -(uint64_t)condition, bits = (number_bits(yes) & mask) | (number_bits(no) & ~mask);
+    double chosen;
+    memcpy(&chosen, &bits, sizeof chosen);
+    return chosen;
+}
+
+// add_vertex for the vertex (a, b) with `units` squish units. In two dimensions nothing is subtracted late.
 static inline double add_vertex_2(const NoisePoint *point, double value, int a, int b, int units) {
-    double dx = (point->d0[0] - a) - units * NOISE_Q[2], dy = (point->d0[1] - b) - units * NOISE_Q[2];
+    double squish = units * NOISE_Q[2];
+    double dx = (point->d0[0] - a) - squish, dy = (point->d0[1] - b) - squish;
     double reach = (2 - dx * dx) - dy * dy;
-    if (!(reach > 0))
-        return value;
     unsigned p = point->permutation[(point->base[0] + (uint64_t)a) & 255];
     p = point->permutation[(p + point->base[1] + (uint64_t)b) & 255];
     const double *g = NOISE_GRAD2[p % 8];
-    double slope = g[0] * dx + g[1] * dy;
-    reach = reach * reach;
-    return value + (reach * reach) * slope;
+    double slope = g[0] * dx + g[1] * dy, squared = reach * reach;
+    return choose(reach > 0, value + (squared * squared) * slope, value);
 }
 
 double noise_point_2(const uint8_t *permutation, const double *c) {
@@ -165,24 +171,15 @@ double noise_point_2(const uint8_t *permutation, const double *c) {
     if (!point_place(&point, c, 2))
         return 0;
     double fx = point.frac[0], fy = point.frac[1];
-    bool right = fx > fy;
     double value = add_vertex_2(&point, 0, 1, 0, 1);
     value = add_vertex_2(&point, value, 0, 1, 1);
-    if (point.sum <= 1) {
-        double u = 1 - point.sum;
-        value = add_vertex_2(&point, value, 0, 0, 0);
-        if (u > fx || u > fy)
-            value = add_vertex_2(&point, value, right ? 1 : -1, right ? -1 : 1, 0);
-        else
-            value = add_vertex_2(&point, value, 1, 1, 2);
-    } else {
-        double u = 2 - point.sum;
-        value = add_vertex_2(&point, value, 1, 1, 2);
-        if (u < fx || u < fy)
-            value = add_vertex_2(&point, value, right ? 2 : 0, right ? 0 : 2, 2);
-        else
-            value = add_vertex_2(&point, value, 0, 0, 0);
-    }
+    // The corner of the cell that is nearer, and the vertex beyond it or beside it, or the other corner.
+    int far = point.sum > 1, right = fx > fy ? 1 : -1;
+    double u = 1 + far - point.sum;
+    int beyond = far ? (u < fx) | (u < fy) : (u > fx) | (u > fy);
+    value = add_vertex_2(&point, value, far, far, 2 * far);
+    int a = beyond ? far + right : 1 - far, b = beyond ? far - right : 1 - far;
+    value = add_vertex_2(&point, value, a, b, beyond ? 2 * far : 2 - 2 * far);
     return value / NOISE_N[2];
 }
 

@@ -68,6 +68,20 @@ typedef struct DecorateCode {
     const Symbol *const *names; // of the attributes
 } DecorateCode;
 
+// A loop of whose body many rounds can be run at once, instruction by instruction: no round depends on another one, and
+// nothing is to be seen of them but their parts. Each register that the body writes is a column then, with a value for
+// each round.
+typedef struct RoundsCode {
+    uint32_t end;           // the NEXT
+    int32_t first;          // of the registers that may be columns,
+    uint32_t range;         // … which are so many;
+    const uint8_t *columns; // of each of them: which column it is, from 1; 0: none, it is the same in all rounds
+    uint32_t column_count;
+    uint32_t part_count; // ADD_PARTs
+} RoundsCode;
+
+enum { CODE_MOST_COLUMNS = 64, CODE_MOST_PARTS = 8, CODE_MOST_READ = 32 }; // registers that one instruction reads
+
 typedef struct Instr {
     uint16_t op;
     uint16_t loop;
@@ -90,6 +104,7 @@ typedef struct Instr {
         const FunctionCode *function; // CLOSURE
         const CallCode *call;
         const Builtin *builtin;
+        const RoundsCode *rounds;   // FOR, FOR_SPAN: NULL if rounds are run one by one
         const Symbol *name;         // UNBOUND
         const Symbol *const *names; // IMPORT
         const Origin *inner;        // SLICE: the place of the range; LOOKUP: that of the key
@@ -108,5 +123,9 @@ struct Code {
     uint32_t constant_count;
     const uint32_t *lines; // of each instruction the line of the source, from 1; NULL unless asked for
 };
+
+// The operands that an instruction reads: CODE_MOST_READ at most if it belongs to a RoundsCode. `operands`: of the
+// code.
+uint32_t program_reads(const int32_t *operands, const Instr *instr, int32_t *reads);
 
 #endif

@@ -2,6 +2,7 @@
 #ifndef PETRI_PROGRAM_LOWER_H
 #define PETRI_PROGRAM_LOWER_H
 
+#include "program/code.h"
 #include "program/expr.h"
 
 // How an expression is to be lowered.
@@ -70,6 +71,9 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d);
 // The value of a loop's body, or of a part of it.
 void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop);
 void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
+// Whether many rounds of the loop that begins with instruction `start` can be run at once, its body being all that
+// follows; NULL if not.
+const RoundsCode *lower_rounds(const Lowering *lowering, uint32_t start);
 // NODE, DECORATE and APPEND.
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d);
 

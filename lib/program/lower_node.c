@@ -192,6 +192,7 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_part(lowering, expr->children[1], loop);
     lowering->row = outer_row;
     lowering->row_loop = outer_loop;
+    lowering->instrs[start].as.rounds = lower_rounds(lowering, start);
     round.op = OP_NEXT;
     round.target = start + 1;
     lower_emit(lowering, expr, round);

@@ -10,24 +10,16 @@
 
 #define NOINLINE __attribute__((noinline))
 
-// One store of 16 bytes: after two of 8 bytes, a load of 16 waits until both are in the cache, as neither can be
-// forwarded.
-static inline void set_number(Value *to, double x) {
-    typedef double Halves __attribute__((vector_size(16)));
-    static const union {
-        Value value;
-        double head;
-    } one = {.value = {.len = 1}};
-    Halves whole = {one.head, x};
-    memcpy(to, &whole, sizeof *to);
-}
-
 static Value truth(bool x) {
     return value_number(x ? 1 : 0);
 }
 
-static bool is_true(const Value *v) {
+static inline bool is_true(const Value *v) {
     return is_number(v) ? v->as.number != 0 : value_true(*v);
+}
+
+bool vm_is_true(const Value *v) {
+    return is_true(v);
 }
 
 // A stream counts as null for != (L5.4).
@@ -56,18 +48,25 @@ NOINLINE static Value compare(Vm *vm, const Instr *instr, Value a, Value b) {
     }
 }
 
+Value vm_unpacked(Vm *vm, Value value, uint32_t i) {
+    return value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i)) : value_element(vm->arena, value, i);
+}
+
 NOINLINE static void unpack(Vm *vm, Value *slots, uint32_t count, Value value) {
     for (uint32_t i = 0; i < count; i++)
-        slots[i] =
-            value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i)) : value_element(vm->arena, value, i);
+        slots[i] = vm_unpacked(vm, value, i);
+}
+
+Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i) {
+    return i >= loop->source.len               ? VALUE_NULL
+           : loop->source.kind == VALUE_ABSENT ? value_number(op_span_number(&loop->span, i))
+                                               : value_element(vm->arena, loop->source, i);
 }
 
 // The elements of one round (L10.1), of which the last may be missing.
 NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint32_t count) {
     for (uint32_t i = 0; i < count; i++)
-        slots[i] = loop->at + i >= loop->source.len    ? VALUE_NULL
-                   : loop->source.kind == VALUE_ABSENT ? value_number(op_span_number(&loop->span, loop->at + i))
-                                                       : value_element(vm->arena, loop->source, loop->at + i);
+        slots[i] = vm_loop_element(vm, loop, loop->at + i);
 }
 
 // The next round of a loop, if there is one.
@@ -76,9 +75,9 @@ static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slot
         return false;
     vm_work(vm, instr->at, cost);
     if (instr->count == 1 && loop->source.kind == VALUE_ABSENT)
-        set_number(&slots[instr->d], op_span_number(&loop->span, loop->at));
+        vm_set_number(&slots[instr->d], op_span_number(&loop->span, loop->at));
     else if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
-        set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
+        vm_set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
     else
         bind_elements(vm, loop, slots + instr->d, instr->count);
     return true;
@@ -105,7 +104,7 @@ NOINLINE static Value call(Vm *vm, const int32_t *list, const Value *slots, cons
     return vm_call(vm, instr, slots[instr->b], values);
 }
 
-NOINLINE static Value call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+NOINLINE Value vm_call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     Value few[FEW_ARGUMENTS];
     const Value *values = gather(vm, list, slots, instr, few);
     if (!vm_may_call(vm, instr->as.builtin, instr->at, values, instr->count))
@@ -146,7 +145,7 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
     case opcode: {                                                                                                     \
         const Value *a = &A, *b = &B;                                                                                  \
         if (is_number(a) && is_number(b))                                                                              \
-            set_number(&D, a->as.number operator b->as.number);                                                        \
+            vm_set_number(&D, a->as.number operator b->as.number);                                                     \
         else                                                                                                           \
             D = arithmetic(vm, instr, arith, *a, *b);                                                                  \
         break;                                                                                                         \
@@ -208,6 +207,8 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
         case OP_FOR: {
             Loop *loop = &frame->loops[instr->loop];
             *loop = (Loop){.source = A, .result = vector_new(vm->arena)};
+            if (instr->as.rounds && !profiled)
+                vm_rounds(vm, frame, code, instr, loop);
             if (!next_round(vm, instr, loop, slots, 1))
                 instr = code->instrs + instr->target - 1;
             break;
@@ -216,6 +217,8 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             vm_span(vm, instr->at, &frame->loops[instr->loop], A, B, C);
             break;
         case OP_FOR_SPAN:
+            if (instr->as.rounds && !profiled)
+                vm_rounds(vm, frame, code, instr, &frame->loops[instr->loop]);
             if (!next_round(vm, instr, &frame->loops[instr->loop], slots, 1))
                 instr = code->instrs + instr->target - 1;
             break;
@@ -228,6 +231,8 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
         case OP_NEXT: {
             Loop *loop = &frame->loops[instr->loop];
             loop->at += instr->count;
+            if (loop->at == loop->again)
+                vm_rounds(vm, frame, code, code->instrs + instr->target - 1, loop);
             uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT; // of the body
             if (!loop->result.overflow && next_round(vm, instr, loop, slots, cost))
                 instr = code->instrs + instr->target - 1;
@@ -263,7 +268,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
                 vm_profile_return(vm->profile, place);
             break;
         case OP_BUILTIN:
-            D = call_builtin(vm, code->operands + instr->list, slots, instr);
+            D = vm_call_builtin(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_XOR:
             D = !is_true(&A) ? B : is_true(&B) ? value_number(0) : A;
@@ -309,7 +314,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             const Value *vector = &A, *index = &B;
             if (is_number(index) && vector->kind == VALUE_NUMBERS && index->as.number >= 0 &&
                 index->as.number < vector->len)
-                set_number(&D, value_numbers(vector)[(uint32_t)index->as.number]);
+                vm_set_number(&D, value_numbers(vector)[(uint32_t)index->as.number]);
             else
                 vm->at = instr->at, D = vm_index(vm, *vector, *index);
             break;

@@ -10,6 +10,10 @@ static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     for (; vm->reported[i].at; i = (i + 1) % VM_REPORTED)
         if (vm->reported[i].at == at && vm->reported[i].what == what)
             return false;
+    if (vm->trying) {
+        vm->failed = true;
+        return false;
+    }
     vm->reported[i] = (Reported){at, what};
     vm->reported_count++;
     return true;

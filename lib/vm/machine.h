@@ -7,6 +7,8 @@
 #include "value/run.h"
 #include "vm/vm.h"
 
+#include <string.h>
+
 // A user function as a value: its code with what it captured. Lives as long as the frame, or the program if it was made
 // ahead.
 typedef struct Closure {
@@ -18,6 +20,12 @@ typedef struct Closure {
     uint64_t run;
     Value self; // the vector of this one function
 } Closure;
+
+// A node with the vector that holds it.
+typedef struct NodeValue {
+    Node node;
+    Item item;
+} NodeValue;
 
 // A loop that is being run.
 typedef struct Loop {
@@ -31,6 +39,9 @@ typedef struct Loop {
     bool counts_otherwise; // its name does not count up
     ArenaMark mark;        // after the last row
     uint32_t reported;     // faults by then
+    // rounds.c
+    uint32_t again;    // the round with which many are to be run at once again; 0: none
+    uint32_t failures; // blocks of rounds that had to be run one by one
 } Loop;
 
 // The running code: its registers, before which lie its constants, and loops, and its closure (NULL in the main program
@@ -57,6 +68,14 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file);
 
 // make.c: the instructions that make or look up something. `slots` are the registers, `list` the numbers of operands.
 Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+Value vm_call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+bool vm_is_true(const Value *v);
+// Element i of what is unpacked; element i of what a loop goes over, or null beyond its end.
+Value vm_unpacked(Vm *vm, Value value, uint32_t i);
+Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i);
+// rounds.c: runs as many rounds of a loop as it can, many at once, from where it is. `start`: its FOR or FOR_SPAN,
+// which has a RoundsCode. To be called again when the loop comes to `again`.
+void vm_rounds(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop);
 // Prepares a loop over a range.
 void vm_span(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step);
 // rows.c: the node of a round of a loop, as a row of a run or by itself.
@@ -76,6 +95,18 @@ void vm_memo_free(Vm *vm);
 // One number, as most values are.
 static inline bool is_number(const Value *v) {
     return v->len == 1 && v->kind == VALUE_NUMBERS;
+}
+
+// One store of 16 bytes: after two of 8 bytes, a load of 16 waits until both are in the cache, as neither can be
+// forwarded.
+static inline void vm_set_number(Value *to, double x) {
+    typedef double Halves __attribute__((vector_size(16)));
+    static const union {
+        Value value;
+        double head;
+    } one = {.value = {.len = 1}};
+    Halves whole = {one.head, x};
+    memcpy(to, &whole, sizeof *to);
 }
 
 // Reports a run-time fault at a place: of each kind (`format`, a literal) the first at that place in the frame.

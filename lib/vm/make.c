@@ -74,12 +74,6 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
     return subject;
 }
 
-// A node with the vector that holds it.
-typedef struct NodeValue {
-    Node node;
-    Item item;
-} NodeValue;
-
 // The attributes of a new node. The names differ, so nothing is replaced; null and streams are left out (L7.2).
 static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Node *node,
                            Attr *attrs) {

@@ -61,6 +61,7 @@ static void begin(Vm *vm, const char *stack_base) {
     if (vm->reported_count > 0)
         memset(vm->reported, 0, sizeof vm->reported);
     vm->reported_count = 0;
+    vm->trying = vm->failed = false;
 }
 
 Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports) {

@@ -62,7 +62,10 @@ typedef struct Vm {
     const ImportLink *imports;      // modules being evaluated, innermost first
     Reported reported[VM_REPORTED]; // hash set of the faults of this frame
     uint32_t reported_count;
-    Memo *memos; // of the main program's look-ups by number; heap
+    bool trying;     // what is run may be run again, in another order: a fault that would be reported
+    bool failed;     // … is only noted here
+    uint64_t rounds; // of loops that were run many at once, ever
+    Memo *memos;     // of the main program's look-ups by number; heap
     uint32_t memo_count;
     Profile *profile; // borrowed; NULL: nothing is measured
 } Vm;

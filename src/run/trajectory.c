@@ -2,7 +2,7 @@
 //
 // Extended XYZ (one block a frame, all systems together) as ASE and OVITO read it: the format has three dimensions, so
 // missing ones are 0 and further ones are left out; the species of every particle is X, the one that both know for "no
-// element". CSV: one row a particle and frame. H5MD: h5md.h.
+// element". CSV: cli/particles.h. H5MD: h5md.h.
 #include "run/trajectory.h"
 
 #include <errno.h>
@@ -18,6 +18,7 @@
 #include "base/file.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
+#include "cli/particles.h"
 #include "cli/unfinished.h"
 
 enum { XYZ_DIMENSIONS = 3 };
@@ -135,73 +136,12 @@ static void add_xyz(Output *output, PetriSession *session) {
     }
 }
 
-static void add_csv_header(Trajectory *trajectory, PetriSession *session) {
-    Output *output = &trajectory->output;
-    PetriSystem system;
-    trajectory->dimensions = 1;
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
-        if (system.dimensions > trajectory->dimensions) {
-            trajectory->dimensions = system.dimensions;
-        }
-    }
-    output_format(output, "frame,time,system,id,anchor");
-    for (uint32_t k = 0; k < trajectory->dimensions; k++) {
-        output_format(output, ",x%" PRIu32, k + 1);
-    }
-    for (uint32_t k = 0; k < trajectory->dimensions; k++) {
-        output_format(output, ",v%" PRIu32, k + 1);
-    }
-    output_format(output, ",radius,mass,charge\n");
-}
-
-// Quoted as RFC 4180 has it: ids may hold commas and quotes.
-static void add_csv_text(Output *output, const char *text) {
-    if (strpbrk(text, ",\"\r\n") == NULL) {
-        output_format(output, ",%s", text);
-        return;
-    }
-    output_write(output, ",\"", 2);
-    for (const char *c = text; *c != '\0'; c++) {
-        output_write(output, *c == '"' ? "\"\"" : c, *c == '"' ? 2 : 1);
-    }
-    output_write(output, "\"", 1);
-}
-
-// A component that a system does not have is left empty.
-static void add_csv_vector(const Trajectory *trajectory, Output *output, const double *vector, uint32_t dimensions) {
-    for (uint32_t k = 0; k < trajectory->dimensions; k++) {
-        if (k < dimensions) {
-            output_format(output, ",%.17g", vector[k]);
-        } else {
-            output_write(output, ",", 1);
-        }
-    }
-}
-
 static bool add_csv(Trajectory *trajectory, PetriSession *session) {
-    Output *output = &trajectory->output;
-    PetriFrame frame = petri_frame(session);
-    PetriSystem system;
     if (trajectory->dimensions == 0) {
-        add_csv_header(trajectory, session);
+        trajectory->dimensions = particles_dimensions(session);
+        particles_header(trajectory->dimensions, output_write, &trajectory->output);
     }
-    for (size_t s = 0; petri_system(session, s, &system); s++) {
-        for (uint32_t i = 0; i < system.particle_count; i++) {
-            const char *id = petri_text(session, petri_id(session, s, i));
-            if (id == NULL) {
-                return false;
-            }
-            output_format(output, "%" PRId64 ",%.17g", frame.number, frame.time);
-            add_csv_text(output, system.name);
-            add_csv_text(output, id);
-            output_format(output, ",%d", system.anchor[i * system.anchor_stride] ? 1 : 0);
-            add_csv_vector(trajectory, output, system.position.data + i * system.position.stride, system.dimensions);
-            add_csv_vector(trajectory, output, system.velocity.data + i * system.velocity.stride, system.dimensions);
-            output_format(output, ",%.17g,%.17g,%.17g\n", number(system.radius, i), number(system.mass, i),
-                          number(system.charge, i));
-        }
-    }
-    return true;
+    return particles_rows(session, trajectory->dimensions, output_write, &trajectory->output);
 }
 
 static bool add(Trajectory *trajectory, PetriSession *session) {

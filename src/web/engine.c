@@ -2,6 +2,7 @@
 // like that is exported as it is (meson.build); what has structs or callbacks is here.
 #include "web/host.h"
 
+#include "cli/particles.h"
 #include "petri-draw.h"
 
 #include <stdio.h>
@@ -52,6 +53,40 @@ EXPORT(void, web_frame, const PetriSession *session) {
     PetriFrame frame = petri_frame(session);
     host_frame((double)frame.number, frame.time, frame.beat, frame.fps, frame.tempo, (double)frame.physics_steps,
                frame.evaluation_seconds, frame.physics_seconds);
+}
+
+// Many short texts are one for JavaScript.
+typedef struct Gathered {
+    size_t used;
+    char text[1 << 14];
+} Gathered;
+
+static void pass_on(Gathered *gathered) {
+    host_write(gathered->text, gathered->used);
+    gathered->used = 0;
+}
+
+static bool gather(void *host, const char *text, size_t length) {
+    Gathered *gathered = host;
+    if (gathered->used + length > sizeof gathered->text)
+        pass_on(gathered);
+    if (length > sizeof gathered->text)
+        return write_text(NULL, text, length);
+    memcpy(gathered->text + gathered->used, text, length);
+    gathered->used += length;
+    return true;
+}
+
+// The particles of the last frame, as rows; the dimensions that their columns have. 0: as many as they need, after a
+// line with the columns' names. Gives that, or 0 if memory is used up.
+EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
+    Gathered gathered = {.used = 0};
+    uint32_t have = dimensions ? dimensions : particles_dimensions(session);
+    if (!dimensions)
+        particles_header(have, gather, &gathered);
+    bool done = particles_rows(session, have, gather, &gathered);
+    pass_on(&gathered);
+    return done ? have : 0;
 }
 
 EXPORT(PetriStatus, web_print, PetriSession *session, unsigned sections) {

@@ -184,16 +184,6 @@ test('axe finds nothing serious, dark or light', options, async () => {
         });
 });
 
-test('text and picture are saved as files', options, () => opened('', {
-    use: async page => {
-        for (const [button, name, begins] of [['#save', 'dish.fl', '-- '], ['#image', 'dish-2.png', '\x89PNG']]) {
-            const [download] = await Promise.all([page.waitForEvent('download'), page.click(button)]);
-            assert.equal(download.suggestedFilename(), name);
-            assert.ok(readFileSync(await download.path(), 'latin1').startsWith(begins), name);
-        }
-    },
-}));
-
 test('what takes long is stopped, and goes on from the frame before', options, () => opened('', {
     use: async page => {
         assert.ok(await page.evaluate(() => crossOriginIsolated));

@@ -168,6 +168,11 @@ export interface Session {
     readonly state: Map<string, number[] | string>;
     /** The SHA-256 of the state: the same on every machine. */
     hash(): string;
+    /**
+     * The particles of the last frame as comma-separated values, as `petri run --trajectory way.csv` writes them: the first
+     * call gives a header, too, and the dimensions that the columns have, for the calls in later frames.
+     */
+    table(dimensions?: number): { text: string; dimensions: number };
     /** The last frame as `petri run --print` shows it. */
     print(...sections: Section[]): string;
     /** What debug() said in the last frame. */

@@ -216,6 +216,15 @@ export class Session {
         return this.written.join('');
     }
 
+    // The particles of the last frame as rows of a table, as `petri run --trajectory` has them; `dimensions` as an earlier
+    // call gave them, or 0 for a header, too.
+    table(dimensions = 0) {
+        const has = this.run(wasm => wasm.web_particles(this.handle, dimensions));
+        if (!has)
+            throw new PetriError('memory', this.told, 'table');
+        return { text: this.written.join(''), dimensions: has };
+    }
+
     // The SHA-256 of the state.
     hash() {
         return this.print('hash').match(/[0-9a-f]{64}/)[0];

@@ -1,6 +1,6 @@
 // dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
-import { drawPicture, pictureSize } from '../engine/drawing.mjs';
 import { Remote } from './engine.mjs';
+import { addImage, paint, sizeOf } from './paint.mjs';
 
 const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
 const SLOW = 500; // ms: what takes longer, a person may want to stop
@@ -53,15 +53,10 @@ export class Dish {
     draw({ picture }) {
         if (!picture)
             return [];
-        const { canvas } = this, { width, height } = picture.image ?? pictureSize(picture.numbers);
+        const { canvas } = this, { width, height } = sizeOf(picture);
         if (canvas.width !== width || canvas.height !== height)
             Object.assign(canvas, { width, height });
-        if (picture.image) {
-            canvas.getContext('2d').drawImage(picture.image, 0, 0);
-            picture.image.close();
-            return picture.undrawn;
-        }
-        return drawPicture(canvas.getContext('2d'), picture.numbers, { image: name => this.images.get(name.replace(/^.*\//, '')) });
+        return paint(canvas.getContext('2d'), picture, this.images);
     }
 
     show(answer) {
@@ -174,8 +169,7 @@ export class Dish {
     // A script reads what is given, and nothing else.
     async addFile(name, bytes) {
         this.files.set(name, bytes);
-        if (/\.(png|jpe?g|gif|webp)$/i.test(name))
-            this.images.set(name.replace(/^.*\//, ''), await createImageBitmap(new Blob([bytes])).catch(() => null));
+        await addImage(this.images, name, bytes);
     }
 
     giveFiles() {

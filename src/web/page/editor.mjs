@@ -114,40 +114,68 @@ export class Editor {
         this.view.focus();
     }
 
+    // Of petri's tables, what fits; of the node on this line its attributes first, and then what the script itself names.
     complete(context) {
         const word = context.matchBefore(/[!]?[\p{L}_][\p{L}\p{N}_]*$|!$/u);
         if (!word || (word.from === word.to && !context.explicit))
             return null;
-        const kinds = word.text.startsWith('!') ? ['node'] : ['function', 'attribute', 'name'];
-        const seen = new Set(), options = [];
-        for (const row of this.help().filter(({ kind }) => kinds.includes(kind))) {
-            if (seen.has(row.name))
-                continue;
-            seen.add(row.name);
-            options.push({
-                label: (row.kind === 'node' ? '!' : '') + row.name, detail: row.kind === 'function' ? `(${row.parameters})` : row.parameters,
-                info: row.help || undefined, type: { node: 'class', function: 'function', attribute: 'property' }[row.kind] ?? 'variable',
-            });
+        const kinds = word.text.startsWith('!') ? ['node'] : ['function', 'attribute'], node = nodeAt(context.state, word.from);
+        const options = new Map();
+        for (const row of owned(this.help()).filter(({ kind }) => kinds.includes(kind))) {
+            const here = row.kind === 'attribute' && row.node === node;
+            if (here || !options.has(row.name))
+                options.set(row.name, {
+                    label: (row.kind === 'node' ? '!' : '') + row.name, detail: row.kind === 'function' ? `(${row.parameters})` : row.parameters,
+                    info: describe(row) || undefined, type: TYPES[row.kind], boost: here ? 50 : 0,
+                    apply: row.kind === 'attribute' ? `${row.name}=` : undefined,
+                });
         }
-        return { from: word.from, options, validFor: /^!?[\p{L}\p{N}_]*$/u };
+        if (kinds.length > 1)
+            for (const [, name] of context.state.doc.toString().matchAll(/(?:\blet|\bfunc|\bfor)\s+([\p{L}_][\p{L}\p{N}_]*)/gu))
+                if (!options.has(name))
+                    options.set(name, { label: name, type: 'variable' });
+        return { from: word.from, options: [...options.values()], validFor: /^!?[\p{L}\p{N}_]*$/u };
     }
 
     explain(view, at) {
         const { from, text } = view.state.doc.lineAt(at), words = [...text.matchAll(/!?[\p{L}_][\p{L}\p{N}_]*/gu)];
         const word = words.find(({ index, 0: found }) => from + index <= at && at <= from + index + found.length);
-        const rows = word ? this.help().filter(({ kind, name, help }) =>
+        const rows = word ? owned(this.help()).filter(({ kind, name, help }) =>
             (kind === 'node' ? `!${name}` === word[0] : name === word[0]) && (help || kind === 'function')) : [];
         if (rows.length === 0)
             return null;
-        const [row] = rows, head = row.kind === 'function' ? `${row.name}(${row.parameters})` : row.kind === 'node' ? `!${row.name}` : row.name;
+        const node = nodeAt(view.state, from + word.index), row = rows.find(({ node: of }) => of === node) ?? rows[0];
+        const head = row.kind === 'function' ? `${row.name}(${row.parameters})` : row.kind === 'node' ? `!${row.name}` : `!${row.node} ${row.name}`;
         return {
             pos: from + word.index, end: from + word.index + word[0].length, above: true,
             create() {
-                const dom = document.createElement('div');
+                const dom = document.createElement('div'), strong = document.createElement('strong');
                 dom.className = 'cm-help';
-                dom.textContent = `${head}: ${row.help}`;
+                strong.textContent = head;
+                dom.append(strong, ` ${describe(row)}`);
                 return { dom };
             },
         };
     }
 }
+
+const TYPES = { node: 'class', function: 'function', attribute: 'property' };
+
+// Rows of attributes follow that of their node: each with its name.
+function owned(rows) {
+    let node = null;
+    return rows.map(row => {
+        if (row.kind === 'node')
+            node = row.name;
+        return row.kind === 'attribute' ? { ...row, node } : row;
+    });
+}
+
+// The node whose attributes are written at a place: the last on its line before it.
+function nodeAt(state, at) {
+    const { from, text } = state.doc.lineAt(at);
+    return [...text.slice(0, at - from).matchAll(/!([\p{L}_][\p{L}\p{N}_]*)/gu)].at(-1)?.[1] ?? null;
+}
+
+const describe = ({ kind, help, parameters, fallback, unit }) => kind !== 'attribute' ? help
+    : [help, [parameters, unit && `in ${unit}`, fallback && `default ${fallback}`].filter(Boolean).join(', ')].filter(Boolean).join(' · ');

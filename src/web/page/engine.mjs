@@ -26,6 +26,8 @@ export class Remote {
         const worker = this.worker = startWorker(new URL('./worker.js', import.meta.url));
         this.waiting = new Map();
         worker.onmessage = ({ data }) => {
+            if (data.type === 'progress')
+                return this.progress?.(data);
             const { resolve, reject } = this.waiting.get(data.id);
             this.waiting.delete(data.id);
             if (data.type === 'failed' || data.type === 'broken' || data.type === 'stopped')
@@ -61,11 +63,12 @@ export class Remote {
     async stop() {
         if (!this.flag)
             return !this.busy;
-        Atomics.store(this.flag, 0, this.number);
+        const last = this.number, goesOn = () => [...this.waiting.keys()].some(id => id <= last);
+        Atomics.store(this.flag, 0, last);
         const end = performance.now() + PATIENCE;
-        while (this.busy && performance.now() < end)
+        while (goesOn() && performance.now() < end)
             await new Promise(resolve => setTimeout(resolve, 5));
-        return !this.busy;
+        return !goesOn();
     }
 
     // Ends the engine for good.

@@ -3,15 +3,19 @@ import { CONTROLS, Controls } from './controls.mjs';
 import { Dish, NO_ENGINE, hasEngine, sayError } from './dish.mjs';
 import { Editor } from './editor.mjs';
 import { packLink, readLink } from './link.mjs';
+import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
 import { Prompt } from './prompt.mjs';
+import { SaveDialog, saveAs } from './save.mjs';
+import { Table } from './table.mjs';
+import { Tabs } from './tabs.mjs';
 
 const $ = id => document.getElementById(id);
 const KEPT = 'petri.script';
 const FIRST = 'dish.fl';
 
 const encoder = new TextEncoder();
-let editor, dish, controls, problems, prompt, samples, help = [], name = FIRST;
+let editor, dish, controls, problems, prompt, plot, table, samples, help = [], name = FIRST;
 
 function say(text, bad = false) {
     $('message').textContent = text;
@@ -34,6 +38,7 @@ const host = {
         if (left.length)
             say(`Not drawn in the browser: ${left.join(', ')}.`);
         document.body.dataset.frame = answer.frame;
+        look();
     },
     failed(error, told) {
         problems.add(told);
@@ -46,6 +51,16 @@ const host = {
         controls.refresh();
     },
 };
+
+// The panels follow, but not every frame.
+let looking = 0;
+function look() {
+    looking ||= setTimeout(() => {
+        looking = 0;
+        plot.refresh();
+        table.refresh();
+    }, dish.running ? 200 : 0);
+}
 
 // Loads the text of the editor if it is another one than runs.
 async function ready({ always = false } = {}) {
@@ -115,17 +130,7 @@ async function openLink() {
     return !!linked;
 }
 
-function saveAs(called, blob) {
-    const link = document.createElement('a');
-    link.href = URL.createObjectURL(blob);
-    link.download = called;
-    link.click();
-    URL.revokeObjectURL(link.href);
-}
-
 const stem = () => name.replace(/\.fl$/, '');
-const save = () => saveAs(name, new Blob([editor.text], { type: 'text/plain' }));
-const saveImage = () => $('picture').toBlob(blob => blob && saveAs(`${stem()}-${dish.frame}.png`, blob));
 
 // Scripts, and what they read; the script to run is the first of them.
 async function takeFiles(files) {
@@ -139,8 +144,7 @@ async function takeFiles(files) {
 
 function listen() {
     $('link').onclick = copyLink;
-    $('save').onclick = save;
-    $('image').onclick = saveImage;
+    $('save').onclick = () => saveAs(name, new Blob([editor.text], { type: 'text/plain' }));
     $('open').onclick = () => $('file').click();
     $('file').onchange = () => takeFiles($('file').files);
     $('samples').onchange = () => {
@@ -177,6 +181,14 @@ async function begin() {
     problems = new Problems($('problems'), editor);
     prompt = new Prompt(document, dish);
     controls = new Controls(document, dish, ready);
+    new SaveDialog(document, dish, stem);
+    plot = new Plot(document, dish);
+    table = new Table(document, dish);
+    new Tabs($('tabs'), panel => {
+        plot.seen = panel === 'panel-plot';
+        table.seen = panel === 'panel-state';
+        look();
+    });
     dish.listen();
     listen();
     const answer = await dish.remote.ready.catch(error => say(error.message, true));

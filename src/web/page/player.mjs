@@ -5,9 +5,10 @@ const MOST_KEYFRAMES = 64; // besides those where something was changed
 const MOST_BYTES = 256 << 20;
 
 export class Player {
-    // options: of the sessions, but for files.
-    constructor(engine, options) {
+    // options: of the sessions, but for files; watches: what looks at each frame.
+    constructor(engine, options, watches) {
         this.engine = engine;
+        this.watches = watches;
         this.options = options;
         this.files = {};
         this.session = null;
@@ -43,6 +44,7 @@ export class Player {
         this.torn = false;
         this.frame++;
         this.most = Math.max(this.most, this.frame);
+        this.watches.see(this);
         const later = this.changes.filter(([frame]) => frame === this.frame);
         for (const [, name, value] of later)
             this.session.setParameter(name, value);
@@ -103,6 +105,7 @@ export class Player {
         this.changes.push([this.frame, name, value]);
         this.forget(this.frame);
         this.most = this.frame;
+        this.watches.forget(this.frame);
         if (this.frame >= 0)
             this.keep(true);
     }

@@ -1,21 +1,28 @@
 // worker.mjs: the engine's thread. Messages come one at a time and each is answered, so that the page knows when it is free.
 import { loadEngine } from '../engine/petri.mjs';
+import { makeFilm, makeState, makeTable } from './exports.mjs';
+import { addImage, imageOf } from './paint.mjs';
 import { Player } from './player.mjs';
+import { StateTable, Watches } from './tables.mjs';
 
 const SEEK_STEPS = 50; // frames between looks at what the page wants
 let engine, player, checker, told = [], flag = null, current = 0;
 
 // The page writes which question is to be given up, and all before it.
 const wantsEnd = () => flag !== null && Atomics.load(flag, 0) >= current;
-const images = new Map(), baseName = name => name.replace(/^.*\//, '');
+const images = new Map();
 const tell = diagnostic => told.push(diagnostic);
+
+const watches = new Watches(told), stateTable = new StateTable();
+
+const picture = automatic => player.frame >= 0 ? player.session.show({ automatic }) : null;
 
 // What the page shows after a frame.
 function shown(extra = {}) {
-    const { session } = player, picture = player.frame >= 0 ? session.show({ automatic: player.automatic }) : null;
+    const { session } = player;
     return {
         type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
-        picture, log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
+        picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
     };
 }
 
@@ -25,13 +32,12 @@ const acts = {
     async open({ source, flag: shared }) {
         flag = shared;
         engine = await loadEngine(source);
-        player = new Player(engine, { onDiagnostic: tell, wantsEnd, image: name => images.get(baseName(name)) });
+        player = new Player(engine, { onDiagnostic: tell, wantsEnd, image: name => imageOf(images, name) }, watches);
         return { type: 'ready', version: engine.version, help: engine.open().help() };
     },
     async files({ files }) {
         for (const [name, bytes] of Object.entries(files))
-            if (/\.(png|jpe?g|gif|webp)$/i.test(name))
-                images.set(baseName(name), await createImageBitmap(new Blob([bytes])).catch(() => null));
+            await addImage(images, name, bytes);
         player.files = files;
         Object.entries(files).forEach(([name, bytes]) => player.session?.setFile(name, bytes));
         return { type: 'done' };
@@ -43,6 +49,7 @@ const acts = {
     },
     load({ text, name, changes }) {
         player.load(text, name, changes);
+        watches.forget(-1);
         player.automatic = false;
         player.step();
         // Particles are not where they will be seen before frame 2.
@@ -85,6 +92,22 @@ const acts = {
     },
     prompt({ text }) {
         return { type: 'printed', text: player.session.prompt(text), told: take() };
+    },
+    state: query => ({ type: 'state', ...stateTable.rows(player, query) }),
+    watch({ texts }) {
+        watches.set(texts);
+        if (player.frame >= 0)
+            watches.refill(player, wantsEnd);
+        return { type: 'done' };
+    },
+    series: () => ({ type: 'series', series: watches.series(player.most), frame: player.frame }),
+    // Files to be saved, of frames from one to another.
+    async save({ id, kind, from, to }) {
+        const range = { from, to, wantsEnd, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
+        return {
+            type: 'saved',
+            blob: await (kind === 'film' ? makeFilm(player, images, picture, range) : kind === 'particles' ? makeTable(player, range) : makeState(player)),
+        };
     },
     pointer({ inside, x, y, buttons }) {
         player.session.pointer(inside, x, y, buttons);

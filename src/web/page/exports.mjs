@@ -1,0 +1,51 @@
+// exports.mjs: the frames of a script as a film or a table, made in the worker from whatever frame on.
+import { Film } from './film.mjs';
+import { paint, sizeOf } from './paint.mjs';
+
+const TELL_EVERY = 10; // frames
+
+// Goes through frames; `see` is called after each.
+async function each(player, { from, to, wantsEnd, tell }, see) {
+    for (let frame = from; frame <= to; frame++) {
+        if (wantsEnd())
+            throw Object.assign(new Error('stopped'), { status: 'interrupted' });
+        player.seek(frame);
+        await see();
+        if ((frame - from) % TELL_EVERY === 0)
+            tell(frame - from, to - from + 1);
+    }
+}
+
+export async function makeFilm(player, images, show, range) {
+    let film = null, automatic = false;
+    await each(player, range, async () => {
+        let picture = show(automatic);
+        film ??= await Film.begin(picture ? sizeOf(picture) : { width: 640, height: 480 }, player.session.frame.fps);
+        if (picture && paint(film.context, picture, images).includes('canvas3d')) {
+            automatic = true;
+            picture = show(automatic);
+            paint(film.context, picture, images);
+        }
+        await film.add();
+    });
+    return film.end();
+}
+
+// As `petri run --trajectory way.csv` writes it.
+export async function makeTable(player, range) {
+    const parts = [];
+    let columns = 0;
+    await each(player, range, () => {
+        const { text, dimensions } = player.session.table(columns);
+        columns = dimensions;
+        parts.push(text);
+    });
+    return new Blob(parts, { type: 'text/csv' });
+}
+
+const quoted = text => /[,"\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+
+export function makeState(player) {
+    const rows = Array.from(player.session.state, ([key, value]) => `${quoted(key)},${quoted(Array.isArray(value) ? value.join(';') : value)}\n`);
+    return new Blob(['key,value\n', ...rows], { type: 'text/csv' });
+}

@@ -1,0 +1,53 @@
+// film.mjs: pictures as a film, one of its frames for each of the script's, however long they take to make.
+import { packFilm } from './webm.mjs';
+
+const CODECS = [['vp09.00.51.08', 'V_VP9'], ['vp8', 'V_VP8']];
+const BITS = 0.2; // for a pixel of a frame
+const KEY_EVERY = 60; // frames
+const MOST_WAITING = 4; // frames that the encoder has been given and has not made
+
+async function chooseCodec(settings) {
+    for (const [codec, name] of globalThis.VideoEncoder ? CODECS : []) {
+        const { supported } = await VideoEncoder.isConfigSupported({ ...settings, codec }).catch(() => ({}));
+        if (supported)
+            return [codec, name];
+    }
+    throw new Error('this browser cannot make films: it has no WebCodecs with VP9 or VP8');
+}
+
+export class Film {
+    static async begin({ width, height }, fps) {
+        const settings = { width, height, framerate: fps, bitrate: Math.max(width * height * fps * BITS, 2e5), latencyMode: 'quality' };
+        const [codec, name] = await chooseCodec(settings), film = new Film();
+        Object.assign(film, { width, height, fps, codec: name, count: 0, chunks: [], error: null });
+        film.canvas = new OffscreenCanvas(width, height);
+        film.context = film.canvas.getContext('2d', { alpha: false });
+        film.encoder = new VideoEncoder({
+            output: chunk => {
+                const data = new Uint8Array(chunk.byteLength);
+                chunk.copyTo(data);
+                film.chunks.push({ data, time: Math.round(chunk.timestamp / 1000), key: chunk.type === 'key' });
+            },
+            error: error => (film.error = error),
+        });
+        film.encoder.configure({ ...settings, codec });
+        return film;
+    }
+
+    // What is on the canvas is the next frame.
+    async add() {
+        const frame = new VideoFrame(this.canvas, { timestamp: Math.round(this.count * 1e6 / this.fps), duration: Math.round(1e6 / this.fps) });
+        this.encoder.encode(frame, { keyFrame: this.count++ % KEY_EVERY === 0 });
+        frame.close();
+        while (this.encoder.encodeQueueSize > MOST_WAITING && !this.error)
+            await new Promise(resolve => this.encoder.addEventListener('dequeue', resolve, { once: true }));
+        if (this.error)
+            throw this.error;
+    }
+
+    async end() {
+        await this.encoder.flush();
+        this.encoder.close();
+        return packFilm(this);
+    }
+}

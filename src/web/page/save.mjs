@@ -1,0 +1,77 @@
+// save.mjs: what is saved as a file: the script, and by a dialog the picture, a film, the particles or the state.
+
+const SUFFIXES = { picture: 'png', film: 'webm', particles: 'csv', state: 'csv' };
+const SECONDS = 5; // of a film, unless more frames are there
+
+export function saveAs(name, blob) {
+    const link = document.createElement('a');
+    link.href = URL.createObjectURL(blob);
+    link.download = name;
+    link.click();
+    setTimeout(() => URL.revokeObjectURL(link.href), 60000);
+}
+
+export class SaveDialog {
+    // stem: gives what the names of files begin with.
+    constructor(root, dish, stem) {
+        const $ = this.get = id => root.getElementById(id);
+        Object.assign(this, { dish, stem, dialog: $('saving') });
+        $('save-as').onclick = () => this.open();
+        $('saving-form').onsubmit = event => {
+            event.preventDefault();
+            this.save();
+        };
+        $('saving-form').onchange = () => this.arrange();
+        $('saving-cancel').onclick = () => this.dialog.close();
+        this.dialog.onclose = () => this.working && dish.stop();
+    }
+
+    get kind() {
+        return new FormData(this.get('saving-form')).get('kind');
+    }
+
+    open() {
+        const { dish, get: $ } = this;
+        dish.pause();
+        $('saving-said').textContent = '';
+        $('saving-to').value = Math.max(dish.most, Math.ceil(dish.fps * SECONDS) - 1);
+        this.arrange();
+        this.dialog.showModal();
+    }
+
+    arrange() {
+        const ranged = this.kind === 'film' || this.kind === 'particles', $ = this.get;
+        $('saving-from').disabled = $('saving-to').disabled = !ranged;
+        $('saving-range').classList.toggle('off', !ranged);
+    }
+
+    async save() {
+        const { dish, kind, get: $ } = this;
+        const name = `${this.stem()}${kind === 'picture' || kind === 'state' ? `-${dish.frame}` : ''}.${SUFFIXES[kind]}`;
+        if (kind === 'picture') {
+            dish.canvas.toBlob(blob => blob && saveAs(name, blob));
+            this.dialog.close();
+            return;
+        }
+        const at = dish.frame, [from, to] = [Number($('saving-from').value), Number($('saving-to').value)];
+        if (to < from) {
+            $('saving-said').textContent = `There is no frame from ${from} to ${to}.`;
+            return;
+        }
+        const progress = $('saving-progress');
+        dish.remote.progress = ({ done, of }) => Object.assign(progress, { value: done, max: of });
+        Object.assign(progress, { hidden: false, value: 0, max: 1 });
+        this.working = $('saving-go').disabled = true;
+        const answer = await dish.attempt('save', { kind, from, to });
+        this.working = $('saving-go').disabled = false;
+        progress.hidden = true;
+        if (answer) {
+            saveAs(name, answer.blob);
+            this.dialog.close();
+        } else {
+            $('saving-said').textContent = 'It could not be saved; the message under the picture says why.';
+        }
+        if (dish.loaded !== null)
+            await dish.seek(at);
+    }
+}

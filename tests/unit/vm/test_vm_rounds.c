@@ -1,0 +1,138 @@
+// test_vm_rounds.c: many rounds of a loop at once come to what they come to one by one.
+#include "runner.h"
+
+enum { ROUNDS = 150 };
+
+// The same rounds of a loop: 150, or 5 at a time, which are run one by one.
+static const char many_form[] = "%sfunc all()\n    for i in ..150\n        %s\n!all v=all()\n    all()\n";
+static const char few_form[] = "%sfunc all()\n    for k in ..30\n        for i in k*5..k*5+5\n            %s\n"
+                               "!all v=all()\n    all()\n";
+
+// What goes before a body, the body, and whether its rounds are run at once.
+typedef struct Body {
+    const char *text;
+    bool one_by_one;
+} Body;
+
+static const char before[] = "let z=frame vector=(4;8;15;16;23;42)*(1+frame) stream=uniform(:s;frame)\n"
+                             "    mixed=(1;'two';!three) nothing=vector[frame..0]\n";
+
+static const Body bodies[] = {
+    // numbers
+    {"i+1", false},
+    {"(i-3)*(z+2)/(i+1)", false},
+    {"-(i//4)+(0-i)%7", false},
+    {"i**3+i**(z+1)+2**i+(i-9)**(i%3)", false},
+    {"(i<7);(i<=z);(i>z);(i>=7);(i==7);(i!=7);not (i<3)", false},
+    {"(0/0*i<1);(0/0*i>=1);(0/0*i==0/0*i)", false},
+    // elements
+    {"vector[i]+vector[i-3]+vector[i/2]+vector[0-i]", false},
+    {"vector[i;i+1]", false},
+    {"vector[i%4..i%4+2];vector[1..i]", false},
+    {"stream[i]+uniform(:t;i)[2]", false},
+    {"mixed[i];nothing[i];(i;2;3)[i]", false},
+    {"'x' if mixed[i]==1 else 2", false},
+    // built-ins: of each element, of points, of anything
+    {"sin(i/10)+cos(i)+sine(i/9)+triangle(z+i/7)+abs(3-i)+floor(i/4)+sqrt(i)", false},
+    {"clamp(i;i/2, 3, 8);clamp(i, z, 9);round(i/7, 2);round(i/7, 19);impulse(i/10, i/20)", false},
+    {"hypot(i;z);hypot(i, 3);hypot(i);length(i, 4);length(i;3);angle(i, z+1);map(i/9, 1, z)", false},
+    {"noise(:n, i/9, z/3)+noise(:n;i, i/5, 2)+noise(:n, i)+noise(:n, i/3, i, z);noise(:n, 1e300*i, 0/0)", false},
+    {"hsv(i/10;0.5;z);polar(i/8);max(i, z, 3);len(vector);sum(i;z;i)", false},
+    // vectors
+    {"(i;z;1)*(2;i;1)+(i;1)", false},
+    {"(b;a;c;d) where a;b=(i;z) c;d=vector[i..i+2]", false},
+    {"(p[1]+hypot(p);-p;+p;p in vector;i in vector) where p=(i;2*i;3)", false},
+    {"$(:k;i);$(:k;i;:v)", false},
+    {"hypot($(:k;i)) or 7", false},
+    // branches
+    {"i if i%3==0 else z if i%3==1 else 'text'", false},
+    {"(i if i>20)", false},
+    {"(s;t;u;(i xor z)) where s=(i;2 if i%2 else i) t=(i and 5) u=(nothing or i)", false},
+    {"vector[i] if i<4 else vector[i..i+2] if i<90 else nothing", false},
+    {"stream if i==140 else nothing", false},
+    // nodes
+    {"!p id=i at=(i;z) size=vector[i] also=nothing", false},
+    {"!p id=i at=$(:k;i)", false},
+    {"!p #tag a=1 b=(i if i%2 else nothing) c=!q n=i", false},
+    {"!p a=i\n                    !q b=i\n                    !r c=(z if i%4 else i;z)", false},
+    {"!p id=i;!q id=i+1;(!r c=z if i%4 else !s)", false},
+    // what must go one by one
+    {"(func(x) x+i)(1)", true},
+    {"debug(i)", true},
+};
+
+// The tree of the second frame of a script.
+static const char *evaluate(Runner *runner, const char *form, const char *body, uint64_t *rounds) {
+    char script[2000];
+    snprintf(script, sizeof script, form, before, body);
+    runner->vm.rounds = 0;
+    runner_run(runner, script, 2);
+    *rounds = runner->vm.rounds;
+    return runner_tree(runner);
+}
+
+static void set_state(Runner *runner) {
+    const double name = symbol_of(&runner->world, "k"), velocity = symbol_of(&runner->world, "v");
+    for (int i = 0; i < ROUNDS; i++) {
+        const double keys[3] = {name, i, velocity}, place[3] = {i, 2 * i, 3};
+        state_set(runner->state, value_numbers_view(keys, 3), value_number(7 * i));
+        if (i < 70 || i > 80)
+            state_set(runner->state, value_numbers_view(keys, 2), value_numbers_view(place, i > 120 ? 2 : 3));
+    }
+}
+
+static void test_bodies(void **state) {
+    Runner *runner = *state;
+    set_state(runner);
+    for (size_t i = 0; i < 2 * sizeof bodies / sizeof bodies[0]; i++) {
+        uint64_t many, few;
+        const Body *body = &bodies[i / 2];
+        runner->simplify = i % 2;
+        const char *found = evaluate(runner, many_form, body->text, &many);
+        assert_text(body->text, found, evaluate(runner, few_form, body->text, &few));
+        assert_int_equal(few, 0);
+        if (!runner->simplify && (many == 0) != body->one_by_one)
+            fail_msg("%s: %d rounds at once", body->text, (int)many);
+    }
+}
+
+// What is wrong is told in the order in which rounds one by one meet it.
+static void test_faults(void **state) {
+    Runner *runner = *state;
+    runner_run(runner,
+               "let z=frame\n"
+               "!all\n"
+               "    for i in ..150\n"
+               "        !p a=octnoise(:s, 2000 if i==140 else 1, 0.5, i+z)\n"
+               "        !q b=octnoise(:s, 3000 if i==130 else 1, 0.5, i+z) c=i\n"
+               "    for i in ..300\n"
+               "        !r c=(0..(1e9 if i%30==29 else 1))[0]\n",
+               1);
+    assert_text("faults", text_c(&runner->told),
+                "5:14 octnoise: more than 1024 octaves [bad-call]\n"
+                "4:14 octnoise: more than 1024 octaves [bad-call]\n"
+                "7:15 range too long: the limit is 134217728 elements [too-long]\n");
+    assert_true(runner->vm.rounds > 0 && runner->vm.rounds < 450);
+}
+
+// The work of rounds is charged before they are run, as that of one: a limit ends both.
+static void test_work(void **state) {
+    Runner *runner = *state;
+    Meter meter = {.memory_limit = SIZE_MAX};
+    uint64_t work[2];
+    for (int i = 0; i < 2; i++) {
+        uint64_t rounds;
+        runner->frame.meter = NULL;
+        meter_begin(&meter, UINT64_MAX / 2, NULL);
+        runner->frame.meter = &meter;
+        evaluate(runner, i ? few_form : many_form, "!p a=sin(i+z) b=hsv(i;z;1) c=i**3", &rounds);
+        runner->frame.meter = NULL;
+        work[i] = meter.work;
+    }
+    assert_in_range(work[0], work[1] * 3 / 4, work[1] * 5 / 4);
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {RUNNER_TEST(test_bodies), RUNNER_TEST(test_faults), RUNNER_TEST(test_work)};
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}

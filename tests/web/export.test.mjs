@@ -1,0 +1,94 @@
+// export.test.mjs: what the page saves: the text, pictures, films, tables.
+import assert from 'node:assert/strict';
+import { execFileSync } from 'node:child_process';
+import { existsSync, mkdtempSync, readFileSync, rmSync } from 'node:fs';
+import { tmpdir } from 'node:os';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { atFrame, opened, options, root, typed } from './browser.mjs';
+
+const petri = join(root, 'build/src/petri');
+
+// Exports by the dialog; the name and the path of what comes.
+async function exported(page, kind, to) {
+    await page.click('#save-as');
+    await page.check(`#saving input[value=${kind}]`);
+    if (to !== undefined)
+        await page.fill('#saving-to', String(to));
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#saving-go')]);
+    await page.waitForSelector('#saving', { state: 'hidden' });
+    return { name: download.suggestedFilename(), path: await download.path() };
+}
+
+test('text, picture and state are saved as files', options, () => opened('', {
+    use: async page => {
+        const [download] = await Promise.all([page.waitForEvent('download'), page.click('#save')]);
+        assert.equal(download.suggestedFilename(), 'dish.fl');
+        assert.ok(readFileSync(await download.path(), 'utf8').startsWith('-- '));
+        const picture = await exported(page, 'picture');
+        assert.equal(picture.name, 'dish-2.png');
+        assert.ok(readFileSync(picture.path, 'latin1').startsWith('\x89PNG'));
+        const state = await exported(page, 'state');
+        assert.equal(state.name, 'dish-2.csv');
+        assert.match(readFileSync(state.path, 'utf8'), /^key,value\n(:?[^\n]*,[^\n]+\n){9}/);
+    },
+}));
+
+test('particles are saved as petri run --trajectory writes them', { ...options, skip: options.skip || (existsSync(petri) ? false : `there is no ${petri}`) }, () => opened('', {
+    use: async page => {
+        const scratch = mkdtempSync(join(tmpdir(), 'petri-')), way = join(scratch, 'way.csv');
+        execFileSync(petri, ['run', join(root, 'samples/dish.fl'), '--frames', '25', '--trajectory', way, '--quiet', '--print', 'state']);
+        const { name, path } = await exported(page, 'particles', 24);
+        assert.equal(name, 'dish.csv');
+        assert.equal(readFileSync(path, 'utf8'), readFileSync(way, 'utf8'));
+        rmSync(scratch, { recursive: true });
+        await atFrame(page, 2); // where it was before
+    },
+}));
+
+test('a film has one frame for each of the script, and is in the right colours', options, () => opened('', {
+    use: async (page, context) => {
+        await typed(page, '%pragma fps 25\n!window size=101;51\n    !canvas\n        !rect point=0;0 size=(frame+1);51 color=1;0.5;0 fill=true\n');
+        await page.click('#run');
+        await page.waitForFunction(() => document.getElementById('picture').width === 101);
+        await page.click('#run');
+        const { name, path } = await exported(page, 'film', 90);
+        assert.equal(name, 'dish.webm');
+        const film = readFileSync(path), blocks = film.toString('latin1').match(/\xa3\x01\0{5}[^]{2}\x81/g).length;
+        assert.equal(blocks, 91);
+        // A browser plays it: at the middle of frame 49, of 25 a second, 50 columns are there.
+        const cinema = await context.newPage();
+        const seen = await cinema.evaluate(async text => {
+            const video = document.createElement('video');
+            const bytes = Uint8Array.from(atob(text), character => character.charCodeAt(0));
+            video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/webm' }));
+            await new Promise((resolve, reject) => Object.assign(video, { onloadeddata: resolve, onerror: () => reject(new Error(video.error.message)) }));
+            video.currentTime = 49.5 / 25;
+            await new Promise(resolve => (video.onseeked = resolve));
+            const context = new OffscreenCanvas(101, 51).getContext('2d');
+            context.drawImage(video, 0, 0);
+            const at = x => [...context.getImageData(x, 25, 1, 1).data].slice(0, 3);
+            return { duration: video.duration, size: [video.videoWidth, video.videoHeight], inside: at(40), outside: at(60), edge: [at(48), at(51)] };
+        }, film.toString('base64'));
+        assert.ok(Math.abs(seen.duration - 91 / 25) < 0.01, `${seen.duration}`);
+        assert.deepEqual(seen.size, [101, 51]);
+        const near = (a, b) => a.every((value, i) => Math.abs(value - b[i]) < 40);
+        assert.ok(near(seen.inside, [255, 128, 0]) && near(seen.outside, [0, 0, 0]), JSON.stringify(seen));
+        assert.ok(near(seen.edge[0], [255, 128, 0]) && near(seen.edge[1], [0, 0, 0]), JSON.stringify(seen));
+    },
+}));
+
+test('an export is given up', options, () => opened('', {
+    use: async page => {
+        await page.click('#save-as');
+        await page.check('#saving input[value=particles]');
+        await page.fill('#saving-to', '900000');
+        await page.click('#saving-go');
+        await page.waitForSelector('#saving-progress', { state: 'visible' });
+        await page.click('#saving-cancel');
+        await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Stopped'));
+        await atFrame(page, 2);
+        await page.click('#step');
+        await atFrame(page, 3);
+    },
+}));
