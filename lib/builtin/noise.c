@@ -4,6 +4,7 @@
 
 #include "builtin/family.h"
 #include "builtin/noise_point.h"
+#include "maths/many.h"
 #include "maths/random.h"
 #include "value/seed.h"
 
@@ -164,10 +165,20 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
 
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to) {
+    enum { FEWEST = 16 };           // for which it is worth it
+    const double FARTHEST = 0x1p45; // that maths_plane_noise_many takes
     uint8_t local[256];
     const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, seed), local);
+    if (count < FEWEST) {
+        for (uint32_t i = 0; i < count; i++)
+            to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
+        return;
+    }
+    const PlaneNoise plane = noise_plane();
+    maths_plane_noise_many(cpu_here.level, &plane, permutation, x, y, count, to);
     for (uint32_t i = 0; i < count; i++)
-        to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
+        if (!(fabs(x[i]) < FARTHEST && fabs(y[i]) < FARTHEST))
+            to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
 }
 
 // Far more than the number of doublings that a double survives near 1: a mistake, and it would take for ever.

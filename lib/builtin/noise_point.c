@@ -183,6 +183,15 @@ double noise_point_2(const uint8_t *permutation, const double *c) {
     return value / NOISE_N[2];
 }
 
+PlaneNoise noise_plane(void) {
+    PlaneNoise plane = {.skew = NOISE_S[2], .squish = NOISE_Q[2], .scale = NOISE_N[2]};
+    for (int i = 0; i < 8; i++) {
+        plane.gradient_x[i] = NOISE_GRAD2[i][0];
+        plane.gradient_y[i] = NOISE_GRAD2[i][1];
+    }
+    return plane;
+}
+
 // --- three dimensions (B10.8)
 
 static void extras_3c(const double *f, NoiseVertex extra[2]) {

@@ -2,11 +2,16 @@
 #ifndef PETRI_BUILTIN_NOISE_POINT_H
 #define PETRI_BUILTIN_NOISE_POINT_H
 
+#include "maths/many.h"
+
 #include <stdint.h>
 
 // The noise at the point c of two, three or four coordinates, for a permutation of 0 to 255.
 double noise_point_2(const uint8_t *permutation, const double *c);
 double noise_point_3(const uint8_t *permutation, const double *c);
 double noise_point_4(const uint8_t *permutation, const double *c);
+
+// noise_point_2 for maths_plane_noise_many.
+PlaneNoise noise_plane(void);
 
 #endif

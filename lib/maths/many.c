@@ -40,6 +40,11 @@ void maths_turns_sin_many(CpuLevel level, const double *t, size_t count, double 
     instance(level)->turns_sin(t, count, to);
 }
 
+void maths_plane_noise_many(CpuLevel level, const PlaneNoise *noise, const uint8_t *permutation, const double *x,
+                            const double *y, size_t count, double *to) {
+    instance(level)->plane_noise(noise, permutation, x, y, count, to);
+}
+
 void maths_uniform_many(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to) {
     instance(level)->uniform(key, first, count, to);
 }

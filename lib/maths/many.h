@@ -20,4 +20,13 @@ void maths_turns_sin_many(CpuLevel level, const double *t, size_t count, double 
 // Items first, first + 1, … of a stream: random_uniform.
 void maths_uniform_many(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
 
+// Noise of the plane (spec builtins.md B10.7) at the points x[i], y[i], which are nearer to 0 than 2^45: a permutation
+// of 0 to 255, and what all have in common.
+typedef struct PlaneNoise {
+    double skew, squish, scale;
+    double gradient_x[8], gradient_y[8];
+} PlaneNoise;
+void maths_plane_noise_many(CpuLevel level, const PlaneNoise *noise, const uint8_t *permutation, const double *x,
+                            const double *y, size_t count, double *to);
+
 #endif

@@ -8,6 +8,7 @@
 
 #include "maths/fast_exp.h"
 #include "maths/fast_log.h"
+#include "maths/fast_noise.h"
 #include "maths/fast_random.h"
 #include "maths/fast_turn.h"
 
@@ -108,5 +109,17 @@ static void uniform_many(uint64_t key, uint64_t first, size_t count, double *to)
         store(to + i, count - i, lanes_to_real(raw_lanes(bits_set(key), item)) * real_set(0x1p-64));
 }
 
-const ManyInstance NAMED(maths_many_, INSTANCE) = {exp_many, log_many,       sin_cos_many,
-                                                   pow_many, turns_sin_many, uniform_many};
+static void plane_noise_many(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,
+                             size_t count, double *to) {
+    union {
+        uint64_t bits[256];
+        double numbers[256]; // as they are looked up
+    } wide;
+    for (int i = 0; i < 256; i++)
+        wide.bits[i] = permutation[i];
+    for (size_t i = 0; i < count; i += LANES)
+        store(to + i, count - i, noise_lanes(noise, wide.numbers, load(x + i, count - i), load(y + i, count - i)));
+}
+
+const ManyInstance NAMED(maths_many_, INSTANCE) = {exp_many,       log_many,     sin_cos_many,    pow_many,
+                                                   turns_sin_many, uniform_many, plane_noise_many};

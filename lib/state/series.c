@@ -18,11 +18,18 @@ void series_write_key(const Series *series, uint32_t pair, double *to) {
     to[series->prefix_len] = series_id(series, pair);
 }
 
+static bool begins_with(const double *numbers, const double *prefix, uint32_t len) {
+    uint32_t i = 0; // prefixes are too short for memcmp to pay
+    while (i < len && same_bits(numbers[i], prefix[i]))
+        i++;
+    return i == len;
+}
+
 // Does a key begin as those of the series do and end as those of second slots, if it is as long?
 static bool is_alike(const Series *series, Value key) {
     uint32_t n = series->prefix_len;
     return key.kind == VALUE_NUMBERS && (key.len == n + 1 || key.len == n + 2) &&
-           memcmp(key.as.numbers, series->head, n * sizeof *key.as.numbers) == 0 &&
+           begins_with(key.as.numbers, series->head, n) &&
            (key.len == n + 1 || same_bits(key.as.numbers[n + 1], series->head[n + 1]));
 }
 
@@ -43,8 +50,7 @@ bool series_is_next(const Series *series, Value key) {
 
 bool series_follow(Value position, Value velocity, Value next_position, Value next_velocity) {
     if (velocity.kind != VALUE_NUMBERS || velocity.len < 3 || position.len != velocity.len - 1 ||
-        position.kind != VALUE_NUMBERS ||
-        memcmp(position.as.numbers, velocity.as.numbers, position.len * sizeof(double)) != 0)
+        position.kind != VALUE_NUMBERS || !begins_with(position.as.numbers, velocity.as.numbers, position.len))
         return false;
     Series series = {.count = 2, .prefix_len = velocity.len - 2, .head = velocity.as.numbers};
     if (!series_is_next(&series, next_position))

@@ -84,6 +84,8 @@ Value vm_decorate(Vm *vm, const int32_t *list, const Value *slots, const Instr *
 Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children);
 Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Origin *at);
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr);
+// What the state has for a key of numbers, borrowed, at the place with this number.
+Value vm_get(Vm *vm, uint32_t place, const double *numbers, uint32_t len);
 Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step);
 Value vm_index(Vm *vm, Value vector, Value index);
 Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop);

@@ -236,7 +236,7 @@ static StateSlot *memo_next(Vm *vm, uint32_t place) {
     return &memo->slots[memo->next++];
 }
 
-static Value get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
+Value vm_get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
     StateSlot *guess = memo_next(vm, place), slot = guess ? *guess : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT || !state_slot_has_key(vm->state, slot, value_numbers_view(numbers, len))) {
         slot = state_find(vm->state, value_numbers_view(numbers, len));
@@ -264,11 +264,11 @@ Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *in
         count++;
     }
     if (count == instr->count && vm->state)
-        return copy_of(vm, get(vm, instr->target, few, count));
+        return copy_of(vm, vm_get(vm, instr->target, few, count));
     Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->as.inner);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)
-        return copy_of(vm, get(vm, instr->target, value_numbers(&key), key.len));
+        return copy_of(vm, vm_get(vm, instr->target, value_numbers(&key), key.len));
     return copy_of(vm, state_get(vm->state, key));
 }

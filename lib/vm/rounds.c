@@ -11,6 +11,13 @@ enum {
 // The elements that the rounds bind.
 static void bind_rounds(Block *block, const Instr *start, const Loop *loop) {
     Value values[COLUMN_ROUNDS];
+    if (start->count == 1 && loop->source.kind == VALUE_ABSENT) {
+        double numbers[COLUMN_ROUNDS];
+        for (uint32_t k = 0; k < block->count; k++)
+            numbers[k] = op_span_number(&loop->span, loop->at + k);
+        vm_columns_store_numbers(block, start->d, numbers);
+        return;
+    }
     for (uint32_t i = 0; i < start->count; i++) {
         for (uint32_t k = 0; k < block->count; k++)
             values[k] = vm_loop_element(block->vm, loop, loop->at + k * start->count + i);
@@ -57,10 +64,12 @@ static void jump(Block *block, const Instr *instr) {
 // --- parts
 
 static void note_parts(Block *block, const Instr *instr) {
+    const Column *column = column_of(block, instr->a);
+    const Value same = column ? VALUE_NULL : block->frame->slots[instr->a];
     for (uint32_t k = 0; k < block->active_count; k++) {
         uint32_t round = block->active[k];
-        block->parts[round * block->plan->part_count + block->part_counts[round]++] =
-            column_read(block, instr->a, round);
+        Value *part = &block->parts[round * block->plan->part_count + block->part_counts[round]++];
+        *part = column ? column_value(column, round) : same;
     }
 }
 

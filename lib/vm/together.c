@@ -127,6 +127,43 @@ static bool run_slice(Block *block, const Instr *instr) {
     return true;
 }
 
+// The values under keys of numbers, copied into one array, as vm_lookup copies each.
+static bool run_lookups(Block *block, const Instr *instr) {
+    enum { MOST = 4 };
+    Vm *vm = block->vm;
+    const int32_t *list = block->code->operands + instr->list;
+    double room[MOST][COLUMN_ROUNDS], key[MOST];
+    const double *parts[MOST];
+    Value values[COLUMN_ROUNDS];
+    size_t numbers = 0;
+    for (uint32_t i = 0; i < instr->count; i++)
+        if (instr->count > MOST || !vm->state || !(parts[i] = vm_column_numbers(block, list[i], room[i])))
+            return false;
+    vm->at = instr->at;
+    vm->met_dynamic = true;
+    for (uint32_t k = 0; k < block->active_count; k++) {
+        for (uint32_t i = 0; i < instr->count; i++)
+            key[i] = parts[i][k];
+        values[k] = vm_get(vm, instr->target, key, instr->count);
+        numbers += values[k].kind == VALUE_NUMBERS && values[k].len > 1 ? values[k].len : 0;
+    }
+    arena_charge(vm->arena, numbers / METER_NUMBERS);
+    double *copy = arena_alloc(vm->arena, numbers * sizeof *copy);
+    for (uint32_t k = 0; k < block->active_count; k++) {
+        Value *value = &values[k];
+        if (value->kind != VALUE_NUMBERS)
+            *value = value_copy(vm->arena, *value);
+        if (value->kind != VALUE_NUMBERS || value->len < 2)
+            continue;
+        for (uint32_t i = 0; i < value->len; i++)
+            copy[i] = value->as.numbers[i];
+        value->as.numbers = copy;
+        copy += value->len;
+    }
+    vm_columns_store(block, instr->d, values);
+    return true;
+}
+
 // --- nodes
 
 // The attributes that nodes have in common, and the columns of the others; false if some nodes lack one, or if one
@@ -188,6 +225,8 @@ bool vm_columns_make(Block *block, const Instr *instr) {
         return run_each(block, instr) || run_noise(block, instr) || run_calls(block, instr);
     case OP_COMPOSE:
         return run_compose(block, instr);
+    case OP_LOOKUP:
+        return run_lookups(block, instr);
     case OP_SLICE:
         return run_slice(block, instr);
     case OP_NODE:

@@ -8,7 +8,7 @@
 
 #include "petri-draw.h"
 
-enum { MOST_DRAWN = 600 * 600, TOLD = 20000 };
+enum { MOST_DRAWN = 1920 * 1080, TOLD = 20000 };
 
 typedef struct Drawn {
     PetriSession *session;

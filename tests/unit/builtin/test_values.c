@@ -1,6 +1,8 @@
 // test_values.c: values of every built-in (spec builtins.md), mostly its own examples.
 #include "expression.h"
 
+#include "base/cpu.h"
+
 // B1
 static void test_maths(void **state) {
     static const char *const lines[] = {
@@ -461,6 +463,74 @@ static void test_noise_cache(void **state) {
     }
 }
 
+// Many points of the plane at once give the bits of each alone, with any vector instructions.
+static void test_noise_points(void **state) {
+    World *world = *state;
+    enum { COUNT = 4003 };
+    double *x = malloc(3 * COUNT * sizeof *x), *y = x + COUNT, *found = y + COUNT;
+    const CpuLevel here = cpu_here.level;
+    for (int level = 0; level <= (int)here; level++) {
+        uint64_t bits = 7;
+        for (int i = 0; i < COUNT; i++) {
+            double *point[2] = {&x[i], &y[i]};
+            for (int k = 0; k < 2; k++) {
+                bits = bits * UINT64_C(6364136223846793005) + 1442695040888963407;
+                *point[k] = ldexp((double)(int64_t)bits * 0x1p-60, i % 7 == 0 ? i % 60 : i % 3);
+            }
+        }
+        const double special[] = {0, -0.0, 1, -1, 0.5, NAN, INFINITY, 1e300, -1e15, 0x1p45, 0x1p44, 5e-324};
+        for (int i = 0; i < 144; i++) {
+            x[i] = special[i / 12];
+            y[i] = special[i % 12];
+        }
+        cpu_here.level = (CpuLevel)level;
+        for (uint32_t count = 1; count <= COUNT; count = count * 3 + 8) {
+            builtin_noise_points(&world->context, value_number(3), x, y, count, found);
+            for (uint32_t i = 0; i < count; i++) {
+                const Value args[3] = {value_number(3), value_number(x[i]), value_number(y[i])};
+                Value one = builtin_call(&world->context, builtin_find(STR("noise")), args, 3, NULL, NULL, 0);
+                if (number_bits(one.as.number) != number_bits(found[i]))
+                    fail_msg("level %d: noise at %a, %a: %a, not %a", level, x[i], y[i], found[i], one.as.number);
+            }
+        }
+    }
+    cpu_here.level = here;
+    free(x);
+}
+
+// The result for vectors is the vector of the results for their elements.
+static void test_each(void **state) {
+    World *world = *state;
+    enum { COUNT = 40 };
+    double columns[3][COUNT];
+    for (int i = 0; i < COUNT; i++)
+        for (int k = 0; k < 3; k++)
+            columns[k][i] = (i - 7) * 0.37 * (k + 1) + (i % (k + 2)) * 1e3;
+    uint32_t tried = 0;
+    for (uint32_t b = 0; b < builtin_table_count; b++) {
+        const Builtin *builtin = &builtin_table[b];
+        uint32_t count = builtin->fixed > builtin->each ? builtin->fixed : builtin->each;
+        if (builtin->each == 0 || builtin->each == BUILTIN_EACH_POINT)
+            continue;
+        const Value all[3] = {value_numbers_view(columns[0], COUNT),
+                              builtin->call == builtin_find(STR("round"))->call ? value_number(2)
+                                                                                : value_numbers_view(columns[1], COUNT),
+                              value_numbers_view(columns[2], COUNT)};
+        Value many = builtin->call(&world->context, all, count);
+        assert_int_equal(many.len, COUNT);
+        for (uint32_t i = 0; i < COUNT; i++) {
+            Value args[3];
+            for (uint32_t k = 0; k < count; k++)
+                args[k] = all[k].len == 1 ? all[k] : value_number(columns[k][i]);
+            Value one = builtin->call(&world->context, args, count);
+            if (one.len != 1 || !same_value(one, value_number(many.as.numbers[i])))
+                fail_msg("%s of element %u", builtin->name, i);
+        }
+        tried++;
+    }
+    assert_true(tried > 25);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test_setup_teardown(test_maths, world_setup, world_teardown),
@@ -480,6 +550,8 @@ int main(void) {
         cmocka_unit_test_setup_teardown(test_too_long, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_messages, world_setup, world_teardown),
         cmocka_unit_test_setup_teardown(test_noise_cache, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_noise_points, world_setup, world_teardown),
+        cmocka_unit_test_setup_teardown(test_each, world_setup, world_teardown),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

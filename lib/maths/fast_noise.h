@@ -1,0 +1,76 @@
+// fast_noise.h: noise of the plane in lanes (many.h); the operations and their order are those of one point
+// (lib/builtin/noise_point.c), with choices instead of branches.
+#ifndef PETRI_MATHS_FAST_NOISE_H
+#define PETRI_MATHS_FAST_NOISE_H
+
+#include "maths/lanes.h"
+#include "maths/many.h"
+
+// Where a comparison holds: all bits.
+#if LANES == 1
+#define LANES_MASK(claim) (-(Bits)(claim))
+#else
+#define LANES_MASK(claim) ((Bits)(claim))
+#endif
+
+KERNEL Bits bits_choose(Bits mask, Bits yes, Bits no) {
+    return (yes & mask) | (no & ~mask);
+}
+
+KERNEL Real real_choose(Bits mask, double yes, double no) {
+    return real_of(bits_choose(mask, bits_of(real_set(yes)), bits_of(real_set(no))));
+}
+
+// floor(x), |x| < 2^50, also in two's complement.
+KERNEL Real real_floor(Real x, Bits *whole) {
+    Real near = real_steps(x, 1, whole);
+    Bits above = LANES_MASK(near > x);
+    *whole += above;
+    return near - real_of(above & bits_of(real_set(1)));
+}
+
+typedef struct NoiseLanes {
+    const PlaneNoise *noise;
+    const double *permutation; // the bits of its numbers
+    Real x, y;                 // from the base point
+    Bits base_x, base_y;
+} NoiseLanes;
+
+// The value with what the vertex (a, b) adds, given as numbers and in two's complement.
+KERNEL Real noise_vertex(const NoiseLanes *p, Real value, Real a, Real b, Bits whole_a, Bits whole_b, Real squish) {
+    const Bits byte = bits_set(255);
+    Real dx = (p->x - a) - squish, dy = (p->y - b) - squish, reach = (real_set(2) - dx * dx) - dy * dy;
+    Bits at = bits_of(real_look_up(p->permutation, (p->base_x + whole_a) & byte));
+    at = bits_of(real_look_up(p->permutation, (at + p->base_y + whole_b) & byte)) & bits_set(7);
+    Real slope = real_look_up(p->noise->gradient_x, at) * dx + real_look_up(p->noise->gradient_y, at) * dy;
+    Real squared = reach * reach, sum = value + (squared * squared) * slope;
+    return real_of(bits_choose(LANES_MASK(reach > real_set(0)), bits_of(sum), bits_of(value)));
+}
+
+KERNEL Real noise_lanes(const PlaneNoise *noise, const double *permutation, Real x, Real y) {
+    const Bits zero = bits_set(0), one = bits_set(1);
+    const double squish = noise->squish;
+    NoiseLanes p = {.noise = noise, .permutation = permutation};
+    Real skew = (x + y) * real_set(noise->skew), skewed_x = x + skew, skewed_y = y + skew;
+    Real whole_x = real_floor(skewed_x, &p.base_x), whole_y = real_floor(skewed_y, &p.base_y);
+    Real fx = skewed_x - whole_x, fy = skewed_y - whole_y, sum = fx + fy, q = (whole_x + whole_y) * real_set(squish);
+    p.x = x - (whole_x + q);
+    p.y = y - (whole_y + q);
+    Real value = noise_vertex(&p, real_set(0), real_set(1), real_set(0), one, zero, real_set(squish));
+    value = noise_vertex(&p, value, real_set(0), real_set(1), zero, one, real_set(squish));
+    // The corner of the cell that is nearer
+    Bits far = LANES_MASK(sum > real_set(1)), right = LANES_MASK(fx > fy);
+    Real corner = real_choose(far, 1, 0), u = real_choose(far, 2, 1) - sum, side = real_choose(right, 1, -1);
+    value = noise_vertex(&p, value, corner, corner, far & one, far & one, real_choose(far, 2 * squish, 0));
+    // … and the vertex beyond it or beside it, or the other corner
+    Bits beyond = bits_choose(far, LANES_MASK(u < fx) | LANES_MASK(u < fy), LANES_MASK(u > fx) | LANES_MASK(u > fy));
+    Bits other = ~far & one, step = (right & bits_set(2)) - one;
+    Real rest = real_set(1) - corner;
+    Real a = real_of(bits_choose(beyond, bits_of(corner + side), bits_of(rest)));
+    Real b = real_of(bits_choose(beyond, bits_of(corner - side), bits_of(rest)));
+    value = noise_vertex(&p, value, a, b, bits_choose(beyond, (far & one) + step, other),
+                         bits_choose(beyond, (far & one) - step, other), real_choose(~(beyond ^ far), 2 * squish, 0));
+    return value / real_set(noise->scale);
+}
+
+#endif
