@@ -1,6 +1,6 @@
 // engine.mjs: the worker as the page sees it: questions and answers, and what to do when it does not come back.
 
-const PATIENCE = 1000; // ms: frames that hear nothing for so long are ended with the engine
+const PATIENCE = 3000; // ms: frames that hear nothing for so long are ended with the engine
 
 // Workers must come from where the page comes from; a page elsewhere has one that imports the other.
 function makeWorker(url) {
