@@ -97,15 +97,6 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
     },
 }));
 
-test('a frame that nobody stops is given up by itself', options, () => opened('', {
-    use: async page => {
-        await typed(page, `func f(n)\n    f(n-1)+f(n-1) if n>0 else frame\n!a x=f(60)\n${SQUARE}`);
-        await page.click('#run');
-        await page.waitForFunction(() => /work-limit|too much work|too long|work/.test(document.getElementById('problems').textContent));
-        assert.equal(await page.textContent('#run'), 'Run');
-    },
-}));
-
 test('a browser without SIMD shows the script and says why it does not run', options, () => visited(world.server.url, {
     prepare: async page => {
         await page.addInitScript(() => (WebAssembly.validate = () => false));
