@@ -66,9 +66,9 @@ static void ask_host(void *context) {
     Arena *arena = &hosted->painter->arena;
     const PetriCanvasHost *host = &hosted->painter->host;
     size_t count;
-    const double *numbers = hosted->canvas
-                                ? draw_canvas_numbers(arena, hosted->canvas, hosted->width, hosted->height, &count)
-                                : draw_picture_numbers(arena, hosted->picture, &count);
+    const double *numbers =
+        hosted->canvas ? draw_canvas_numbers(hosted->painter, hosted->canvas, hosted->width, hosted->height, &count)
+                       : draw_picture_numbers(arena, hosted->picture, &count);
     hosted->done = host->draw(host->host, numbers, count, hosted->width, hosted->height, hosted->pixels);
     if (!hosted->done)
         draw_report(hosted->faults, NULL, DIAG_ERROR, "cannot-draw", "the picture cannot be drawn");

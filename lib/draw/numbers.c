@@ -6,8 +6,11 @@
 
 #include <math.h>
 
+static const char other_node[] = "the picture of another node";
+
 typedef struct Numbers {
     const CanvasPicture *picture; // or NULL, of a canvas
+    PetriPainter *painter;        // that has the pictures of other nodes; or NULL
     Arena *arena;
     LIST_ARRAY(double) out;
     const List *list;
@@ -54,16 +57,56 @@ static void add_path(Numbers *numbers, const ListPath *path) {
     numbers->out.at[count_at] = numbers->out.count - count_at - 1;
 }
 
+// The picture of another node; false if that is not there.
+static bool add_pixels(Numbers *numbers, Str id) {
+    PetriPainter *painter = numbers->painter;
+    Texture *texture = painter ? pictures_find(painter->pictures, id) : NULL;
+    if (!texture || !texture_fetch(painter->gl, texture))
+        return false;
+    uint32_t *row = arena_alloc_array(numbers->arena, (size_t)texture->width, sizeof *row);
+    ADD(texture->width, texture->height);
+    for (int y = 0; y < texture->height; y++) {
+        if (numbers->list->linear)
+            texture_linear_row(texture, y, row);
+        else
+            texture_row(texture, y, false, row);
+        double *to = LIST_ADD(numbers->arena, numbers->out, (uint32_t)texture->width);
+        for (int x = 0; x < texture->width; x++)
+            to[x] = row[x];
+    }
+    return true;
+}
+
+static void add_pattern(Numbers *numbers, const ListSource *source, double alpha) {
+    const ListImage *image = &numbers->list->images.at[source->image];
+    uint32_t start = numbers->out.count;
+    ADD(PETRI_DRAW_PATTERN);
+    add_matrix(numbers, &source->matrix);
+    ADD(alpha);
+    if (image->file.len > 0) {
+        ADD(0, 0);
+        add_text(numbers, image->file);
+    } else if (!add_pixels(numbers, image->id)) {
+        numbers->out.count = start;
+        ADD(PETRI_DRAW_COLOR, 0, 0, 0, 0);
+        if (!numbers->painter)
+            add_undrawn(numbers, other_node);
+    }
+}
+
 // A gradient, or what stands in for other sources.
 static void add_source(Numbers *numbers, const ListPaint *paint) {
-    static const char *const others[] = {
-        [SOURCE_PATTERN] = "!pattern", [SOURCE_BLEND] = "!blend", [SOURCE_NOISE] = "!noise"};
+    static const char *const undrawn[] = {[SOURCE_BLEND] = "!blend", [SOURCE_NOISE] = "!noise"};
     const ListSource *source = paint->source == LIST_NONE ? NULL : &numbers->list->sources.at[paint->source];
+    if (source && source->kind == SOURCE_PATTERN) {
+        add_pattern(numbers, source, fmin(fmax(paint->color[3], 0), 1));
+        return;
+    }
     if (!source || source->kind == SOURCE_COLOR || source->kind >= SOURCE_PATTERN) {
         const double *c = source && source->kind == SOURCE_COLOR ? source->color : paint->color;
         ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
         if (source && source->kind >= SOURCE_PATTERN)
-            add_undrawn(numbers, others[source->kind]);
+            add_undrawn(numbers, undrawn[source->kind]);
         return;
     }
     if (source->kind == SOURCE_LINEAR) {
@@ -101,12 +144,16 @@ static void add_letters(Numbers *numbers, const ListCommand *command) {
 }
 
 static void add_image(Numbers *numbers, const ListImage *image) {
-    if (!image->file.len) {
-        add_undrawn(numbers, "the picture of another node");
-        return;
+    uint32_t start = numbers->out.count;
+    ADD(image->file.len > 0 ? PETRI_DRAW_IMAGE : PETRI_DRAW_PIXELS, image->point[0], image->point[1], image->size[0],
+        image->size[1], image->fit);
+    if (image->file.len > 0) {
+        add_text(numbers, image->file);
+    } else if (!add_pixels(numbers, image->id)) {
+        numbers->out.count = start;
+        if (!numbers->painter)
+            add_undrawn(numbers, other_node);
     }
-    ADD(PETRI_DRAW_IMAGE, image->point[0], image->point[1], image->size[0], image->size[1], image->fit);
-    add_text(numbers, image->file);
 }
 
 static void add_command(Numbers *numbers, const ListCommand *command) {
@@ -214,8 +261,9 @@ static void make(void *context) {
         add_canvas(numbers, canvas);
 }
 
-const double *draw_canvas_numbers(Arena *arena, const DrawNode *canvas, double width, double height, size_t *count) {
-    Numbers made = {.arena = arena, .matrix = LIST_NONE, .paint = LIST_NONE};
+const double *draw_canvas_numbers(PetriPainter *painter, const DrawNode *canvas, double width, double height,
+                                  size_t *count) {
+    Numbers made = {.painter = painter, .arena = &painter->arena, .matrix = LIST_NONE, .paint = LIST_NONE};
     Numbers *numbers = &made;
     ADD(width, height);
     add_canvas(numbers, canvas);

@@ -50,7 +50,8 @@ Texture *draw_sized_image(PetriPainter *painter, const DrawNode *node, const uin
                           size_t stride, bool alpha, DiagSink *faults);
 
 // numbers.c: what petri_picture_numbers writes, of a canvas or of all that is drawn without programs.
-const double *draw_canvas_numbers(Arena *arena, const DrawNode *canvas, double width, double height, size_t *count);
+const double *draw_canvas_numbers(PetriPainter *painter, const DrawNode *canvas, double width, double height,
+                                  size_t *count);
 const double *draw_picture_numbers(Arena *arena, const CanvasPicture *picture, size_t *count);
 
 // paint.c, or none.c

@@ -156,6 +156,10 @@ enum {
     PETRI_DRAW_SYSTEMS,   // the automatic picture: count, and for each system dimensions, charged, middle x, y, z and
                           // half the width of what is shown; count of particles, for each x, y, z, radius, shade,
                           // anchor; count of links, for each two particles; count of barriers, for each point, normal
+    PETRI_DRAW_PIXELS,    // a picture of another node, for a PetriCanvasHost: x, y, width, height, fit, and the
+                          // picture: its width and height, and each pixel, as petri_picture_draw has them
+    PETRI_DRAW_PATTERN,   // paints come from here on from a picture that is repeated, on which a matrix acts: the
+                          // matrix, alpha, the picture likewise, or 0, 0 and a file
 };
 enum { // move x, y; line x, y; curves with one and two control points; arcs that begin a figure or go on with it: x, y,
        // radii, start, sweep clockwise; an arc to a point: radii, rotation, large, clockwise, x, y; close

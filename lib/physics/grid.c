@@ -18,6 +18,7 @@ typedef struct Survey {
     size_t samples;
     double large;  // radius above which a particle is large
     double widest; // radius of the largest regular one
+    double narrowest;
     uint32_t regular, large_count;
 } Survey;
 
@@ -68,6 +69,7 @@ static void survey_all(const PairPass *pass, Neighbours *list, Survey *survey) {
         survey->high[k] = -INFINITY;
     }
     survey->widest = 0;
+    survey->narrowest = INFINITY;
     survey->regular = survey->large_count = 0;
     for (uint32_t r = 0; r < list->ranges.count; r++)
         for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++) {
@@ -84,6 +86,7 @@ static void survey_all(const PairPass *pass, Neighbours *list, Survey *survey) {
             list->cell[rank] = 0;
             survey->regular++;
             survey->widest = fmax(survey->widest, pass->radius[column]);
+            survey->narrowest = fmin(survey->narrowest, pass->radius[column]);
             for (size_t k = 0; k < pass->dimensions; k++) {
                 double x = pass->position[k * pass->stride + column];
                 survey->low[k] = x < survey->low[k] ? x : survey->low[k];
@@ -163,14 +166,14 @@ static void sort_by_cell(const PairPass *pass, Neighbours *list, const Survey *s
 static bool reserve_arrays(PhysSystem *system, const PairPass *pass, Neighbours *list) {
     uint64_t total = (list->total + PHYS_MOST_LANES - 1) / PHYS_MOST_LANES * PHYS_MOST_LANES + PHYS_MOST_LANES,
              n = pass->dimensions;
-    enum { QUAD = 4, SOURCES = 2, WORDS = 4 };
-    uint64_t doubles = (n + 1 + QUAD + (list->touch_only ? 0 : SOURCES)) * total;
+    enum { SOURCES = 2, WORDS = 4 };
+    uint64_t doubles = (n + 1 + PHYS_QUAD + (list->touch_only ? 0 : SOURCES)) * total;
     if (!phys_buffer_reserve(system, &list->arrays, 0, doubles + total * (WORDS + 2) / 2, sizeof(double)))
         return false;
     double *next = list->arrays.bytes;
     ListView *view = &list->view;
     view->quads = next;
-    next += QUAD * total;
+    next += PHYS_QUAD * total;
     for (size_t k = 0; k < n; k++, next += total)
         view->built[k] = next;
     view->radius = next;
@@ -193,8 +196,9 @@ static void fill_up(const PairPass *pass, Neighbours *list, uint32_t dummy) {
             list->view.built[k][place] = 0;
         list->view.radius[place] = 0;
     }
-    for (int m = 0; m < 4; m++)
-        list->view.quads[4 * (size_t)dummy + (size_t)m] = m < (int)pass->dimensions ? NAN : 0;
+    ListView *view = &list->view;
+    for (size_t m = 0; m < view->width; m++)
+        view->quads[view->width * (size_t)dummy + m] = m < pass->dimensions ? NAN : 0;
     if (list->view.sources)
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
@@ -233,7 +237,8 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     list->total = (uint32_t)phys_ranges_total(&list->ranges);
     list->order = system->settled ? system->order : NULL;
     list->view.direct = false;
-    if (!reserve_arrays(system, pass, list) || !lay(pass, list, INFINITY, &survey, &grid))
+    if (list->total > UINT32_MAX / PHYS_QUAD - 2 * PHYS_MOST_LANES || !reserve_arrays(system, pass, list) ||
+        !lay(pass, list, INFINITY, &survey, &grid))
         return false;
     list->view.moved = phys_skin_square(list->skin);
     uint64_t cells = (uint64_t)grid.cells[0] * grid.cells[1] * grid.cells[2];
@@ -242,6 +247,9 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     grid.start = list->cells.bytes;
     list->view.regular = survey.regular;
     list->view.listed = survey.regular + survey.large_count;
+    bool one_size = survey.widest == survey.narrowest && !survey.large_count && list->touch_only;
+    list->view.one_radius = one_size ? survey.widest : 0;
+    list->view.width = one_size && pass->dimensions == 2 ? PHYS_PAIR : PHYS_QUAD;
     sort_by_cell(pass, list, &survey, &grid);
     uint32_t dummy = (list->total + PHYS_MOST_LANES - 1) / PHYS_MOST_LANES * PHYS_MOST_LANES;
     fill_up(pass, list, dummy);

@@ -7,18 +7,29 @@ KERNEL size_t radius_part(size_t dimensions) {
     return dimensions < 3 ? 2 : 3;
 }
 
-KERNEL PairEnd quad_end(const PairPass *pass, PairShape shape, const ListView *view, const uint32_t *places) {
+// Without a radius for each, the places of two dimensions take pairs.
+KERNEL bool pairs_do(size_t dimensions, bool one_size) {
+    return dimensions == 2 && one_size;
+}
+
+KERNEL PairEnd quad_end(PairShape shape, const ListView *view, const uint32_t *places) {
     Real parts[4];
-    real_load_quads(view->quads, places, parts);
-    PairEnd end = {.mass = real_zero(), .charge = real_zero()};
+    const double *rows[LANES];
+    for (int lane = 0; lane < LANES; lane++)
+        rows[lane] = view->quads + places[lane];
+    PairEnd end = {.radius = real_set(view->one_radius), .mass = real_zero(), .charge = real_zero()};
+    if (pairs_do(shape.dimensions, shape.one_size))
+        real_load_pairs(rows, parts);
+    else
+        real_load_rows(rows, parts);
     for (size_t k = 0; k < shape.dimensions; k++)
         end.place[k] = parts[k];
-    end.radius = parts[radius_part(shape.dimensions)];
-    (void)pass;
+    if (!shape.one_size)
+        end.radius = parts[radius_part(shape.dimensions)];
     if (shape.rest == REST_ANY) {
         uint32_t index[LANES];
         for (int lane = 0; lane < LANES; lane++)
-            index[lane] = places[lane] * 2;
+            index[lane] = places[lane] / PHYS_QUAD * 2;
         end.mass = real_gather(view->sources, index);
         end.charge = real_gather(view->sources + 1, index);
     }
@@ -38,15 +49,20 @@ KERNEL void block_forces(const PairPass *pass, PairShape shape, const ListView *
     Mask live = mask_first(left);
     uint32_t self[LANES];
     for (uint32_t lane = 0; lane < LANES; lane++)
-        self[lane] = (uint32_t)(block * LANES) + lane;
-    PairEnd target = quad_end(pass, shape, view, self);
+        self[lane] =
+            ((uint32_t)(block * LANES) + lane) * (pairs_do(shape.dimensions, shape.one_size) ? PHYS_PAIR : PHYS_QUAD);
+    PairEnd target = quad_end(shape, view, self);
     Real sum[PHYS_VECTOR_DIMENSIONS];
     for (size_t m = 0; m < shape.dimensions; m++)
         sum[m] = load_at(pass->force + m * pass->stride, view, block * LANES);
     for (size_t k = 0; k < most; k++) {
-        PairEnd partner = quad_end(pass, shape, view, entries + k * LANES);
+        PairEnd partner = quad_end(shape, view, entries + k * LANES);
         PairGeometry pair;
-        if (pair_geometry(shape, &target, &partner, live, &pair))
+        if (!pair_geometry(shape, &target, &partner, live, &pair))
+            continue;
+        if (shape.rest == REST_SPRING)
+            add_spring(pass, shape, &pair, sum);
+        else
             add_rest(pass, shape, &pair, &target, &partner, sum, NULL, 0);
     }
     for (size_t m = 0; m < shape.dimensions; m++) {
@@ -70,14 +86,30 @@ static bool all_plain(const PairPass *pass) {
     return plain;
 }
 
+static bool is_spring(const PairPass *pass, const ListView *view) {
+    const PairTerm *term = pass->terms;
+    return pass->term_count == 1 && term->kind == PHYS_COLLISION && term->power == 1 && !(term->bound < INFINITY) &&
+           view->same_radii;
+}
+
+#define LIST_SHAPES(n, one_size)                                                                                       \
+    do {                                                                                                               \
+        if (is_spring(pass, view))                                                                                     \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_SPRING, one_size}, view, first, end);                          \
+        else if (all_plain(pass))                                                                                      \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_PLAIN, one_size}, view, first, end);                           \
+        else                                                                                                           \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_TOUCH, one_size}, view, first, end);                           \
+    } while (0)
+
 #define LIST_KERNEL(n)                                                                                                 \
     static void forces_##n(const PairPass *pass, const ListView *view, size_t first, size_t end) {                     \
         if (view->sources)                                                                                             \
-            blocks(pass, (PairShape){n, LEAD_NONE, REST_ANY}, view, first, end);                                       \
-        else if (all_plain(pass))                                                                                      \
-            blocks(pass, (PairShape){n, LEAD_NONE, REST_PLAIN}, view, first, end);                                     \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_ANY, false}, view, first, end);                                \
+        else if (view->one_radius > 0)                                                                                 \
+            LIST_SHAPES(n, true);                                                                                      \
         else                                                                                                           \
-            blocks(pass, (PairShape){n, LEAD_NONE, REST_TOUCH}, view, first, end);                                     \
+            LIST_SHAPES(n, false);                                                                                     \
     }
 LIST_KERNEL(1)
 LIST_KERNEL(2)
@@ -93,7 +125,7 @@ void PER_ISA(list_forces)(const PairPass *pass, const ListView *view, size_t fir
 }
 
 KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimensions, size_t first, size_t end) {
-    bool hold = true;
+    bool one_size = view->one_radius > 0, hold = !one_size || view->same_radii;
     for (size_t s = first; s < end; s += LANES) {
         Mask live = mask_first(end - s);
         Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
@@ -106,7 +138,10 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
         if (!view->same_radii)
             radius = load_at(pass->radius, view, s);
         parts[radius_part(dimensions)] = radius;
-        real_store_quads(view->quads + 4 * s, parts);
+        if (pairs_do(dimensions, one_size))
+            real_store_pairs(view->quads + PHYS_PAIR * s, parts);
+        else
+            real_store_quads(view->quads + PHYS_QUAD * s, parts);
         // Written so that a NaN counts as a move.
         Mask still = real_at_most_where(live, square, real_set(view->moved));
         still = real_at_most_where(still, radius, built);
@@ -156,9 +191,9 @@ KERNEL void crowd(const PairPass *pass, PairShape shape, const uint32_t *targets
 
 void PER_ISA(list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end) {
     if (pass->dimensions == 1)
-        crowd(pass, (PairShape){1, LEAD_NONE, REST_ANY}, targets, count, first, end);
+        crowd(pass, (PairShape){1, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
     else if (pass->dimensions == 2)
-        crowd(pass, (PairShape){2, LEAD_NONE, REST_ANY}, targets, count, first, end);
+        crowd(pass, (PairShape){2, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
     else
-        crowd(pass, (PairShape){3, LEAD_NONE, REST_ANY}, targets, count, first, end);
+        crowd(pass, (PairShape){3, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
 }

@@ -23,7 +23,7 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
     if (!pair_geometry(shape, target, &partner, live, &pair))
         return;
     if (shape.lead != LEAD_NONE) {
-        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false};
+        Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false, false};
         Mask applies = mask_and(pair.valid, rows->lead);
         if (!whole)
             applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
@@ -139,11 +139,11 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
 // The kernels themselves. dimensions, lead and rest are constants in each.
 #define PAIR_KERNEL(n, name, lead, rest)                                                                               \
     static void triangle_##n##name##rest(const PairPass *pass, size_t first, size_t end) {                             \
-        tile_rows(pass, (PairShape){n, lead, rest}, first, end, 0, end, true);                                         \
+        tile_rows(pass, (PairShape){n, lead, rest, false}, first, end, 0, end, true);                                  \
     }                                                                                                                  \
     static void tiles_##n##name##rest(const PairPass *pass, size_t row, size_t row_end, size_t column,                 \
                                       size_t column_end) {                                                             \
-        tile_rows(pass, (PairShape){n, lead, rest}, row, row_end, column, column_end, false);                          \
+        tile_rows(pass, (PairShape){n, lead, rest, false}, row, row_end, column, column_end, false);                   \
     }
 #define PAIR_ENTRY(n, name, lead, rest) [n - 1][lead][rest] = {triangle_##n##name##rest, tiles_##n##name##rest},
 

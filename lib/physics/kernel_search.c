@@ -122,10 +122,10 @@ KERNEL bool search_block(const ListSearch *search, ListPart *part, Finder *finde
         }
         for (; most < count; most++)
             for (uint32_t l = 0; l < LANES; l++)
-                entries[most * LANES + l] = search->dummy;
+                entries[most * LANES + l] = search->dummy * view->width;
         rank_keys(finder, count);
         for (size_t k = 0; k < count; k++)
-            entries[(size_t)((const int32_t *)finder->ranks)[k] * LANES + lane] = finder->near[k];
+            entries[(size_t)((const int32_t *)finder->ranks)[k] * LANES + lane] = finder->near[k] * view->width;
     }
     view->at[block] = part->used;
     view->most[block] = most;

@@ -21,6 +21,8 @@
 enum {
     PHYS_VECTOR_DIMENSIONS = 3, // most dimensions that kernels exist for
     PHYS_MOST_TERMS = 8,        // most pair forces of a pass that they take
+    PHYS_QUAD = 4,
+    PHYS_PAIR = 2,
 };
 
 // One force of a pass, with the sign turned so that a positive coefficient attracts.
@@ -69,10 +71,12 @@ typedef struct ListView {
     double *built[PHYS_VECTOR_DIMENSIONS]; // positions for which the lists were made
     double *radius;                        // and radii
     bool same_radii;                       // which are those of now
-    double *quads;     // position and radius now, four doubles for each place; the place after the last is a dummy
+    double one_radius; // of all places that are listed, if they have the same and no sources; else 0
+    double *quads;     // position and radius now, `width` doubles for each place; the place after the last is a dummy
+    uint32_t width;    // PHYS_QUAD, or PHYS_PAIR where two dimensions without the radius do
     double *sources;   // mass and charge, two doubles for each place, if a force needs them
     double moved;      // the lists hold while no particle is farther than this, squared, from where it was built
-    uint32_t *entries; // partners of LANES regular places side by side: [k][lane], places in order, then dummies
+    uint32_t *entries; // partners of LANES regular places side by side, then dummies: [k][lane], places times `width`
     uint64_t *at;      // by block of LANES places: where its entries begin
     uint32_t *most;    // and the longest of its lists
 } ListView;

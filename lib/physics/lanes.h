@@ -252,12 +252,49 @@ KERNEL void real_scatter_where(Mask mask, double *to, const uint32_t *index, Rea
 #endif
 }
 
-// Element m of quad `index[lane]` to lane of parts[m]. Quads are four doubles each, side by side.
-KERNEL void real_load_quads(const double *quads, const uint32_t *index, Real *parts) {
-    const double *rows[LANES];
+// The columns of rows of two, one row per lane.
+KERNEL void real_load_pairs(const double *const *rows, Real *columns) {
+#if LANES == 2
+    for (int m = 0; m < 2; m++)
+        columns[m] = (Real){rows[0][m], rows[1][m]};
+#else
+    Real half[2];
+    for (int odd = 0; odd < 2; odd++) {
+        const double *const *row = rows + odd;
+        Quad low = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(row[0])), _mm_loadu_pd(row[2]), 1);
+#if LANES == 8
+        Quad high = _mm256_insertf128_pd(_mm256_castpd128_pd256(_mm_loadu_pd(row[4])), _mm_loadu_pd(row[6]), 1);
+        half[odd] = _mm512_insertf64x4(_mm512_castpd256_pd512(low), high, 1);
+#else
+        half[odd] = low;
+#endif
+    }
+#if LANES == 8
+    columns[0] = _mm512_unpacklo_pd(half[0], half[1]);
+    columns[1] = _mm512_unpackhi_pd(half[0], half[1]);
+#else
+    columns[0] = _mm256_unpacklo_pd(half[0], half[1]);
+    columns[1] = _mm256_unpackhi_pd(half[0], half[1]);
+#endif
+#endif
+}
+
+// LANES pairs, side by side, from their parts.
+KERNEL void real_store_pairs(double *pairs, const Real *parts) {
+#if LANES == 2
     for (int lane = 0; lane < LANES; lane++)
-        rows[lane] = quads + 4 * (size_t)index[lane];
-    real_load_rows(rows, parts);
+        for (int m = 0; m < 2; m++)
+            pairs[2 * lane + m] = parts[m][lane];
+#elif LANES == 4
+    Quad even = _mm256_unpacklo_pd(parts[0], parts[1]), odd = _mm256_unpackhi_pd(parts[0], parts[1]);
+    real_store(pairs, _mm256_permute2f128_pd(even, odd, 0x20));
+    real_store(pairs + 4, _mm256_permute2f128_pd(even, odd, 0x31));
+#else
+    Real even = _mm512_unpacklo_pd(parts[0], parts[1]), odd = _mm512_unpackhi_pd(parts[0], parts[1]);
+    __m512i low = _mm512_set_epi64(11, 10, 3, 2, 9, 8, 1, 0), high = _mm512_set_epi64(15, 14, 7, 6, 13, 12, 5, 4);
+    real_store(pairs, _mm512_permutex2var_pd(even, low, odd));
+    real_store(pairs + 8, _mm512_permutex2var_pd(even, high, odd));
+#endif
 }
 
 // Element lane of parts[m] to element m of row `lane`: real_load_rows the other way round.

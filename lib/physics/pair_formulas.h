@@ -34,8 +34,9 @@ typedef struct Pairs {
     const PairGeometry *geometry;
     const PairEnd *target;
     const PairEnd *partner;
-    Mask touch; // lanes with l < r₁+r₂ where neither radius is 0
-    bool plain; // no exponent of the pass needs a function (power.h)
+    Mask touch;  // lanes with l < r₁+r₂ where neither radius is 0
+    bool plain;  // no exponent of the pass needs a function (power.h)
+    bool linear; // all are 1
 } Pairs;
 
 // S · (a · b) / (D · D),  D = max(r₁+r₂, l)
@@ -57,7 +58,7 @@ KERNEL Real pair_electrostatic(const Pairs *pairs) {
 // K = (r₁+r₂ − l)^power · S
 KERNEL Real pair_collision(const Pairs *pairs) {
     Real depth = pairs->geometry->reach - pairs->geometry->length;
-    Real power = real_power(pairs->plain, pairs->touch, depth, pairs->term->power);
+    Real power = pairs->linear ? depth : real_power(pairs->plain, pairs->touch, depth, pairs->term->power);
     return power * real_set(pairs->term->strength);
 }
 

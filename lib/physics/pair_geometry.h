@@ -9,8 +9,9 @@
 enum { LEAD_NONE = PHYS_FORCE_KINDS }; // else the lead is the PhysForceKind
 typedef enum PairRest {
     REST_NONE,
-    REST_PLAIN, // forces of contact only, no exponent needs a function (power.h)
-    REST_TOUCH, // forces of contact only
+    REST_SPRING, // one collision with a power of 1; no radius is 0
+    REST_PLAIN,  // forces of contact only, no exponent needs a function (power.h)
+    REST_TOUCH,  // forces of contact only
     REST_ANY,
 } PairRest;
 
@@ -18,10 +19,11 @@ typedef struct PairShape {
     size_t dimensions;
     int lead;
     PairRest rest;
+    bool one_size; // all have the same radius
 } PairShape;
 
 KERNEL bool rest_touches(PairShape shape) {
-    return shape.rest == REST_PLAIN || shape.rest == REST_TOUCH;
+    return shape.rest == REST_SPRING || shape.rest == REST_PLAIN || shape.rest == REST_TOUCH;
 }
 
 // What the leading force needs of both ends.
@@ -91,13 +93,16 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
         square = k ? square + part : part; // 0 + part is part: a square is never -0
     }
     pair->reach = target->radius + partner->radius;
-    if (shape.lead == LEAD_NONE && rest_touches(shape)) {
+    bool touches = shape.lead == LEAD_NONE && rest_touches(shape);
+    if (touches) {
         live = pair_near(live, square, pair->reach);
         if (!mask_any(live))
             return false;
     }
     pair->length = real_sqrt(square);
-    pair->valid = real_at_most_where(real_less_where(live, real_zero(), square), square, real_set(DBL_MAX));
+    pair->valid = real_less_where(live, real_zero(), square);
+    if (!touches) // what is near is finite
+        pair->valid = real_at_most_where(pair->valid, square, real_set(DBL_MAX));
     Real inverse = real_set(1) / pair->length;
     for (size_t k = 0; k < shape.dimensions; k++)
         pair->unit[k] *= inverse;

@@ -28,6 +28,12 @@ static void clear_terms(Real (*column)[LANES]) {
             column[m][k] = real_zero();
 }
 
+// The one force of REST_SPRING.
+KERNEL void add_spring(const PairPass *pass, PairShape shape, const PairGeometry *pair, Real *sum) {
+    Pairs pairs = {.term = pass->terms, .geometry = pair, .linear = true};
+    add_term(shape, pair, pair_touch(pair), pair_collision(&pairs), sum, NULL, 0);
+}
+
 // The forces after the leading one.
 KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
                      const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
@@ -38,7 +44,7 @@ KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *
         return;
     for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
         Real coefficient;
-        Pairs pairs = {&pass->terms[t], pair, target, partner, touch, shape.rest == REST_PLAIN};
+        Pairs pairs = {&pass->terms[t], pair, target, partner, touch, shape.rest == REST_PLAIN, false};
         Mask applies = pair_apply(&pairs, rest_touches(shape), &coefficient);
         if (!mask_any(applies))
             continue;

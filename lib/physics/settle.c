@@ -10,14 +10,14 @@
 
 #include <string.h>
 
-enum { MOST_MOVED = 4 * PHYS_VECTOR_DIMENSIONS + 6, AT_ONCE = 4 }; // arrays; as many doubles as a quad has
+enum { MOST_MOVED = 4 * PHYS_VECTOR_DIMENSIONS + 6 }; // arrays
 
 typedef struct Settling {
     PhysSystem *system;
     const Neighbours *list;
     double *arrays[MOST_MOVED]; // but for positions, which the list has in its order
     size_t count;
-    size_t next; // those that are on their way, up to AT_ONCE
+    size_t next; // those that are on their way
 } Settling;
 
 static void add(Settling *settling, double *vector, size_t parts) {
@@ -45,12 +45,12 @@ static void add_arrays(Settling *settling, bool positions) {
         add(settling, numbers[i], 1);
 }
 
+// Until a list is brought up to date its quads serve no purpose, but for the dummy behind them.
 static size_t at_once(const Settling *settling) {
-    size_t left = settling->count - settling->next;
-    return left < AT_ONCE ? left : AT_ONCE;
+    size_t left = settling->count - settling->next, room = settling->list->view.width;
+    return left < room ? left : room;
 }
 
-// Until a list is brought up to date, its quads serve no purpose.
 static void gather_share(void *context, int share, int shares) {
     const Settling *settling = context;
     const Neighbours *list = settling->list;
@@ -74,7 +74,7 @@ static void copy_share(void *context, int share, int shares) {
 }
 
 static void move_arrays(Settling *settling, int shares) {
-    for (settling->next = 0; settling->next < settling->count; settling->next += AT_ONCE) {
+    for (settling->next = 0; settling->next < settling->count; settling->next += at_once(settling)) {
         phys_parallel(settling->system, shares, gather_share, settling);
         phys_parallel(settling->system, shares, copy_share, settling);
     }

@@ -11,7 +11,7 @@ static const struct {
     void (*write)(Output *output);
 } products[] = {
     {"petri.1", page_of_petri}, {"petri.5", page_of_language}, {"bash", completion_bash},
-    {"zsh", completion_zsh},    {"fish", completion_fish},
+    {"zsh", completion_zsh},    {"fish", completion_fish},     {"tables.json", tables_as_json},
 };
 
 static bool write_product(Output *output, const char *name) {

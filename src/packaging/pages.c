@@ -19,30 +19,29 @@ bool option_takes(const OptionSpec *option, const char *value) {
     return option->value != NULL && strcmp(option->value, value) == 0;
 }
 
-static const struct {
-    const char *name;
-    const char *help;
-} variables[] =
-    {
-        {"NO_COLOR", "if it is not empty, messages and pictures in the terminal have no colours"},
-        {"PETRI_CPU",
-         "scalar, avx2 or avx512: the vector instructions that are used at the most; results never depend on it"},
-        {"TMPDIR", "the folder of what '-o -' writes until it is complete (/tmp)"},
-        {"XDG_STATE_HOME", "the history of the prompt is petri/history in this folder (~/.local/state)"},
-},
-  statuses[] = {
-      {"0", "all went well"},
-      {"1", "a script is wrong, a limit was reached, a file could not be written, a test has failed"},
-      {"2", "the command line is wrong; nothing was done"},
-      {"128+N", "signal N ended it"},
+const PageRow PAGE_VARIABLES[] = {
+    {"NO_COLOR", "if it is not empty, messages and pictures in the terminal have no colours"},
+    {"PETRI_CPU",
+     "scalar, avx2 or avx512: the vector instructions that are used at the most; results never depend on it"},
+    {"TMPDIR", "the folder of what '-o -' writes until it is complete (/tmp)"},
+    {"XDG_STATE_HOME", "the history of the prompt is petri/history in this folder (~/.local/state)"},
+    {0},
+};
+const PageRow PAGE_STATUSES[] = {
+    {"0", "all went well"},
+    {"1", "a script is wrong, a limit was reached, a file could not be written, a test has failed"},
+    {"2", "the command line is wrong; nothing was done"},
+    {"128+N", "signal N ended it"},
+    {0},
 };
 
-#define WRITE_ITEMS(output, rows)                                                                                      \
-    for (size_t i = 0; i < sizeof(rows) / sizeof(rows)[0]; i++) {                                                      \
-        roff_item(output, (rows)[i].name, "");                                                                         \
-        roff_text(output, (rows)[i].help);                                                                             \
-        output_format(output, "\n");                                                                                   \
+static void write_items(Output *output, const PageRow *rows) {
+    for (; rows->name != NULL; rows++) {
+        roff_item(output, rows->name, "");
+        roff_text(output, rows->help);
+        output_format(output, "\n");
     }
+}
 
 void page_of_petri(Output *output) {
     roff_begin(output, "petri", 1, HELP_TITLE);
@@ -57,9 +56,9 @@ void page_of_petri(Output *output) {
         output_format(output, "\n");
     }
     roff_heading(output, "EXIT STATUS");
-    WRITE_ITEMS(output, statuses)
+    write_items(output, PAGE_STATUSES);
     roff_heading(output, "ENVIRONMENT");
-    WRITE_ITEMS(output, variables)
+    write_items(output, PAGE_VARIABLES);
     roff_see_also(output, (const char *const[]){"petri-run(1)", "petri(5)", "petri.h(3)", NULL});
 }
 

@@ -188,26 +188,46 @@ static PetriStatus give_numbers(PetriPicture *picture, bool ready) {
     return status;
 }
 
-// The picture of the last frame, as numbers that are there during the call; or if they are not all of it and there is a
-// painter, on the host's screen.
-EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, bool automatic) {
+// The picture of the last frame, which is kept for web_picture, and made for those of later frames; NULL: there is
+// none.
+EXPORT(PetriPicture *, web_follow, PetriSession *session, PetriPainter *painter) {
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture;
+    if (petri_picture(session, &options, &picture) == PETRI_OK) {
+        petri_picture_make(picture, painter);
+        petri_picture_tell(session, picture);
+    }
+    return picture;
+}
+
+EXPORT(void, web_picture_free, PetriPicture *picture) {
+    petri_picture_free(&picture);
+}
+
+static PetriStatus show(PetriSession *session, PetriPainter *painter, PetriPicture *picture, bool ready) {
+    int width, height;
+    petri_picture_size(picture, &width, &height);
+    host_screen(width, height);
+    PetriStatus status = petri_painter_show(painter, picture, NULL, 0, 1, width, height);
+    petri_picture_tell(session, picture);
+    if (status == PETRI_OK)
+        host_shown(petri_picture_title(picture), ready);
+    return status;
+}
+
+// The picture of the last frame (NULL: not taken yet), as numbers that are there during the call; or if they are not
+// all of it and there is a painter, on the host's screen.
+EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, PetriPicture *followed, bool automatic) {
     PetriPictureOptions options = petri_default_picture_options();
     options.automatic = automatic ? PETRI_AUTO_ALWAYS : PETRI_AUTO_IF_NEEDED;
-    PetriPicture *picture;
-    PetriStatus status = petri_picture(session, &options, &picture);
+    PetriPicture *picture = followed;
+    PetriStatus status = picture ? PETRI_OK : petri_picture(session, &options, &picture);
     bool ready = petri_picture_ready(session, &options);
-    if (status == PETRI_OK && painter && !petri_picture_is_numbers(picture)) {
-        int width, height;
-        petri_picture_size(picture, &width, &height);
-        host_screen(width, height);
-        status = petri_painter_show(painter, picture, NULL, 0, 1, width, height);
-        petri_picture_tell(session, picture);
-        if (status == PETRI_OK)
-            host_shown(petri_picture_title(picture), ready);
-    } else if (status == PETRI_OK) {
-        status = give_numbers(picture, ready);
-    }
-    petri_picture_free(&picture);
+    if (status == PETRI_OK)
+        status = painter && !petri_picture_is_numbers(picture) ? show(session, painter, picture, ready)
+                                                               : give_numbers(picture, ready);
+    if (!followed)
+        petri_picture_free(&picture);
     return status;
 }
 

@@ -79,7 +79,7 @@ case " $* " in
         fonts-dejavu-extra) touch "$WORK/fonts/truetype/dejavu/DejaVuSans-Oblique.ttf" ;;
         esac
         case $package in
-        lib*-dev) touch "$WORK/later/$package" ;;
+        lib*-dev | zlib1g-dev) touch "$WORK/later/$package" ;;
         -* | install) ;;
         debootstrap) echo '#!/bin/sh' >"$WORK/bin/debootstrap"; chmod +x "$WORK/bin/debootstrap" ;;
         *) [ -e "$WORK/bin/$package" ] || cp "$WORK/later/$package" "$WORK/bin" 2>/dev/null || {

@@ -46,7 +46,7 @@ test('types are there for each method, and no others', () => {
     const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
-    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'giveImage'];
+    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'giveImage', 'openPainter', 'closePainter', 'forgetPicture'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
     session.close();

@@ -57,7 +57,7 @@ vec3 point() {
 void main() {
     vec3 p = (point() + vec3(origin, z) + merged_here().rgb * tscale) * scale;
     float h = seed;
-    color = other;
+    vec4 made = other; // an `out` takes no index that varies in WebGL
     for (int j = 0; j < 4 && float(j) < components; j++) {
         float sum = 0.0, total = 0.0, k = 1.0;
         for (float i = 0.0; i < octaves; i++) {
@@ -65,8 +65,8 @@ void main() {
             total += k;
             k *= roughness;
         }
-        color[j] = sum / total * multiplier + offset;
+        made[j] = sum / total * multiplier + offset;
         h = perm(h + 1.0);
     }
-    color *= alpha;
+    color = made * alpha;
 }

@@ -7,11 +7,13 @@ const CAPS = ['butt', 'round', 'square'];
 const SLANTS = ['normal', 'oblique', 'italic'];
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
-// In the order of lib/schema/composite_list.h. Canvas 2D keeps neither `src` nor `clear` to the figure; they are drawn over.
-const COMPOSITES = ['multiply', 'destination-out', 'source-over', null, 'source-over', 'destination-over', 'source-in',
+// In the order of lib/schema/composite_list.h.
+const COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
     'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
     'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
     'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
+// Canvas 2D does not keep these to the figure.
+const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
 const PIECE_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
 
@@ -84,6 +86,8 @@ class Painter {
         this.base = [scale, (width - scale * numbers[0]) / 2, (height - scale * numbers[1]) / 2];
         this.matrix = [1, 0, 0, 1, 0, 0];
         this.paint = '#000';
+        this.alpha = 1; // of the paint, for images
+        this.solid = true;
         this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
     }
 
@@ -131,68 +135,178 @@ class Painter {
         return true;
     }
 
+    everywhere() {
+        const { width, height } = this.context.canvas, box = new Path2D(), path = new Path2D();
+        box.rect(-1, -1, width + 2, height + 2);
+        path.addPath(box, this.context.getTransform().invertSelf());
+        return path;
+    }
+
     // A path with all that is outside of it.
     inverse(path) {
-        const inverse = new Path2D(path), { width, height } = this.context.canvas;
-        const matrix = this.context.getTransform().invertSelf(), box = new Path2D();
-        box.rect(-1, -1, width + 2, height + 2);
-        inverse.addPath(box, matrix);
+        const inverse = new Path2D(path);
+        inverse.addPath(this.everywhere());
         return inverse;
     }
 
     figure() {
-        const [fill, stroke, rule] = this.take(3);
-        const path = this.path();
-        if (!this.begin(fill, stroke))
+        const [fill, stroke, rule] = this.take(3), path = this.path(), inside = rule & 1 ? 'evenodd' : 'nonzero';
+        this.paintFigure(fill, stroke, (context, isFill) => {
+            if (!isFill)
+                return context.stroke(path);
+            if (rule < 2)
+                return this.fillPath(context, path, inside);
+            context.fill(this.everywhere());
+            context.globalCompositeOperation = 'destination-out';
+            context.fill(path, inside);
+            context.globalCompositeOperation = 'source-over';
+        }, rule > 1);
+    }
+
+    fillPath(context, path, rule) {
+        if (!this.round || typeof context.fillStyle === 'string')
+            return context.fill(path, rule);
+        // A gradient goes with the matrix in force: the path is the other way round what the gradient's matrix makes of it.
+        const moved = new Path2D();
+        moved.addPath(path, this.round.inverse());
+        context.save();
+        context.transform(...['a', 'b', 'c', 'd', 'e', 'f'].map(name => this.round[name]));
+        context.fill(moved, rule);
+        context.restore();
+    }
+
+    // Fill and stroke are one figure: drawn through a mask where something would shine through, or act beyond it.
+    paintFigure(fill, stroke, act, inverse = false) {
+        const composite = COMPOSITES[this.line.composite];
+        if (!composite)
             return;
-        if (fill)
-            this.context.fill(rule > 1 ? this.inverse(path) : path, rule > 0 ? 'evenodd' : 'nonzero');
-        if (stroke)
-            this.context.stroke(path);
+        if (!inverse && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
+            if (!this.begin(fill, stroke))
+                return;
+            fill && act(this.context, true);
+            stroke && act(this.context, false);
+            return;
+        }
+        const { context } = this, mask = this.beside(), all = this.beside();
+        all.drawImage(context.canvas, 0, 0);
+        const { paint, line } = this;
+        Object.assign(this, { context: mask, paint: '#000', line: { ...line, composite: 4 } });
+        this.begin(fill, stroke);
+        fill && act(mask, true);
+        stroke && act(mask, false);
+        Object.assign(this, { context: all, paint, line });
+        this.begin(true, false);
+        if (composite === 'clear')
+            all.reset();
+        else
+            this.fillPath(all, this.everywhere(), 'nonzero');
+        this.context = context;
+        this.layOver(all, mask.canvas, 'destination-in');
+        this.layOver(context, mask.canvas, 'destination-out');
+        this.layOver(context, all.canvas, 'lighter');
+    }
+
+    layOver(context, canvas, composite, alpha = 1) {
+        context.save();
+        context.setTransform(1, 0, 0, 1, 0, 0);
+        context.globalAlpha = alpha;
+        context.globalCompositeOperation = composite;
+        context.drawImage(canvas, 0, 0);
+        context.restore();
     }
 
     letters() {
         const [fill, stroke, x, y, size, weight, width, slant, centred] = this.take(9);
         const families = this.text().split(',').map(name => FONTS[name.trim()] ? `${FONTS[name.trim()]},${name}` : name);
-        const text = this.text().replace(/\s/g, ' '), { context } = this;
-        if (!(size * this.scale > 0.1) || !this.begin(fill, stroke))
+        const text = this.text().replace(/\s/g, ' ');
+        this.setMatrix();
+        if (!(size * this.scale > 0.1))
             return;
         const drawn = 100; // pixels; sizes below one are not drawn by everyone
-        context.font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
+        const font = `${SLANTS[slant]} ${Math.min(Math.max(weight, 1), 1000)} ${STRETCHES[width] ?? 'normal'} `
             + `${drawn}px ${families.join(',') || 'sans-serif'}`;
-        if (context.fontKerning !== undefined)
-            context.fontKerning = 'none';
-        context.translate(x, y);
-        context.scale(size / drawn, size / drawn);
-        context.lineWidth *= drawn / size;
-        let left = 0, base = 0;
-        if (centred) {
-            const ink = context.measureText(text);
-            left = (ink.actualBoundingBoxLeft - ink.actualBoundingBoxRight) / 2;
-            base = (ink.actualBoundingBoxAscent - ink.actualBoundingBoxDescent) / 2;
-        }
-        if (fill)
-            context.fillText(text, left, base);
-        if (stroke)
-            context.strokeText(text, left, base);
+        this.paintFigure(fill, stroke, (here, isFill) => {
+            here.save();
+            here.font = font;
+            if (here.fontKerning !== undefined)
+                here.fontKerning = 'none';
+            here.translate(x, y);
+            here.scale(size / drawn, size / drawn);
+            here.lineWidth *= drawn / size;
+            let left = 0, base = 0;
+            if (centred) {
+                const ink = here.measureText(text);
+                left = (ink.actualBoundingBoxLeft - ink.actualBoundingBoxRight) / 2;
+                base = (ink.actualBoundingBoxAscent - ink.actualBoundingBoxDescent) / 2;
+            }
+            isFill ? here.fillText(text, left, base) : here.strokeText(text, left, base);
+            here.restore();
+        });
     }
 
     picture() {
-        const [x, y, width, height, fit] = this.take(5), name = this.text(), image = this.image(name);
-        if (!image) {
+        const box = this.take(5), name = this.text(), image = this.image(name);
+        if (image)
+            this.drawImage(image, ...box);
+        else
             this.undrawn.add(`the image ${name}`);
-            return;
-        }
+    }
+
+    // What the numbers hold of a picture.
+    pixels() {
+        const [width, height] = this.take(2), context = this.beside({ width, height }), pixels = this.take(width * height);
+        const data = new Uint8ClampedArray(4 * width * height);
+        pixels.forEach((pixel, i) => {
+            const alpha = pixel >>> 24, part = shift => alpha && (pixel >>> shift & 255) * 255 / alpha;
+            data.set([part(16), part(8), part(0), alpha], 4 * i);
+        });
+        context.putImageData(new ImageData(data, width, height), 0, 0);
+        return context.canvas;
+    }
+
+    drawImage(image, x, y, width, height, fit) {
+        const { context } = this;
         if (!this.begin(false, false))
             return;
-        if (fit === 0)
-            return this.context.drawImage(image, x, y);
+        context.save();
+        context.imageSmoothingEnabled = false;
+        context.globalAlpha = this.alpha;
         const scales = [width / image.width, height / image.height];
-        if (fit === 1)
-            return this.context.drawImage(image, x, y, width, height);
-        const scale = fit === 2 ? Math.min(...scales) : Math.max(...scales);
-        const w = image.width * scale, h = image.height * scale;
-        this.context.drawImage(image, x + (width - w) / 2, y + (height - h) / 2, w, h);
+        const scale = fit === 0 ? 1 : fit === 2 ? Math.min(...scales) : Math.max(...scales);
+        const w = fit === 1 ? width : image.width * scale, h = fit === 1 ? height : image.height * scale;
+        if (fit === 3) {
+            context.beginPath();
+            context.rect(x, y, width, height);
+            context.clip();
+        }
+        context.translate(fit > 1 ? x + (width - w) / 2 : x, fit > 1 ? y + (height - h) / 2 : y);
+        context.scale(w / image.width, h / image.height); // which may turn it over
+        context.drawImage(image, 0, 0);
+        context.restore();
+    }
+
+    pattern() {
+        const matrix = new DOMMatrix(Array.from(this.take(6))), [alpha] = this.take(1);
+        this.solid = false;
+        this.alpha = alpha;
+        this.round = null;
+        let image;
+        if (this.n[this.at] > 0) {
+            image = this.pixels();
+        } else {
+            this.at += 2;
+            const name = this.text();
+            image = this.image(name);
+            if (!image) {
+                this.undrawn.add(`the image ${name}`);
+                return 'transparent';
+            }
+        }
+        return () => {
+            const pattern = this.context.createPattern(image, 'repeat');
+            pattern.setTransform(matrix);
+            return pattern;
+        };
     }
 
     clip() {
@@ -201,29 +315,27 @@ class Painter {
         this.context.clip(outside ? this.inverse(path) : path, outside || evenOdd ? 'evenodd' : 'nonzero');
     }
 
-    beginLayer() {
-        const { width, height } = this.context.canvas;
+    // A canvas of its own, as large as what is drawn on.
+    beside({ width, height } = this.context.canvas) {
         const canvas = typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(width, height);
-        Object.assign(canvas, { width, height });
+        return Object.assign(canvas, { width, height }).getContext('2d');
+    }
+
+    beginLayer() {
         this.layers.push(this.context);
-        this.context = canvas.getContext('2d');
+        this.context = this.beside();
     }
 
     endLayer() {
         const [alpha] = this.take(1), { canvas } = this.context;
         this.context = this.layers.pop();
-        this.context.save();
-        this.context.setTransform(1, 0, 0, 1, 0, 0);
-        this.context.globalAlpha = alpha;
-        this.context.globalCompositeOperation = 'source-over';
-        this.context.drawImage(canvas, 0, 0);
-        this.context.restore();
+        this.layOver(this.context, canvas, 'source-over', alpha);
     }
 
     command(kind) {
         switch (kind) {
         case 0: this.matrix = this.take(6); this.setMatrix(); break;
-        case 1: this.paint = color(this.take(4), 0); break;
+        case 1: this.paint = this.plain(); break;
         case 2: this.paint = this.linear(); break;
         case 3: this.paint = this.radial(); break;
         case 4: {
@@ -241,25 +353,44 @@ class Painter {
         case 12: this.endLayer(); break;
         case 13: this.undrawn.add(this.text()); break;
         case 14: this.at = drawSystems(this.context, this.n, this.at, this.base); break;
+        case 15: {
+            const box = this.take(5);
+            this.drawImage(this.pixels(), ...box);
+            break;
+        }
+        case 16: this.paint = this.pattern(); break;
         default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
         }
+    }
+
+    plain() {
+        const given = this.take(4);
+        this.alpha = Math.min(Math.max(given[3], 0), 1);
+        this.solid = given[3] >= 1;
+        this.round = null;
+        return color(given, 0);
     }
 
     // Gradients are made where they are used, for they follow the matrix that is in force.
     linear() {
         const ends = this.take(4), stops = this.readStops();
+        this.round = null;
         return () => this.addStops(this.context.createLinearGradient(...ends), stops);
     }
 
+    // Circles of the user's space are all that Canvas 2D has: others are filled in one of their own.
     radial() {
-        const [xx, yx, xy, yy, x0, y0] = this.take(6), stops = this.readStops();
-        // A circle of the user's space is all that Canvas 2D has; the scale is that of the matrix as a whole.
-        const radius = Math.sqrt(Math.abs(xx * yy - xy * yx));
-        return () => this.addStops(this.context.createRadialGradient(x0, y0, 0, x0, y0, radius), stops);
+        const matrix = this.take(6), [xx, yx, xy, yy, x0, y0] = matrix, stops = this.readStops();
+        const radius = Math.sqrt(Math.abs(xx * yy - xy * yx)), even = Math.hypot(xx - yy, xy + yx) < 1e-6 * radius;
+        this.round = even || !(radius > 0) ? null : new DOMMatrix(Array.from(matrix));
+        const circle = this.round ? [0, 0, 0, 0, 0, 1] : [x0, y0, 0, x0, y0, radius];
+        return () => this.addStops(this.context.createRadialGradient(...circle), stops);
     }
 
     readStops() {
         const [alpha, count] = this.take(2);
+        this.solid = false;
+        this.alpha = alpha;
         return Array.from({ length: count }, () => {
             const stop = this.take(5);
             return [Math.min(Math.max(stop[0], 0), 1), color(stop, 1, alpha)];
@@ -274,12 +405,17 @@ class Painter {
     draw() {
         const { canvas } = this.context;
         this.context.reset?.();
-        if (this.background) {
-            this.context.fillStyle = this.background;
-            this.context.fillRect(0, 0, canvas.width, canvas.height);
-        }
+        if (!this.context.reset)
+            this.context.clearRect(0, 0, canvas.width, canvas.height);
+        this.context.save();
         while (this.at < this.n.length)
             this.command(this.n[this.at++]);
+        this.context.restore();
+        if (this.background) { // behind all, for colours combine with what is drawn only
+            Object.assign(this.context, { globalCompositeOperation: 'destination-over', fillStyle: this.background });
+            this.context.setTransform(1, 0, 0, 1, 0, 0);
+            this.context.fillRect(0, 0, canvas.width, canvas.height);
+        }
         return [...this.undrawn];
     }
 }

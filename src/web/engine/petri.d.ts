@@ -189,6 +189,10 @@ export interface Session {
      * caller's; numbers where they are all of it, or there is no WebGL 2.
      */
     show(options?: { automatic?: boolean }): Picture | Shown | null;
+    /** Whether the pictures of the last frame depend on those before (`!feedback`, `!reference`, …). */
+    readonly looksBack: boolean;
+    /** To be called after each step whose picture is not shown: makes it if later ones depend on it, and says whether they do. */
+    follow(): boolean;
     tokens(text: string): Token[];
     help(): Help[];
     symbol(name: string): number;

@@ -97,6 +97,7 @@ export class Session {
         this.wantsEnd = wantsEnd;
         this.image = image;
         this.painter = null; // 0: there can be none
+        this.followed = null; // the picture that was made last, if others depend on it
         this.undrawn = new Set();
         this.files = new Map();
         this.kept = []; // addresses of files, until the session is closed
@@ -111,9 +112,7 @@ export class Session {
     }
 
     close() {
-        if (this.painter)
-            this.run(wasm => wasm.web_painter_close(this.painter));
-        this.painter = 0;
+        this.closePainter();
         if (this.handle)
             this.run(wasm => wasm.web_close(this.handle));
         this.handle = 0;
@@ -163,6 +162,7 @@ export class Session {
     }
 
     load(text, name = 'script.fl') {
+        this.closePainter();
         const encoded = typeof text === 'string' ? new TextEncoder().encode(text) : text;
         this.setFile(name, encoded);
         return this.check('load', this.with(name, (wasm, called) =>
@@ -287,15 +287,50 @@ export class Session {
 
     // What the last frame shows, as numbers that drawing.mjs knows; null if there is nothing to draw.
     picture({ automatic = false } = {}) {
-        this.run(wasm => wasm.web_picture(this.handle, 0, automatic ? 1 : 0));
+        this.run(wasm => wasm.web_picture(this.handle, 0, 0, automatic ? 1 : 0));
         return this.taken[0] ?? null;
+    }
+
+    // Whether the pictures of the last frame depend on those before: then `follow` is to be called after each step.
+    get looksBack() {
+        return !!this.run(wasm => wasm.petri_looks_back(this.handle));
+    }
+
+    // Makes the pictures of the last frame, which nobody looks at, if later ones depend on them; whether they do.
+    follow() {
+        if (!this.looksBack)
+            return false;
+        const { number } = this.frame;
+        if (this.followed?.number !== number && this.openPainter()) {
+            this.forgetPicture();
+            this.followed = { number, at: this.run(wasm => wasm.web_follow(this.handle, this.painter)) };
+        }
+        return true;
+    }
+
+    openPainter() {
+        return (this.painter ??= this.run(wasm => wasm.web_painter()));
+    }
+
+    forgetPicture() {
+        if (this.followed)
+            this.run(wasm => wasm.web_picture_free(this.followed.at));
+        this.followed = null;
+    }
+
+    closePainter() {
+        this.forgetPicture();
+        if (this.painter)
+            this.run(wasm => wasm.web_painter_close(this.painter));
+        this.painter = null;
     }
 
     // The same with all that takes WebGL 2, as an image; as numbers where there is none, or no need of it.
     show({ automatic = false } = {}) {
-        this.painter ??= this.run(wasm => wasm.web_painter());
+        this.openPainter();
         this.undrawn.clear();
-        this.run(wasm => wasm.web_picture(this.handle, this.painter, automatic ? 1 : 0));
+        const followed = this.follow() && !automatic ? this.followed?.at ?? 0 : 0;
+        this.run(wasm => wasm.web_picture(this.handle, this.painter, followed, automatic ? 1 : 0));
         const shown = this.taken[0] ?? null;
         return shown?.image ? { ...shown, undrawn: [...this.undrawn] } : shown;
     }
@@ -364,7 +399,9 @@ export class Session {
         return new Snapshot(this, at);
     }
 
+    // Pictures that depend on those before begin anew.
     rewind(snapshot) {
+        this.closePainter();
         return this.check('rewind', wasm => wasm.petri_rewind(this.handle, snapshot.at));
     }
 

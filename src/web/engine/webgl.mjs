@@ -11,7 +11,7 @@ const WITH_OBJECTS = {
     bindVertexArray: [0], compileShader: [0], framebufferRenderbuffer: [3], framebufferTexture2D: [3], linkProgram: [0],
     uniformBlockBinding: [0], useProgram: [0],
 };
-const PLAIN = ['activeTexture', 'blendEquation', 'blendFunc', 'blitFramebuffer', 'checkFramebufferStatus', 'clear', 'clearColor',
+const PLAIN = ['activeTexture', 'blendEquation', 'blendFunc', 'checkFramebufferStatus', 'clear', 'clearColor',
     'cullFace', 'disable', 'drawArrays', 'drawElementsInstanced', 'enable', 'enableVertexAttribArray', 'getError',
     'renderbufferStorageMultisample', 'texParameteri', 'texStorage2D', 'vertexAttribDivisor', 'viewport'];
 
@@ -117,6 +117,11 @@ export class Screen {
             put(`uniformMatrix${size}fv`, (at, count, turned, from) =>
                 this.gl[`uniformMatrix${size}fv`](location(at), !!turned, memory.floats(from, size * size * count)));
         put('bindAttribLocation', (program, at, name) => this.gl.bindAttribLocation(objects[program], at, memory.text(name)));
+        // Without the rest Chromium's SwiftShader copies what is drawn there next in place of what was.
+        put('blitFramebuffer', (...args) => {
+            this.gl.blitFramebuffer(...args);
+            this.gl.flush();
+        });
         put('bufferData', (target, size, from, usage) =>
             this.gl.bufferData(target, from ? memory.bytes().subarray(from, from + size) : size, usage));
         put('bufferSubData', (target, offset, size, from) =>

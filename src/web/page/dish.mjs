@@ -1,6 +1,7 @@
 // dish.mjs: a script on a canvas: loads, runs, goes back. The page and <petri-dish> are made of it.
 import { Remote } from './engine.mjs';
 import { addImage, paint, sizeOf } from './paint.mjs';
+import { NO_ENGINE, hasEngine } from './simd.mjs';
 
 const MOST_STEPS = 8; // frames between two pictures: a script that is slower falls behind
 const SLOW = 500; // ms: what takes longer, a person may want to stop
@@ -9,19 +10,27 @@ const FIRST_SEEN = 2; // before, particles are not where they will be seen
 export class Dish {
     // host: what is called: shown(answer, left out), failed(error, what was told), changed() when it runs or
     // not any more; and, where they are, loaded() and slow(whether).
-    constructor(canvas, source, host) {
+    constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, most: -1, fps: 60, speed: 1, behind: 0, last: 0,
             files: new Map(), images: new Map(), wanted: null,
         });
-        this.remote = new Remote(source);
+        this.remote = hasEngine() ? new Remote(source, worker) : null;
+    }
+
+    get ready() {
+        return this.remote?.ready ?? Promise.reject(new Error(NO_ENGINE));
+    }
+
+    ask(act, message) {
+        return this.remote?.ask(act, message) ?? Promise.reject(new Error(NO_ENGINE));
     }
 
     // Asks the engine; null after a failure, which the host is told of.
     async attempt(act, message) {
         const slow = setTimeout(() => this.host.slow?.(true), SLOW);
         try {
-            return await this.remote.ask(act, message);
+            return await this.ask(act, message);
         } catch (error) {
             await this.fail(error);
             return null;
@@ -149,7 +158,7 @@ export class Dish {
 
     // Ends what the engine is at. True if it could be ended alone; else the engine has gone with it.
     async stop() {
-        const { busy } = this.remote;
+        const busy = this.remote?.busy;
         this.pause();
         const alone = !busy || await this.remote.stop();
         if (!alone)
@@ -161,7 +170,7 @@ export class Dish {
 
     end() {
         this.running = false;
-        this.remote.end();
+        this.remote?.end();
     }
 
     // --- what it is given
@@ -201,16 +210,11 @@ export class Dish {
         if (this.loaded === null || !name || event.ctrlKey || event.metaKey || event.altKey)
             return;
         event.preventDefault();
-        this.remote.ask('key', { name, pressed }).catch(() => {});
+        this.ask('key', { name, pressed }).catch(() => {});
     }
 }
 
 const KEYS = { ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'return' };
-
-// Whether the browser has WebAssembly with SIMD: a function that uses it.
-export const hasEngine = () => typeof WebAssembly !== 'undefined' && WebAssembly.validate(new Uint8Array([
-    0, 97, 115, 109, 1, 0, 0, 0, 1, 5, 1, 96, 0, 1, 123, 3, 2, 1, 0, 10, 10, 1, 8, 0, 65, 0, 253, 15, 253, 98, 11]));
-export const NO_ENGINE = 'This browser has no WebAssembly with SIMD, which petri takes: one of 2021 or later has.';
 
 // What to say of an error.
 export const sayError = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'

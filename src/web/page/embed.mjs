@@ -2,7 +2,7 @@
 // the element comes into view, and is that of the folder where this file is.
 import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, NO_ENGINE, hasEngine, sayError } from './dish.mjs';
+import { Dish, sayError } from './dish.mjs';
 import style from './embed.css';
 import { packLink } from './link.mjs';
 
@@ -79,14 +79,10 @@ class PetriDish extends HTMLElement {
     async begin() {
         if (this.dish || !this.isConnected)
             return;
-        if (!hasEngine()) {
-            this.say(NO_ENGINE, true);
-            return;
-        }
-        const dish = this.dish = new Dish(this.get('picture'), engine(), {
+        const dish = this.dish = new Dish(this.get('picture'), {
             shown: answer => this.shown(answer), failed: (error, told) => this.failed(error, told), changed: () => this.changed(),
             loaded: () => this.say(''),
-        });
+        }, { source: engine() });
         this.controls = new Controls(this.shadowRoot, dish, options => this.ready(options));
         dish.listen();
         this.get('start').onclick = () => this.run();
@@ -96,7 +92,7 @@ class PetriDish extends HTMLElement {
                 this.run({ always: true });
         };
         try {
-            await dish.remote.ready;
+            await dish.ready;
             await this.read();
         } catch (error) {
             this.failed(error, []);

@@ -3,7 +3,7 @@
 const PATIENCE = 1000; // ms: frames that hear nothing for so long are ended with the engine
 
 // Workers must come from where the page comes from; a page elsewhere has one that imports the other.
-function startWorker(url) {
+export function startWorker(url = new URL('./worker.js', import.meta.url)) {
     if (url.origin === location.origin)
         return new Worker(url, { type: 'module' });
     const own = URL.createObjectURL(new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' }));
@@ -13,17 +13,17 @@ function startWorker(url) {
 }
 
 export class Remote {
-    // source: what `loadEngine` takes, or a promise of it.
-    constructor(source) {
+    // source: what `loadEngine` takes, or a promise of it; worker: one that has been started already.
+    constructor(source, worker) {
         this.source = source;
         // Which question is to be given up: threads share memory on pages that are isolated from others only.
         this.flag = globalThis.crossOriginIsolated ? new Int32Array(new SharedArrayBuffer(4)) : null;
         this.number = 0;
-        this.start();
+        this.start(worker);
     }
 
-    start() {
-        const worker = this.worker = startWorker(new URL('./worker.js', import.meta.url));
+    start(worker = startWorker()) {
+        this.worker = worker;
         this.waiting = new Map();
         worker.onmessage = ({ data }) => {
             if (data.type === 'progress')

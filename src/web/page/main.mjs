@@ -1,7 +1,8 @@
 // main.mjs: the page: an editor beside a dish, and what the buttons do.
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, NO_ENGINE, hasEngine, sayError } from './dish.mjs';
+import { Dish, sayError } from './dish.mjs';
 import { Editor } from './editor.mjs';
+import { Keeper, keptScripts } from './kept.mjs';
 import { packLink, readLink } from './link.mjs';
 import { Plot } from './plot.mjs';
 import { Problems } from './problems.mjs';
@@ -11,7 +12,6 @@ import { Table } from './table.mjs';
 import { Tabs } from './tabs.mjs';
 
 const $ = id => document.getElementById(id);
-const KEPT = 'petri.script';
 const FIRST = 'dish.fl';
 
 const encoder = new TextEncoder();
@@ -73,12 +73,13 @@ async function ready({ always = false } = {}) {
 
 // --- the text
 
-let checking = 0;
+const keeper = new Keeper();
+let checking = 0, opening = false;
 function changed(text) {
-    try {
-        localStorage.setItem(KEPT, JSON.stringify({ text, name }));
-    } catch {
-        // Private windows keep nothing.
+    if (!opening) {
+        keeper.keep(name, text);
+        if (location.hash)
+            history.replaceState(null, '', location.pathname + location.search); // it is no longer what the link brought
     }
     clearTimeout(checking);
     checking = setTimeout(async () => {
@@ -92,17 +93,12 @@ function changed(text) {
     }, 250);
 }
 
-function kept() {
-    try {
-        return JSON.parse(localStorage.getItem(KEPT));
-    } catch {
-        return null;
-    }
-}
-
 async function openText(text, called, wanted = {}) {
     name = called;
+    keeper.begin();
+    opening = true;
     editor.text = text;
+    opening = false;
     const opened = await dish.open(text, name, wanted);
     if (opened && wanted.hash)
         say(opened === true ? `Frame ${wanted.frame}: the same state as where the link was made, to the last bit.`
@@ -123,23 +119,49 @@ async function copyLink() {
     say(copied ? 'The link is copied; nothing has left this machine.' : 'The link is in the address bar.');
 }
 
+// Why there is nothing to open; '' if it is open now.
 async function openLink() {
-    const linked = await readLink(location.hash).catch(error => say(error.message, true));
-    if (linked)
+    if (location.hash.length < 2)
+        return 'no link';
+    try {
+        const linked = await readLink(location.hash);
         await openText(linked.text, linked.name, linked);
-    return !!linked;
+        return '';
+    } catch (error) {
+        say(error.message, true);
+        return error.message;
+    }
 }
 
 const stem = () => name.replace(/\.fl$/, '');
 
-// Scripts, and what they read; the script to run is the first of them.
+// Scripts, and what they read. The one to run is that which no other names: the script that is open, or the first.
 async function takeFiles(files) {
     for (const file of files)
         await dish.addFile(file.name, new Uint8Array(await file.arrayBuffer()));
     await dish.giveFiles();
-    const script = [...files].find(file => file.name.endsWith('.fl'));
+    const decoded = [...files].filter(file => file.name.endsWith('.fl'))
+        .map(file => ({ called: file.name, text: new TextDecoder().decode(dish.files.get(file.name)) }));
+    const isNamed = called => [{ called: name, text: editor.text }, ...decoded].some(other => other.called !== called && other.text.includes(called));
+    const script = decoded.find(({ called }) => !isNamed(called));
     if (script)
-        await openText(new TextDecoder().decode(dish.files.get(script.name)), script.name);
+        await openText(script.text, script.called);
+    else if ([...files].some(file => editor.text.includes(file.name)))
+        await dish.open(editor.text, name);
+}
+
+// Samples, and what was written here before.
+function fillMenu() {
+    const group = (label, options) => {
+        const made = Object.assign(document.createElement('optgroup'), { label });
+        made.append(...options);
+        return options.length ? [made] : [];
+    };
+    const menu = $('samples'), { value } = menu;
+    menu.replaceChildren(new Option('choose …', ''),
+        ...group('Samples', Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample))),
+        ...group('Written here', keptScripts().map(({ name: own, when }) => new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
+    menu.value = value;
 }
 
 function listen() {
@@ -148,10 +170,14 @@ function listen() {
     $('open').onclick = () => $('file').click();
     $('file').onchange = () => takeFiles($('file').files);
     $('samples').onchange = () => {
-        const chosen = $('samples').value;
-        if (chosen)
+        const chosen = $('samples').value, own = keptScripts().find(({ when }) => String(when) === chosen);
+        if (own)
+            openText(own.text, own.name);
+        else if (chosen)
             openText(samples[chosen], chosen);
     };
+    $('samples').onfocus = $('samples').onpointerdown = fillMenu;
+    fillMenu();
     $('theme').onclick = () => {
         const dark = getComputedStyle(document.documentElement).colorScheme === 'dark'
             || (!document.documentElement.dataset.theme && matchMedia('(prefers-color-scheme: dark)').matches);
@@ -162,18 +188,17 @@ function listen() {
         event.preventDefault();
         takeFiles(event.dataTransfer.files);
     };
-    addEventListener('hashchange', () => location.hash && openLink());
+    addEventListener('hashchange', openLink);
 }
 
 async function begin() {
-    const before = kept();
+    const [before] = keptScripts();
     $('below').innerHTML = CONTROLS;
-    dish = new Dish($('picture'), new URL('petri/engine.wasm', location.href).href, host);
+    dish = new Dish($('picture'), host, globalThis.petriStart ?? { source: new URL('petri/engine.wasm', location.href).href });
     const given = await (await fetch('samples.json')).json();
     samples = given.scripts;
     for (const [file, text] of Object.entries(given.files))
         dish.files.set(file, encoder.encode(text));
-    $('samples').append(...Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample)));
     name = before?.name ?? FIRST;
     editor = new Editor($('editor'), {
         text: before?.text ?? samples[FIRST], onChange: changed, onRun: () => controls.toggle(ready), help: () => help,
@@ -191,19 +216,19 @@ async function begin() {
     });
     dish.listen();
     listen();
-    const answer = await dish.remote.ready.catch(error => say(error.message, true));
+    const answer = await dish.ready.catch(error => say(error.message, true));
     if (!answer)
         return;
     help = answer.help;
     await dish.giveFiles();
-    if (!(location.hash.length > 1 && await openLink()))
+    const why = await openLink();
+    if (why)
         await openText(editor.text, name);
+    if (why && location.hash)
+        say(why, true);
     document.body.dataset.ready = answer.version;
     if ('serviceWorker' in navigator && location.protocol !== 'file:')
         navigator.serviceWorker.register('offline.js').catch(() => {});
 }
 
-if (hasEngine())
-    begin();
-else
-    say(NO_ENGINE, true);
+begin();

@@ -41,6 +41,7 @@ export class Player {
     step() {
         this.torn = true; // until the frame is made, there is nothing to see
         this.session.step();
+        this.looksBack = this.session.follow();
         this.torn = false;
         this.frame++;
         this.most = Math.max(this.most, this.frame);
@@ -80,7 +81,8 @@ export class Player {
     // it is not there yet.
     seek(frame, most = Infinity) {
         if (frame < this.frame || (frame === this.frame && this.torn)) {
-            const key = this.keyframes.findLast(other => other.frame < frame);
+            // Pictures that depend on those before are made from the first again.
+            const key = this.looksBack ? null : this.keyframes.findLast(other => other.frame < frame);
             const end = this.most;
             if (key) {
                 this.session.rewind(key.snapshot);

@@ -29,7 +29,7 @@ export class Prompt {
         this.before = [...this.before.filter(old => old !== text), text];
         this.at = this.before.length;
         this.print(`? ${text}\n`);
-        const answer = await this.dish.remote.ask('prompt', { text: `${text}\n` })
+        const answer = await this.dish.ask('prompt', { text: `${text}\n` })
             .catch(error => ({ text: `${error.message}\n`, told: [] }));
         this.print(answer.text + answer.told.map(({ rendered }) => rendered).join(''));
     }

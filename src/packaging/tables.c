@@ -1,0 +1,112 @@
+// tables.c: all that petri's tables tell of commands and language, as JSON, for the manual as a site (src/web/site).
+#include "cli/bytes.h"
+#include "cli/help.h"
+#include "cli/json.h"
+#include "packaging/packaging.h"
+#include "petri.h"
+#include "repl/repl.h"
+
+// Names and texts by turns, ended by NULL, as an object that is still open.
+static void add_row(Bytes *out, const char *const texts[]) {
+    bytes_add_text(out, out->data[out->length - 1] == '}' ? ",\n{" : "\n{");
+    for (size_t i = 0; texts[i] != NULL; i += 2) {
+        bytes_format(out, "%s\"%s\": ", i == 0 ? "" : ", ", texts[i]);
+        json_add_text(out, texts[i + 1]);
+    }
+}
+
+#define ROW(out, ...) add_row(out, (const char *const[]){__VA_ARGS__, NULL})
+
+static const char *or_none(const char *text) {
+    return text == NULL ? "" : text;
+}
+
+static void add_list(Bytes *out, const char *name) {
+    bytes_format(out, ", \"%s\": [", name);
+}
+
+static void add_commands(Bytes *out) {
+    for (size_t i = 0; COMMANDS[i] != NULL; i++) {
+        const Command *command = COMMANDS[i];
+        ROW(out, "name", command->name, "operands", command->operands, "summary", command->summary, "details",
+            command->details, "examples", or_none(command->examples));
+        add_list(out, "options");
+        for (const OptionSpec *option = NULL; (option = option_after(command, option)) != NULL;) {
+            ROW(out, "letter", (char[]){option->letter, '\0'}, "name", option->name, "value", or_none(option->value),
+                "help", option->help);
+            bytes_add_text(out, "}");
+        }
+        bytes_add_text(out, "]}");
+    }
+}
+
+static void add_prompt(Bytes *out) {
+    const ReplCommand *command;
+    for (size_t i = 0; (command = repl_command_at(i)) != NULL; i++) {
+        ROW(out, "name", command->name, "operands", command->operands, "help", command->help);
+        bytes_add_text(out, "}");
+    }
+}
+
+static void add_words(Bytes *out) {
+    for (const Topic *topic = TOPICS; topic->word != NULL; topic++) {
+        ROW(out, "word", topic->word, "form", topic->form, "help", topic->help);
+        bytes_add_text(out, "}");
+    }
+}
+
+static void add_functions(Bytes *out) {
+    PetriBuiltin builtin;
+    for (size_t i = 0; petri_builtin(i, &builtin); i++) {
+        ROW(out, "name", builtin.name, "parameters", builtin.parameters, "help", builtin.help);
+        bytes_add_text(out, "}");
+    }
+}
+
+static void add_nodes(Bytes *out) {
+    PetriNodeKind kind;
+    for (size_t i = 0; petri_node_kind(i, &kind); i++) {
+        ROW(out, "name", kind.name, "area", kind.area, "help", kind.help, "formula", kind.formula);
+        add_list(out, "attributes");
+        PetriNodeAttribute attribute;
+        for (size_t k = 0; petri_node_attribute(i, k, &attribute); k++) {
+            ROW(out, "name", attribute.name, "type", attribute.type, "fallback", attribute.fallback, "unit",
+                attribute.unit, "help", attribute.help);
+            bytes_add_text(out, "}");
+        }
+        bytes_add_text(out, "]}");
+    }
+}
+
+static void add_page_rows(Bytes *out, const PageRow *rows) {
+    for (; rows->name != NULL; rows++) {
+        ROW(out, "name", rows->name, "help", rows->help);
+        bytes_add_text(out, "}");
+    }
+}
+
+void tables_as_json(Output *output) {
+    SCOPED_BYTES out = {0};
+    bytes_add_text(&out, " ");
+    ROW(&out, "version", petri_version(), "title", HELP_TITLE, "beginning", HELP_BEGINNING, "letters", FORMULA_LETTERS);
+    static const struct {
+        const char *name;
+        void (*add)(Bytes *out);
+    } lists[] = {{"commands", add_commands},
+                 {"prompt", add_prompt},
+                 {"words", add_words},
+                 {"functions", add_functions},
+                 {"nodes", add_nodes}};
+    for (size_t i = 0; i < sizeof lists / sizeof lists[0]; i++) {
+        add_list(&out, lists[i].name);
+        lists[i].add(&out);
+        bytes_add_text(&out, "]");
+    }
+    add_list(&out, "statuses");
+    add_page_rows(&out, PAGE_STATUSES);
+    bytes_add_text(&out, "]");
+    add_list(&out, "variables");
+    add_page_rows(&out, PAGE_VARIABLES);
+    bytes_add_text(&out, "]}\n");
+    output_write(output, out.data, out.length);
+}

@@ -1,0 +1,103 @@
+// build.mjs ROOT OUTPUT TABLES: the manual as a site, in OUTPUT/manual, of the texts that are in the tree. OUTPUT has the engine
+// (petri/) and <petri-dish>; TABLES is what `petri-manual tables.json` writes.
+import { copyFileSync, mkdirSync, readFileSync, rmSync, writeFileSync } from 'node:fs';
+import { dirname, join, resolve } from 'node:path';
+import { fileURLToPath } from 'node:url';
+import { build } from '../page/node_modules/esbuild/lib/main.js';
+import { loadEngine } from '../engine/petri.mjs';
+import { Examples } from './examples.mjs';
+import { GENERATED } from './generated.mjs';
+import { GROUPS, PAGES, cut } from './pages.mjs';
+import { Text, escape, placesOf } from './text.mjs';
+
+const here = dirname(fileURLToPath(import.meta.url));
+const [, , root, folder, tables] = process.argv.map((word, i) => i === 2 || i === 3 ? resolve(word) : word);
+const output = join(folder, 'manual');
+rmSync(output, { recursive: true, force: true });
+mkdirSync(output, { recursive: true });
+const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm')));
+const site = { root, output, tables: JSON.parse(readFileSync(tables, 'utf8')), places: placesOf(root), examples: new Examples(engine, root) };
+site.text = new Text(site);
+
+// Modules that the scripts of a text import or include: fences with a name.
+const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flitter (\S+\.fl)\n(.*?)^```/gms)].map(([, name, text]) => [name, text])
+    .filter(([name]) => markdown.includes(`"${name}"`)));
+
+const nav = current => GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul>\n${pages.map(page =>
+    `<li><a href="${page.name}.html"${page.name === current ? ' aria-current="page"' : ''}>${escape(page.title)}</a></li>`).join('\n')}\n</ul>\n`).join('');
+
+const html = (page, title, body, sections) => `<!doctype html>
+<html lang="en">
+<head>
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<title>${escape(title)} · petri</title>
+<link rel="icon" href="data:,">
+<link rel="stylesheet" href="site.css">
+<script src="site.js" defer></script>
+<script type="module" src="../petri-dish.js"></script>
+<script type="module" src="try.js"></script>
+</head>
+<body>
+<a class="skip" href="#text">To the text</a>
+<header>
+<a href="index.html"><strong>petri</strong> manual</a>
+<form role="search"><input id="find" type="search" placeholder="Search ( / )" aria-label="Search the manual" autocomplete="off"></form>
+<a href="../index.html">Playground</a>
+<button id="theme">Dark or light</button>
+</header>
+<div id="found" role="region" aria-label="What was found" aria-live="polite" hidden></div>
+<div id="columns">
+<nav aria-label="Pages"><details open><summary>Pages</summary>
+${nav(page)}</details></nav>
+<main id="text">
+<p id="served" hidden>Opened from a file, this page cannot run its examples: browsers let no page do that. <code>./dev web --serve</code> shows it so that it can.</p>
+${body}</main>
+<nav id="sections" aria-label="On this page">${sections.length > 1 ? `<h2>On this page</h2>\n<ul>\n${sections.map(one => `<li><a href="#${one.id}">${escape(one.title)}</a></li>`).join('\n')}\n</ul>` : ''}</nav>
+</div>
+</body>
+</html>
+`;
+
+// What the search looks through: pages, and sections [page, title, id, text].
+const index = { pages: [], sections: [] };
+const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
+
+// Sections take the text up to the next heading.
+function addToIndex(page, body, sections) {
+    const number = index.pages.push([`${page.name}.html`, page.title]) - 1;
+    const pieces = new Map([...body.matchAll(/<h[1-4] id="([^"]*)">.*?<\/h[1-4]>(.*?)(?=<h[1-4] id=|$)/gs)].map(([, id, text]) => [id, text]));
+    for (const { title, id, text } of sections)
+        index.sections.push([number, title, id, words(text || pieces.get(id)?.replaceAll(/<petri-dish.*?<\/petri-dish>/gs, ' ') || '')]);
+}
+
+for (const page of PAGES) {
+    const env = { page: page.name, names: new Set(['text', 'find', 'found', 'theme', 'columns', 'sections', 'served']), sections: [] };
+    let body = '';
+    for (const [file, from, to] of page.parts ?? []) {
+        const markdown = cut(readFileSync(join(root, file), 'utf8'), from, to);
+        site.examples.begin(modulesOf(markdown));
+        body += site.text.render(markdown, Object.assign(env, { file }));
+    }
+    if (!/^<h1/.test(body))
+        body = `<h1 id="top">${escape(page.title)}</h1>\n${body}`;
+    body += page.made ? GENERATED[page.made](site, env) : '';
+    writeFileSync(join(output, `${page.name}.html`), html(page.name, page.title, body, env.sections.filter(({ level }) => level === 2)));
+    addToIndex(page, body, env.sections);
+}
+
+const cards = GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul class="cards">\n${pages.map(({ name, title: its, about }) =>
+    `<li><a href="${name}.html">${escape(its)}</a><br>${escape(about)}</li>`).join('\n')}\n</ul>\n`).join('');
+writeFileSync(join(output, 'index.html'), html('index', 'The manual', `<h1>The manual of petri</h1>
+<p>petri ${escape(site.tables.title)}. It gives the same bits on each machine; the dish below is computed on yours, and so is each
+example of these pages: change a number, or move a slider.</p>
+<petri-dish src="dish.fl" controls label="A dish of drops, and a spoon that stirs them">${
+    site.text.image('pictures/dish.png', 'A dish of drops', { file: 'samples/README.md' })}</petri-dish>
+${cards}`, []));
+writeFileSync(join(output, 'index.js'), `globalThis.PETRI_INDEX = ${JSON.stringify(index)};\n`);
+writeFileSync(join(output, 'examples.json'), JSON.stringify(site.examples.all));
+for (const name of ['site.css', 'site.js'])
+    copyFileSync(join(here, name), join(output, name));
+await build({ entryPoints: [join(here, 'try.mjs')], outfile: join(output, 'try.js'), bundle: true, minify: true, format: 'esm', external: ['node:fs/promises'], logLevel: 'warning' });
+const count = kind => site.examples.all.filter(one => one.kind === kind || (kind === 'text' && one.kind !== 'dish')).length;
+console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other examples that run`);

@@ -1,0 +1,124 @@
+// examples.mjs: examples of the texts, which run on the pages: as <petri-dish> where they have a picture, else as text with
+// what comes of it (try.mjs). What comes of them is found out here, by the same engine.
+import { readFileSync, readdirSync } from 'node:fs';
+import { basename, join } from 'node:path';
+import { drawPicture } from '../engine/drawing.mjs';
+import { escape } from './text.mjs';
+
+// A context of Canvas 2D that draws nothing, and what else of a browser drawing takes.
+const nothing = new Proxy(function () {}, {
+    get: (_, name) => name === 'canvas' ? { width: 1, height: 1 } : name === Symbol.toPrimitive ? () => 0 : nothing,
+    apply: () => nothing, construct: () => nothing, set: () => true,
+});
+for (const name of ['Path2D', 'OffscreenCanvas', 'DOMMatrix', 'ImageData'])
+    globalThis[name] ??= nothing;
+
+export class Examples {
+    constructor(engine, root) {
+        Object.assign(this, { engine, root, all: [], files: {} });
+        const folder = join(root, 'src/web/site/examples');
+        this.nodes = new Map(readdirSync(folder).filter(name => name.endsWith('.fl'))
+            .map(name => [name.slice(0, -3), readFileSync(join(folder, name), 'utf8')]));
+    }
+
+    // Names of a page's own modules.
+    begin(files) {
+        this.files = files;
+    }
+
+    // `dish` if the script draws what a browser can draw, `text` if it loads, `none` otherwise.
+    kindOf(text, files = this.files) {
+        const session = this.engine.open({ files });
+        try {
+            session.load(text);
+            for (let i = 0; i < 3; i++)
+                session.step();
+            if (!session.drawable)
+                return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
+            const picture = session.picture();
+            // Nodes by their names are drawn by WebGL, which is not here; other things are drawn nowhere.
+            const left = picture ? drawPicture(nothing, picture.numbers) : [' '];
+            return left.every(what => /^\w+$/.test(what)) ? 'dish' : 'text';
+        } catch {
+            return 'none';
+        } finally {
+            session.close();
+        }
+    }
+
+    coloured(text) {
+        const session = this.engine.open(), bytes = Buffer.from(text);
+        let html = '', at = 0;
+        for (const { kind, start, end } of session.tokens(text)) {
+            if (end === start)
+                continue;
+            const piece = escape(bytes.subarray(start, end).toString());
+            html += escape(bytes.subarray(at, start).toString()) + (kind === 'name' || kind === 'operator' ? piece : `<span class="${kind}">${piece}</span>`);
+            at = end;
+        }
+        session.close();
+        return html + escape(bytes.subarray(at).toString());
+    }
+
+    plain(text) {
+        return `<pre tabindex="0"><code>${escape(text)}</code></pre>\n`;
+    }
+
+    code(text) {
+        return `<pre tabindex="0" class="script"><code>${this.coloured(text)}</code></pre>\n`;
+    }
+
+    // A dish with its text to be changed; without scripts of the browser's, the text.
+    dish(text, label, env) {
+        this.all.push({ page: env.page, kind: 'dish', text, files: {} });
+        return `<petri-dish controls editor label="${escape(label)}"><pre tabindex="0" class="script">${this.coloured(text)}</pre></petri-dish>\n`;
+    }
+
+    try(kind, frame, text, result, env) {
+        const files = kind === 'eval' ? {} : this.files;
+        this.all.push({ page: env.page, kind, frame, text, result, files });
+        const given = Object.keys(files).length ? ` data-files="${escape(JSON.stringify(files))}"` : '';
+        return `<div class="try" data-kind="${kind}" data-frame="${frame}"${given}>${this.code(text)}`
+            + `<pre tabindex="0" class="result"><code>${escape(result)}</code></pre></div>\n`;
+    }
+
+    fence({ info, content }, next, env) {
+        const [kind, name = ''] = info.trim().split(/\s+/);
+        const label = `What this example shows: ${env.sections.at(-1)?.title ?? env.page}`;
+        if (kind === 'formula')
+            return `<pre tabindex="0" class="formula"><code>${escape(content)}</code></pre>\n`;
+        if (kind === 'flitter-eval')
+            return this.evaluations(content, env);
+        if (kind === 'tree' || kind === 'state')
+            return ''; // stands below its script already
+        if (kind !== 'flitter')
+            return this.plain(content);
+        if (name.endsWith('.png'))
+            return this.code(content); // an excerpt of the script behind the picture above it
+        const told = next?.type === 'fence' ? next.info.trim().split(/\s+/) : [];
+        if (told[0] === 'tree' && next.content.trim() === 'error')
+            return this.code(content);
+        if (told[0] === 'tree' || told[0] === 'state')
+            return this.try(told[0], Number(told[1] ?? 0), content, next.content, env);
+        return this.kindOf(content) === 'dish' && !info.endsWith('warns') ? this.dish(content, label, env) : this.code(content);
+    }
+
+    // Lines `EXPRESSION => RESULT`.
+    evaluations(content, env) {
+        const lines = content.trimEnd().split('\n').map(line => line.split(/ => (?!.* => )/));
+        return this.try('eval', 0, lines.map(([text]) => `${text.trimEnd()}\n`).join(''), lines.map(([, result = '']) => `${result}\n`).join(''), env);
+    }
+
+    // The script behind a picture, to be run below it.
+    behind(file, env) {
+        const text = readFileSync(join(this.root, file), 'utf8');
+        return this.kindOf(text, {}) === 'dish'
+            ? `<details><summary>Run ${basename(file)}</summary>\n${this.dish(text, `The picture of ${basename(file)}`, env)}</details>\n` : '';
+    }
+
+    // What stands below the heading of a node of physics.
+    under(title, env) {
+        const name = title.match(/^!(\w+)$/)?.[1];
+        return env.page === 'physics' && this.nodes.has(name) ? this.dish(this.nodes.get(name), `!${name}, with what can be changed`, env) : '';
+    }
+}

@@ -1,0 +1,103 @@
+// site.js: search, theme and what works without a network. No module, so that a page opened from a file has it, too.
+'use strict';
+{
+    const $ = id => document.getElementById(id), find = $('find'), found = $('found');
+    const THEME = 'petri.theme';
+    let asked = null;
+
+    // The index is fetched once somebody searches: a script, since pages opened from a file may fetch nothing else.
+    const index = () => (asked ??= new Promise((resolve, reject) => {
+        const script = Object.assign(document.createElement('script'), { src: 'index.js' });
+        script.onload = () => resolve(globalThis.PETRI_INDEX);
+        script.onerror = reject;
+        document.head.append(script);
+    }));
+
+    // How well a section fits the words; 0: one of them is nowhere in it.
+    function worth([, title, , text], words) {
+        const name = title.toLowerCase().replace(/[!`]|\(.*/g, ''), all = `${title} ${text}`.toLowerCase();
+        let sum = 0;
+        for (const word of words) {
+            if (!all.includes(word))
+                return 0;
+            sum += name === word ? 100 : name.startsWith(word) ? 40 : title.toLowerCase().includes(word) ? 20 : 1;
+            sum += Math.min(all.split(word).length, 9);
+        }
+        return sum;
+    }
+
+    // The text around the first of the words.
+    function around(text, words) {
+        const at = Math.max(0, Math.min(...words.map(word => text.toLowerCase().indexOf(word)).filter(place => place >= 0), text.length) - 60);
+        const start = at && text.indexOf(' ', at) + 1;
+        return `${start ? '… ' : ''}${text.slice(start, start + 180)}`;
+    }
+
+    async function search() {
+        const words = find.value.toLowerCase().replace(/[!`]/g, ' ').split(/\s+/).filter(Boolean);
+        found.hidden = words.length === 0;
+        if (found.hidden)
+            return;
+        const { pages, sections } = await index();
+        const best = sections.map(section => [worth(section, words), section]).filter(([sum]) => sum > 0).sort((a, b) => b[0] - a[0]).slice(0, 15);
+        const list = document.createElement('ul');
+        list.append(...best.map(([, [page, title, id, text]]) => {
+            const item = document.createElement('li'), link = document.createElement('a'), small = document.createElement('small');
+            link.href = `${pages[page][0]}#${id}`;
+            link.textContent = `${pages[page][1]}: ${title}`;
+            link.onclick = () => (found.hidden = true);
+            small.textContent = around(text, words);
+            item.append(link, small);
+            return item;
+        }));
+        found.replaceChildren(best.length ? list : 'Nothing was found.');
+    }
+
+    find.oninput = () => search().catch(() => found.replaceChildren('The index of the search cannot be read.'));
+    find.form.onsubmit = event => {
+        event.preventDefault();
+        found.querySelector('a')?.click();
+    };
+    addEventListener('keydown', event => {
+        const links = [...found.querySelectorAll('a')], at = links.indexOf(document.activeElement);
+        if (event.key === '/' && !/^(INPUT|TEXTAREA|PETRI-DISH)$/.test(document.activeElement.tagName)) {
+            event.preventDefault();
+            find.focus();
+        } else if (event.key === 'Escape' && !found.hidden) {
+            found.hidden = true;
+            find.focus();
+        } else if (!found.hidden && (at >= 0 || document.activeElement === find) && /^Arrow(Up|Down)$/.test(event.key)) {
+            event.preventDefault();
+            ([find, ...links][at + 1 + (event.key === 'ArrowDown' ? 1 : -1)] ?? find).focus();
+        }
+    });
+
+    const kept = () => {
+        try {
+            return localStorage.getItem(THEME);
+        } catch {
+            return null;
+        }
+    };
+    document.documentElement.dataset.theme = kept() ?? '';
+    $('theme').onclick = () => {
+        const dark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+        document.documentElement.dataset.theme = dark ? 'light' : 'dark';
+        try {
+            localStorage.setItem(THEME, dark ? 'light' : 'dark');
+        } catch {
+            // it is not kept then
+        }
+    };
+
+    if (innerWidth <= 760)
+        document.querySelector('nav details').open = false;
+    $('served').hidden = location.protocol !== 'file:';
+    if (location.protocol !== 'file:' && 'serviceWorker' in navigator)
+        navigator.serviceWorker.register('../offline.js').then(async () => {
+            await navigator.serviceWorker.ready;
+            const cache = await caches.open('petri');
+            const pages = [...document.querySelectorAll('nav[aria-label=Pages] a')].map(link => link.getAttribute('href'));
+            await cache.addAll(['index.html', 'index.js', 'site.css', 'site.js', 'try.js', ...pages].map(name => new URL(name, location.href).href));
+        }).catch(() => {});
+}

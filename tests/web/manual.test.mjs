@@ -1,0 +1,150 @@
+// manual.test.mjs: the manual as a site: what its examples show is what WebAssembly gives, links lead somewhere, the search
+// finds, pages run their examples. Skipped where there is none, or no browser.
+import assert from 'node:assert/strict';
+import { existsSync, readFileSync, readdirSync } from 'node:fs';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { pathToFileURL } from 'node:url';
+import { loadEngine } from '../../src/web/engine/petri.mjs';
+import { outcome } from '../../src/web/site/try.mjs';
+import { folder, options, pixels, root, visited, world } from './browser.mjs';
+
+const site = join(folder, 'manual'), built = { skip: existsSync(join(site, 'index.html')) ? false : 'there is no manual' };
+const pages = built.skip ? [] : readdirSync(site).filter(name => name.endsWith('.html'));
+const read = name => readFileSync(join(site, name), 'utf8');
+const AXE = join(root, 'src/web/page/node_modules/axe-core/axe.min.js');
+
+// Lines KEY = VALUE, in any order, among others; null for what is not there.
+function hasState(printed, wanted) {
+    const lines = printed.split('\n');
+    return wanted.trimEnd().split('\n').every(line => line.endsWith(' = null')
+        ? !lines.some(other => other.startsWith(`${line.slice(0, -4)}`)) : lines.includes(line));
+}
+
+test('examples give in WebAssembly what the manual shows', built, async () => {
+    const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm'))), examples = JSON.parse(read('examples.json'));
+    for (const example of examples) {
+        const { page, kind, text, result, files } = example, where = `${page}: ${text}`;
+        if (kind === 'dish') {
+            const session = engine.open({ files });
+            session.load(text);
+            for (let i = 0; i < 3; i++)
+                session.step();
+            assert.ok(session.picture().numbers.length > 2, where);
+            session.close();
+            continue;
+        }
+        const given = outcome(engine, example);
+        if (kind === 'state')
+            assert.ok(hasState(given, result), `${where}\n${given}`);
+        else if (kind === 'eval')
+            given.split('\n').forEach((line, i) => {
+                const wanted = result.split('\n')[i];
+                if (wanted !== 'error')
+                    assert.equal(line, wanted, text.split('\n')[i]);
+            });
+        else
+            assert.ok(given.startsWith(result.trimEnd()), `${where}\n${given}`);
+    }
+    const count = kind => examples.filter(example => example.kind === kind).length;
+    assert.ok(count('dish') > 40 && count('eval') > 20 && count('tree') > 30 && count('state') > 15, JSON.stringify(examples.map(({ kind }) => kind)));
+});
+
+test('links lead somewhere, pictures are there', built, () => {
+    const ids = new Map(pages.map(name => [name, new Set([...read(name).matchAll(/ id="([^"]+)"/g)].map(([, id]) => id))]));
+    let count = 0;
+    for (const name of pages) {
+        const text = read(name), twice = [...text.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id).filter((id, i, all) => all.indexOf(id) !== i);
+        assert.deepEqual(twice, [], `${name}: ids that are there twice`);
+        for (const [, link] of text.matchAll(/(?:href|src)="([^"]*)"/g)) {
+            const [path, id] = link.split('#');
+            if (/^[a-z]+:/.test(link))
+                continue;
+            count++;
+            assert.ok(!path || existsSync(join(site, path)), `${name}: ${link}`);
+            assert.ok(id === undefined || (ids.get(path || name) ?? new Set()).has(decodeURIComponent(id)), `${name}: ${link}`);
+        }
+    }
+    assert.ok(pages.length > 18 && count > 1000, `${pages.length} pages, ${count} links`);
+});
+
+test('each node of physics has a formula or none, and an example that runs', built, () => {
+    const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), text = read('physics.html');
+    for (const { name } of nodes.filter(({ area }) => area === 'physics')) {
+        const part = text.split(`<h2 id="${name}">`)[1]?.split('<h2 ')[0];
+        assert.match(part ?? '', /<petri-dish controls editor/, name);
+        assert.equal(/class="formula"/.test(part), /^(distance|collision|gravity|electrostatic|adhesion|constant|random|field|drag|buoyancy|barrier)$/.test(name), name);
+    }
+});
+
+const visit = (name, use, settings = {}) => visited(`${world.server.url}manual/${name}`, { settings, ready: () => document.readyState === 'complete', use });
+const shown = page => page.waitForFunction(() => document.querySelector('petri-dish').frame >= 0);
+
+const ways = { ...options, skip: options.skip || built.skip };
+
+test('the search finds, by keys alone, and pages show their examples', ways, () => visit('index.html', async page => {
+    await shown(page);
+    assert.ok((await pixels(page, 'petri-dish >> #picture')).all > 20);
+    await page.keyboard.press('/');
+    await page.keyboard.type('collision');
+    await page.waitForSelector('#found a');
+    assert.equal(await page.textContent('#found a'), 'Physics: !collision');
+    await page.keyboard.press('ArrowDown');
+    await page.keyboard.press('Enter');
+    await page.waitForURL(/physics\.html#collision$/);
+    const dish = page.locator('h2#collision + petri-dish');
+    await page.waitForFunction(() => document.querySelector('h2#collision + petri-dish').frame >= 0);
+    const { sum, all } = await pixels(page, 'h2#collision + petri-dish >> #picture');
+    assert.ok(all > 20);
+    await dish.locator('#parameter-STRENGTH').fill('20');
+    await dish.locator('#step').click();
+    await page.waitForFunction(() => document.querySelector('h2#collision + petri-dish').frame === 3);
+    assert.notEqual((await pixels(page, 'h2#collision + petri-dish >> #picture')).sum, sum);
+    await page.fill('#find', 'petri_open');
+    await page.waitForFunction(() => document.querySelector('#found a')?.textContent.endsWith('petri_open'));
+    await page.fill('#find', 'xyzzyx');
+    await page.waitForFunction(() => document.getElementById('found').textContent === 'Nothing was found.');
+}));
+
+test('a reader changes an example, and sees what comes of it', ways, () => visit('language.html', async page => {
+    const example = page.locator('.try[data-kind=eval]').first();
+    await example.locator('button').click();
+    await example.locator('textarea').fill('1+2\n..4\nnonsense(');
+    await page.waitForFunction(() => document.querySelector('.try[data-kind=eval] .result').textContent.startsWith('3\n0;1;2;3\n'));
+    const script = page.locator('.try[data-kind=tree]').first();
+    await script.locator('button').click();
+    await script.locator('textarea').fill('for i in ..2\n    !a b=i c=nowhere\n');
+    await page.waitForFunction(() => /^!a b=0\n!a b=1\n.*unbound name 'nowhere'/s.test(document.querySelector('.try[data-kind=tree] .result').textContent));
+}));
+
+test('pages work for all, in light and dark, on a phone, and without a network', ways, async () => {
+    for (const [name, colorScheme] of [['physics.html', 'light'], ['language.html', 'dark']])
+        await visit(name, async page => {
+            await page.evaluate(readFileSync(AXE, 'utf8'));
+            const { violations } = await page.evaluate(() => globalThis.axe.run());
+            assert.deepEqual(violations.filter(({ impact }) => impact === 'serious' || impact === 'critical').map(({ id, nodes }) => [id, nodes[0].html]), [], name);
+        }, { colorScheme });
+    await visit('tutorial.html', async (page, context) => {
+        assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true);
+        await page.waitForFunction(() => navigator.serviceWorker.controller);
+        await page.evaluate(async () => {
+            while (!await (await caches.open('petri')).match('functions.html'))
+                await new Promise(resolve => setTimeout(resolve, 20));
+        });
+        await context.setOffline(true);
+        await page.goto(`${world.server.url}manual/functions.html`);
+        await page.fill('#find', 'hypot');
+        await page.waitForFunction(() => /hypot/.test(document.querySelector('#found a')?.textContent));
+    }, { viewport: { width: 390, height: 800 } });
+});
+
+test('opened from a file, a page has its texts, pictures and search', ways, () => visited(`${pathToFileURL(join(site, 'physics.html'))}`, {
+    expected: /CORS|Failed to load/, ready: () => document.readyState === 'complete', use: async page => {
+        assert.ok(await page.isVisible('#served'));
+        assert.match(await page.textContent('#collision + petri-dish > pre'), /!collision strength=STRENGTH/);
+        assert.ok(await page.isVisible('#collision + petri-dish > pre'));
+        await page.fill('#find', 'collision');
+        await page.waitForSelector('#found a');
+        assert.equal(await page.textContent('#found a'), 'Physics: !collision');
+    },
+}));

@@ -1,0 +1,165 @@
+// panels.test.mjs: the prompt, the plot, the table, completion and help, and narrow screens.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { atFrame, opened, options, typed } from './browser.mjs';
+
+const NOW = '!counter state=:c rate=1\n!window size=8;8\n    !canvas\n';
+
+async function running(page, text) {
+    await typed(page, text);
+    await page.evaluate(() => delete document.body.dataset.frame);
+    await page.keyboard.press('Control+Enter');
+    await page.waitForFunction(() => Number(document.body.dataset.frame) > 3);
+    await page.click('#run');
+    await page.waitForFunction(() => document.getElementById('run').textContent === 'Run');
+}
+
+async function seek(page, frame) {
+    await page.evaluate(wanted => {
+        const time = document.getElementById('time');
+        time.value = wanted;
+        time.dispatchEvent(new Event('input'));
+    }, frame);
+    await atFrame(page, frame);
+}
+
+test('the prompt has definitions, errors, and lines from before', options, () => opened('', {
+    use: async page => {
+        const ask = async (text, answer) => {
+            await page.fill('#line', text);
+            await page.press('#line', 'Enter');
+            await page.waitForFunction(wanted => document.getElementById('printed').textContent.endsWith(wanted), answer);
+        };
+        await ask('let q=6', '? let q=6\n');
+        await ask('q*7', '42\n');
+        await page.fill('#line', 'coss(1)');
+        await page.press('#line', 'Enter');
+        await page.waitForFunction(() => /unbound name 'coss'/.test(document.getElementById('printed').textContent));
+        await page.press('#line', 'ArrowUp');
+        await page.press('#line', 'ArrowUp');
+        assert.equal(await page.inputValue('#line'), 'q*7');
+        await page.press('#line', 'ArrowDown');
+        assert.equal(await page.inputValue('#line'), 'coss(1)');
+    },
+}));
+
+test('watched expressions are plotted, for frames before, too', options, () => opened('', {
+    use: async page => {
+        await running(page, NOW);
+        await seek(page, 3);
+        await page.click('#tab-plot');
+        const said = wanted => page.waitForFunction(text => document.getElementById('plot-said').textContent === text, wanted);
+        await page.fill('#watch-line', 'round(frame*10)');
+        await page.press('#watch-line', 'Enter');
+        await said('round(frame*10) = 30 in frame 3');
+        await page.click('#back');
+        await said('round(frame*10) = 20 in frame 2');
+        const inked = () => page.evaluate(() => {
+            const canvas = document.getElementById('plot-picture'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            let blue = 0;
+            for (let i = 0; i < data.length; i += 4)
+                blue += data[i + 2] > data[i] + 100 && data[i + 3] > 100;
+            return blue;
+        });
+        assert.ok(await inked() > 100, `${await inked()}`);
+        await page.fill('#watch-line', "'word'");
+        await page.press('#watch-line', 'Enter');
+        await said("round(frame*10) = 20 in frame 2, 'word' is no number: 'word'");
+        await page.click('#watched li:nth-child(2) button');
+        await page.click('#watched li:nth-child(1) button');
+        await said('');
+        assert.equal(await page.textContent('#problems'), '');
+    },
+}));
+
+test('a state of a hundred thousand keys is filtered and sorted', options, () => opened('', {
+    use: async page => {
+        await running(page, '!physics state=:p dimensions=2 time=time\n    for i in ..50000\n        !particle id=i position=i;(0-i)\n!window size=8;8\n    !canvas\n');
+        await page.click('#tab-state');
+        const count = wanted => page.waitForFunction(pattern => new RegExp(pattern).test(document.getElementById('state-count').textContent), wanted);
+        await count('^1 to 100 of 10000\\d$');
+        assert.equal(await page.locator('#state-rows tr').count(), 100);
+        const begun = Date.now();
+        await page.fill('#state-filter', ':p;4999');
+        await count('^1 to 22 of 22, 10000\\d in all$');
+        await page.click('#panel-state th:first-child button');
+        await page.waitForFunction(() => document.querySelector('#state-rows th').textContent === ':p;4999');
+        await page.click('#panel-state th:first-child button');
+        await page.waitForFunction(() => document.querySelector('#state-rows th').textContent === ':p;49999;:velocity');
+        assert.equal(await page.getAttribute('#panel-state th:first-child', 'aria-sort'), 'descending');
+        assert.match(await page.textContent('#state-rows tr:nth-child(2) td'), /^49999; -49999$/);
+        await page.fill('#state-filter', '');
+        await page.click('#state-after');
+        await count('^101 to 200 of 10000\\d$');
+        assert.ok(Date.now() - begun < 20000);
+    },
+}));
+
+test('completion and help come from petri\'s tables', options, () => opened('', {
+    use: async page => {
+        await typed(page, 'let SPEEDY=3\n!physics state=:p\n    !particle radi');
+        await page.waitForSelector('.cm-tooltip-autocomplete');
+        const first = page.locator('.cm-tooltip-autocomplete li').first();
+        assert.match(await first.textContent(), /^radius/);
+        await page.waitForTimeout(100); // the list takes no key at once
+        await page.keyboard.press('Enter');
+        assert.match(await page.textContent('.cm-content'), /!particle radius=$/);
+        await page.keyboard.insertText('SPE');
+        await page.keyboard.press('Control+Space');
+        await page.waitForFunction(() => /SPEEDY/.test(document.querySelector('.cm-tooltip-autocomplete')?.textContent));
+        await page.keyboard.press('Escape');
+        await page.hover('.cm-line:nth-child(3) >> text=!particle');
+        await page.waitForFunction(() => /^!particle ./.test(document.querySelector('.cm-help')?.textContent));
+    },
+}));
+
+test('a phone has the picture first, nothing is cut off, and fingers find the buttons', options, () => opened('', {
+    settings: { viewport: { width: 360, height: 740 }, hasTouch: true, isMobile: true },
+    use: async page => {
+        const box = selector => page.locator(selector).boundingBox();
+        const [picture, run, text] = [await box('#picture'), await box('#run'), await box('#editor')];
+        assert.ok(picture.y < run.y && run.y < text.y);
+        assert.ok(run.y + run.height < 740 && run.height >= 30, JSON.stringify(run));
+        assert.ok(picture.width > 200);
+        assert.ok(await page.evaluate(() => document.documentElement.scrollWidth) <= 360);
+        for (const tab of ['#tab-plot', '#tab-state', '#tab-prompt'])
+            await page.tap(tab);
+        await page.tap('#step');
+        await atFrame(page, 3);
+        await page.tap('#save-as');
+        const dialog = await box('#saving');
+        assert.ok(dialog.x >= 0 && dialog.x + dialog.width <= 360, JSON.stringify(dialog));
+    },
+}));
+
+test('all is done by the keyboard alone', options, () => opened('', {
+    use: async page => {
+        const focused = () => page.evaluate(() => document.activeElement.id || document.activeElement.className);
+        const tabTo = async (id, most = 40) => {
+            for (let i = 0; i < most && await focused() !== id; i++)
+                await page.keyboard.press('Tab');
+            assert.equal(await focused(), id);
+        };
+        await tabTo('save-as');
+        await page.keyboard.press('Enter');
+        await page.waitForSelector('#saving', { state: 'visible' });
+        await page.keyboard.press('Escape');
+        await page.waitForSelector('#saving', { state: 'hidden' });
+        assert.equal(await focused(), 'save-as');
+        await tabTo('theme');
+        await page.keyboard.press('Tab');
+        assert.match(await focused(), /cm-content/);
+        await page.keyboard.press('Escape'); // Tab then leaves the text
+        await tabTo('picture');
+        await tabTo('step');
+        await page.keyboard.press('Enter');
+        await atFrame(page, 3);
+        await tabTo('time');
+        await page.keyboard.press('ArrowLeft');
+        await atFrame(page, 2);
+        await tabTo('tab-prompt');
+        await page.keyboard.press('ArrowRight');
+        assert.equal(await focused(), 'tab-plot');
+        await tabTo('watch-line');
+    },
+}));
