@@ -36,7 +36,7 @@ const host = {
         if (answer.picture)
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
-            say(`Not drawn in the browser: ${left.join(', ')}.`);
+            say(`Not drawn in the browser${answer.picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`);
         document.body.dataset.frame = answer.frame;
         look();
     },
