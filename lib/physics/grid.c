@@ -6,21 +6,29 @@
 // the others (a few may be) are in no cell; everyone tests them.
 #include "physics/grid.h"
 #include "maths/maths.h"
+#include "physics/threads.h"
 
 #include <float.h>
 
 enum { SAMPLES = 256 }; // particles by which the grid is chosen
 
+// Some of the particles: positions and radii.
+typedef struct Samples {
+    double of[PHYS_VECTOR_DIMENSIONS + 1][SAMPLES];
+    size_t count;
+} Samples;
+
 // What is known of the particles before they are sorted.
 typedef struct Survey {
     double low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS];
-    double sample[PHYS_VECTOR_DIMENSIONS + 1][SAMPLES]; // positions and radii
-    size_t samples;
-    double large;  // radius above which a particle is large
-    double widest; // radius of the largest regular one
-    double narrowest;
+    double widest, narrowest; // radii of regular ones
     uint32_t regular, large_count;
 } Survey;
+
+static Survey no_survey(void) {
+    return (Survey){
+        .low = {INFINITY, INFINITY, INFINITY}, .high = {-INFINITY, -INFINITY, -INFINITY}, .narrowest = INFINITY};
+}
 
 // Squares of lengths that a list deals with must be normal numbers.
 #define SHORTEST 1e-100
@@ -44,66 +52,111 @@ static bool idle(const PairPass *pass, const Neighbours *list, size_t column) {
 }
 
 // Looks at some of the particles, so that outliers cannot spoil the grid.
-static void take_samples(const PairPass *pass, const Neighbours *list, Survey *survey) {
+static void take_samples(const PairPass *pass, const Neighbours *list, Samples *samples) {
     uint64_t every = list->total / SAMPLES + 1, number = 0;
-    survey->samples = 0;
+    samples->count = 0;
     for (uint32_t r = 0; r < list->ranges.count; r++) {
         const ColumnRange *range = &list->ranges.at[r];
         for (uint32_t i = 0; i < range->count; i++, number++) {
             if (number % every || idle(pass, list, range->first + i))
                 continue;
             for (size_t k = 0; k < pass->dimensions; k++)
-                survey->sample[k][survey->samples] = pass->position[k * pass->stride + range->first + i];
-            survey->sample[PHYS_VECTOR_DIMENSIONS][survey->samples++] = pass->radius[range->first + i];
+                samples->of[k][samples->count] = pass->position[k * pass->stride + range->first + i];
+            samples->of[PHYS_VECTOR_DIMENSIONS][samples->count++] = pass->radius[range->first + i];
         }
     }
     for (size_t k = 0; k <= PHYS_VECTOR_DIMENSIONS; k++)
-        sort_doubles(survey->sample[k], k < pass->dimensions || k == PHYS_VECTOR_DIMENSIONS ? survey->samples : 0);
+        sort_doubles(samples->of[k], k < pass->dimensions || k == PHYS_VECTOR_DIMENSIONS ? samples->count : 0);
+}
+
+// Work on the particles of a pass, cut into shares.
+typedef struct Sorting {
+    const PhysSystem *system; // NULL: one thread does it
+    const PairPass *pass;
+    Neighbours *list;
+    const Grid *grid;
+    double large; // radius above which a particle is large
+    Survey *parts;
+} Sorting;
+
+static void share_out(Sorting *sorting, PhysWork *work, int shares) {
+    if (shares > 1)
+        phys_parallel(sorting->system, shares, work, sorting);
+    else
+        work(sorting, 0, 1);
+}
+
+static int shares_of(const Sorting *sorting) {
+    return sorting->system ? phys_shares(sorting->system, sorting->list->total, PHYS_MIN_FOR_THREADS) : 1;
+}
+
+// The column of a particle of the pass.
+static inline size_t column_of(const Neighbours *list, uint32_t number) {
+    const ColumnRange *range = list->ranges.at;
+    while (number >= range->count)
+        number -= range++->count;
+    return (size_t)range->first + number;
+}
+
+static uint32_t share_start(const Neighbours *list, int share, int shares) {
+    return (uint32_t)phys_share(list->total, share, shares);
+}
+
+static void survey_one(const PairPass *pass, Survey *survey, size_t column) {
+    survey->regular++;
+    survey->widest = fmax(survey->widest, pass->radius[column]);
+    survey->narrowest = fmin(survey->narrowest, pass->radius[column]);
+    for (size_t k = 0; k < pass->dimensions; k++) {
+        double x = pass->position[k * pass->stride + column];
+        survey->low[k] = x < survey->low[k] ? x : survey->low[k];
+        survey->high[k] = x > survey->high[k] ? x : survey->high[k];
+    }
+}
+
+static void survey_share(void *context, int share, int shares) {
+    const Sorting *sorting = context;
+    const PairPass *pass = sorting->pass;
+    Neighbours *list = sorting->list;
+    Survey survey = no_survey();
+    uint32_t end = share_start(list, share + 1, shares);
+    for (uint32_t i = share_start(list, share, shares); i < end; i++) {
+        size_t column = column_of(list, i);
+        bool lost = idle(pass, list, column), large = !lost && pass->radius[column] > sorting->large;
+        list->cell[i] = lost ? PHYS_CELL_IDLE : large ? PHYS_CELL_LARGE : 0;
+        survey.large_count += large;
+        if (!lost && !large)
+            survey_one(pass, &survey, column);
+    }
+    sorting->parts[share] = survey;
 }
 
 // Extent of all, and how many are large; fills list->cell with PHYS_CELL_IDLE, PHYS_CELL_LARGE or 0.
-static void survey_all(const PairPass *pass, Neighbours *list, Survey *survey) {
-    uint32_t rank = 0;
-    for (size_t k = 0; k < pass->dimensions; k++) {
-        survey->low[k] = INFINITY;
-        survey->high[k] = -INFINITY;
-    }
-    survey->widest = 0;
-    survey->narrowest = INFINITY;
-    survey->regular = survey->large_count = 0;
-    for (uint32_t r = 0; r < list->ranges.count; r++)
-        for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++) {
-            size_t column = (size_t)list->ranges.at[r].first + i;
-            if (idle(pass, list, column)) {
-                list->cell[rank] = PHYS_CELL_IDLE;
-                continue;
-            }
-            if (pass->radius[column] > survey->large) {
-                list->cell[rank] = PHYS_CELL_LARGE;
-                survey->large_count++;
-                continue;
-            }
-            list->cell[rank] = 0;
-            survey->regular++;
-            survey->widest = fmax(survey->widest, pass->radius[column]);
-            survey->narrowest = fmin(survey->narrowest, pass->radius[column]);
-            for (size_t k = 0; k < pass->dimensions; k++) {
-                double x = pass->position[k * pass->stride + column];
-                survey->low[k] = x < survey->low[k] ? x : survey->low[k];
-                survey->high[k] = x > survey->high[k] ? x : survey->high[k];
-            }
+static Survey survey_all(Sorting *sorting) {
+    Survey parts[PHYS_MOST_SHARES], all = no_survey();
+    int shares = shares_of(sorting);
+    sorting->parts = parts;
+    share_out(sorting, survey_share, shares);
+    for (int s = 0; s < shares; s++) {
+        all.regular += parts[s].regular;
+        all.large_count += parts[s].large_count;
+        all.widest = fmax(all.widest, parts[s].widest);
+        all.narrowest = fmin(all.narrowest, parts[s].narrowest);
+        for (size_t k = 0; k < sorting->pass->dimensions; k++) {
+            all.low[k] = fmin(all.low[k], parts[s].low[k]);
+            all.high[k] = fmax(all.high[k], parts[s].high[k]);
         }
+    }
+    return all;
 }
 
 // Where the grid lies and how fine it is: cells no narrower than `width`, and not many more of them than particles.
-static void choose_cells(const Survey *survey, double width, double most, Grid *grid) {
+static void choose_cells(const Survey *survey, const Samples *samples, double width, double most, Grid *grid) {
     double product = 1;
     double span[PHYS_VECTOR_DIMENSIONS];
     for (size_t k = 0; k < grid->dimensions; k++) {
-        const double *sample = survey->sample[k];
-        size_t edge = survey->samples / 4;
-        double low = survey->samples ? sample[edge] : 0,
-               high = survey->samples ? sample[survey->samples - 1 - edge] : 0;
+        const double *sample = samples->of[k];
+        size_t edge = samples->count / 4;
+        double low = samples->count ? sample[edge] : 0, high = samples->count ? sample[samples->count - 1 - edge] : 0;
         double usual = high - low;
         low = fmax(survey->low[k], low - 1.5 * usual);
         high = fmin(survey->high[k], high + 1.5 * usual);
@@ -136,30 +189,48 @@ static void put_into_place(const PairPass *pass, Neighbours *list, uint32_t plac
     list->view.radius[place] = pass->radius[column];
 }
 
-// A stable counting sort by cell: inside a cell, places are in the order of the pass.
-static void sort_by_cell(const PairPass *pass, Neighbours *list, const Survey *survey, Grid *grid) {
-    uint32_t cells = 1, rank = 0, large = survey->regular, rest = survey->regular + survey->large_count;
+static void find_cells_share(void *context, int share, int shares) {
+    const Sorting *sorting = context;
+    const PairPass *pass = sorting->pass;
+    Neighbours *list = sorting->list;
+    uint32_t end = share_start(list, share + 1, shares);
+    for (uint32_t i = share_start(list, share, shares); i < end; i++)
+        if (list->cell[i] < PHYS_CELL_LARGE)
+            list->cell[i] = phys_cell_of(sorting->grid, pass->position + column_of(list, i), pass->stride);
+}
+
+// The place of each particle instead of its cell, by counting.
+static void number_places(Neighbours *list, const Survey *survey, const Grid *grid) {
+    uint32_t cells = 1, large = survey->regular, rest = survey->regular + survey->large_count;
     for (size_t k = 0; k < grid->dimensions; k++)
         cells *= grid->cells[k];
     for (uint32_t c = 0; c < cells + 2; c++)
         grid->start[c] = 0;
-    for (uint32_t r = 0; r < list->ranges.count; r++)
-        for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++)
-            if (list->cell[rank] < PHYS_CELL_LARGE) {
-                list->cell[rank] = phys_cell_of(grid, pass->position + list->ranges.at[r].first + i, pass->stride);
-                grid->start[list->cell[rank] + 2]++;
-            }
+    for (uint32_t i = 0; i < list->total; i++)
+        if (list->cell[i] < PHYS_CELL_LARGE)
+            grid->start[list->cell[i] + 2]++;
     for (uint32_t c = 2; c < cells + 2; c++)
         grid->start[c] += grid->start[c - 1];
-    rank = 0;
-    for (uint32_t r = 0; r < list->ranges.count; r++)
-        for (uint32_t i = 0; i < list->ranges.at[r].count; i++, rank++) {
-            uint32_t cell = list->cell[rank];
-            uint32_t place = cell == PHYS_CELL_IDLE    ? rest++
-                             : cell == PHYS_CELL_LARGE ? large++
-                                                       : grid->start[cell + 1]++;
-            put_into_place(pass, list, place, rank, (size_t)list->ranges.at[r].first + i);
-        }
+    for (uint32_t i = 0; i < list->total; i++) {
+        uint32_t cell = list->cell[i];
+        list->cell[i] = cell == PHYS_CELL_IDLE ? rest++ : cell == PHYS_CELL_LARGE ? large++ : grid->start[cell + 1]++;
+    }
+}
+
+static void put_share(void *context, int share, int shares) {
+    const Sorting *sorting = context;
+    Neighbours *list = sorting->list;
+    uint32_t end = share_start(list, share + 1, shares);
+    for (uint32_t i = share_start(list, share, shares); i < end; i++)
+        put_into_place(sorting->pass, list, list->cell[i], i, column_of(list, i));
+}
+
+// Stable: inside a cell, places are in the order of the columns.
+static void sort_by_cell(Sorting *sorting, const Survey *survey) {
+    int shares = shares_of(sorting);
+    share_out(sorting, find_cells_share, shares);
+    number_places(sorting->list, survey, sorting->grid);
+    share_out(sorting, put_share, shares);
 }
 
 // Points the arrays of a list into their memory.
@@ -204,28 +275,31 @@ static void fill_up(const PairPass *pass, Neighbours *list, uint32_t dummy) {
 }
 
 // Finds out how long a skin is, which particles are large, and where cells lie: no more than about `most`.
-static bool lay(const PairPass *pass, Neighbours *list, double most, Survey *survey, Grid *grid) {
-    take_samples(pass, list, survey);
-    double median = survey->samples ? survey->sample[PHYS_VECTOR_DIMENSIONS][survey->samples / 2] : 0;
+static bool lay(Sorting *sorting, double most, Survey *survey, Grid *grid) {
+    Neighbours *list = sorting->list;
+    Samples samples;
+    take_samples(sorting->pass, list, &samples);
+    double median = samples.count ? samples.of[PHYS_VECTOR_DIMENSIONS][samples.count / 2] : 0;
     list->base = fmax(2 * median, list->bound);
     if (!(list->base > SHORTEST && list->base < 1 / SHORTEST))
         return false;
     if (!list->skin_given && !(list->skin >= SKIN_LEAST * list->base && list->skin <= SKIN_MOST * list->base))
         list->skin = 0.3 * list->base;
-    survey->large = 2 * list->base;
-    survey_all(pass, list, survey);
+    sorting->large = 2 * list->base;
+    *survey = survey_all(sorting);
     if (survey->large_count > PHYS_MOST_LARGE) { // they are no exception
-        survey->large = INFINITY;
-        survey_all(pass, list, survey);
+        sorting->large = INFINITY;
+        *survey = survey_all(sorting);
     }
     double width = (fmax(2 * survey->widest, list->bound) + list->skin) * (1 + 1e-9);
-    choose_cells(survey, width, fmin(most, 2.0 * survey->regular + 64), grid);
+    choose_cells(survey, &samples, width, fmin(most, 2.0 * survey->regular + 64), grid);
     return true;
 }
 
 bool phys_grid_lay(const PairPass *pass, Neighbours *list, double most, Grid *grid, double *widest) {
     Survey survey;
-    if (!lay(pass, list, most, &survey, grid))
+    Sorting sorting = {.pass = pass, .list = list};
+    if (!lay(&sorting, most, &survey, grid))
         return false;
     *widest = survey.widest;
     return true;
@@ -234,11 +308,12 @@ bool phys_grid_lay(const PairPass *pass, Neighbours *list, double most, Grid *gr
 bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
     Survey survey;
     Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
+    Sorting sorting = {.system = system, .pass = pass, .list = list, .grid = &grid};
     list->total = (uint32_t)phys_ranges_total(&list->ranges);
     list->order = system->settled ? system->order : NULL;
     list->view.direct = false;
     if (list->total > UINT32_MAX / PHYS_QUAD - 2 * PHYS_MOST_LANES || !reserve_arrays(system, pass, list) ||
-        !lay(pass, list, INFINITY, &survey, &grid))
+        !lay(&sorting, INFINITY, &survey, &grid))
         return false;
     list->view.moved = phys_skin_square(list->skin);
     uint64_t cells = (uint64_t)grid.cells[0] * grid.cells[1] * grid.cells[2];
@@ -250,7 +325,7 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     bool one_size = survey.widest == survey.narrowest && !survey.large_count && list->touch_only;
     list->view.one_radius = one_size ? survey.widest : 0;
     list->view.width = one_size && pass->dimensions == 2 ? PHYS_PAIR : PHYS_QUAD;
-    sort_by_cell(pass, list, &survey, &grid);
+    sort_by_cell(&sorting, &survey);
     uint32_t dummy = (list->total + PHYS_MOST_LANES - 1) / PHYS_MOST_LANES * PHYS_MOST_LANES;
     fill_up(pass, list, dummy);
     return phys_grid_search(system, kernels, &grid, dummy, list);

@@ -1,7 +1,9 @@
 // seed.c: see seed.h.
 #include "value/seed.h"
 
+#include "base/cpu.h"
 #include "base/number.h"
+#include "maths/many.h"
 #include "maths/random.h"
 #include "value/run.h"
 #include "value/walk.h"
@@ -97,6 +99,26 @@ double value_stream_item(Value stream, uint64_t i) {
         return random_beta(stream.as.key, i);
     default:
         return random_normal(stream.as.key, i);
+    }
+}
+
+static void items_in_a_row(Value stream, uint64_t first, uint32_t count, double *to) {
+    if (count > 1 && stream.stream == STREAM_UNIFORM)
+        maths_uniform_many(cpu_here.level, stream.as.key, first, count, to);
+    else if (count > 1 && stream.stream == STREAM_NORMAL)
+        random_normals(cpu_here.level, stream.as.key, first, count, to);
+    else
+        for (uint32_t i = 0; i < count; i++)
+            to[i] = value_stream_item(stream, first + i);
+}
+
+void value_stream_items(Value stream, const double *at, uint32_t count, double *to) {
+    for (uint32_t i = 0, run; i < count; i += run) {
+        uint64_t first = value_stream_position(at[i]);
+        run = 1;
+        while (i + run < count && first + run != 0 && value_stream_position(at[i + run]) == first + run)
+            run++;
+        items_in_a_row(stream, first, run, to + i);
     }
 }
 

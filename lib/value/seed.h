@@ -10,6 +10,8 @@ uint64_t value_seed_hash(Arena *arena, Value seed);
 uint64_t value_exact_hash(Arena *arena, Value seed);
 // Item i of a stream value, as `stream[i]` gives it.
 double value_stream_item(Value stream, uint64_t i);
+// The items at the positions of indices, which cost less where they follow each other.
+void value_stream_items(Value stream, const double *at, uint32_t count, double *to);
 // Position in a stream of an index x: floored, as a signed 64-bit integer, as unsigned (B9.3).
 uint64_t value_stream_position(double x);
 

@@ -1,6 +1,8 @@
 // columns.c: one instruction for many rounds of a loop; see columns.h.
 #include "vm/columns.h"
 
+#include "value/seed.h"
+
 #include <string.h>
 
 static Column *column_to_write(const Block *block, int32_t d) {
@@ -135,11 +137,16 @@ static bool run_powers(Block *block, const Instr *instr) {
     return true;
 }
 
-// Elements of one vector of numbers.
+// Elements of one vector of numbers, or items of one stream.
 static bool run_index(Block *block, const Instr *instr) {
     double room[COLUMN_ROUNDS], to[COLUMN_ROUNDS];
     const double *at = vm_column_numbers(block, instr->b, room);
     const Value *vector = &block->frame->slots[instr->a];
+    if (at && !column_of(block, instr->a) && vector->kind == VALUE_STREAM) {
+        value_stream_items(*vector, at, block->active_count, to);
+        vm_columns_store_numbers(block, instr->d, to);
+        return true;
+    }
     if (!at || column_of(block, instr->a) || vector->kind != VALUE_NUMBERS || vector->len == 0)
         return false;
     const double *from = value_numbers(vector);

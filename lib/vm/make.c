@@ -147,9 +147,10 @@ static Value index_stream(Vm *vm, Value stream, Value index) {
     if (index.len == 1)
         return value_number(value_stream_item(stream, value_stream_position(at[0])));
     double *items = arena_alloc_array(vm->arena, index.len, sizeof *items);
-    for (uint32_t i = 0; i < index.len; i++) {
-        arena_portion(vm->arena, i, STREAM_WORK);
-        items[i] = value_stream_item(stream, value_stream_position(at[i]));
+    for (uint32_t i = 0; i < index.len; i += METER_PORTION) {
+        uint32_t count = index.len - i < METER_PORTION ? index.len - i : METER_PORTION;
+        arena_charge(vm->arena, count == METER_PORTION ? METER_PORTION * STREAM_WORK : 0);
+        value_stream_items(stream, at + i, count, items + i);
     }
     return value_numbers_view(items, index.len);
 }

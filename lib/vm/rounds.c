@@ -144,7 +144,7 @@ static bool run_block(Block *block, const Instr *start, Loop *loop) {
 void vm_rounds(Vm *vm, Frame *frame, const Code *code, const Instr *start, Loop *loop) {
     const RoundsCode *plan = start->as.rounds;
     uint32_t rounds = loop->source.kind == VALUE_STREAM ? 0 : (loop->source.len - loop->at) / start->count;
-    if (rounds < FEWEST_ROUNDS || vm->is_static)
+    if (rounds < FEWEST_ROUNDS)
         return;
     ArenaMark mark = arena_mark(&vm->slots);
     Block *block = arena_alloc(&vm->slots, sizeof *block);

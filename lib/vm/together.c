@@ -206,10 +206,15 @@ static bool run_nodes(Block *block, const Instr *instr) {
     Value values[COLUMN_ROUNDS];
     for (uint32_t k = 0; k < active; k++, own += count) {
         uint32_t round = block->active[k];
-        memcpy(own, attrs, count * sizeof *own);
-        for (uint32_t i = 0; i < count; i++)
-            if (columns[i])
-                own[i].value = column_value(columns[i], round);
+        for (uint32_t i = 0; i < count; i++) {
+            own[i].name = attrs[i].name;
+            if (!columns[i])
+                own[i].value = attrs[i].value;
+            else if (columns[i]->kind == COLUMN_NUMBERS)
+                vm_set_number(&own[i].value, columns[i]->as.numbers[round]);
+            else
+                own[i].value = columns[i]->as.values[round];
+        }
         made[k].node = base;
         made[k].node.attrs = own;
         made[k].item = (Item){ITEM_NODE, .as.node = &made[k].node};

@@ -223,9 +223,10 @@ EXPORT(PetriStatus, web_picture, PetriSession *session, PetriPainter *painter, P
     PetriPicture *picture = followed;
     PetriStatus status = picture ? PETRI_OK : petri_picture(session, &options, &picture);
     bool ready = petri_picture_ready(session, &options);
-    if (status == PETRI_OK)
-        status = painter && !petri_picture_is_numbers(picture) ? show(session, painter, picture, ready)
-                                                               : give_numbers(picture, ready);
+    bool shown = status == PETRI_OK && painter && !petri_picture_is_numbers(picture) &&
+                 show(session, painter, picture, ready) == PETRI_OK;
+    if (status == PETRI_OK && !shown) // what of it takes no screen
+        status = give_numbers(picture, ready);
     if (!followed)
         petri_picture_free(&picture);
     return status;

@@ -156,6 +156,8 @@ static Figures figures_of(const Case *c, Rounds *r) {
                  .clean = r->clean,
                  .physics_threads = NAN,
                  .frame_threads = NAN,
+                 .evaluation_threads = NAN,
+                 .other_evaluation = NAN,
                  .other_physics = NAN,
                  .other_frame = NAN};
     f.evaluation = median_of(one, rounds, offsetof(Sample, evaluation));
@@ -172,10 +174,12 @@ static Figures figures_of(const Case *c, Rounds *r) {
     if (r->present[1]) {
         f.physics_threads = median_of(r->samples[1], rounds, offsetof(Sample, physics));
         f.frame_threads = median_of(r->samples[1], rounds, offsetof(Sample, frame));
+        f.evaluation_threads = median_of(r->samples[1], rounds, offsetof(Sample, evaluation));
     }
     if (r->present[2]) {
         f.other_physics = median_of(r->samples[2], rounds, offsetof(Sample, physics));
         f.other_frame = median_of(r->samples[2], rounds, offsetof(Sample, frame));
+        f.other_evaluation = median_of(r->samples[2], rounds, offsetof(Sample, evaluation));
     }
     f.start_median = measure_median(r->starts, r->start_count);
     f.start_least = r->starts[0];

@@ -36,9 +36,10 @@ typedef struct Figures {
     double peak, per_particle; // bytes
     // On plan->threads.
     double physics_threads, frame_threads;
-    double other_physics, other_frame; // the other build, on plan->threads too
-    double start_least, start_median;  // of the process `petri run --frames 1`
-    double limit;                      // nanoseconds, as limit.h has them
+    double evaluation_threads;
+    double other_evaluation, other_physics, other_frame; // the other build, on plan->threads too
+    double start_least, start_median;                    // of the process `petri run --frames 1`
+    double limit;                                        // nanoseconds, as limit.h has them
 } Figures;
 
 bool measure_wanted(const Plan *plan, const Case *c);

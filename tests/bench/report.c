@@ -88,9 +88,16 @@ Table report_workloads(const Results *results) {
 }
 
 static const Column build_columns[] = {
-    {"workload", "workload", ""},         {"physics_us", "physics", "us"}, {"other_physics_us", "other:", "physics us"},
-    {"physics_ratio", "other /", "this"}, {"frame_us", "frame", "us"},     {"other_frame_us", "other:", "frame us"},
+    {"workload", "workload", ""},
+    {"physics_us", "physics", "us"},
+    {"other_physics_us", "other:", "physics us"},
+    {"physics_ratio", "other /", "this"},
+    {"frame_us", "frame", "us"},
+    {"other_frame_us", "other:", "frame us"},
     {"frame_ratio", "other /", "this"},
+    {"evaluation_us", "evalua-", "tion us"},
+    {"other_evaluation_us", "other: eva-", "luation us"},
+    {"evaluation_ratio", "other /", "this"},
 };
 
 Table report_builds(const Results *results) {
@@ -102,6 +109,7 @@ Table report_builds(const Results *results) {
         // With one thread there is no variant of its own.
         double physics = isnan(f->physics_threads) ? f->physics : f->physics_threads;
         double frame = isnan(f->frame_threads) ? f->frame : f->frame_threads;
+        double evaluation = isnan(f->evaluation_threads) ? f->evaluation : f->evaluation_threads;
         Cell *row = table_row(&table);
         row[0] = cell_text(cases[i].name);
         row[1] = cell_number(physics * 1e6);
@@ -110,6 +118,9 @@ Table report_builds(const Results *results) {
         row[4] = cell_number(frame * 1e6);
         row[5] = cell_number(f->other_frame * 1e6);
         row[6] = cell_number(f->other_frame / frame);
+        row[7] = cell_number(evaluation * 1e6);
+        row[8] = cell_number(f->other_evaluation * 1e6);
+        row[9] = cell_number(f->other_evaluation / evaluation);
     }
     return table;
 }

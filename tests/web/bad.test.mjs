@@ -22,17 +22,18 @@ test('a link that is cut off, too long, of a newer petri or of something else sa
             ['#%%%', /damaged/], [await packed({ v: 1, t: 5 }), /none of petri's/], [await packed(null), /none of petri's/],
             [await packed({ v: 1, t: ' '.repeat(5 << 20) }), /more than 4 MiB/]];
         for (const [hash, message] of bad) {
-            await page.goto('about:blank');
-            await page.goto(world.server.url + hash);
-            await page.waitForFunction(() => document.body.dataset.ready);
+            await page.evaluate(at => (location.hash = at), hash);
             await said(page, message);
             assert.equal(await text(page), SQUARE);
             assert.ok(await page.evaluate(() => document.getElementById('message').classList.contains('error')));
         }
-        await page.goto('about:blank');
-        await page.goto(world.server.url + link);
-        await page.waitForFunction(() => document.body.dataset.ready);
-        assert.match(await text(page), /size=32;32/);
+        for (const [hash, size, message] of [[bad[0][0], '64;32', /cut off/], [link, '32;32', /Frame 3: the state is not that/]]) {
+            await page.goto('about:blank');
+            await page.goto(world.server.url + hash);
+            await page.waitForFunction(() => document.body.dataset.ready);
+            await said(page, message);
+            assert.ok((await text(page)).includes(`size=${size}`));
+        }
     },
 }));
 
@@ -97,14 +98,17 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
     },
 }));
 
-test('a frame that nobody stops is given up by itself', options, () => opened('', {
-    use: async page => {
-        await typed(page, `func f(n)\n    f(n-1)+f(n-1) if n>0 else frame\n!a x=f(60)\n${SQUARE}`);
-        await page.click('#run');
-        await page.waitForFunction(() => /work-limit|too much work|too long|work/.test(document.getElementById('problems').textContent));
-        assert.equal(await page.textContent('#run'), 'Run');
-    },
-}));
+for (const [file, message] of [['petri/engine.wasm', /the engine cannot be loaded: .* answers 404/], ['worker.js', /the engine cannot be started/]])
+    test(`a page that gets no ${file} says so, and has the text`, options, () => visited(world.server.url, {
+        prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })), expected: /404|willReadFrequently|MIME|Failed to/,
+        ready: () => document.getElementById('message').textContent,
+        use: async page => {
+            await said(page, message);
+            assert.match(await text(page), /^-- A dish/);
+            await page.click('#run');
+            await page.waitForFunction(() => document.getElementById('message').classList.contains('error'));
+        },
+    }));
 
 test('a browser without SIMD shows the script and says why it does not run', options, () => visited(world.server.url, {
     prepare: async page => {

@@ -13,7 +13,7 @@ let other, html = '';
 // A server as anybody has: no headers of petri's.
 before(() => new Promise(resolve => {
     other = createServer((request, response) => {
-        const [type, text] = request.url === '/dish.fl' ? ['text/plain', DISH] : request.url === '/m.fl' ? ['text/plain', 'let N=7\n']
+        const [type, text] = request.url === '/folder/dish.fl' ? ['text/plain', DISH] : request.url === '/m.fl' ? ['text/plain', 'let N=7\n']
             : request.url === '/' ? ['text/html', html] : [null, ''];
         response.writeHead(type ? 200 : 404, { 'Content-Type': type ?? 'text/plain' }).end(text);
     }).listen(0, '127.0.0.1', resolve);
@@ -34,7 +34,7 @@ const within = selector => `petri-dish >> ${selector}`;
 const shown = (page, frame) => page.waitForFunction(wanted => document.querySelector('petri-dish').frame === wanted, frame);
 
 test('a script in a page from elsewhere, by src and between the tags, with controls', options, () => embedded(
-    `<petri-dish src="dish.fl" controls></petri-dish><petri-dish class="b"><script type="text/plain">
+    `<petri-dish src="folder/dish.fl" controls></petri-dish><petri-dish class="b"><script type="text/plain">
         ${SQUARE.replaceAll('\n', '\n        ')}
     </script></petri-dish>`, async page => {
         const first = await pixels(page, within('#picture'));
@@ -56,7 +56,7 @@ test('a script in a page from elsewhere, by src and between the tags, with contr
     }));
 
 test('a page looks as without it, and it looks as without the page', options, () => embedded(
-    `<petri-dish src="dish.fl" controls></petri-dish>`, async page => {
+    `<petri-dish src="folder/dish.fl" controls></petri-dish>`, async page => {
         const style = (selector, name) => page.locator(selector).first().evaluate((element, of) => getComputedStyle(element)[of], name);
         assert.equal(await style('#text', 'color'), 'rgb(1, 2, 3)');
         assert.equal(await style('#button', 'borderTopWidth'), '9px');

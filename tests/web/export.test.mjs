@@ -92,3 +92,31 @@ test('an export is given up', options, () => opened('', {
         await atFrame(page, 3);
     },
 }));
+
+test('scripts, modules and images are opened, and dropped', options, () => opened('', {
+    use: async page => {
+        const script = "import WIDE from 'wide.fl'\n!window size=WIDE;20\n    !canvas\n        !image filename='red.png' point=0;0 size=WIDE;20\n";
+        const red = Buffer.from(await page.evaluate(async () => {
+            const canvas = new OffscreenCanvas(2, 2), context = canvas.getContext('2d');
+            context.fillStyle = '#f00';
+            context.fillRect(0, 0, 2, 2);
+            return [...new Uint8Array(await (await canvas.convertToBlob()).arrayBuffer())];
+        }));
+        const files = width => [['wide.fl', `let WIDE=${width}\n`], ['red.png', red], ['main.fl', script]];
+        const at = () => page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(5, 5, 1, 1).data]);
+        const wide = width => page.waitForFunction(wanted => document.getElementById('picture').width === wanted && document.body.dataset.frame === '2', width);
+        await page.setInputFiles('#file', files(40).map(([name, content]) => ({ name, mimeType: '', buffer: Buffer.from(content) })));
+        await wide(40);
+        assert.deepEqual(await at(), [255, 0, 0, 255]);
+        assert.equal(await page.textContent('#problems'), '');
+        await page.evaluate(dropped => {
+            const data = new DataTransfer();
+            for (const [name, text] of dropped)
+                data.items.add(new File([text], name));
+            document.dispatchEvent(new DragEvent('drop', { dataTransfer: data, cancelable: true }));
+        }, files(50).slice(0, 1));
+        await wide(50); // the script that was open, with another module
+        assert.deepEqual(await at(), [255, 0, 0, 255]);
+        assert.match(await page.textContent('.cm-content'), /^import WIDE/);
+    },
+}));

@@ -68,6 +68,22 @@ test('a picture is there, runs, goes back and forth to the same pictures', optio
     },
 }));
 
+test('without WebGL 2 the page says so and draws the rest', options, () => opened('', {
+    prepare: page => page.route('**/worker.js', async route => {
+        const response = await route.fetch(), get = 'OffscreenCanvas.prototype.getContext';
+        const without = `const get = ${get};${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
+        route.fulfill({ response, body: without + await response.text() });
+    }),
+    use: async page => {
+        await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n            !rect size=64;32 color=1;0.5;0 fill=true\n');
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('picture').width === 64);
+        assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: bloom.');
+        const at = await page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(30, 10, 1, 1).data]);
+        assert.deepEqual(at, [255, 128, 0, 255]);
+    },
+}));
+
 test('an error is shown at its place while one types', options, () => opened('', {
     use: async page => {
         await typed(page, '!window size=100;100\n    !canvas\n        !rect size=coss(1) fill=true\n');
@@ -195,7 +211,8 @@ test('axe finds nothing serious, dark or light', options, async () => {
             settings: { colorScheme },
             use: async page => {
                 await page.evaluate(axe);
-                const violations = [], look = async () => violations.push(...(await page.evaluate(() => globalThis.axe.run())).violations);
+                const violations = [], look = async () => violations.push(...(await page.evaluate(rules => globalThis.axe.run(rules),
+                    colorScheme === 'light' ? {} : { runOnly: ['color-contrast'] })).violations);
                 await look();
                 await page.click('#tab-plot');
                 await page.fill('#watch-line', 'frame');

@@ -137,6 +137,7 @@ export interface Shown {
     ready: boolean;
     /** What is left out, as words. */
     undrawn: string[];
+    screen: true;
 }
 
 /** One script that runs. Calls that fail throw a PetriError; what they were to change is then as before. */
@@ -212,6 +213,8 @@ export interface Picture {
     title: string;
     /** false: particles are not yet where they will be seen. */
     ready: boolean;
+    /** Of `show`: whether there is WebGL 2. */
+    screen?: boolean;
 }
 
 export interface Snapshot {

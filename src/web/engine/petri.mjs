@@ -332,7 +332,7 @@ export class Session {
         const followed = this.follow() && !automatic ? this.followed?.at ?? 0 : 0;
         this.run(wasm => wasm.web_picture(this.handle, this.painter, followed, automatic ? 1 : 0));
         const shown = this.taken[0] ?? null;
-        return shown?.image ? { ...shown, undrawn: [...this.undrawn] } : shown;
+        return shown && { ...shown, screen: this.painter > 0, ...(shown.image && { undrawn: [...this.undrawn] }) };
     }
 
     drawCanvas(numbers, count, width, height, pixels) {

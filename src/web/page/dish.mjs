@@ -99,7 +99,7 @@ export class Dish {
 
     // Loads, and goes to a frame. True; false after a failure; or the hash of the state if it is another one.
     async open(text, name, { changes = [], frame = 0, hash = null } = {}) {
-        if (!await this.load(text, name, changes) || !await this.showAnswer('seek', { frame: frame || FIRST_SEEN }))
+        if (!await this.load(text, name, changes) || !await this.showAnswer('seek', { frame: frame || (hash ? 0 : FIRST_SEEN) }))
             return false;
         const answer = hash && await this.attempt('hash');
         return !answer || answer.hash === hash || answer.hash;

@@ -110,8 +110,8 @@ class PetriDish extends HTMLElement {
     // The script: of `src`, with the files beside it that `files` names, or what is written between the tags.
     async read() {
         const from = this.getAttribute('src'), url = new URL(from ?? '', document.baseURI);
-        const fetched = async name => {
-            const answer = await fetch(new URL(name, url));
+        const fetched = async (name, place = new URL(name, url)) => {
+            const answer = await fetch(place);
             if (!answer.ok)
                 throw new Error(`cannot read ${name}: the server answers ${answer.status}`);
             return new Uint8Array(await answer.arrayBuffer());
@@ -121,7 +121,7 @@ class PetriDish extends HTMLElement {
         await this.dish.giveFiles();
         this.name = url.pathname.match(/[^/]+\.fl$/)?.[0] ?? 'script.fl';
         this.text = from === null ? plain((this.querySelector('script, template, pre') ?? this).textContent)
-            : new TextDecoder().decode(await fetched(from));
+            : new TextDecoder().decode(await fetched(from, url));
     }
 
     get text() {

@@ -1,14 +1,22 @@
 // engine.mjs: the worker as the page sees it: questions and answers, and what to do when it does not come back.
 
-const PATIENCE = 1000; // ms: frames that hear nothing for so long are ended with the engine
+const PATIENCE = 3000; // ms: frames that hear nothing for so long are ended with the engine
 
 // Workers must come from where the page comes from; a page elsewhere has one that imports the other.
-export function startWorker(url = new URL('./worker.js', import.meta.url)) {
+function makeWorker(url) {
     if (url.origin === location.origin)
         return new Worker(url, { type: 'module' });
     const own = URL.createObjectURL(new Blob([`import ${JSON.stringify(url.href)};`], { type: 'text/javascript' }));
-    const worker = new Worker(own, { type: 'module' });
     setTimeout(() => URL.revokeObjectURL(own), 60000);
+    return new Worker(own, { type: 'module' });
+}
+
+// `broken` comes when it has failed, which may be before anyone asks it something.
+export function startWorker() {
+    const worker = makeWorker(new URL('./worker.js', import.meta.url));
+    worker.broken = new Promise(resolve => {
+        worker.onerror = event => resolve(event.message || 'the engine cannot be started');
+    });
     return worker;
 }
 
@@ -35,9 +43,14 @@ export class Remote {
             else
                 resolve(data);
         };
-        worker.onerror = event => this.fail(event.message || 'the engine cannot be started', 'broken');
+        // One that never came would not come the next time, either.
+        let begun = false;
+        worker.broken.then(message => {
+            worker.dead = message;
+            this.fail(message, begun ? 'broken' : 'failed');
+        });
         this.ready = Promise.resolve(this.source).then(source => this.ask('open', { source, flag: this.flag }));
-        this.ready.catch(() => {}); // who waits for it hears of it
+        this.ready.then(() => (begun = true), () => {}); // who waits for it hears of it
         return this.ready;
     }
 
@@ -53,6 +66,8 @@ export class Remote {
 
     ask(act, message = {}) {
         const id = ++this.number;
+        if (this.worker.dead)
+            return Promise.reject(new Error(this.worker.dead));
         return new Promise((resolve, reject) => {
             this.waiting.set(id, { resolve, reject });
             this.worker.postMessage({ ...message, act, id });

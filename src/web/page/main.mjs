@@ -36,7 +36,7 @@ const host = {
         if (answer.picture)
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
-            say(`Not drawn in the browser: ${left.join(', ')}.`);
+            say(`Not drawn in the browser${answer.picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`);
         document.body.dataset.frame = answer.frame;
         look();
     },
@@ -135,14 +135,19 @@ async function openLink() {
 
 const stem = () => name.replace(/\.fl$/, '');
 
-// Scripts, and what they read; the script to run is the first of them.
+// Scripts, and what they read. The one to run is that which no other names: the script that is open, or the first.
 async function takeFiles(files) {
     for (const file of files)
         await dish.addFile(file.name, new Uint8Array(await file.arrayBuffer()));
     await dish.giveFiles();
-    const script = [...files].find(file => file.name.endsWith('.fl'));
+    const decoded = [...files].filter(file => file.name.endsWith('.fl'))
+        .map(file => ({ called: file.name, text: new TextDecoder().decode(dish.files.get(file.name)) }));
+    const isNamed = called => [{ called: name, text: editor.text }, ...decoded].some(other => other.called !== called && other.text.includes(called));
+    const script = decoded.find(({ called }) => !isNamed(called));
     if (script)
-        await openText(new TextDecoder().decode(dish.files.get(script.name)), script.name);
+        await openText(script.text, script.called);
+    else if ([...files].some(file => editor.text.includes(file.name)))
+        await dish.open(editor.text, name);
 }
 
 // Samples, and what was written here before.

@@ -29,7 +29,8 @@ static const Body bodies[] = {
     {"vector[i]+vector[i-3]+vector[i/2]+vector[0-i]", false},
     {"vector[i;i+1]", false},
     {"vector[i%4..i%4+2];vector[1..i]", false},
-    {"stream[i]+uniform(:t;i)[2]", false},
+    {"stream[i]+uniform(:t;i)[2];stream[i-70];stream[2*i];stream[9-i]", false},
+    {"normal(:t)[i];normal(:t)[i-70];beta(:t)[i];normal(:t)[i*1e17];(normal(:t)[i//7])", false},
     {"mixed[i];nothing[i];(i;2;3)[i]", false},
     {"'x' if mixed[i]==1 else 2", false},
     // built-ins: of each element, of points, of anything
@@ -96,6 +97,18 @@ static void test_bodies(void **state) {
     }
 }
 
+// Items of a stream in a row are those that are asked for one by one, also where a row ends at the greatest position.
+static void test_items(void **state) {
+    Runner *runner = *state;
+    runner->simplify = false;
+    runner_run(runner,
+               "let s=normal(:s;frame) u=uniform(:s;frame) r=s[-70..70] v=u[-70..70] one=func(i) i-70\n"
+               "!all differ=((1 for i in ..140 if s[one(i)]!=r[i] or u[one(i)]!=v[i])) count=len(r);len(v)\n",
+               1);
+    assert_text("items", runner_tree(runner), "!all count=140;140\n");
+    assert_int_equal(runner->vm.rounds, 0);
+}
+
 // What is wrong is told in the order in which rounds one by one meet it.
 static void test_faults(void **state) {
     Runner *runner = *state;
@@ -133,6 +146,7 @@ static void test_work(void **state) {
 }
 
 int main(void) {
-    const struct CMUnitTest tests[] = {RUNNER_TEST(test_bodies), RUNNER_TEST(test_faults), RUNNER_TEST(test_work)};
+    const struct CMUnitTest tests[] = {RUNNER_TEST(test_bodies), RUNNER_TEST(test_items), RUNNER_TEST(test_faults),
+                                       RUNNER_TEST(test_work)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

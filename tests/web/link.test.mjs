@@ -1,0 +1,41 @@
+// link.test.mjs: links from the page to `petri open`, and from `petri link` to the page. Skipped where petri is not built, or
+// without what links take.
+import assert from 'node:assert/strict';
+import { execFileSync, spawnSync } from 'node:child_process';
+import { join } from 'node:path';
+import { test } from 'node:test';
+import { atFrame, opened, options, root } from './browser.mjs';
+
+const petri = join(root, 'build/petri'), tried = spawnSync(petri, ['open', '#'], { encoding: 'utf8' });
+const ways = { ...options, skip: options.skip || (tried.error || /built without/.test(tried.stderr) ? 'petri opens no links' : false) };
+const linked = (...words) => execFileSync(petri, ['link', join(root, 'samples/dish.fl'), ...words], { encoding: 'utf8' }).trim();
+
+test('links of petri open in the page, with the same state', ways, async () => {
+    for (const [frame, words] of [[0, []], [12, ['-D', 'DROPS=9']]])
+        await opened(linked('--frame', String(frame), ...words), {
+            use: async page => {
+                await atFrame(page, frame);
+                await page.waitForFunction(() => document.getElementById('message').textContent !== '');
+                assert.match(await page.textContent('#message'), /the same state .* to the last bit/);
+                assert.equal(await page.inputValue('#parameter-DROPS'), words.length ? '9' : '220');
+            },
+        });
+});
+
+test('links of the page open in petri, with what was changed on the way', ways, () => opened(linked('-D', 'DROPS=9', '--frame', '5'), {
+    use: async page => {
+        await atFrame(page, 5);
+        await page.fill('#parameter-DROPS', '14');
+        await page.press('#parameter-DROPS', 'Enter');
+        for (let frame = 6; frame < 9; frame++) {
+            await page.click('#step');
+            await atFrame(page, frame);
+        }
+        const before = await page.evaluate(() => location.hash);
+        await page.click('#link');
+        await page.waitForFunction(hash => location.hash !== hash, before);
+        const { status, stderr } = spawnSync(petri, ['open', await page.evaluate(() => location.href)], { encoding: 'utf8' });
+        assert.match(stderr, /frame 8 has the same state as where the link was made/);
+        assert.equal(status, 0);
+    },
+}));
