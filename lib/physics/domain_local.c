@@ -168,6 +168,8 @@ static void take_share(void *context, int share, int shares) {
     const Taking *taking = context;
     const Columns *from = &taking->from, *to = &taking->domain->local->columns;
     size_t first = phys_share(to->count, share, shares), end = phys_share(to->count, share + 1, shares);
+    if (first == end)
+        return; // a rank without particles has no columns
     for (size_t k = 0; k < to->dimensions; k++) {
         take(taking->sources, first, end, from->position + k * from->stride, to->position + k * to->stride);
         take(taking->sources, first, end, from->velocity + k * from->stride, to->velocity + k * to->stride);
@@ -180,15 +182,18 @@ static void reload_share(void *context, int share, int shares) {
     const Taking *taking = context;
     const PhysSystem *system = taking->system;
     const Columns *to = &taking->domain->local->columns;
-    size_t n = to->dimensions, end = phys_share(to->count, share + 1, shares);
-    for (size_t i = phys_share(to->count, share, shares); i < end; i++) {
+    size_t n = to->dimensions, first = phys_share(to->count, share, shares);
+    size_t end = phys_share(to->count, share + 1, shares);
+    if (first == end)
+        return;
+    for (size_t i = first; i < end; i++) {
         const double *row = phys_row(system, system->order[taking->sources[i]]);
         for (size_t k = 0; k < n; k++) {
             to->position[k * to->stride + i] = row[k];
             to->velocity[k * to->stride + i] = row[n + k];
         }
     }
-    take_attributes(taking, phys_share(to->count, share, shares), end);
+    take_attributes(taking, first, end);
 }
 
 static int shares_for(const PhysSystem *local) {
