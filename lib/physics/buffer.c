@@ -3,6 +3,8 @@
 
 #include <string.h>
 
+enum { ROOM_FOR = 16 }; // one more byte for so many
+
 bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size) {
     if (system->failed)
         return false;
@@ -14,10 +16,12 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
         system->failed = true;
         return false;
     }
+    // Twice as much as before keeps the cost of growing by single elements linear. What is filled anew grows by little,
+    // if at all, but perhaps often.
+    uint64_t more = kept ? buffer->capacity : buffer->capacity / ROOM_FOR;
+    uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
     if (!kept) // the old block first, so that both need not fit into memory
         phys_buffer_free(buffer);
-    // Twice as much as before keeps the cost of growing by single elements linear.
-    uint64_t capacity = buffer->capacity > needed / 2 ? buffer->capacity * 2 : needed;
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;
     Buffer larger = {.capacity = capacity, .shown = buffer->shown};

@@ -27,6 +27,7 @@ typedef struct Ranks {
     size_t room;
     double *numbers; // of a message that comes
     size_t numbers_room;
+    int patience; // how often it is looked for what should be there soon before others may have the processor
 } Ranks;
 
 static Ranks ranks;                // of the process, as MPI is
@@ -73,9 +74,13 @@ static void leave(void) {
 
 // Waits for the others, but not for ever. False if the request was given up.
 static bool wait_for(MPI_Request *request) {
-    int done = 0;
+    int done = 0, looks = 0;
     while (MPI_Test(request, &done, MPI_STATUS_IGNORE) == MPI_SUCCESS && !done && !left) {
-        sched_yield();
+        if (looks < ranks.patience) {
+            looks++;
+        } else {
+            sched_yield();
+        }
     }
     return done;
 }
@@ -168,6 +173,16 @@ static bool take_letter(int *from, Bytes *letter) {
     return there;
 }
 
+// How many ranks are on this machine.
+static int count_neighbours(void) {
+    MPI_Comm here;
+    int count = 0;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &here);
+    MPI_Comm_size(here, &count);
+    MPI_Comm_free(&here);
+    return count;
+}
+
 // All do the same, so what the others would write is there already.
 static void be_quiet(void) {
     int nothing = open("/dev/null", O_RDWR);
@@ -192,6 +207,8 @@ void ranks_begin(Host *host) {
     host->cpu = cpu_name((CpuLevel)least);
     host->ranks = options;
     host->leave_ranks = leave;
+    enum { PATIENCE = 1000 }; // some 100 microseconds
+    ranks.patience = count_neighbours() <= cpu_count() ? PATIENCE : 0;
     ranks.mail = (Mail){options->rank, options->count, send_letter, take_letter};
     host->mail = &ranks.mail;
     if (options->rank > 0) {

@@ -1,4 +1,5 @@
-// fuzz_simplify.c: the input is a script, whose frames must be the same with the simplifier and without it.
+// fuzz_simplify.c: the input is a script, whose frames must be the same with the simplifier and without it. Without it
+// rounds of loops are run one by one, too, as when profiling.
 #include <stdlib.h>
 
 #include "fuzz.h"
@@ -13,6 +14,7 @@ static Run run(const uint8_t *data, size_t size, bool simplify) {
     Run run = {0};
     PetriOptions options = fuzz_options();
     options.simplify = simplify;
+    options.profile = !simplify;
     PetriSession *session = fuzz_open(&options);
     run.loaded = petri_load_text(session, "fuzz.fl", (const char *)data, size);
     for (int i = 0; i < 3 && run.loaded == PETRI_OK && !run.given_up; i++)
