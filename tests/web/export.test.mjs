@@ -87,6 +87,7 @@ test('an export is given up', options, () => opened('', {
         await page.waitForSelector('#saving-progress', { state: 'visible' });
         await page.click('#saving-cancel');
         await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Stopped'));
+        await page.waitForFunction(() => document.getElementById('saving-said').textContent);
         await atFrame(page, 2);
         await page.click('#step');
         await atFrame(page, 3);

@@ -23,7 +23,7 @@ export class SaveDialog {
         };
         $('saving-form').onchange = () => this.arrange();
         $('saving-cancel').onclick = () => this.dialog.close();
-        this.dialog.onclose = () => this.working && dish.stop();
+        this.dialog.onclose = () => this.working && (this.stopping = dish.stop());
     }
 
     get kind() {
@@ -68,10 +68,11 @@ export class SaveDialog {
         if (answer) {
             saveAs(name, answer.blob);
             this.dialog.close();
-        } else {
-            $('saving-said').textContent = 'It could not be saved; the message under the picture says why.';
         }
+        await this.stopping;
         if (dish.loaded !== null)
             await dish.seek(at);
+        if (!answer)
+            $('saving-said').textContent = 'It could not be saved; the message under the picture says why.';
     }
 }
