@@ -78,7 +78,8 @@ static bool gather(void *host, const char *text, size_t length) {
 }
 
 // The particles of the last frame, as rows; the dimensions that their columns have. 0: as many as they need, after a
-// line with the columns' names. Gives that, or 0 if memory is used up.
+// line with the columns' names. Gives that, 0 if memory is used up, or
+// UINT32_MAX if it was to end, of which nothing is left for the next call.
 EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
     Gathered gathered = {.used = 0};
     uint32_t have = dimensions ? dimensions : particles_dimensions(session);
@@ -86,7 +87,7 @@ EXPORT(uint32_t, web_particles, PetriSession *session, uint32_t dimensions) {
         particles_header(have, gather, &gathered);
     bool done = particles_rows(session, have, gather, &gathered);
     pass_on(&gathered);
-    return done ? have : 0;
+    return done ? have : petri_interrupted(session) ? UINT32_MAX : 0;
 }
 
 EXPORT(PetriStatus, web_print, PetriSession *session, unsigned sections) {

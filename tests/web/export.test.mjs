@@ -78,6 +78,22 @@ test('a film has one frame for each of the script, and is in the right colours',
     },
 }));
 
+test('an export is given up', options, () => opened('', {
+    use: async page => {
+        await page.click('#save-as');
+        await page.check('#saving input[value=particles]');
+        await page.fill('#saving-to', '900000');
+        await page.click('#saving-go');
+        await page.waitForSelector('#saving-progress', { state: 'visible' });
+        await page.click('#saving-cancel');
+        await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Stopped'));
+        await page.waitForFunction(() => document.getElementById('saving-said').textContent);
+        await atFrame(page, 2);
+        await page.click('#step');
+        await atFrame(page, 3);
+    },
+}));
+
 test('scripts, modules and images are opened, and dropped', options, () => opened('', {
     use: async page => {
         const script = "import WIDE from 'wide.fl'\n!window size=WIDE;20\n    !canvas\n        !image filename='red.png' point=0;0 size=WIDE;20\n";

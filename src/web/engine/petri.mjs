@@ -220,8 +220,8 @@ export class Session {
     // call gave them, or 0 for a header, too.
     table(dimensions = 0) {
         const has = this.run(wasm => wasm.web_particles(this.handle, dimensions));
-        if (!has)
-            throw new PetriError('memory', this.told, 'table');
+        if (has <= 0)
+            throw new PetriError(has ? 'interrupted' : 'memory', this.told, 'table');
         return { text: this.written.join(''), dimensions: has };
     }
 
