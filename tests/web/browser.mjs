@@ -51,6 +51,16 @@ export const opened = (hash, how) => visited(world.server.url + hash, { ready: (
 export const frameOf = page => page.evaluate(() => Number(document.body.dataset.frame));
 export const atFrame = (page, frame) => page.waitForFunction(wanted => Number(document.body.dataset.frame) === wanted, frame);
 
+// Drags the time line to a frame.
+export async function seek(page, frame) {
+    await page.evaluate(wanted => {
+        const time = document.getElementById('time');
+        time.value = wanted;
+        time.dispatchEvent(new Event('input'));
+    }, frame);
+    await atFrame(page, frame);
+}
+
 // What a canvas shows, as a number.
 export const pixels = (page, selector = '#picture') => page.locator(selector).first().evaluate(canvas => {
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);

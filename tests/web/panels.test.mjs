@@ -1,7 +1,7 @@
 // panels.test.mjs: the prompt, the plot, the table, completion and help, and narrow screens.
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
-import { atFrame, opened, options, typed } from './browser.mjs';
+import { atFrame, opened, options, seek, typed } from './browser.mjs';
 
 const NOW = '!counter state=:c rate=1\n!window size=8;8\n    !canvas\n';
 
@@ -12,15 +12,6 @@ async function running(page, text) {
     await page.waitForFunction(() => Number(document.body.dataset.frame) > 3);
     await page.click('#run');
     await page.waitForFunction(() => document.getElementById('run').textContent === 'Run');
-}
-
-async function seek(page, frame) {
-    await page.evaluate(wanted => {
-        const time = document.getElementById('time');
-        time.value = wanted;
-        time.dispatchEvent(new Event('input'));
-    }, frame);
-    await atFrame(page, frame);
 }
 
 test('the prompt has definitions, errors, and lines from before', options, () => opened('', {
