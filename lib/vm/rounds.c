@@ -124,8 +124,8 @@ static bool run_block(Block *block, const Instr *start, Loop *loop) {
     Vm *vm = block->vm;
     uint32_t first = (uint32_t)(start - block->code->instrs) + 1;
     // One by one most of the work is charged in the body: that is what a limit should point at.
-    const Origin *at = first < block->plan->end ? block->code->instrs[first].at : start->at;
-    vm_work(vm, at ? at : start->at, block->count * (1 + (uint64_t)(block->plan->end - first) / VM_INSTRS_A_UNIT));
+    vm_work(vm, block->code->instrs[first].at,
+            block->count * (1 + (uint64_t)(block->plan->end - first) / VM_INSTRS_A_UNIT));
     for (uint32_t i = 0; i < block->plan->column_count; i++)
         block->columns[i].kind = COLUMN_NONE;
     memset(block->resume, 0, sizeof block->resume);
