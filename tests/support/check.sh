@@ -3,6 +3,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 root=${here%/tests/*}
 passed=0
 failed=0
+failures=
 status=
 
 # check NAME COMMAND...: the command must succeed. `status` is told if the test keeps exit statuses there.
@@ -14,7 +15,10 @@ check() {
         echo "ok $name"
     else
         failed=$((failed + 1))
-        echo "FAIL $name: $*${status:+ (exit status $status)}"
+        failure="FAIL $name: $*${status:+ (exit status $status)}"
+        echo "$failure"
+        failures="$failures$failure
+"
         tell_more
     fi
 }
@@ -26,8 +30,9 @@ tell_more() {
     done
 }
 
-# finish: the last line, and the status of the test.
+# finish: what failed once more, since of a long log only the end is kept; the last line, and the status of the test.
 finish() {
+    printf '%s' "$failures"
     echo "$passed passed, $failed failed"
     [ "$failed" -eq 0 ]
 }
