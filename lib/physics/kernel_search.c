@@ -1,23 +1,43 @@
 // kernel_search.c: neighbour lists from the cells of a grid, LANES candidates at a time.
+//
+// Places side by side have most of their candidates in common. So those of a batch of places are copied and put into
+// the order of the pass once, and what is near to each place comes out in that order. Where a batch lies in two rows of
+// cells, or has very many candidates, each place looks at its own, and what it finds is put in order.
 #include "physics/grid.h"
 #include "physics/lanes.h"
 
 enum {
     ROWS_MOST = 9 + 1, // of cells around one, and the large particles
-    WORDS = LANES < 4 ? 4 : 8,
+    WORDS = LANES < 4 ? 4 : 2 * LANES,
+    BATCH = 8,        // places
+    BATCH_MOST = 128, // candidates of a batch; each counts half, as it has been fetched before
+    SPARE = 16,       // dummies behind the list of a place
 };
 
 typedef int32_t Words __attribute__((vector_size(4 * WORDS)));
 
-// The candidates for the places of one cell, and those of them that are near one of these places.
+// The candidates of a batch in the order of the pass, and a few that are nowhere.
+typedef struct Batch {
+    uint32_t end;   // first place behind it
+    bool ordered;   // else each place is on its own
+    uint32_t count; // candidates
+    double built[PHYS_VECTOR_DIMENSIONS][BATCH_MOST + LANES], radius[BATCH_MOST + LANES];
+    uint32_t entry[BATCH_MOST + LANES];
+} Batch;
+
+// The candidates for some places, and those of them that are near one of these places.
 typedef struct Finder {
-    uint32_t cell;
+    uint32_t cell;      // of the place
+    uint32_t low, high; // cells of one row that rows are for
     uint32_t rows;
     uint32_t candidates; // in all rows
     uint32_t first[ROWS_MOST], end[ROWS_MOST];
     uint32_t near[PHYS_MOST_NEAR + LANES];
-    Words keys[PHYS_MOST_NEAR / WORDS + 1];  // where they stand in the order of the pass
-    Words ranks[PHYS_MOST_NEAR / WORDS + 1]; // and among each other
+    Words keys[PHYS_MOST_NEAR / WORDS + 2];  // where they stand in the order of the pass
+    Words ranks[PHYS_MOST_NEAR / WORDS + 2]; // and among each other
+    uint32_t dummies[SPARE];
+    uint32_t lists[LANES][PHYS_MOST_NEAR + LANES + SPARE];
+    Batch batch;
 } Finder;
 
 static void add_row(Finder *finder, uint32_t first, uint32_t end) {
@@ -28,15 +48,17 @@ static void add_row(Finder *finder, uint32_t first, uint32_t end) {
 }
 
 // Neighbours are in the cells around the own one, or large.
-static void look_around(const ListSearch *search, Finder *finder) {
+static void look_around(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
     const Grid *grid = search->grid;
-    uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = finder->cell;
+    uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = low_cell;
     for (size_t k = 0; k < PHYS_VECTOR_DIMENSIONS; k++) {
-        uint32_t at = rest % grid->cells[k];
+        uint32_t at = rest % grid->cells[k], far = k ? at : at + (high_cell - low_cell);
         rest /= grid->cells[k];
         low[k] = at ? at - 1 : 0;
-        high[k] = at + 1 < grid->cells[k] ? at + 1 : at;
+        high[k] = far + 1 < grid->cells[k] ? far + 1 : far;
     }
+    finder->low = low_cell;
+    finder->high = high_cell;
     finder->rows = finder->candidates = 0;
     for (uint32_t z = low[2]; z <= high[2]; z++)
         for (uint32_t y = low[1]; y <= high[1]; y++) {
@@ -46,26 +68,63 @@ static void look_around(const ListSearch *search, Finder *finder) {
     add_row(finder, search->list->view.regular, search->list->view.listed);
 }
 
-// Collects who is nearer to a place than max(radius + radius, bound) + skin; stops beyond PHYS_MOST_NEAR.
-KERNEL size_t find_near(const ListSearch *search, Finder *finder, size_t dimensions, uint32_t place) {
+static uint32_t cell_from(const Grid *grid, uint32_t cell, uint32_t place) {
+    while (place >= grid->start[cell + 1])
+        cell++;
+    return cell;
+}
+
+// How places are compared.
+typedef struct Measure {
+    size_t dimensions;
+    bool one_size; // of touching particles
+} Measure;
+
+// A place, and how far its neighbours reach.
+typedef struct Place {
+    Real here[PHYS_VECTOR_DIMENSIONS], radius, bound, skin;
+    Real square; // of the reach, if it is the same for all
+} Place;
+
+KERNEL Real square_of_reach(const Place *place, Real radius) {
+    Real reach = real_larger(radius + place->radius, place->bound) + place->skin;
+    return reach * reach;
+}
+
+KERNEL Place place_of(const ListSearch *search, Measure measure, uint32_t number) {
     const ListView *view = &search->list->view;
-    Real here[PHYS_VECTOR_DIMENSIONS], radius = real_set(view->radius[place]);
-    Real bound = real_set(search->list->bound), skin = real_set(search->list->skin);
-    for (size_t k = 0; k < dimensions; k++)
-        here[k] = real_set(view->built[k][place]);
+    Place place = {.radius = real_set(view->radius[number]),
+                   .bound = real_set(search->list->bound),
+                   .skin = real_set(search->list->skin)};
+    for (size_t k = 0; k < measure.dimensions; k++)
+        place.here[k] = real_set(view->built[k][number]);
+    place.square = square_of_reach(&place, place.radius);
+    return place;
+}
+
+// Who of LANES candidates is nearer than max(radius + radius, bound) + skin?
+KERNEL Mask near_to(const Place *place, Measure measure, const double *const *built, const double *radius, size_t s,
+                    Mask mask) {
+    Real square = real_zero();
+    for (size_t k = 0; k < measure.dimensions; k++) {
+        Real d = real_load(built[k] + s) - place->here[k];
+        square += d * d;
+    }
+    // Both may overflow; the pair is listed then.
+    return real_at_most_where(mask, square,
+                              measure.one_size ? place->square : square_of_reach(place, real_load(radius + s)));
+}
+
+// Collects who is near to a place; stops beyond PHYS_MOST_NEAR.
+KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure measure, uint32_t place) {
+    const ListView *view = &search->list->view;
+    const double *built[] = {view->built[0], view->built[1], view->built[2]};
+    Place target = place_of(search, measure, place);
     size_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++)
-        for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= PHYS_MOST_NEAR; s += LANES) {
-            Real square = real_zero();
-            for (size_t k = 0; k < dimensions; k++) {
-                Real d = real_load(view->built[k] + s) - here[k];
-                square += d * d;
-            }
-            Real reach = real_larger(real_load(view->radius + s) + radius, bound) + skin;
-            // Both may overflow; the pair is listed then.
-            count +=
-                mask_numbers(real_at_most_where(mask_first(end - s), square, reach * reach), s, finder->near + count);
-        }
+        for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= PHYS_MOST_NEAR; s += LANES)
+            count += mask_numbers(near_to(&target, measure, built, view->radius, s, mask_first(end - s)), s,
+                                  finder->near + count);
     return count;
 }
 
@@ -84,75 +143,191 @@ KERNEL size_t leave_out(const ListSearch *search, Finder *finder, uint32_t place
     return count;
 }
 
+// Adds 1 where a key is less than mine.
+KERNEL Words count_less(Words rank, int32_t key, Words mine) {
+#if LANES == 8
+    __m512i others = _mm512_set1_epi32(key), is = (__m512i)mine;
+    return (Words)_mm512_mask_add_epi32((__m512i)rank, _mm512_cmplt_epi32_mask(others, is), (__m512i)rank,
+                                        _mm512_set1_epi32(1));
+#else
+    return rank - (Words)((Words){0} + key < mine);
+#endif
+}
+
 // How many keys are smaller than each: quicker than sorting for as many as there are.
 KERNEL void rank_keys(Finder *finder, size_t count) {
     const int32_t *keys = (const int32_t *)finder->keys;
-    for (size_t v = 0; v * WORDS < count; v++) {
-        Words mine = finder->keys[v], rank = {0};
-        for (size_t k = 0; k < count; k++)
-            rank -= (Words)((Words){0} + keys[k] < mine);
-        finder->ranks[v] = rank;
+    for (size_t v = 0; v * WORDS < count; v += 2) {
+        Words first = {0}, second = {0};
+        for (size_t k = 0; k < count; k++) {
+            first = count_less(first, keys[k], finder->keys[v]);
+            second = count_less(second, keys[k], finder->keys[v + 1]);
+        }
+        finder->ranks[v] = first;
+        finder->ranks[v + 1] = second;
     }
 }
 
-// The lists of one block side by side; false if there is no room for them.
-KERNEL bool search_block(const ListSearch *search, ListPart *part, Finder *finder, size_t dimensions, uint32_t block) {
-    const ListView *view = &search->list->view;
-    uint32_t first = block * LANES, most = 0, *entries = view->entries + part->used;
-    for (uint32_t lane = 0; lane < LANES && first + lane < view->regular; lane++) {
-        uint32_t place = first + lane;
-        if (search->foreign && search->foreign[view->column[place]])
-            continue;
-        if (place >= search->grid->start[finder->cell + 1]) {
-            do
-                finder->cell++;
-            while (place >= search->grid->start[finder->cell + 1]);
-            look_around(search, finder);
-        }
-        part->scanned += finder->candidates;
-        size_t count = find_near(search, finder, dimensions, place);
-        if (count > PHYS_MOST_NEAR || part->scanned > search->scan_limit) {
-            part->crowded = true;
-            return false;
-        }
-        count = leave_out(search, finder, place, count);
-        if (part->used + (uint64_t)(count > most ? count : most) * LANES > part->end) {
-            part->full = true;
-            return false;
-        }
-        for (; most < count; most++)
-            for (uint32_t l = 0; l < LANES; l++)
-                entries[most * LANES + l] = search->dummy * view->width;
-        rank_keys(finder, count);
-        for (size_t k = 0; k < count; k++)
-            entries[(size_t)((const int32_t *)finder->ranks)[k] * LANES + lane] = finder->near[k] * view->width;
+// Numbers and keys of all candidates: how many.
+KERNEL uint32_t collect(const ListSearch *search, Finder *finder) {
+    uint32_t count = 0;
+    for (uint32_t row = 0; row < finder->rows; row++) {
+        uint32_t *near = finder->near + count, first = finder->first[row], length = finder->end[row] - first;
+        int32_t *keys = (int32_t *)finder->keys + count;
+        const uint32_t *key = search->list->key + first;
+        for (uint32_t c = 0; c < length; c += BATCH) // what is written behind the row does not count
+            for (uint32_t m = c; m < c + BATCH; m++) {
+                near[m] = first + m;
+                keys[m] = (int32_t)key[m];
+            }
+        count += length;
     }
+    return count;
+}
+
+KERNEL void order_batch(const ListSearch *search, Finder *finder, Measure measure) {
+    const ListView *view = &search->list->view;
+    Batch *batch = &finder->batch;
+    uint32_t count = batch->count = collect(search, finder);
+    rank_keys(finder, count);
+    const uint32_t *ranks = (const uint32_t *)finder->ranks;
+    for (uint32_t c = 0; c < count; c++) {
+        uint32_t rank = ranks[c], place = finder->near[c];
+        batch->entry[rank] = place * (uint32_t)view->width;
+        for (size_t k = 0; k < measure.dimensions; k++)
+            batch->built[k][rank] = view->built[k][place];
+        if (!measure.one_size)
+            batch->radius[rank] = view->radius[place];
+    }
+    for (uint32_t c = count; c < count + LANES; c++) {
+        batch->entry[c] = 0;
+        batch->radius[c] = 0;
+        for (size_t k = 0; k < measure.dimensions; k++)
+            batch->built[k][c] = NAN;
+    }
+}
+
+// Makes a batch of the places from one on.
+KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure measure, uint32_t first) {
+    const Grid *grid = search->grid;
+    Batch *batch = &finder->batch;
+    batch->end = (first / BATCH + 1) * BATCH;
+    uint32_t last = batch->end < search->list->view.regular ? batch->end - 1 : search->list->view.regular - 1;
+    finder->cell = cell_from(grid, finder->cell, first);
+    uint32_t high = cell_from(grid, finder->cell, last);
+    batch->ordered = search->own == search->list->total && finder->cell / grid->cells[0] == high / grid->cells[0];
+    if (!batch->ordered)
+        return;
+    look_around(search, finder, finder->cell, high);
+    batch->ordered = finder->candidates <= BATCH_MOST;
+    if (batch->ordered)
+        order_batch(search, finder, measure);
+}
+
+// The list of a place of an ordered batch: how many.
+KERNEL size_t list_of_batch(const ListSearch *search, const Batch *batch, Measure measure, uint32_t place,
+                            uint32_t *list) {
+    const double *built[] = {batch->built[0], batch->built[1], batch->built[2]};
+    Place target = place_of(search, measure, place);
+    uint32_t self = place * (uint32_t)search->list->view.width;
+    size_t count = 0;
+    for (uint32_t s = 0; s < batch->count; s += LANES)
+        count += mask_pick(near_to(&target, measure, built, batch->radius, s, mask_first(LANES)), batch->entry + s,
+                           self, list + count);
+    return count;
+}
+
+// The list of a place that is on its own; beyond PHYS_MOST_NEAR there is none.
+KERNEL size_t list_alone(const ListSearch *search, Finder *finder, Measure measure, uint32_t place, uint32_t *list) {
+    finder->cell = cell_from(search->grid, finder->cell, place);
+    if (finder->low != finder->cell || finder->high != finder->cell)
+        look_around(search, finder, finder->cell, finder->cell);
+    size_t count = find_near(search, finder, measure, place);
+    if (count > PHYS_MOST_NEAR)
+        return count;
+    count = leave_out(search, finder, place, count);
+    rank_keys(finder, count);
+    for (size_t k = 0; k < count; k++)
+        list[((const int32_t *)finder->ranks)[k]] = finder->near[k] * search->list->view.width;
+    return count;
+}
+
+// The lists of one block side by side; false if there is no room for them.
+KERNEL bool search_block(const ListSearch *search, ListPart *part, Finder *finder, Measure measure, uint32_t block) {
+    const ListView *view = &search->list->view;
+    uint32_t first = block * LANES, dummy = search->dummy * view->width;
+    size_t counts[LANES] = {0}, most = 0;
+    if (first >= finder->batch.end)
+        next_batch(search, finder, measure, first);
+    for (uint32_t lane = 0; lane < LANES; lane++) {
+        uint32_t place = first + lane, *list = finder->lists[lane];
+        size_t count = 0;
+        if (place < view->regular && !(search->foreign && search->foreign[view->column[place]])) {
+            if (finder->batch.ordered)
+                count = list_of_batch(search, &finder->batch, measure, place, list);
+            else
+                count = list_alone(search, finder, measure, place, list);
+            part->scanned += finder->batch.ordered ? finder->candidates / 2 : finder->candidates;
+            if (count > PHYS_MOST_NEAR || part->scanned > search->scan_limit) {
+                part->crowded = true;
+                return false;
+            }
+        }
+        memcpy(list + count, finder->dummies, sizeof finder->dummies);
+        counts[lane] = count;
+        most = count > most ? count : most;
+    }
+    if (part->used + (uint64_t)most * LANES > part->end) {
+        part->full = true;
+        return false;
+    }
+    for (uint32_t lane = 0; lane < LANES; lane++)
+        for (size_t k = counts[lane] + SPARE; k < most; k++)
+            finder->lists[lane][k] = dummy;
+    uint32_t *entries = view->entries + part->used;
+    for (size_t k = 0; k < most; k++)
+        for (uint32_t lane = 0; lane < LANES; lane++)
+            entries[k * LANES + lane] = finder->lists[lane][k];
     view->at[block] = part->used;
-    view->most[block] = most;
+    view->most[block] = (uint32_t)most;
     part->used += (uint64_t)most * LANES;
     return true;
 }
 
-KERNEL void search_blocks(const ListSearch *search, ListPart *part, Finder *finder, size_t dimensions) {
+KERNEL void search_blocks(const ListSearch *search, ListPart *part, Finder *finder, Measure measure) {
     for (uint32_t block = part->block; block < part->block_end; block++)
-        if (!search_block(search, part, finder, dimensions, block))
+        if (!search_block(search, part, finder, measure, block))
             return;
 }
+
+#define SEARCH(n)                                                                                                      \
+    static void search_##n(const ListSearch *search, ListPart *part, Finder *finder) {                                 \
+        if (search->list->view.one_radius > 0)                                                                         \
+            search_blocks(search, part, finder, (Measure){n, true});                                                   \
+        else                                                                                                           \
+            search_blocks(search, part, finder, (Measure){n, false});                                                  \
+    }
+SEARCH(1)
+SEARCH(2)
+SEARCH(3)
 
 void PER_ISA(list_search)(const ListSearch *search, ListPart *part) {
     const Grid *grid = search->grid;
     if (part->block == part->block_end)
         return;
-    Finder finder = {0};
+    Finder finder;
     double place[PHYS_VECTOR_DIMENSIONS] = {0};
     for (size_t k = 0; k < grid->dimensions; k++)
         place[k] = search->list->view.built[k][part->block * LANES];
     finder.cell = phys_cell_of(grid, place, 1);
-    look_around(search, &finder);
+    finder.low = UINT32_MAX;
+    finder.batch.end = 0;
+    for (size_t k = 0; k < SPARE; k++)
+        finder.dummies[k] = search->dummy * (uint32_t)search->list->view.width;
     if (grid->dimensions == 1)
-        search_blocks(search, part, &finder, 1);
+        search_1(search, part, &finder);
     else if (grid->dimensions == 2)
-        search_blocks(search, part, &finder, 2);
+        search_2(search, part, &finder);
     else
-        search_blocks(search, part, &finder, 3);
+        search_3(search, part, &finder);
 }

@@ -347,6 +347,24 @@ KERNEL size_t mask_numbers(Mask mask, uint32_t base, uint32_t *to) {
 #endif
 }
 
+// Writes those of `from` that are in the mask and are not `but` side by side and returns how many. Both have room for
+// LANES.
+KERNEL size_t mask_pick(Mask mask, const uint32_t *from, uint32_t but, uint32_t *to) {
+#if LANES == 8
+    __m256i numbers = _mm256_loadu_si256((const __m256i *)from);
+    mask = _mm256_mask_cmpneq_epu32_mask(mask, numbers, _mm256_set1_epi32((int)but));
+    _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32(mask, numbers));
+    return (size_t)__builtin_popcount(mask);
+#else
+    size_t count = 0;
+    for (Lanes bits = mask_bits(mask); bits; bits &= bits - 1) {
+        to[count] = from[__builtin_ctz(bits)];
+        count += to[count] != but;
+    }
+    return count;
+#endif
+}
+
 #endif // LANES > 1
 
 #endif

@@ -107,6 +107,9 @@ static void draw_frame(Render *render, bool for_film, const char *file) {
     frames_working(&render->frames, true);
     PetriStatus status = petri_picture(render->frames.session, &render->picture, &picture);
     frames_working(&render->frames, false);
+    if (status == PETRI_INTERRUPTED) {
+        return; // by a signal: what was drawn before it stays
+    }
     if (status == PETRI_MEMORY) {
         progress_erase(&render->frames.progress);
         message("out of memory");

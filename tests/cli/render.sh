@@ -369,6 +369,15 @@ END
             check "… nothing is beside them" nothing_beside
             rm -f long.$suffix
         done
+        # What the picture needs is collected for longer than it is drawn: the signal comes while that is done.
+        cp long.fl even.fl
+        printf '        for i in ..200000\n            !transform scale=1+i\n' >>long.fl
+        start_long -o long.mp4
+        kill -INT "$job"
+        stop_long
+        check "Ctrl-C in the midst of a frame's list keeps the film: $(cat err)" ffprobe -v error long.mp4
+        mv even.fl long.fl
+        rm -f long.mp4
         start_long -o long%06d.png
         kill -TERM "$job"
         stop_long

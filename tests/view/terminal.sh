@@ -245,7 +245,12 @@ if [ "${3:-sdl}" = none ]; then
     type_keys "clear; DISPLAY=:77 $petri view left.fl --frames 3; echo status \$?" Enter
     check "where there could be a window, it says how to get one" soon shows "'./dev build' adds windows"
 fi
-viewer() { pgrep -f "^$petri view left.fl" | head -n 1; }
+# Others may be at work on this machine: ours is that in this folder.
+viewer() {
+    for id in $(pgrep -f "^$petri view left.fl"); do
+        [ "$(readlink "/proc/$id/cwd")" != "$work" ] || echo "$id"
+    done
+}
 running() { [ -n "$(viewer)" ]; }
 for signal in TERM:143 HUP:129 INT:130 ABRT:134 SEGV:139 QUIT:131; do
     start left.fl
