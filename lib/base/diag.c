@@ -67,16 +67,15 @@ static void format_caret_line(Text *out, Str line, uint32_t column, size_t width
     text_add_char(out, '\n');
 }
 
-// Control characters and ill-formed bytes must not reach a terminal.
-static void add_printable(Text *out, Str line) {
-    for (size_t at = 0; at < line.len;) {
-        int32_t c = utf8_next(line, &at);
-        if (c == '\t' || (c >= 0x20 && c != 0x7f && !(c >= 0x80 && c < 0xa0)))
+// Control characters and ill-formed bytes, in a script's strings, too, must not reach a terminal.
+static void add_printable(Text *out, Str text) {
+    for (size_t at = 0; at < text.len;) {
+        int32_t c = utf8_next(text, &at);
+        if (c == '\t' || c == '\n' || (c >= 0x20 && c != 0x7f && !(c >= 0x80 && c < 0xa0)))
             text_add_code_point(out, (uint32_t)c);
         else
             text_add_char(out, '?');
     }
-    text_add_char(out, '\n');
 }
 
 Str diag_text(const Diag *diag) {
@@ -85,7 +84,7 @@ Str diag_text(const Diag *diag) {
 
 static void add_text(Text *out, const Diag *diag) {
     Str text = diag_text(diag);
-    text_add(out, text);
+    add_printable(out, text);
     if (text.len < diag->text.len)
         text_add_c(out, "…");
 }
@@ -96,7 +95,9 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
     SourcePlace place = {0};
     if (diag->source) {
         place = source_locate(diag->source, diag->span.start);
-        text_add_format(out, "%s%.*s:%u:%u:%s ", bold, STR_ARGS(diag->source->name), place.line, place.column, plain);
+        text_add_c(out, bold);
+        add_printable(out, diag->source->name);
+        text_add_format(out, ":%u:%u:%s ", place.line, place.column, plain);
     }
     text_add_format(out, "%s%s:%s ", tint, level_names[diag->level], plain);
     add_text(out, diag);
@@ -111,11 +112,14 @@ void diag_format(Text *out, const Diag *diag, bool colour) {
         size_t width = utf8_length((Str){diag->source->text.bytes + diag->span.start, len < left ? len : left});
         text_add_c(out, "    ");
         add_printable(out, line);
-        text_add_format(out, "    %s", tint);
+        text_add_format(out, "\n    %s", tint);
         format_caret_line(out, line, column, width, plain);
     }
-    if (diag->hint.len)
-        text_add_format(out, "    %.*s\n", STR_ARGS(diag->hint));
+    if (diag->hint.len) {
+        text_add_c(out, "    ");
+        add_printable(out, diag->hint);
+        text_add_char(out, '\n');
+    }
 }
 
 Str diag_one_line(Arena *arena, const Diag *diag) {

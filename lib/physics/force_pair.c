@@ -2,16 +2,21 @@
 #include "physics/internal.h"
 #include "physics/neighbours.h"
 #include "physics/pair_wave.h"
+#include "physics/sweep.h"
+#include "physics/threads.h"
 
-enum { PAIRS_FOR_THREADS = 30000 }; // fewer are done before another thread is awake
+enum {
+    PAIRS_FOR_THREADS = 60000, // fewer are done before another thread is awake
+    PAIRS_FOR_AWAKE = 10000,   // which helps with fewer if it is
+};
 
 // One pass on its way through the groups.
 typedef struct Pass {
     PhysSystem *system;
     const Kernels *kernels;   // NULL: not for this pass, which goes row by row
     const PairKernel *kernel; // likewise
-    int threads;
-    PairPass pairs; // what the kernel is given
+    PairPass pairs;           // what the kernel is given
+    Move *move;               // of the particles, if this is the last pass; or NULL
 } Pass;
 
 static void fill_terms(PairTerm *terms, ForceRange forces) {
@@ -40,7 +45,7 @@ PairPass phys_columns_pass(const Columns *columns) {
 static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
     const Columns *columns = &system->columns;
-    Pass pass = {.system = system, .threads = system->options.threads};
+    Pass pass = {.system = system};
     fill_terms(system->terms.bytes, forces);
     pass.pairs = phys_columns_pass(columns);
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
@@ -55,6 +60,28 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     return pass;
 }
 
+static bool worth_threads(const Pass *pass, uint64_t pairs) {
+    return pass->system->options.threads > 1 && pairs >= PAIRS_FOR_AWAKE &&
+           (pairs >= PAIRS_FOR_THREADS || phys_help_at_hand(pass->system));
+}
+
+static void move_rows(const void *context, size_t first, size_t end) {
+    phys_sweep_rows(context, first, end);
+}
+
+// On several threads, with the motion if nothing comes between.
+static void run_wave(const Pass *pass, const PairWave *wave) {
+    Sweep sweep;
+    Move *move = wave->triangle ? pass->move : NULL;
+    if (!move || !phys_sweep_begin(pass->system, 0, move->delta, move->speed_of_light, &sweep)) {
+        phys_pair_wave(pass->system, wave, NULL);
+        return;
+    }
+    phys_pair_wave(pass->system, wave, &(PairMotion){move_rows, &sweep});
+    phys_sweep_end(&sweep);
+    move->done = true;
+}
+
 // All pairs inside one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
@@ -63,9 +90,8 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
         phys_pair_ranks(pass->system, &wave);
         return;
     }
-    if (pass->kernel && pass->threads > 1 && count * count / 2 >= PAIRS_FOR_THREADS) {
-        PairWave wave = {pass->kernel, &pass->pairs, true, first, end, first, end};
-        phys_pair_wave(pass->system, &wave);
+    if (pass->kernel && worth_threads(pass, count * count / 2)) {
+        run_wave(pass, &(PairWave){pass->kernel, &pass->pairs, true, first, end, first, end});
         return;
     }
     if (pass->kernel && count > 2) {
@@ -95,8 +121,8 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
         wave = (PairWave){pass->kernel, &pass->pairs, false, other, other_end, first, end};
     if (phys_ranks_share(pass->system, rows * columns))
         phys_pair_ranks(pass->system, &wave);
-    else if (pass->threads > 1 && rows * columns >= PAIRS_FOR_THREADS)
-        phys_pair_wave(pass->system, &wave);
+    else if (worth_threads(pass, rows * columns))
+        run_wave(pass, &wave);
     else
         pass->kernel->tiles(&pass->pairs, wave.row, wave.row_end, wave.column, wave.column_end);
 }
@@ -114,10 +140,11 @@ static bool charge_pairs(const Pass *pass, uint64_t pairs) {
 
 // The pair forces that `level`, the group itself or one above it, declares. The partners of a particle are the later
 // ones of its group, then the particles of the enclosing groups up to `level`.
-static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
+static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Move *move) {
     const Group *groups = system->groups.bytes;
     uint32_t number = (uint32_t)(group - groups);
     Pass pass = prepare_pass(system, phys_forces(system, level, STAGE_PAIR));
+    pass.move = move;
     if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level))
         return;
     if (system->settled)
@@ -136,9 +163,9 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level) {
     }
 }
 
-void phys_apply_pairs(PhysSystem *system, const Group *group) {
+void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move) {
     const Group *groups = system->groups.bytes;
     for (uint32_t level = group->nearest[STAGE_PAIR]; level != NO_GROUP;
          level = phys_next_above(groups, level, STAGE_PAIR))
-        pair_pass(system, group, level);
+        pair_pass(system, group, level, move);
 }

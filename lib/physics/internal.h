@@ -144,9 +144,9 @@ struct PhysSystem {
     bool behind;          // positions and velocities are in the rows only, not in the columns
     Buffer domain;        // Domain
     PhysTraffic traffic;
-    const bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
-    double skin;         // likewise, that of all lists
-    bool unlisted;       // likewise: a pass went without a list
+    bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
+    double skin;   // likewise, that of all lists
+    bool unlisted; // likewise: a pass went without a list
 };
 
 // A run of forces.
@@ -222,7 +222,14 @@ void phys_forget_order(PhysSystem *system);
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
 void phys_apply_links(const Columns *columns, ForceRange forces);
-void phys_apply_pairs(PhysSystem *system, const Group *group);
+// `move`, unless NULL: this is the last that happens before the particles of the group move, and on several threads
+// they may be moved at once. Then it is marked as done.
+typedef struct Move {
+    double delta;
+    double speed_of_light;
+    bool done;
+} Move;
+void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
 // barrier.c: after a move of `delta`, lets particle i bounce off one barrier (4.4).
 void phys_bounce(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 

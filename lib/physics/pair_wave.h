@@ -29,7 +29,14 @@ void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column);
 // pair_rows.c: the pairs of particle i with the particles first … end - 1, in ascending order.
 void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end);
 
-void phys_pair_wave(const PhysSystem *system, const PairWave *pairs);
+// What is done to particles whose forces are whole, as soon as they are. By any thread.
+typedef struct PairMotion {
+    void (*move)(const void *context, size_t first, size_t end);
+    const void *context;
+} PairMotion;
+
+// `motion`: of the particles of a triangle, or NULL.
+void phys_pair_wave(const PhysSystem *system, const PairWave *pairs, const PairMotion *motion);
 
 // pair_ranks.c: whether the processes that simulate the system share so many pairs, and how they do.
 bool phys_ranks_share(const PhysSystem *system, uint64_t pairs);

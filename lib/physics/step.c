@@ -58,16 +58,17 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         return false;
     ease_strengths(system, clock);
     start_forces(system, clock);
-    // 1. Forces between particles, all of them before anything moves.
+    // 1. Forces between particles, all of them before anything moves that acts on others.
+    Move move = {delta, speed_of_light, false};
     for (uint32_t g = 0; g < system->group_count; g++) {
         phys_apply_links(columns, phys_forces(system, g, STAGE_LINK));
         if (groups[g].count)
-            phys_apply_pairs(system, &groups[g]);
+            phys_apply_pairs(system, &groups[g], system->group_count == 1 ? &move : NULL);
     }
     if (!phys_goes_on(system))
         return false;
     // 2. What happens to each particle alone.
-    for (uint32_t g = 0; g < system->group_count; g++)
+    for (uint32_t g = 0; g < system->group_count && !move.done; g++)
         if (groups[g].count)
             phys_sweep(system, g, delta, speed_of_light);
     bool whole = phys_goes_on(system);

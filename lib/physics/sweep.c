@@ -1,6 +1,5 @@
 // sweep.c: see sweep.h. The work on one group, dealt out to threads.
 #include "physics/sweep.h"
-#include "physics/kernels.h"
 #include "physics/threads.h"
 
 // The forces of a stage for a group, behind those that are in the chain already: own ones, then those of the groups
@@ -26,14 +25,6 @@ void phys_sweep_bounce(const SweepPass *pass, size_t i, const double *before) {
         phys_bounce(columns, i, phys_barriers(pass)[b], pass->delta, pass->speed_of_light);
 }
 
-typedef struct Share {
-    SweepKernel *kernel;
-    size_t lanes;
-    const SweepPass *pass;
-    const Group *group;
-    bool random; // one of the forces is
-} Share;
-
 static size_t moving_between(const Columns *columns, size_t first, size_t end) {
     size_t count = 0;
     for (size_t i = first; i < end; i++)
@@ -41,21 +32,25 @@ static size_t moving_between(const Columns *columns, size_t first, size_t end) {
     return count;
 }
 
-static void sweep_share(void *context, int worker, int workers) {
-    const Share *share = context;
+void phys_sweep_rows(const Sweep *sweep, size_t first, size_t end) {
     double scratch[3 * PHYS_VECTOR_DIMENSIONS];
-    Columns columns = *share->pass->columns;
-    SweepPass pass = *share->pass;
-    if (columns.dimensions <= PHYS_VECTOR_DIMENSIONS)
-        columns.scratch = scratch; // else there is one share only
+    Columns columns = *sweep->pass.columns;
+    SweepPass pass = sweep->pass;
+    if (sweep->wide)
+        columns.scratch = scratch;
     pass.columns = &columns;
-    size_t lanes = share->lanes, blocks = (share->group->count + lanes - 1) / lanes;
-    size_t start = share->group->first, stop = start + share->group->count;
-    size_t first = start + phys_share(blocks, worker, workers) * lanes;
-    size_t end = start + phys_share(blocks, worker + 1, workers) * lanes;
-    if (share->random && first > start && !columns.draws)
-        pass.taken = columns.dimensions * moving_between(&columns, start, first);
-    share->kernel(&pass, first, end < stop ? end : stop);
+    if (sweep->random && first > sweep->group->first && !columns.draws)
+        pass.taken = columns.dimensions * moving_between(&columns, sweep->group->first, first);
+    sweep->kernel(&pass, first, end);
+}
+
+static void sweep_share(void *context, int share, int shares) {
+    const Sweep *sweep = context;
+    size_t lanes = sweep->lanes, blocks = (sweep->group->count + lanes - 1) / lanes;
+    size_t start = sweep->group->first, stop = start + sweep->group->count;
+    size_t first = start + phys_share(blocks, share, shares) * lanes;
+    size_t end = start + phys_share(blocks, share + 1, shares) * lanes;
+    phys_sweep_rows(sweep, first, end < stop ? end : stop);
 }
 
 // Does one of the forces draw from a stream?
@@ -75,7 +70,7 @@ static void advance_streams(const SweepPass *pass, const Group *group) {
         ((Force *)pass->forces[f])->item += movers * columns->dimensions;
 }
 
-void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_of_light) {
+bool phys_sweep_begin(PhysSystem *system, uint32_t number, double delta, double speed_of_light, Sweep *sweep) {
     enum { MIN_FOR_LANES = 4 }; // particles; fewer are not worth a vector
     enum { NUMBERS_A_UNIT = 16, DRAWN_A_UNIT = 2 };
     const Group *group = (const Group *)system->groups.bytes + number;
@@ -86,18 +81,26 @@ void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_
     pass.force_count = singles + pass.barrier_count;
     pass.forces = system->chain.bytes;
     pass.keep_force = system->options.keep_forces;
-    uint64_t numbers = (uint64_t)group->count * columns->dimensions * (1 + pass.force_count);
-    if (!phys_charge(system, numbers / (draws(&pass) ? DRAWN_A_UNIT : NUMBERS_A_UNIT)))
-        return;
-    bool wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;
-    const Kernels *kernels = phys_kernels(system);
-    Share share = {.kernel = sweep_all_one, .lanes = 1, .pass = &pass, .group = group, .random = draws(&pass)};
-    if (wide) {
-        share.kernel = kernels->sweep;
-        share.lanes = kernels->lanes;
+    *sweep = (Sweep){.kernel = sweep_all_one, .lanes = 1, .pass = pass, .group = group, .random = draws(&pass)};
+    sweep->wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;
+    if (sweep->wide) {
+        sweep->kernel = phys_kernels(system)->sweep;
+        sweep->lanes = phys_kernels(system)->lanes;
     }
-    size_t least = share.random ? PHYS_MIN_FOR_THREADS / 4 : PHYS_MIN_FOR_THREADS;
-    phys_parallel(system, wide ? phys_shares(system, group->count, least) : 1, sweep_share, &share);
-    if (share.random)
-        advance_streams(&pass, group);
+    uint64_t numbers = (uint64_t)group->count * columns->dimensions * (1 + pass.force_count);
+    return phys_charge(system, numbers / (sweep->random ? DRAWN_A_UNIT : NUMBERS_A_UNIT));
+}
+
+void phys_sweep_end(const Sweep *sweep) {
+    if (sweep->random)
+        advance_streams(&sweep->pass, sweep->group);
+}
+
+void phys_sweep(PhysSystem *system, uint32_t number, double delta, double speed_of_light) {
+    Sweep sweep;
+    if (!phys_sweep_begin(system, number, delta, speed_of_light, &sweep))
+        return;
+    size_t least = sweep.random ? PHYS_MIN_FOR_THREADS / 4 : PHYS_MIN_FOR_THREADS;
+    phys_parallel(system, sweep.wide ? phys_shares(system, sweep.group->count, least) : 1, sweep_share, &sweep);
+    phys_sweep_end(&sweep);
 }

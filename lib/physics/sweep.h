@@ -3,6 +3,7 @@
 #define PETRI_PHYSICS_SWEEP_H
 
 #include "physics/internal.h"
+#include "physics/kernels.h"
 
 // What is done to the particles of one group.
 typedef struct SweepPass {
@@ -25,8 +26,23 @@ static inline const Force *const *phys_barriers(const SweepPass *pass) {
     return pass->forces + (pass->force_count - pass->barrier_count);
 }
 
-// sweep.c: the second half of a step for one group.
+// The second half of a step for one group.
+typedef struct Sweep {
+    SweepKernel *kernel;
+    size_t lanes;
+    SweepPass pass;
+    const Group *group;
+    bool wide;   // many particles at a time
+    bool random; // one of the forces is
+} Sweep;
+
+// sweep.c: phys_sweep_begin, phys_sweep_rows for all particles of the group, phys_sweep_end. False if it is not to be,
+// for the meter says so.
 void phys_sweep(PhysSystem *system, uint32_t group, double delta, double speed_of_light);
+bool phys_sweep_begin(PhysSystem *system, uint32_t group, double delta, double speed_of_light, Sweep *sweep);
+// Some of them, by any thread if `wide`. `first` is the group's first or a multiple of the lanes behind it.
+void phys_sweep_rows(const Sweep *sweep, size_t first, size_t end);
+void phys_sweep_end(const Sweep *sweep);
 // Lets particle i, which had the velocity `before` and has just moved, bounce off all barriers.
 void phys_sweep_bounce(const SweepPass *pass, size_t i, const double *before);
 

@@ -2,7 +2,11 @@
 //
 // A few threads wait for work. Work comes in shares, which are claimed one after the other by whoever is free, the
 // caller included: so on a busy machine, where a thread may not get a processor for milliseconds, the others do without
-// it, and the caller never waits for a thread that has not begun. What a share is depends on its number only.
+// it, and the caller never waits for a thread that has not begun. Where it has to wait too long for one that has, it
+// does without help for a while (help.h). What a share is depends on its number only.
+//
+// Threads look for the next job for a while before they sleep. A job that is over before a sleeping thread would be
+// awake is given to those that are (phys_help_at_hand).
 #ifndef PETRI_PHYSICS_THREADS_H
 #define PETRI_PHYSICS_THREADS_H
 
@@ -16,10 +20,21 @@ enum {
 
 typedef void PhysWork(void *context, int share, int shares);
 
-// Calls `work` for share 0 … shares - 1 on all threads of the system, in any order.
+// Calls `work` for share 0 … shares - 1 on all threads of the system, in any order; share 0 on the caller's.
 void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context);
-// The same for shares that wait for those before them: they begin in ascending order.
-void phys_parallel_in_order(const PhysSystem *system, int shares, PhysWork *work, void *context);
+
+// For work of less than some 50 microseconds: whether a thread is awake to help with it, if it is begun at once. Wakes
+// one for the next time, if such questions come in quick succession.
+bool phys_help_at_hand(const PhysSystem *system);
+
+// Waiting within a share for what another thread has claimed: `wait` begins as {0}, and phys_wait is called until it is
+// over. It gives the processor away when that takes long. Share 0, which is always the caller's, then tells of it.
+typedef struct PhysWait {
+    int looks;
+    uint64_t since;
+} PhysWait;
+void phys_wait(PhysWait *wait);
+void phys_wait_end(PhysThreads *threads, const PhysWait *wait);
 
 // The number of shares for `count` things: 1 if fewer than `least`, which are not worth waking a thread.
 int phys_shares(const PhysSystem *system, size_t count, size_t least);

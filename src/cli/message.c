@@ -16,6 +16,18 @@ void signal_catch(int number, void (*handler)(int), int flags) {
     }
 }
 
+// What a stranger's script or link is called must not reach a terminal as its orders.
+static void without_controls(char *line, size_t length) {
+    for (size_t i = 0; i < length; i++) {
+        unsigned char c = (unsigned char)line[i];
+        bool order = (c < ' ' && c != '\t' && c != '\n') || c == 0x7f;
+        if (i > 0 && (unsigned char)line[i - 1] == 0xc2 && c >= 0x80 && c < 0xa0) { // U+0080 to U+009F
+            line[i - 1] = line[i] = '?';
+        }
+        line[i] = order ? '?' : line[i];
+    }
+}
+
 void message(const char *format, ...) {
     // One write for the whole line, so that messages of parallel processes do not mix.
     char line[1024];
@@ -28,6 +40,7 @@ void message(const char *format, ...) {
     if (length > sizeof line - 2) {
         length = sizeof line - 2;
     }
+    without_controls(line, length);
     line[length] = '\n';
     length++;
     // Not by stdio, which drops what a signal interrupts: Ctrl-C comes just when there is something to say about it.

@@ -59,6 +59,9 @@ done <<'TEXT'
 http://127.0.0.1:8080/ was it cut off
 dish.fl was it cut off
 TEXT
+# A name with escape sequences.
+petri open '#q1YqU7Iy1FEqUbJSUkxUSLJNVtJRygNyYkoNDAyToo0Nc0EsyyS9tBygTLKSVXS0LlC9I5BjqBQbq6OUBtRfCwA'
+check "nothing of a link is an order to the terminal" eval '! grep -q "[[:cntrl:]]" err && has err "?[31m?.fl:1:6"'
 petri open "#$(repeat 25001 AAAA)"
 check "a link that is too long" one_message "too long: 100004 characters, 100000 at the most"
 petri open

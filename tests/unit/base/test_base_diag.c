@@ -57,6 +57,18 @@ static void test_carets(void **state) {
     }
 }
 
+// A script may put any string into a message, and any name into a link.
+static void test_control_characters(void **state) {
+    (void)state;
+    const Source *source = source_new(&arena, STR("a\x1b[1m.fl"), STR("a.fl"), str_from("ab"));
+    Diag diag = {.source = source,
+                 .span = {1, 2},
+                 .text = STR("no '\x1b]0;x\x07'"),
+                 .hint = STR("did you mean '\xc2\x9b\x7f'?")};
+    assert_text("all parts", formatted(&diag, false),
+                "a?[1m.fl:1:2: error: no '?]0;x?'\n    ab\n     ^\n    did you mean '\?\?'?\n");
+}
+
 static void test_levels_codes_hints(void **state) {
     (void)state;
     Diag diag = {.level = DIAG_WARNING, .text = STR("odd")};
@@ -146,9 +158,9 @@ static void test_one_line(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        DIAG_TEST(test_carets),         DIAG_TEST(test_levels_codes_hints), DIAG_TEST(test_long_lines),
-        DIAG_TEST(test_once_per_place), DIAG_TEST(test_texts_are_copied),   DIAG_TEST(test_limit),
-        DIAG_TEST(test_one_line),
+        DIAG_TEST(test_carets),     DIAG_TEST(test_control_characters), DIAG_TEST(test_levels_codes_hints),
+        DIAG_TEST(test_long_lines), DIAG_TEST(test_once_per_place),     DIAG_TEST(test_texts_are_copied),
+        DIAG_TEST(test_limit),      DIAG_TEST(test_one_line),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

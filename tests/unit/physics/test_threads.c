@@ -3,6 +3,7 @@
 #include "physics/threads.h"
 #include "support.h"
 
+#include <pthread.h>
 #include <stdatomic.h>
 #include <time.h>
 
@@ -60,6 +61,40 @@ static void test_systems_share_threads(void **state) {
     phys_threads_free(pool);
 }
 
+// Threads that others keep from working: whoever has begun a share falls asleep.
+typedef struct Slow {
+    pthread_t caller;
+    atomic_int helped;
+} Slow;
+
+static void work_slowly(void *context, int share, int shares) {
+    (void)shares;
+    Slow *slow = context;
+    if (pthread_equal(slow->caller, pthread_self())) {
+        for (volatile int i = 0; share == 0 && i < 20000; i++)
+            continue;
+        return;
+    }
+    atomic_fetch_add(&slow->helped, 1);
+    nanosleep(&(struct timespec){.tv_nsec = 2000000}, NULL);
+}
+
+// Nobody is asked any more after the first time, for a while.
+static void test_slow_threads(void **state) {
+    (void)state;
+    enum { MOST_TRIES = 1000000, SLOW_JOBS = 400, MOST_HELPED = 40 };
+    PhysSystem *system = phys_new();
+    phys_set_options(system, &(PhysOptions){.threads = 2});
+    Slow slow = {.caller = pthread_self()};
+    for (int i = 0; i < MOST_TRIES && atomic_load(&slow.helped) == 0; i++)
+        phys_parallel(system, 2, work_slowly, &slow);
+    assert_true(atomic_load(&slow.helped) > 0);
+    for (int i = 0; i < SLOW_JOBS; i++)
+        phys_parallel(system, 2, work_slowly, &slow);
+    assert_true(atomic_load(&slow.helped) < MOST_HELPED);
+    phys_free(system);
+}
+
 static void test_shares_of_counts(void **state) {
     (void)state;
     PhysSystem *system = phys_new();
@@ -80,6 +115,7 @@ int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_each_share_once),
         cmocka_unit_test(test_systems_share_threads),
+        cmocka_unit_test(test_slow_threads),
         cmocka_unit_test(test_shares_of_counts),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);

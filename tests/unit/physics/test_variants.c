@@ -181,6 +181,13 @@ static PhysForce pair_force(PhysForceKind kind, double strength, double power, d
     return force;
 }
 
+// With a key of 0 all numbers would be the same.
+static PhysForce random_force(void) {
+    PhysForce force = force_of(PHYS_RANDOM);
+    force.key = UINT64_C(0x9e3779b97f4a7c15);
+    return force;
+}
+
 static void test_contact(void **state) {
     (void)state;
     for (uint32_t n = 1; n <= 3; n++) {
@@ -223,6 +230,22 @@ static void test_unbounded(void **state) {
         }
 }
 
+// On several threads particles are moved while others still get forces: all that happens to one alone. Enough of them
+// that threads are called, and not a whole number of lanes.
+static void test_moved_at_once(void **state) {
+    (void)state;
+    for (uint32_t n = 1; n <= 3; n++) {
+        Scene scene = {
+            .name = "moved at once", .dimensions = n, .count = 430 + n, .groups = 1, .size = 30, .frames = 30};
+        scene.forces[scene.force_count++] = pair_force(PHYS_ELECTROSTATIC, 3, 1, 0);
+        scene.forces[scene.force_count++] = random_force();
+        scene.forces[scene.force_count++] = force_of(PHYS_DRAG);
+        scene.forces[scene.force_count] = force_of(PHYS_BARRIER);
+        scene.forces[scene.force_count++].vector2 = VEC(1, 0, 0);
+        check_scene(&scene);
+    }
+}
+
 // Nested groups with forces at several levels: passes over several ranges.
 static void test_nested(void **state) {
     (void)state;
@@ -261,7 +284,7 @@ static void test_many(void **state) {
     Scene scene = {.name = "many", .dimensions = 2, .count = LARGE, .groups = 2, .size = 55, .frames = 8};
     scene.forces[scene.force_count++] = pair_force(PHYS_COLLISION, 300, 1, 0);
     scene.forces[scene.force_count++] = force_of(PHYS_DRAG);
-    scene.forces[scene.force_count++] = force_of(PHYS_RANDOM);
+    scene.forces[scene.force_count++] = random_force();
     check_scene(&scene);
     scene.name = "many, unbounded";
     scene.frames = 2;
@@ -272,9 +295,9 @@ static void test_many(void **state) {
 
 int main(void) {
     const struct CMUnitTest tests[] = {
-        cmocka_unit_test(test_small),     cmocka_unit_test(test_contact), cmocka_unit_test(test_bounded),
-        cmocka_unit_test(test_unbounded), cmocka_unit_test(test_nested),  cmocka_unit_test(test_strange),
-        cmocka_unit_test(test_many),
+        cmocka_unit_test(test_small),     cmocka_unit_test(test_contact),       cmocka_unit_test(test_bounded),
+        cmocka_unit_test(test_unbounded), cmocka_unit_test(test_moved_at_once), cmocka_unit_test(test_nested),
+        cmocka_unit_test(test_strange),   cmocka_unit_test(test_many),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

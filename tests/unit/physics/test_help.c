@@ -1,0 +1,122 @@
+// test_help.c: when threads ask each other for help, and that a busy machine makes them stop, by played time.
+#include "physics/help.h"
+#include "support.h"
+
+// A machine on which jobs take so long alone, and so long with help.
+enum { ALONE = 20000, HELPED = 12000, SECOND = 1000000000 };
+
+typedef struct Machine {
+    PhysHelp help;
+    uint64_t now;
+    uint64_t worked; // what all jobs would have taken alone
+    uint64_t asked;  // jobs that others were asked to help with
+} Machine;
+
+// How long the caller waits for a helper that has begun a share at a time; UINT64_MAX if nobody comes.
+typedef uint64_t Answer(uint64_t now);
+
+static void play(Machine *machine, Answer *answer, uint64_t duration) {
+    for (uint64_t end = machine->now + duration; machine->now < end; machine->worked += ALONE) {
+        PhysJobTimes job = {.begin = machine->now};
+        if (phys_help_pauses(&machine->help, machine->now)) {
+            machine->now += ALONE;
+            continue;
+        }
+        machine->asked++;
+        uint64_t waited = answer(machine->now);
+        job.answered = waited != UINT64_MAX;
+        job.waited = job.answered ? waited : 0;
+        job.end = machine->now += job.answered ? HELPED + waited : ALONE;
+        phys_help_learn(&machine->help, &job);
+    }
+}
+
+static uint64_t at_once(uint64_t now) {
+    (void)now;
+    return 0;
+}
+
+static uint64_t nobody(uint64_t now) {
+    (void)now;
+    return UINT64_MAX;
+}
+
+// Another process has the helper's processor for 4 milliseconds of 8.
+static uint64_t half_of_the_time(uint64_t now) {
+    return now % 8000000 < 4000000 ? 0 : 8000000 - now % 8000000;
+}
+
+// … for one of 16.
+static uint64_t now_and_then(uint64_t now) {
+    return now % 16000000 < 15000000 ? 0 : 16000000 - now % 16000000;
+}
+
+// The helper's turn is over as soon as it has begun something.
+static uint64_t always_late(uint64_t now) {
+    (void)now;
+    return 4000000;
+}
+
+static double ratio(const Machine *machine) {
+    return (double)machine->now / (double)machine->worked;
+}
+
+static void test_quiet(void **state) {
+    (void)state;
+    Machine machine = {0};
+    play(&machine, at_once, SECOND);
+    assert_near(ratio(&machine), (double)HELPED / ALONE, 1e-9);
+    assert_int_equal(machine.help.pause, 0);
+}
+
+// Never slower than alone, but for a percent or two.
+static void test_busy(void **state) {
+    (void)state;
+    Answer *answers[] = {half_of_the_time, always_late, nobody};
+    for (size_t i = 0; i < COUNT_OF(answers); i++) {
+        Machine machine = {0};
+        play(&machine, answers[i], 10ull * SECOND);
+        assert_true(ratio(&machine) < 1.02);
+        assert_true(machine.asked * ALONE < machine.worked / 10);
+    }
+}
+
+static void test_disturbed(void **state) {
+    (void)state;
+    Machine machine = {0};
+    play(&machine, now_and_then, 10ull * SECOND);
+    assert_true(ratio(&machine) < 0.75);
+}
+
+// When the other process is gone, help is back within a second.
+static void test_quiet_again(void **state) {
+    (void)state;
+    Answer *answers[] = {half_of_the_time, always_late, nobody};
+    for (size_t i = 0; i < COUNT_OF(answers); i++) {
+        Machine machine = {0};
+        play(&machine, answers[i], 10ull * SECOND);
+        play(&machine, at_once, SECOND);
+        uint64_t asked = machine.asked, before = machine.now;
+        play(&machine, at_once, SECOND);
+        assert_int_equal(machine.asked - asked, (machine.now - before) / HELPED);
+    }
+}
+
+static void test_unanswered(void **state) {
+    (void)state;
+    PhysHelp help = {0};
+    PhysJobTimes alone = {.begin = 100, .end = 200}, helped = {.begin = 200, .end = 300, .answered = true};
+    for (int i = 1; i < 10 * PHYS_MOST_UNANSWERED; i++)
+        phys_help_learn(&help, i % PHYS_MOST_UNANSWERED ? &alone : &helped);
+    assert_false(phys_help_pauses(&help, 301));
+    phys_help_learn(&help, &alone);
+    assert_true(phys_help_pauses(&help, 201));
+}
+
+int main(void) {
+    const struct CMUnitTest tests[] = {
+        cmocka_unit_test(test_quiet),       cmocka_unit_test(test_busy),       cmocka_unit_test(test_disturbed),
+        cmocka_unit_test(test_quiet_again), cmocka_unit_test(test_unanswered),
+    };
+    return cmocka_run_group_tests(tests, NULL, NULL);
+}
