@@ -65,13 +65,14 @@ void phys_domain_free(PhysSystem *system) {
     Domain *domain = system->domain.bytes;
     if (!domain)
         return;
-    Buffer *buffers[] = {&domain->plot_owners, &domain->inland,   &domain->owners,        &domain->counts,
-                         &domain->columns,     &domain->own,      &domain->local_numbers, &domain->last_columns,
-                         &domain->foreign,     &domain->built,    &domain->movers,        &domain->draws,
-                         &domain->to.starts,   &domain->to.items, &domain->from.starts,   &domain->from.items,
-                         &domain->parcels,     &domain->table,    &domain->numbers,       &domain->whole,
-                         &domain->starts,      &domain->loads,    &domain->shore.columns, &domain->fresh.columns,
-                         &domain->sources,     &domain->spare,    &domain->nexts};
+    Buffer *buffers[] = {&domain->plot_owners, &domain->inland,    &domain->owners,        &domain->counts,
+                         &domain->columns,     &domain->own,       &domain->local_numbers, &domain->last_columns,
+                         &domain->foreign,     &domain->built,     &domain->movers,        &domain->draws,
+                         &domain->to.starts,   &domain->to.items,  &domain->from.starts,   &domain->from.items,
+                         &domain->parcels,     &domain->table,     &domain->numbers,       &domain->whole,
+                         &domain->starts,      &domain->loads,     &domain->shore.columns, &domain->fresh.columns,
+                         &domain->sources,     &domain->spare,     &domain->nexts,         &domain->orders,
+                         &domain->last_orders, &domain->renumbered};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     phys_neighbours_free(&domain->survey);
@@ -130,8 +131,11 @@ static bool begin(PhysSystem *system, const Domain *reach) {
         domain->patience *= 2;
     again |= !same || domain->contact != reach->contact || domain->bound != reach->bound ||
              (system->touched && (!domain->age || grown(system, domain)));
+    bool may_settle = phys_can_settle(system);
+    again |= domain->may_settle && !may_settle;
     domain->contact = reach->contact;
     domain->bound = reach->bound;
+    domain->may_settle = may_settle;
     if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
         return false;
     if (!again && system->touched)
@@ -161,14 +165,15 @@ static bool stirred(const Domain *domain) {
     double most = phys_skin_square(domain->survey.skin);
     bool still = domain->noted;
     for (size_t i = 0; i < count && still; i++) {
+        uint32_t at = phys_local_column(domain, own[i]);
         double square = 0;
         bool finite = true;
         for (size_t k = 0; k < n; k++) {
-            double x = columns->position[k * columns->stride + own[i]], d = x - built[k * count + i];
+            double x = columns->position[k * columns->stride + at], d = x - built[k * count + i];
             finite &= isfinite(x) || !isfinite(built[k * count + i]);
             square += d * d;
         }
-        still = finite && !(square > most) && !(columns->radius[own[i]] > built[n * count + i]);
+        still = finite && !(square > most) && !(columns->radius[at] > built[n * count + i]);
     }
     return !still;
 }

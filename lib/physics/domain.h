@@ -54,10 +54,13 @@ typedef struct Domain {
     Buffer local_numbers;
     uint32_t *local_of; // by column: the local number of own particles and of the halo, else UINT32_MAX
     Buffer columns, last_columns;
-    uint32_t *column; // by local number
-    Buffer own;       // uint32_t: local numbers of own particles, ascending
+    uint32_t *column;           // by local number
+    Buffer orders, last_orders; // the local system's `order` and `place`: its columns may be in that of a list
+    Buffer renumbered;          // uint32_t by local number before: that of now
+    bool may_settle;            // the same on all ranks
+    Buffer own;                 // uint32_t: local numbers of own particles, ascending
     uint32_t own_count;
-    Buffer foreign;   // bool by local number: of the halo
+    Buffer foreign;   // bool by the local system's column: of the halo
     Buffer built;     // own particles when the halo was made: n columns of positions, one of radii
     bool noted;       // … if that was wanted
     Buffer movers;    // uint32_t by column: particles of its group before it that move; if a force is random
@@ -66,7 +69,7 @@ typedef struct Domain {
     // while a halo is made: what others get is in the system's columns meanwhile, and what comes from others
     ColumnList shore; // own particles that others may need
     ColumnList fresh; // those that have come, to be owned or of the halo
-    Buffer sources;   // uint32_t by local number: where its numbers were before
+    Buffer sources;   // uint32_t by the local system's column: the one where its numbers were before
     // on the way
     Buffer parcels; // Parcel
     uint32_t parcel_count;
@@ -126,6 +129,11 @@ bool phys_domain_take_forces(PhysSystem *system, Domain *domain);
 void phys_domain_give_back_items(PhysSystem *system, const PhysSystem *local);
 // Brings its particles up to date that were given new numbers. Rows must be whole.
 void phys_domain_reload(const PhysSystem *system, Domain *domain);
+
+// Where the local system has the particle with a local number.
+static inline uint32_t phys_local_column(const Domain *domain, uint32_t number) {
+    return domain->local->place[number];
+}
 
 static inline uint32_t *phys_owners(const Domain *domain) {
     return domain->owners.bytes;

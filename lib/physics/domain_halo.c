@@ -95,6 +95,20 @@ static void pack(const double *vectors, size_t n, size_t stride, const uint32_t 
             *to++ = vectors[k * stride + columns[i]];
 }
 
+static void pack_places(const Domain *domain, const uint32_t *locals, size_t count, double *to) {
+    const Columns *columns = &domain->local->columns;
+    for (size_t k = 0; k < columns->dimensions; k++)
+        for (size_t i = 0; i < count; i++)
+            *to++ = columns->position[k * columns->stride + phys_local_column(domain, locals[i])];
+}
+
+static void unpack_places(const Domain *domain, const uint32_t *locals, size_t count, const double *from) {
+    const Columns *columns = &domain->local->columns;
+    for (size_t k = 0; k < columns->dimensions; k++)
+        for (size_t i = 0; i < count; i++)
+            columns->position[k * columns->stride + phys_local_column(domain, locals[i])] = *from++;
+}
+
 static void unpack(double *vectors, size_t n, size_t stride, const uint32_t *columns, size_t count,
                    const double *from) {
     for (size_t k = 0; k < n; k++)
@@ -161,7 +175,7 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
     return true;
 }
 
-// A particle as it is within a frame, into the system's columns.
+// The particle in a column of the local system, as it is within a frame, into one of the system.
 static void give_back(const PhysSystem *system, const Domain *domain, uint32_t here, uint32_t column) {
     const Columns *from = &domain->local->columns, *to = &system->columns;
     for (size_t k = 0; k < to->dimensions; k++) {
@@ -179,21 +193,23 @@ static void give_ends_back(const PhysSystem *system, const Domain *domain) {
         uint32_t ends[2] = {forces[f].given.from, forces[f].given.to};
         for (int i = 0; i < 2; i++)
             if (phys_owners(domain)[ends[i]] == (uint32_t)system->options.ranks.rank)
-                give_back(system, domain, domain->local_of[ends[i]], ends[i]);
+                give_back(system, domain, phys_local_column(domain, domain->local_of[ends[i]]), ends[i]);
     }
 }
 
 // Own particles that are not inland: they move, or are on the shore.
 static bool look_along_shore(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
-    const uint32_t *own = domain->own.bytes, *inland = domain->inland.bytes, *owners = domain->plot_owners.bytes;
+    const bool *foreign = domain->local->foreign;
+    const Grid plots = domain->plots;
+    const uint32_t *inland = domain->inland.bytes, *owners = domain->plot_owners.bytes;
     uint32_t self = (uint32_t)system->options.ranks.rank;
-    for (uint32_t i = 0; i < domain->own_count; i++) {
-        uint32_t plot = phys_cell_of(&domain->plots, columns->position + own[i], columns->stride);
-        if (inland[plot])
+    for (uint32_t i = 0; i < columns->count; i++) {
+        uint32_t plot = phys_cell_of(&plots, columns->position + i, columns->stride);
+        if (inland[plot] || foreign[i])
             continue;
-        uint32_t column = domain->column[own[i]];
-        give_back(system, domain, own[i], column);
+        uint32_t column = domain->column[domain->local->order[i]];
+        give_back(system, domain, i, column);
         if (owners[plot] == self ? !phys_list_column(system, &domain->shore, column)
                                  : !phys_add_parcel(system, domain, owners[plot], column))
             return false;
@@ -274,8 +290,7 @@ bool phys_domain_find_halo(PhysSystem *system, Domain *domain) {
 }
 
 bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
-    const Columns *columns = &domain->local->columns;
-    size_t n = columns->dimensions, ranks = (size_t)system->options.ranks.count;
+    size_t n = system->dimensions, ranks = (size_t)system->options.ranks.count;
     for (uint32_t r = 0; r < ranks; r++) {
         size_t count = phys_parcel_count(&domain->to, r);
         double *numbers = count ? reserve_numbers(system, domain, n * count) : NULL;
@@ -283,7 +298,7 @@ bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
             continue;
         if (!numbers)
             return false;
-        pack(columns->position, n, columns->stride, phys_parcel(&domain->to, r), count, numbers);
+        pack_places(domain, phys_parcel(&domain->to, r), count, numbers);
         send(system, domain, r, n * count);
     }
     for (uint32_t r = 0; r < ranks; r++) {
@@ -294,7 +309,7 @@ bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
         if (!numbers)
             return false;
         receive(system, domain, r, n * count);
-        unpack(columns->position, n, columns->stride, phys_parcel(&domain->from, r), count, numbers);
+        unpack_places(domain, phys_parcel(&domain->from, r), count, numbers);
     }
     return true;
 }

@@ -1,19 +1,25 @@
-// domain_local.c: the system that one process simulates: its own particles and its halo, in the order of all.
+// domain_local.c: the system that one process simulates: its own particles and its halo.
+//
+// Local numbers count them in the order of all. The columns are in that order, too, or else in that of a list
+// (settle.c): then own particles keep it when a new halo comes, and fresh ones are put behind them.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <stdlib.h>
+#include <string.h>
 
 static int by_number(const void *left, const void *right) {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return (a > b) - (a < b);
 }
 
-static void put(Domain *domain, uint32_t column, uint32_t source) {
+static void put(Domain *domain, uint32_t column, uint32_t source, bool own) {
     uint32_t number = domain->local->particle_count++;
     domain->column[number] = column;
     domain->local_of[column] = number;
     ((uint32_t *)domain->sources.bytes)[number] = source;
+    if (own)
+        ((uint32_t *)domain->own.bytes)[domain->own_count++] = number;
 }
 
 // Without a local system before: all own particles, whose numbers are in the system's columns.
@@ -34,7 +40,8 @@ static bool list_own(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-// Numbers whom the rank knows from now on in the order of the columns: own particles that stay, and fresh ones.
+// Numbers whom the rank knows from now on in the order of the system's columns: own particles that stay, and fresh
+// ones.
 static bool number_columns(PhysSystem *system, Domain *domain) {
     uint32_t self = (uint32_t)system->options.ranks.rank, fresh = domain->fresh.count, next = 0;
     if (!domain->made && !list_own(system, domain))
@@ -47,24 +54,59 @@ static bool number_columns(PhysSystem *system, Domain *domain) {
     const bool *foreign = domain->made ? domain->foreign.bytes : NULL;
     uint32_t *come = domain->fresh.columns.bytes;
     if (!phys_buffer_reserve(system, &domain->columns, 0, (uint64_t)last + fresh, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->sources, 0, (uint64_t)last + fresh, sizeof(uint32_t)))
+        !phys_buffer_reserve(system, &domain->sources, 0, (uint64_t)last + fresh, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->renumbered, 0, last, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->own, 0, ((const uint32_t *)domain->counts.bytes)[self], sizeof(uint32_t)))
         return false;
+    uint32_t *renumbered = domain->renumbered.bytes;
     domain->column = domain->columns.bytes;
-    domain->local->particle_count = 0;
+    domain->local->particle_count = domain->own_count = 0;
     if (fresh)
         qsort(come, fresh, sizeof *come, by_number);
     for (uint32_t i = 0; i < last; i++) {
         uint32_t column = last_column[i];
-        domain->local_of[column] = UINT32_MAX;
-        if ((foreign && foreign[i]) || owners[column] != self)
+        domain->local_of[column] = renumbered[i] = UINT32_MAX;
+        if (owners[column] != self || (foreign && foreign[phys_local_column(domain, i)]))
             continue;
         for (; next < fresh && come[next] < column; next++)
-            put(domain, come[next], 0);
-        put(domain, column, foreign ? i : column);
+            put(domain, come[next], 0, owners[come[next]] == self);
+        renumbered[i] = domain->local->particle_count;
+        put(domain, column, foreign ? i : column, true);
     }
-    while (next < fresh)
-        put(domain, come[next++], 0);
-    domain->own_count = ((const uint32_t *)domain->counts.bytes)[self];
+    for (; next < fresh; next++)
+        put(domain, come[next], 0, owners[come[next]] == self);
+    return true;
+}
+
+// Which column each gets.
+static bool order_columns(PhysSystem *system, Domain *domain) {
+    PhysSystem *local = domain->local;
+    Buffer orders = domain->last_orders;
+    domain->last_orders = domain->orders;
+    domain->orders = orders;
+    if (!phys_buffer_reserve(system, &domain->orders, 0, 2 * (uint64_t)local->particle_count, sizeof(uint32_t)))
+        return false;
+    const uint32_t *last_order = local->order, *renumbered = domain->renumbered.bytes;
+    uint32_t *sources = domain->sources.bytes, last = local->columns.count, next = 0;
+    local->order = domain->orders.bytes;
+    local->place = local->order + local->particle_count;
+    if (!domain->made)
+        phys_forget_order(local);
+    if (!local->settled)
+        for (; next < local->particle_count; next++)
+            local->order[next] = local->place[next] = next;
+    for (uint32_t i = 0; local->settled && i < last; i++)
+        if (renumbered[last_order[i]] != UINT32_MAX) {
+            local->order[next] = renumbered[last_order[i]];
+            sources[next++] = i;
+        }
+    const uint32_t *fresh = domain->fresh.columns.bytes;
+    for (uint32_t f = 0; next < local->particle_count; f++) {
+        local->order[next] = domain->local_of[fresh[f]];
+        sources[next++] = 0;
+    }
+    for (uint32_t i = 0; i < next; i++)
+        local->place[local->order[i]] = i;
     return true;
 }
 
@@ -135,6 +177,11 @@ static bool take_draws(PhysSystem *system, Domain *domain) {
     return true;
 }
 
+static void fill(size_t first, size_t end, double number, double *to) {
+    for (size_t i = first; i < end; i++)
+        to[i] = number;
+}
+
 static void take(const uint32_t *column, size_t first, size_t end, const double *from, double *to) {
     for (size_t i = first; i < end; i++)
         to[i] = from[column[i]];
@@ -144,16 +191,19 @@ typedef struct Taking {
     const PhysSystem *system;
     const Domain *domain;
     Columns from;
-    const uint32_t *sources; // columns of `from`
+    const uint32_t *sources; // columns of `from` by column
 } Taking;
 
 static void take_attributes(const Taking *taking, size_t first, size_t end) {
     const PhysSystem *system = taking->system;
     const Columns *from = &taking->from, *to = &taking->domain->local->columns;
     const uint32_t *sources = taking->sources;
-    take(sources, first, end, from->radius, to->radius);
-    take(sources, first, end, from->mass, to->mass);
-    take(sources, first, end, from->charge, to->charge);
+    double *numbers[][2] = {{from->radius, to->radius}, {from->mass, to->mass}, {from->charge, to->charge}};
+    for (int i = 0; i < 3; i++)
+        if (system->record_stride)
+            take(sources, first, end, numbers[i][0], numbers[i][1]);
+        else // all have the same
+            fill(first, end, numbers[i][0][sources[first]], numbers[i][1]);
     if (is_needed(system, NEED_SECTION))
         take(sources, first, end, from->section, to->section);
     if (is_needed(system, NEED_VOLUME))
@@ -174,6 +224,8 @@ static void take_share(void *context, int share, int shares) {
         take(taking->sources, first, end, from->position + k * from->stride, to->position + k * to->stride);
         take(taking->sources, first, end, from->velocity + k * from->stride, to->velocity + k * to->stride);
     }
+    for (size_t i = first; i < end; i++)
+        to->anchor[i] = from->anchor[taking->sources[i]];
     take_attributes(taking, first, end);
 }
 
@@ -201,7 +253,10 @@ static int shares_for(const PhysSystem *local) {
 }
 
 void phys_domain_reload(const PhysSystem *system, Domain *domain) {
-    Taking taking = {system, domain, system->columns, domain->column};
+    uint32_t *sources = domain->sources.bytes;
+    for (uint32_t i = 0; i < domain->local->particle_count; i++)
+        sources[i] = domain->column[domain->local->order[i]];
+    Taking taking = {system, domain, system->columns, sources};
     domain->local->radii++;
     phys_parallel(domain->local, shares_for(domain->local), reload_share, &taking);
 }
@@ -209,9 +264,11 @@ void phys_domain_reload(const PhysSystem *system, Domain *domain) {
 static void take_fresh(const PhysSystem *system, const Domain *domain) {
     const Columns *from = &system->columns, *to = &domain->local->columns;
     const uint32_t *fresh = domain->fresh.columns.bytes;
-    Taking taking = {system, domain, *from, domain->column};
+    uint32_t *sources = domain->sources.bytes;
+    Taking taking = {system, domain, *from, sources};
     for (uint32_t f = 0; f < domain->fresh.count; f++) {
-        size_t here = domain->local_of[fresh[f]];
+        size_t here = phys_local_column(domain, domain->local_of[fresh[f]]);
+        sources[here] = fresh[f];
         for (size_t k = 0; k < to->dimensions; k++) {
             to->position[k * to->stride + here] = from->position[k * from->stride + fresh[f]];
             to->velocity[k * to->stride + here] = from->velocity[k * from->stride + fresh[f]];
@@ -239,29 +296,36 @@ static bool take_numbers(const PhysSystem *system, Domain *domain) {
     return true;
 }
 
+static void mark_fresh(const PhysSystem *system, const Domain *domain, bool *foreign) {
+    const uint32_t *fresh = domain->fresh.columns.bytes, *owners = phys_owners(domain);
+    for (uint32_t f = 0; f < domain->fresh.count; f++) {
+        uint32_t at = phys_local_column(domain, domain->local_of[fresh[f]]);
+        foreign[at] = owners[fresh[f]] != (uint32_t)system->options.ranks.rank;
+        domain->local->columns.anchor[at] = foreign[at] || system->columns.anchor[fresh[f]];
+    }
+}
+
 static bool take_particles(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     if (!take_numbers(system, domain) ||
-        !phys_buffer_reserve(system, &domain->own, 0, domain->own_count, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->foreign, 0, local->particle_count, sizeof(bool)))
         return false;
-    const uint32_t *owners = phys_owners(domain);
-    bool *foreign = domain->foreign.bytes;
-    uint32_t *own = domain->own.bytes;
-    for (uint32_t i = 0; i < local->particle_count; i++) {
-        foreign[i] = owners[domain->column[i]] != (uint32_t)system->options.ranks.rank;
-        local->columns.anchor[i] = foreign[i] || system->columns.anchor[domain->column[i]];
-        if (!foreign[i])
-            *own++ = i;
-    }
-    local->foreign = foreign;
+    local->foreign = domain->foreign.bytes;
+    if (local->particle_count)
+        memset(local->foreign, false, local->particle_count);
+    mark_fresh(system, domain, local->foreign);
     return true;
+}
+
+static void take_placed(const Domain *domain, const double *from, double *to) {
+    const uint32_t *own = domain->own.bytes;
+    for (uint32_t i = 0; i < domain->own_count; i++)
+        to[i] = from[phys_local_column(domain, own[i])];
 }
 
 // Where own particles were when the halo was made, and how large, if some pass had no list so far.
 static bool note_places(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
-    const uint32_t *own = domain->own.bytes;
     domain->noted = domain->local->unlisted;
     if (!domain->noted)
         return true;
@@ -270,15 +334,15 @@ static bool note_places(PhysSystem *system, Domain *domain) {
         return false;
     double *built = domain->built.bytes;
     for (size_t k = 0; k < columns->dimensions && domain->own_count; k++, built += domain->own_count)
-        take(own, 0, domain->own_count, columns->position + k * columns->stride, built);
-    take(own, 0, domain->own_count, columns->radius, built);
+        take_placed(domain, columns->position + k * columns->stride, built);
+    take_placed(domain, columns->radius, built);
     return true;
 }
 
 bool phys_domain_gather(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    if (!number_columns(system, domain) || !take_groups(system, domain) || !take_particles(system, domain) ||
-        !phys_domain_take_forces(system, domain) || !note_places(system, domain)) {
+    if (!number_columns(system, domain) || !order_columns(system, domain) || !take_groups(system, domain) ||
+        !take_particles(system, domain) || !phys_domain_take_forces(system, domain) || !note_places(system, domain)) {
         system->failed = true;
         return false;
     }
@@ -323,6 +387,8 @@ bool phys_domain_take_forces(PhysSystem *system, Domain *domain) {
     }
     local->starts[slots] = local->force_count = count;
     phys_link_groups(local);
+    local->record_stride = system->record_stride;
+    local->may_settle = domain->may_settle;
     return take_draws(system, domain);
 }
 

@@ -34,14 +34,15 @@ static inline bool pack_range(const Sharing *sharing, size_t n, size_t first, si
     size_t width = sharing->width, stride = columns->stride;
     bool special = false;
     for (size_t i = first; i < end; i++) {
+        uint32_t at = phys_local_column(sharing->domain, own[i]);
         double *to = sharing->mine + i * width;
         for (size_t k = 0; k < n; k++) {
-            to[k] = columns->position[k * stride + own[i]];
-            to[n + k] = columns->velocity[k * stride + own[i]];
+            to[k] = columns->position[k * stride + at];
+            to[n + k] = columns->velocity[k * stride + at];
             special |= is_special(to[k]) || is_special(to[n + k]);
         }
         for (size_t k = 2 * n; k < width; k++)
-            to[k] = columns->force[(k - 2 * n) * stride + own[i]];
+            to[k] = columns->force[(k - 2 * n) * stride + at];
     }
     return special;
 }
@@ -71,10 +72,10 @@ static void count_share(void *context, int share, int shares) {
 static bool keep_one(const Sharing *sharing, uint32_t column, double *numbers) {
     const PhysSystem *system = sharing->system;
     size_t n = system->dimensions;
-    uint32_t here = sharing->domain->local_of[column];
     bool kept = !phys_keep_row(system, n, system->order[column], numbers, numbers + n, 1);
     if (phys_owners(sharing->domain)[column] == (uint32_t)system->options.ranks.rank) {
         const Columns *columns = &sharing->domain->local->columns;
+        uint32_t here = phys_local_column(sharing->domain, sharing->domain->local_of[column]);
         for (size_t k = 0; k < n; k++) {
             columns->position[k * columns->stride + here] = numbers[k];
             columns->velocity[k * columns->stride + here] = numbers[n + k];

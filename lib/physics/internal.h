@@ -144,9 +144,9 @@ struct PhysSystem {
     bool behind;          // positions and velocities are in the rows only, not in the columns
     Buffer domain;        // Domain
     PhysTraffic traffic;
-    const bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
-    double skin;         // likewise, that of all lists
-    bool unlisted;       // likewise: a pass went without a list
+    bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
+    double skin;   // likewise, that of all lists
+    bool unlisted; // likewise: a pass went without a list
 };
 
 // A run of forces.

@@ -80,12 +80,18 @@ static void move_arrays(Settling *settling, int shares) {
     }
 }
 
-static void move_anchors(const Settling *settling) {
+static void move_marks(const Settling *settling, bool *marks) {
     const Neighbours *list = settling->list;
-    bool *anchor = settling->system->columns.anchor, *moved = (bool *)list->view.quads;
+    bool *moved = (bool *)list->view.quads;
     for (uint32_t i = 0; i < list->total; i++)
-        moved[i] = anchor[list->view.column[i]];
-    memcpy(anchor, moved, list->total);
+        moved[i] = marks[list->view.column[i]];
+    memcpy(marks, moved, list->total);
+}
+
+static void swap_marks(bool *marks, uint32_t i, uint32_t j) {
+    bool mark = marks[i];
+    marks[i] = marks[j];
+    marks[j] = mark;
 }
 
 // Positions, and who is where, the list knows.
@@ -114,8 +120,8 @@ bool phys_can_settle(const PhysSystem *system) {
     for (uint32_t g = 0; g < system->group_count; g++)
         if (groups[g].count) {
             uint32_t level = groups[g].nearest[STAGE_PAIR];
-            return groups[g].count == system->particle_count && level != NO_GROUP && !system->foreign &&
-                   system->options.ranks.count <= 1 && system->dimensions <= PHYS_VECTOR_DIMENSIONS &&
+            return groups[g].count == system->particle_count && level != NO_GROUP &&
+                   system->dimensions <= PHYS_VECTOR_DIMENSIONS &&
                    phys_next_above(groups, level, STAGE_PAIR) == NO_GROUP;
         }
     return false;
@@ -129,8 +135,10 @@ void phys_settle(PhysSystem *system, Neighbours *list) {
     int shares = phys_shares(system, list->total, PHYS_MIN_FOR_THREADS);
     add_arrays(&settling, false);
     move_arrays(&settling, shares);
-    if (system->record_stride)
-        move_anchors(&settling);
+    if (system->record_stride || system->foreign)
+        move_marks(&settling, system->columns.anchor);
+    if (system->foreign)
+        move_marks(&settling, system->foreign);
     phys_parallel(system, shares, take_share, &settling);
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         system->lists[i].built &= &system->lists[i] == list;
@@ -156,9 +164,9 @@ void phys_unsettle(PhysSystem *system) {
                 settling.arrays[a][i] = settling.arrays[a][home];
                 settling.arrays[a][home] = number;
             }
-            bool *anchor = system->columns.anchor, was = anchor[i];
-            anchor[i] = anchor[home];
-            anchor[home] = was;
+            swap_marks(system->columns.anchor, i, home);
+            if (system->foreign)
+                swap_marks(system->foreign, i, home);
             order[i] = order[home];
             order[home] = system->place[home] = home;
         }

@@ -28,7 +28,7 @@ static bool arrange(PhysSystem *system) {
         if (!system->forces_arranged)
             return false;
     }
-    system->may_settle = phys_can_settle(system);
+    system->may_settle = system->options.ranks.count <= 1 && phys_can_settle(system);
     if (system->settled && !system->may_settle) {
         phys_unsettle(system);
         if (!phys_arrange_forces(system)) // links name columns

@@ -10,7 +10,7 @@
 typedef enum Unit { PER_PAIR, PER_STEP, PER_PARTICLE } Unit;
 
 // Which of our limit kernels (limit.h) does the same inner loop.
-typedef enum Limit { LIMIT_NONE, LIMIT_PAIRS_2D, LIMIT_PAIRS_3D, LIMIT_DISCS } Limit;
+typedef enum Limit { LIMIT_NONE, LIMIT_PAIRS_2D, LIMIT_PAIRS_3D, LIMIT_DISCS, LIMIT_SPHERES } Limit;
 
 typedef struct Case {
     const char *name;

@@ -112,7 +112,9 @@ static double limit_once(const Case *c) {
     case LIMIT_PAIRS_3D:
         return limit_pair(c->n, 3);
     case LIMIT_DISCS:
-        return limit_discs(c->side);
+        return limit_soft(2, c->side);
+    case LIMIT_SPHERES:
+        return limit_soft(3, c->side);
     case LIMIT_NONE:
         break;
     }

@@ -315,6 +315,28 @@ static const char *const reaching[] = {
     "velocity=(g>4)*200*normal(:v)[2*i..2*i+2]\n"
     "            !adhesion strength=9\n"
     "    !gravity strength=3 max_distance=(0 if frame == 3 else 3)\n",
+    // columns in the order of lists: until a large particle comes, and while nothing asks for the order of all
+    "!physics state=:a dimensions=2 resolution=1/300\n"
+    "    for i in ..700\n"
+    "        !particle id=i position=40*uniform(:p)[2*i..2*i+2] velocity=(15+i%5)*normal(:v)[2*i..2*i+2] mass=1+i%3 "
+    "radius=(9 if i==30 and frame == 4 else 0.5+i%7/10) force=normal(:f)[2*i..2*i+2] ease=(0.2 if i%3 else 0)\n"
+    "    for i in 700..720\n"
+    "        !anchor id=i position=40*uniform(:p)[2*i..2*i+2]+frame/5 radius=1\n"
+    "    !collision strength=100\n"
+    "    !electrostatic strength=3 max_distance=2\n"
+    "    !drag strength=0.01\n"
+    "    if frame == 2\n"
+    "        !random strength=2\n"
+    "    if frame == 5\n"
+    "        !distance from=1 to=600 fixed=3 strength=4\n"
+    "    !barrier position=0;0 normal=1;0\n",
+    // likewise, all alike
+    "!physics state=:a dimensions=3 resolution=1/300\n"
+    "    for i in ..800\n"
+    "        !particle id=i position=15*uniform(:p)[3*i..3*i+3] velocity=40*normal(:v)[3*i..3*i+3] radius=0.6\n"
+    "    !collision strength=300\n"
+    "    if frame == 3\n"
+    "        !random strength=9\n",
 };
 
 static void test_regions(void **state) {
