@@ -44,8 +44,93 @@ static size_t format_special(double x, char *text) {
     return strlen(word);
 }
 
-// Digits and decimal exponent of the shortest decimal that reads back as x (finite, not 0); returns the digit count.
-static int shortest_digits(double x, char digits[20], int *exponent) {
+// Decimal digits and the exponent of the first.
+typedef struct Decimal {
+    char digits[20];
+    int count;
+    int exponent;
+} Decimal;
+
+static void drop_zeros(Decimal *decimal) {
+    while (decimal->count > 1 && decimal->digits[decimal->count - 1] == '0')
+        decimal->count--;
+}
+
+__extension__ typedef unsigned __int128 Product;
+
+enum { MOST_DIGITS = 17 };
+#define LEAST_FRACTION 1e-5           // its scale is 21, and 5^21 has 49 bits
+#define LEAST_MOST 10000000000000000u // of 17 digits
+
+// x = significand * 2^exponent, in units of 10^-scale: product * 2^-shift, without any rounding. Below 2^53 and from
+// LEAST_FRACTION on the product is below 2^53 * 5^21 < 2^102.
+typedef struct Scaled {
+    Product product;
+    Product power; // 5^scale: the distance to the neighbours of x, likewise
+    int shift;
+} Scaled;
+
+static bool scale_by(Scaled *scaled, uint64_t significand, int exponent, int scale) {
+    scaled->power = 1;
+    for (int i = 0; i < scale; i++)
+        scaled->power *= 5;
+    scaled->product = significand * scaled->power;
+    scaled->shift = -(exponent + scale);
+    return scale > 0 && scaled->shift > 0;
+}
+
+// Whether `whole` units read back as x: no further from it than the middle between two neighbours.
+static bool reads_back(const Scaled *scaled, uint64_t whole) {
+    Product there = (Product)whole << scaled->shift;
+    Product distance = there > scaled->product ? there - scaled->product : scaled->product - there;
+    return 2 * distance < scaled->power; // never equal: a power of five is odd
+}
+
+// x in units, rounded to a multiple of `unit`, a power of ten; ties go to the even multiple.
+static uint64_t round_units(const Scaled *scaled, uint64_t unit) {
+    Product rest = scaled->product & (((Product)1 << scaled->shift) - 1);
+    uint64_t units = (uint64_t)(scaled->product >> scaled->shift), whole = units / unit;
+    rest += (Product)(units % unit) << scaled->shift;
+    Product half = ((Product)unit << scaled->shift) / 2;
+    return (whole + (rest > half || (rest == half && whole % 2 == 1))) * unit;
+}
+
+// The shortest decimal that reads back as x, for most of the fractions that there are, in integers; false for others.
+static bool shortest_of_fraction(double x, Decimal *decimal) {
+    int exponent;
+    uint64_t significand = (uint64_t)ldexp(frexp(x, &exponent), 53);
+    exponent -= 53;
+    // A power of two has a nearer neighbour below than above.
+    if (!(x >= LEAST_FRACTION && x < 9007199254740992.0) || significand == UINT64_C(1) << 52)
+        return false;
+    // 78913 / 2^18 is the decimal logarithm of 2: the estimate is right or one too low.
+    int first = (int)floor((exponent + 52) * (78913.0 / 262144));
+    Scaled scaled;
+    if (!scale_by(&scaled, significand, exponent, MOST_DIGITS - 1 - first))
+        return false;
+    if (scaled.product >> scaled.shift >= (Product)10 * LEAST_MOST) {
+        first++;
+        if (!scale_by(&scaled, significand, exponent, MOST_DIGITS - 1 - first))
+            return false;
+    }
+    uint64_t units = 0, unit = 100;
+    for (; unit > 0; unit /= 10) {
+        units = round_units(&scaled, unit);
+        if (unit == 1 || reads_back(&scaled, units))
+            break;
+    }
+    if (units < LEAST_MOST || units >= 10 * LEAST_MOST)
+        return false;
+    decimal->count = MOST_DIGITS;
+    decimal->exponent = first;
+    for (int i = MOST_DIGITS - 1; i >= 0; i--, units /= 10)
+        decimal->digits[i] = (char)('0' + units % 10);
+    drop_zeros(decimal);
+    return true;
+}
+
+// The same for any x (finite, not 0), by trial.
+static void shortest_by_trial(double x, Decimal *decimal) {
     char text[NUMBER_TEXT];
     char point = decimal_point();
     // A normal double always survives 17 digits, most survive 15, and what survives 15 loses only zeros.
@@ -67,20 +152,27 @@ static int shortest_digits(double x, char digits[20], int *exponent) {
         }
     }
     replace_char(text, point, '.');
-    int count = 0;
+    decimal->count = 0;
     const char *at = text;
     for (; *at != 'e'; at++)
         if (*at >= '0' && *at <= '9')
-            digits[count++] = *at;
-    *exponent = atoi(at + 1);
-    while (count > 1 && digits[count - 1] == '0')
-        count--;
-    return count;
+            decimal->digits[decimal->count++] = *at;
+    decimal->exponent = atoi(at + 1);
+    drop_zeros(decimal);
 }
 
 // Positional text of an integer below 2^53: the common case by far, without any trial.
 static size_t format_integer(long long whole, bool negative, char *text) {
-    return (size_t)snprintf(text, NUMBER_TEXT, "%s%lld", negative ? "-" : "", whole);
+    char digits[20], *first = digits + sizeof digits, *at = text;
+    do
+        *--first = (char)('0' + whole % 10);
+    while ((whole /= 10) > 0);
+    if (negative)
+        *at++ = '-';
+    size_t length = (size_t)(digits + sizeof digits - first);
+    memcpy(at, first, length);
+    at[length] = 0;
+    return (size_t)(at - text) + length;
 }
 
 size_t number_format(double x, char text[NUMBER_TEXT]) {
@@ -89,9 +181,11 @@ size_t number_format(double x, char text[NUMBER_TEXT]) {
     double magnitude = fabs(x);
     if (magnitude < 9007199254740992.0 && magnitude == floor(magnitude))
         return format_integer((long long)magnitude, signbit(x), text);
-    char digits[20];
-    int exponent;
-    int count = shortest_digits(magnitude, digits, &exponent);
+    Decimal decimal;
+    if (!shortest_of_fraction(magnitude, &decimal))
+        shortest_by_trial(magnitude, &decimal);
+    const char *digits = decimal.digits;
+    int count = decimal.count, exponent = decimal.exponent;
     char *at = text;
     if (signbit(x))
         *at++ = '-';

@@ -200,13 +200,13 @@ static void give_ends_back(const PhysSystem *system, const Domain *domain) {
 // Own particles that are not inland: they move, or are on the shore.
 static bool look_along_shore(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
+    const bool *foreign = domain->local->foreign;
+    const Grid plots = domain->plots;
     const uint32_t *inland = domain->inland.bytes, *owners = domain->plot_owners.bytes;
     uint32_t self = (uint32_t)system->options.ranks.rank;
     for (uint32_t i = 0; i < columns->count; i++) {
-        if (domain->local->foreign[i])
-            continue;
-        uint32_t plot = phys_cell_of(&domain->plots, columns->position + i, columns->stride);
-        if (inland[plot])
+        uint32_t plot = phys_cell_of(&plots, columns->position + i, columns->stride);
+        if (inland[plot] || foreign[i])
             continue;
         uint32_t column = domain->column[domain->local->order[i]];
         give_back(system, domain, i, column);

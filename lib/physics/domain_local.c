@@ -177,6 +177,11 @@ static bool take_draws(PhysSystem *system, Domain *domain) {
     return true;
 }
 
+static void fill(size_t first, size_t end, double number, double *to) {
+    for (size_t i = first; i < end; i++)
+        to[i] = number;
+}
+
 static void take(const uint32_t *column, size_t first, size_t end, const double *from, double *to) {
     for (size_t i = first; i < end; i++)
         to[i] = from[column[i]];
@@ -193,9 +198,12 @@ static void take_attributes(const Taking *taking, size_t first, size_t end) {
     const PhysSystem *system = taking->system;
     const Columns *from = &taking->from, *to = &taking->domain->local->columns;
     const uint32_t *sources = taking->sources;
-    take(sources, first, end, from->radius, to->radius);
-    take(sources, first, end, from->mass, to->mass);
-    take(sources, first, end, from->charge, to->charge);
+    double *numbers[][2] = {{from->radius, to->radius}, {from->mass, to->mass}, {from->charge, to->charge}};
+    for (int i = 0; i < 3; i++)
+        if (system->record_stride)
+            take(sources, first, end, numbers[i][0], numbers[i][1]);
+        else // all have the same
+            fill(first, end, numbers[i][0][sources[first]], numbers[i][1]);
     if (is_needed(system, NEED_SECTION))
         take(sources, first, end, from->section, to->section);
     if (is_needed(system, NEED_VOLUME))

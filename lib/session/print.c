@@ -27,41 +27,47 @@ static void print_tree(Writing *out, PetriSession *session) {
             writing_tree(out, &session->symbols, tree.as.items[i].as.node);
 }
 
-typedef struct Entry {
-    Value key;
-    Value value;
-} Entry;
+// Whether the key of one slot comes after that of another.
+static bool comes_after(const PetriSession *session, StateSlot one, StateSlot other) {
+    double rooms[2][STATE_KEY_ROOM];
+    return format_key_compare(&session->symbols, state_slot_key_in(session->state, one, rooms[0]),
+                              state_slot_key_in(session->state, other, rooms[1])) > 0;
+}
 
-// Merge sort: stable, and unlike qsort it can be given the symbol table that the order needs.
-static void sort_entries(Entry *entries, Entry *scratch, uint32_t count, const SymbolTable *symbols) {
+// Merge sort: stable, and unlike qsort it can be given what the order needs. Particles that are numbered stand in order
+// already, so that halves often do.
+static void sort_slots(const PetriSession *session, StateSlot *slots, StateSlot *scratch, uint32_t count) {
     if (count < 2)
         return;
     uint32_t half = count / 2;
-    sort_entries(entries, scratch, half, symbols);
-    sort_entries(entries + half, scratch, count - half, symbols);
-    memcpy(scratch, entries, half * sizeof *entries);
+    sort_slots(session, slots, scratch, half);
+    sort_slots(session, slots + half, scratch, count - half);
+    if (!comes_after(session, slots[half - 1], slots[half]))
+        return;
+    memcpy(scratch, slots, half * sizeof *slots);
     for (uint32_t left = 0, right = half, to = 0; left < half; to++) {
-        if (right < count && format_key_compare(symbols, entries[right].key, scratch[left].key) < 0)
-            entries[to] = entries[right++];
+        if (right < count && comes_after(session, scratch[left], slots[right]))
+            slots[to] = slots[right++];
         else
-            entries[to] = scratch[left++];
+            slots[to] = scratch[left++];
     }
 }
 
 static void print_state(Writing *out, PetriSession *session) {
-    uint32_t count = 0, room = state_count(session->state), cursor = 0;
-    Entry *entries = arena_alloc_array(&session->text_arena, room, sizeof *entries);
-    Entry *scratch = arena_alloc_array(&session->text_arena, room, sizeof *scratch);
+    const State *state = session->state;
+    uint32_t count = 0, room = state_count(state), cursor = 0;
+    StateSlot *slots = arena_alloc_array(&session->text_arena, room, sizeof *slots);
+    StateSlot *scratch = arena_alloc_array(&session->text_arena, room, sizeof *scratch);
     double numbers[STATE_KEY_ROOM];
-    for (Value key; count < room && state_next(session->state, &cursor, &key, &entries[count].value, numbers); count++)
-        entries[count].key = value_numbers(&key) == numbers ? value_copy(&session->text_arena, key) : key;
-    sort_entries(entries, scratch, count, &session->symbols);
+    for (Value key, value; count < room && state_next(state, &cursor, &key, &value, numbers); count++)
+        slots[count] = cursor - 1;
+    sort_slots(session, slots, scratch, count);
     for (uint32_t i = 0; i < count && !out->stopped; i++) {
-        bool several = entries[i].key.len != 1;
-        text_add_c(&out->text, several ? "$(" : "$");
-        format_value(&out->text, &session->symbols, entries[i].key);
-        text_add_c(&out->text, several ? ") = " : " = ");
-        format_value(&out->text, &session->symbols, entries[i].value);
+        Value key = state_slot_key_in(state, slots[i], numbers);
+        text_add_c(&out->text, key.len != 1 ? "$(" : "$");
+        format_value(&out->text, &session->symbols, key);
+        text_add_c(&out->text, key.len != 1 ? ") = " : " = ");
+        format_value(&out->text, &session->symbols, state_slot_get(state, slots[i]));
         writing_line_end(out);
     }
 }
