@@ -3,12 +3,6 @@
 #include "physics/neighbours.h"
 #include "physics/pair_wave.h"
 #include "physics/sweep.h"
-#include "physics/threads.h"
-
-enum {
-    PAIRS_FOR_THREADS = 60000, // fewer are done before another thread is awake
-    PAIRS_FOR_AWAKE = 10000,   // which helps with fewer if it is
-};
 
 // One pass on its way through the groups.
 typedef struct Pass {
@@ -60,24 +54,19 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     return pass;
 }
 
-static bool worth_threads(const Pass *pass, uint64_t pairs) {
-    return pass->system->options.threads > 1 && pairs >= PAIRS_FOR_AWAKE &&
-           (pairs >= PAIRS_FOR_THREADS || phys_help_at_hand(pass->system));
-}
-
 static void move_rows(const void *context, size_t first, size_t end) {
     phys_sweep_rows(context, first, end);
 }
 
 // On several threads, with the motion if nothing comes between.
-static void run_wave(const Pass *pass, const PairWave *wave) {
+static void run_wave(const Pass *pass, const PairWave *wave, int threads) {
     Sweep sweep;
     Move *move = wave->triangle ? pass->move : NULL;
     if (!move || !phys_sweep_begin(pass->system, 0, move->delta, move->speed_of_light, &sweep)) {
-        phys_pair_wave(pass->system, wave, NULL);
+        phys_pair_wave(pass->system, wave, threads, NULL);
         return;
     }
-    phys_pair_wave(pass->system, wave, &(PairMotion){move_rows, &sweep});
+    phys_pair_wave(pass->system, wave, threads, &(PairMotion){move_rows, &sweep});
     phys_sweep_end(&sweep);
     move->done = true;
 }
@@ -90,8 +79,9 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
         phys_pair_ranks(pass->system, &wave);
         return;
     }
-    if (pass->kernel && worth_threads(pass, count * count / 2)) {
-        run_wave(pass, &(PairWave){pass->kernel, &pass->pairs, true, first, end, first, end});
+    int threads = pass->kernel ? phys_wave_threads(pass->system, count * count / 2) : 0;
+    if (threads) {
+        run_wave(pass, &(PairWave){pass->kernel, &pass->pairs, true, first, end, first, end}, threads);
         return;
     }
     if (pass->kernel && count > 2) {
@@ -119,10 +109,13 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
     PairWave wave = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
     if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
         wave = (PairWave){pass->kernel, &pass->pairs, false, other, other_end, first, end};
-    if (phys_ranks_share(pass->system, rows * columns))
+    if (phys_ranks_share(pass->system, rows * columns)) {
         phys_pair_ranks(pass->system, &wave);
-    else if (worth_threads(pass, rows * columns))
-        run_wave(pass, &wave);
+        return;
+    }
+    int threads = phys_wave_threads(pass->system, rows * columns);
+    if (threads)
+        run_wave(pass, &wave, threads);
     else
         pass->kernel->tiles(&pass->pairs, wave.row, wave.row_end, wave.column, wave.column_end);
 }

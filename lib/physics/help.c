@@ -36,3 +36,35 @@ void phys_help_learn(PhysHelp *help, const PhysJobTimes *job) {
     else if (help->spared < 0)
         pause_for(help, job->waited, job->end);
 }
+
+bool phys_trial_asks(const PhysTrial *trial) {
+    bool other = trial->jobs < PHYS_TRIAL_OTHER;
+    return trial->alone_is_faster == other;
+}
+
+// A job that somebody disturbed counts no more than twice what is usual.
+static void smooth(double *mean, double value) {
+    enum { WEIGHT = 8 };
+    double most = *mean * 2;
+    *mean = *mean > 0 ? *mean + ((value < most ? value : most) - *mean) / WEIGHT : value;
+}
+
+static void count(PhysTrial *trial) {
+    trial->jobs = trial->jobs + 1 < PHYS_TRIAL_ROUND ? trial->jobs + 1 : 0;
+}
+
+bool phys_trial_skips(PhysTrial *trial) {
+    if (trial->jobs < 2 * PHYS_TRIAL_OTHER)
+        return false;
+    count(trial);
+    return true;
+}
+
+void phys_trial_learn(PhysTrial *trial, bool helped, double nanoseconds) {
+    uint32_t since = trial->jobs < PHYS_TRIAL_OTHER ? trial->jobs : trial->jobs - PHYS_TRIAL_OTHER;
+    if (since >= PHYS_TRIAL_SETTLES)
+        smooth(helped ? &trial->helped : &trial->alone, nanoseconds);
+    count(trial);
+    if (trial->jobs == 2 * PHYS_TRIAL_OTHER && trial->alone > 0 && trial->helped > 0)
+        trial->alone_is_faster = trial->alone < trial->helped;
+}

@@ -31,6 +31,27 @@ typedef struct PhysJobTimes {
     bool answered;   // somebody else has done some of it
 } PhysJobTimes;
 
+// Whether help pays at all in jobs so short that it may not: both ways are timed, now and then, and the faster is
+// taken. A pair of cores that are far apart needs longer jobs than one with a common cache, and cores move.
+typedef struct PhysTrial {
+    uint32_t jobs;        // in this round
+    bool alone_is_faster; // by the last round
+    double alone, helped; // nanoseconds for a unit of work, smoothed; 0: unknown
+} PhysTrial;
+
+enum {
+    PHYS_TRIAL_ROUND = 1024, // jobs, of which the first so many are done in the way that is not the faster one
+    PHYS_TRIAL_OTHER = 24,
+    PHYS_TRIAL_SETTLES = 8, // jobs that do not count, as caches are those of the other way
+};
+
+// Whether the next job is to be done with help.
+bool phys_trial_asks(const PhysTrial *trial);
+// Counts one that is done alone because that is faster; false if it is to be timed.
+bool phys_trial_skips(PhysTrial *trial);
+// What it took, `helped` or alone.
+void phys_trial_learn(PhysTrial *trial, bool helped, double nanoseconds);
+
 bool phys_help_pauses(const PhysHelp *help, uint64_t now);
 void phys_help_learn(PhysHelp *help, const PhysJobTimes *job);
 

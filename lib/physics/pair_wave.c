@@ -14,8 +14,10 @@
 #include <stdatomic.h>
 
 enum {
-    BLOCK_LEAST = 24, // rows of a block
-    BLOCK_PART = 24,  // and so many blocks in a column, if they are not smaller than that
+    PAIRS_FOR_THREADS = 60000, // fewer are done before another thread is awake
+    PAIRS_FOR_AWAKE = 10000,   // which helps with fewer if it is
+    BLOCK_LEAST = 24,          // rows of a block
+    BLOCK_PART = 24,           // and so many blocks in a column, if they are not smaller than that
     BLOCKS_MOST = BLOCK_PART + 1,
     BLOCK_ALIGN = 8, // rows, a multiple of all lanes
     LINE_BYTES = 64, // of the cache
@@ -119,7 +121,13 @@ static void follow(void *context, int share, int shares) {
         continue;
 }
 
-void phys_pair_wave(const PhysSystem *system, const PairWave *pairs, const PairMotion *motion) {
+int phys_wave_threads(const PhysSystem *system, uint64_t pairs) {
+    if (system->options.threads < 2 || pairs < PAIRS_FOR_AWAKE)
+        return 0;
+    return pairs >= PAIRS_FOR_THREADS ? system->options.threads : phys_brief_threads(system, pairs);
+}
+
+void phys_pair_wave(const PhysSystem *system, const PairWave *pairs, int threads, const PairMotion *motion) {
     Wave wave;
     wave.pass = *pairs->pass;
     wave.pairs = *pairs;
@@ -132,5 +140,10 @@ void phys_pair_wave(const PhysSystem *system, const PairWave *pairs, const PairM
         atomic_init(&wave.rows[row].claimed, false);
         atomic_init(&wave.rows[row].done, 0);
     }
-    phys_parallel(system, (int)least((size_t)system->options.threads, wave.blocks.rows), follow, &wave);
+    int shares = (int)least((size_t)threads, wave.blocks.rows);
+    uint64_t count = (pairs->row_end - pairs->row) * (pairs->column_end - pairs->column) / (pairs->triangle ? 2 : 1);
+    if (count < PAIRS_FOR_THREADS)
+        phys_parallel_brief(system, shares, count, follow, &wave);
+    else
+        phys_parallel(system, shares, follow, &wave);
 }

@@ -35,8 +35,10 @@ typedef struct PairMotion {
     const void *context;
 } PairMotion;
 
+// With how many threads to go over so many pairs; 0: without a wave.
+int phys_wave_threads(const PhysSystem *system, uint64_t pairs);
 // `motion`: of the particles of a triangle, or NULL.
-void phys_pair_wave(const PhysSystem *system, const PairWave *pairs, const PairMotion *motion);
+void phys_pair_wave(const PhysSystem *system, const PairWave *pairs, int threads, const PairMotion *motion);
 
 // pair_ranks.c: whether the processes that simulate the system share so many pairs, and how they do.
 bool phys_ranks_share(const PhysSystem *system, uint64_t pairs);

@@ -20,6 +20,8 @@ enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, SHARES_SHIFT = 2 * COUNT_BITS, J
 _Static_assert(PHYS_MOST_SHARES < 1 << COUNT_BITS, "the number of claimed shares must fit");
 
 enum {
+    TRIALS = 3,
+    TRIAL_LEAST = 13,   // the first is of jobs below twice 2^13 units, the last of all that are larger
     LINE_BYTES = 64,    // of the cache
     LOOKS = 64,         // for work or at others, between two looks at the clock
     ALERT_NS = 50000,   // a thread looks for new work before it goes to sleep: as long as it takes to be awake again
@@ -36,8 +38,10 @@ struct PhysThreads {
     int wanted;
     // of the caller
     PhysHelp help;
-    uint64_t asked;  // when phys_help_at_hand found nobody awake
-    uint64_t waited; // nanoseconds in this job
+    PhysTrial trials[TRIALS]; // by the size of a brief job
+    uint64_t asked;           // when phys_help_at_hand found nobody awake
+    uint64_t waited;          // nanoseconds in this job
+    bool helped;              // the last job was
     // the job, in one line: what others must fetch first
     _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
     PhysWork *work;
@@ -230,7 +234,7 @@ static void help_each_other(PhysThreads *threads, int shares, PhysWork *work, vo
     phys_wait_end(threads, &wait);
     job.end = nanoseconds();
     job.waited = threads->waited;
-    job.answered = others > 0;
+    job.answered = threads->helped = others > 0;
     phys_help_learn(&threads->help, &job);
 }
 
@@ -240,10 +244,10 @@ static bool any_helpers(PhysThreads *threads) {
     return threads && threads->count > 0 && !phys_help_pauses(&threads->help, nanoseconds());
 }
 
-bool phys_help_at_hand(const PhysSystem *system) {
-    PhysThreads *threads = system->threads;
-    uint64_t now = threads ? nanoseconds() : 0;
-    if (!threads || phys_help_pauses(&threads->help, now))
+// Somebody is awake, or will be for one of the next jobs if they come quickly.
+static bool is_at_hand(PhysThreads *threads) {
+    uint64_t now = nanoseconds();
+    if (phys_help_pauses(&threads->help, now))
         return false;
     if (threads->count > 0 && atomic_load(&threads->sleeping) < threads->count)
         return true;
@@ -252,6 +256,32 @@ bool phys_help_at_hand(const PhysSystem *system) {
     if (soon && any_helpers(threads))
         call(threads);
     return false;
+}
+
+static PhysTrial *trial_of(PhysThreads *threads, uint64_t units) {
+    int number = 0;
+    while (number + 1 < TRIALS && units >> (TRIAL_LEAST + 1 + number))
+        number++;
+    return &threads->trials[number];
+}
+
+int phys_brief_threads(const PhysSystem *system, uint64_t units) {
+    PhysThreads *threads = system->threads;
+    if (!threads || (threads->started && threads->count == 0))
+        return 0;
+    PhysTrial *trial = trial_of(threads, units);
+    if (phys_trial_asks(trial))
+        return is_at_hand(threads) ? threads->wanted : 0;
+    return phys_trial_skips(trial) ? 0 : 1;
+}
+
+void phys_parallel_brief(const PhysSystem *system, int shares, uint64_t units, PhysWork *work, void *context) {
+    PhysTrial *trial = trial_of(system->threads, units);
+    system->threads->helped = false;
+    uint64_t begin = nanoseconds();
+    phys_parallel(system, shares, work, context);
+    if (shares == 1 || system->threads->helped)
+        phys_trial_learn(trial, shares > 1, (double)(nanoseconds() - begin) / (double)units);
 }
 
 void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context) {

@@ -6,7 +6,7 @@
 // does without help for a while (help.h). What a share is depends on its number only.
 //
 // Threads look for the next job for a while before they sleep. A job that is over before a sleeping thread would be
-// awake is given to those that are (phys_help_at_hand).
+// awake is given to those that are (phys_brief_threads).
 #ifndef PETRI_PHYSICS_THREADS_H
 #define PETRI_PHYSICS_THREADS_H
 
@@ -23,9 +23,12 @@ typedef void PhysWork(void *context, int share, int shares);
 // Calls `work` for share 0 … shares - 1 on all threads of the system, in any order; share 0 on the caller's.
 void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context);
 
-// For work of less than some 50 microseconds: whether a thread is awake to help with it, if it is begun at once. Wakes
-// one for the next time, if such questions come in quick succession.
-bool phys_help_at_hand(const PhysSystem *system);
+// For jobs of some 10 to 50 microseconds, over before somebody who sleeps would be awake: how many threads are to do
+// the next one, of so many units of work: those that are awake, if help pays; 1 only to time it, by
+// phys_parallel_brief, too; 0: alone, in whatever way is best then. Wakes somebody for the next ones if such jobs come
+// in quick succession.
+int phys_brief_threads(const PhysSystem *system, uint64_t units);
+void phys_parallel_brief(const PhysSystem *system, int shares, uint64_t units, PhysWork *work, void *context);
 
 // Waiting within a share for what another thread has claimed: `wait` begins as {0}, and phys_wait is called until it is
 // over. It gives the processor away when that takes long. Share 0, which is always the caller's, then tells of it.

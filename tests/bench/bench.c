@@ -24,6 +24,7 @@ static const char usage[] =
     "  --threads N        compare one thread with N (as many as processors, at most 2)\n"
     "  --rounds N         rounds that the medians are taken over (7)\n"
     "  --peers            run LAMMPS beside petri\n"
+    "  --busy N           beside N processes that compute all the time\n"
     "  --against BENCH    take turns with another build: the path of its bench executable\n"
     "  --csv FILE         also write the table of workloads as CSV; the other tables go to "
     "FILE-targets.csv and so on\n"
@@ -33,6 +34,7 @@ static const char usage[] =
 typedef struct Bench {
     Plan plan;
     bool quick, peers, help;
+    int busy;
     const char *csv, *markdown;
     char self[4096];
     char machine[512];
@@ -81,6 +83,8 @@ static bool read_value(Bench *bench, const char *option, const char *value) {
         }
     if (!strcmp(option, "--threads"))
         return (bench->plan.threads = read_count(value)) > 0;
+    if (!strcmp(option, "--busy"))
+        return (bench->busy = read_count(value)) > 0;
     if (!strcmp(option, "--rounds"))
         return (bench->plan.rounds = read_count(value)) > 0 && bench->plan.rounds <= ROUNDS_MOST;
     return false;
@@ -240,6 +244,17 @@ static void run(const Bench *bench) {
     free(results.figures);
 }
 
+// Processes that compute until this one ends, whichever way.
+static void start_busy(int count) {
+    for (pid_t parent = getpid(); count > 0; count--)
+        if (fork() == 0) {
+            while (getppid() == parent)
+                for (volatile int i = 0; i < 1000000; i++)
+                    continue;
+            _exit(0);
+        }
+}
+
 int main(int argc, char **argv) {
     if (argc > 1 && !strcmp(argv[1], "worker"))
         return worker_main(argc - 2, argv + 2);
@@ -258,6 +273,7 @@ int main(int argc, char **argv) {
     if (bench.peers && !peers_there(BENCH_SOURCE "/peers", bench.lammps, sizeof bench.lammps))
         return 1;
     machine_describe(bench.machine, sizeof bench.machine, bench.plan.threads);
+    start_busy(bench.busy);
     run(&bench);
     return 0;
 }

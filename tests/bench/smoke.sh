@@ -44,7 +44,7 @@ same_rows() {
 
 rows_are() { [ "$(sed 1d "$1" | wc -l)" -eq "$2" ]; }
 
-check "runs" "$bench" --tiny --threads 2 --against "$bench" --csv "$work/t.csv" --markdown "$work/t.md" >"$work/text" \
+check "runs" "$bench" --tiny --threads 2 --busy 1 --against "$bench" --csv "$work/t.csv" --markdown "$work/t.md" >"$work/text" \
     2>"$work/err"
 check "workloads" csv_is_whole "$work/t.csv" workload limit_ns of_limit_percent speed_up exponent peak_mib allocations \
     bytes_per_particle frame_spread_percent

@@ -113,10 +113,33 @@ static void test_unanswered(void **state) {
     assert_true(phys_help_pauses(&help, 201));
 }
 
+// Jobs on a machine where help makes them take `helped` instead of `alone`; returns the mean of the last rounds.
+static double play_trial(PhysTrial *trial, double alone, double helped) {
+    enum { JOBS = 8 * PHYS_TRIAL_ROUND };
+    double sum = 0;
+    for (int i = 0; i < JOBS; i++) {
+        bool asks = phys_trial_asks(trial);
+        double took = asks ? helped : alone;
+        if (asks || !phys_trial_skips(trial))
+            phys_trial_learn(trial, asks, i % 50 ? took : took * 100); // now and then something else disturbs
+        sum += i < JOBS / 2 ? 0 : took;
+    }
+    return sum / (JOBS / 2);
+}
+
+// The faster way is found, and found again when cores have moved.
+static void test_trials(void **state) {
+    (void)state;
+    PhysTrial trial = {0};
+    assert_true(play_trial(&trial, 20, 12) < 12.3);
+    assert_true(play_trial(&trial, 20, 24) < 20.3);
+    assert_true(play_trial(&trial, 20, 12) < 12.3);
+}
+
 int main(void) {
     const struct CMUnitTest tests[] = {
         cmocka_unit_test(test_quiet),       cmocka_unit_test(test_busy),       cmocka_unit_test(test_disturbed),
-        cmocka_unit_test(test_quiet_again), cmocka_unit_test(test_unanswered),
+        cmocka_unit_test(test_quiet_again), cmocka_unit_test(test_unanswered), cmocka_unit_test(test_trials),
     };
     return cmocka_run_group_tests(tests, NULL, NULL);
 }
