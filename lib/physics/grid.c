@@ -104,8 +104,9 @@ static uint32_t share_start(const Neighbours *list, int share, int shares) {
 
 static void survey_one(const PairPass *pass, Survey *survey, size_t column) {
     survey->regular++;
-    survey->widest = fmax(survey->widest, pass->radius[column]);
-    survey->narrowest = fmin(survey->narrowest, pass->radius[column]);
+    double radius = pass->radius[column];
+    survey->widest = radius > survey->widest ? radius : survey->widest; // fmax may be a call
+    survey->narrowest = radius < survey->narrowest ? radius : survey->narrowest;
     for (size_t k = 0; k < pass->dimensions; k++) {
         double x = pass->position[k * pass->stride + column];
         survey->low[k] = x < survey->low[k] ? x : survey->low[k];

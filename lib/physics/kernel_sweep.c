@@ -177,12 +177,17 @@ KERNEL void store_parts(size_t n, const uint32_t *order, double *rows, const Rea
 // Where all numbers are finite, keeping the last finite ones (particles.c) is to copy: numbers that are equal to those
 // in the rows have the same bits, but for zeros.
 KERNEL size_t store(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first, size_t end) {
+    enum { AHEAD = 64, MANY = 30000 }; // rows that are fetched before they are needed, where caches do not hold all
+    bool many = columns->count > MANY;
     for (; first + LANES <= end; first += LANES) {
         Real parts[2 * PHYS_VECTOR_DIMENSIONS];
         for (size_t k = 0; k < n; k++) {
             parts[k] = real_load(columns->position + k * columns->stride + first);
             parts[n + k] = real_load(columns->velocity + k * columns->stride + first);
         }
+        if (many && first + AHEAD + LANES <= end)
+            for (size_t lane = 0; lane < LANES; lane++)
+                __builtin_prefetch(rows + 2 * n * order[first + AHEAD + lane], 1);
         Lanes zeros;
         if (!all_finite(parts, 2 * n, &zeros))
             return first;
