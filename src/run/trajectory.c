@@ -24,7 +24,8 @@
 enum { XYZ_DIMENSIONS = 3 };
 
 static bool complain(Trajectory *trajectory, int error) {
-    bool told = trajectory->format == TRAJECTORY_H5MD && error == EPIPE; // by petri-hdf5, which has ended
+    // By petri-hdf5, which has ended; ECONNRESET if it had not read all before.
+    bool told = trajectory->format == TRAJECTORY_H5MD && (error == EPIPE || error == ECONNRESET);
     if (!trajectory->failed && !told) {
         message("cannot write %s: %s", trajectory->path, strerror(error));
     }

@@ -72,7 +72,14 @@ static bool add_item(Axis *axis, const char *item, bool alone) {
         texts_add(&axis->values, inner);
         return true;
     }
+    const char *dots = strstr(item, "..");
+    double least = 0;
     if (!read_range(item, &range)) {
+        if (dots != NULL && read_number(item, (size_t)(dots - item), &least)) {
+            message("-D %s: '%s' is not a range; 1..10 is one, and 1..10|0.5 has a step, which is above 0", axis->name,
+                    item);
+            return false;
+        }
         texts_add(&axis->values, item);
         return true;
     }

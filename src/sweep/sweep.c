@@ -144,6 +144,15 @@ static bool take_plot(const Sweep *sweep) {
     return false;
 }
 
+static bool take_output(const Sweep *sweep) {
+    const char *output = sweep->options->output, *dot = output == NULL ? NULL : strrchr(output, '.');
+    if (dot == NULL || str_word_number(str_from(dot), ".nc .nc4 .cdf") < 0) {
+        return true;
+    }
+    message("option '--output' expects a file name that ends in .csv or .h5, not '%s': NetCDF is not written", output);
+    return false;
+}
+
 static void add_text(Sha256 *hash, const char *text) {
     sha256_add(hash, text == NULL ? "" : text, text == NULL ? 1 : strlen(text) + 1);
 }
@@ -381,7 +390,7 @@ static int sweep_run(const Host *host, Options *options) {
     options->output = options->output != NULL && strcmp(options->output, "-") == 0 ? NULL : options->output;
     Sweep sweep = {.host = host, .options = options};
     bool good = design_make(&sweep.design, options, host) && take_metrics(&sweep) && take_shard(&sweep) &&
-                take_plot(&sweep) && take_shared(&sweep, &SWEEP_COMMAND);
+                take_plot(&sweep) && take_output(&sweep) && take_shared(&sweep, &SWEEP_COMMAND);
     int status = good ? run_sweep(&sweep) : STATUS_USAGE;
     free_sweep(&sweep);
     return status;

@@ -36,13 +36,17 @@ class Client:
     def tell(self, method, params):
         self.send({"method": method, "params": params})
 
+    def answer(self, number):
+        """The answer to a request; to None, what is said of one that could not be read."""
+        while (message := self.read()).get("id") != number or "method" in message:
+            pass
+        return message
+
     def reply(self, method, params):
         """The answer as it is, an error among them."""
         self.number += 1
         self.send({"id": self.number, "method": method, "params": params})
-        while (message := self.read()).get("id") != self.number or "method" in message:
-            pass
-        return message
+        return self.answer(self.number)
 
     def ask(self, method, params):
         message = self.reply(method, params)

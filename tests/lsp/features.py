@@ -355,7 +355,7 @@ check("a request about no document, too", "error" in client.reply("textDocument/
 check("a position far away is the end", client.at("hover", uri, 10**6, 10**6), None)
 client.process.stdin.write(b"Content-Length: 3\r\n\r\n{x}")
 client.process.stdin.flush()
-check("what is no JSON is refused", client.read()["error"]["code"], -32700)
+check("what is no JSON is refused", client.answer(None)["error"]["code"], -32700)
 client.close(uri)
 check("the server ends when it is told to", client.end(), 0)
 client = Client(petri, utf8=True)

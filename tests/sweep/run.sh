@@ -289,6 +289,9 @@ fi
 refused "no script" 'no script was given'
 refused "no metric" 'nothing is measured' sum.fl
 refused "a range that ends before it begins" 'ends before it begins' sum.fl -D A=3..1 --metric a=A
+refused "a range without a step" "'1..9|0' is not a range" sum.fl -D 'A=1..9|0' --metric a=A
+refused "a range without an end" "'1..' is not a range" sum.fl -D A=1.. --metric a=A
+refused "NetCDF" 'ends in .csv or .h5' sum.fl -D A=1..3 --metric a=A -o table.nc
 refused "a value that is missing" 'a value is missing' sum.fl -D 'A=1;;2' --metric a=A
 refused "a name that is a column" 'has a column of this name' sum.fl -D A=1 --metric A=1
 refused "no expression" "option '--metric' expects an expression, not '1+'" sum.fl --metric 'a=1+'
