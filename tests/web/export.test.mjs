@@ -78,6 +78,25 @@ test('a film has one frame for each of the script, and is in the right colours',
     },
 }));
 
+test('a browser without WebCodecs is told to make no films, and goes on', options, () => opened('', {
+    prepare: page => page.route('**/worker.js', async route => {
+        const response = await route.fetch();
+        await route.fulfill({ response, body: `delete globalThis.VideoEncoder;${await response.text()}` });
+    }),
+    use: async page => {
+        await page.click('#save-as');
+        await page.check('#saving input[value=film]');
+        await page.fill('#saving-to', '9');
+        await page.click('#saving-go');
+        await page.waitForFunction(() => document.getElementById('saving-said').textContent);
+        assert.match(await page.textContent('#message'), /this browser cannot make films: it has no WebCodecs/);
+        await page.keyboard.press('Escape');
+        await atFrame(page, 2);
+        await page.click('#step');
+        await atFrame(page, 3);
+    },
+}));
+
 test('an export is given up', options, () => opened('', {
     use: async page => {
         await page.click('#save-as');
