@@ -17,8 +17,8 @@
         "soft discs " #n " x10", "soft2d_n" #n ".fl", "discs", n, 10, 5, PER_STEP, LIMIT_DISCS, "soft2d", side, steps  \
     }
 #define SPHERES(n, side, steps)                                                                                        \
-    {"soft spheres " #n, "soft3d_n" #n ".fl", "spheres", n, 1, 60, PER_STEP, LIMIT_SPHERES, "soft3d", side, steps}, {     \
-        "soft spheres " #n " x10", "soft3d_n" #n ".fl", "spheres", n, 10, 5, PER_STEP, LIMIT_SPHERES, "soft3d", side,     \
+    {"soft spheres " #n, "soft3d_n" #n ".fl", "spheres", n, 1, 60, PER_STEP, LIMIT_SPHERES, "soft3d", side, steps}, {  \
+        "soft spheres " #n " x10", "soft3d_n" #n ".fl", "spheres", n, 10, 5, PER_STEP, LIMIT_SPHERES, "soft3d", side,  \
             steps                                                                                                      \
     }
 

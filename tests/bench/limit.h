@@ -6,11 +6,11 @@
 
 // Nanoseconds per unordered pair of all-pairs electrostatic forces (2 dimensions) or gravity (3) between n particles.
 double limit_pair(uint32_t n, int dimensions);
-// Nanoseconds per particle-step of soft discs or spheres with kept neighbour lists, a square or cube of `side`; 0 without
-// AVX-512.
+// Nanoseconds per particle-step of soft discs or spheres with kept neighbour lists, a square or cube of `side`; 0
+// without AVX-512.
 double limit_soft(int dimensions, int side);
-// The same kernel for `count` steps, without walls: how often it made lists; 0 without AVX-512. Coordinates of a particle
-// are side by side.
+// The same kernel for `count` steps, without walls: how often it made lists; 0 without AVX-512. Coordinates of a
+// particle are side by side.
 int limit_soft_run(int dimensions, int side, double step, int count, double *position, double *velocity);
 
 #endif
