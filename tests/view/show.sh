@@ -26,9 +26,9 @@ type_keys q
 check "it can be ended before its time" soon shows 'status 0'
 typed "'$petri' run --show --frames 30 dish.fl"
 check "it ends by itself" soon shows 'status 0'
-check "with a line that sums up" shows 'petri: 30 frames in '
-check "it says how to see more of it" shows 'petri: to see it: '
-check "and how to keep it" shows 'petri: to keep a picture of it: '
+check "with a line that sums up" soon shows 'petri: 30 frames in '
+check "it says how to see more of it" soon shows 'petri: to see it: '
+check "and how to keep it" soon shows 'petri: to keep a picture of it: '
 mkdir -p build/src
 cp "$petri" "$(dirname "$petri")/petri-pictures" build/src
 ln -s src/petri build/petri

@@ -31,8 +31,8 @@ END
 start left.fl
 check "the other screen is used" soon seen
 check "the picture is there" soon filled 1 24 1 38
-check "where nothing is drawn, nothing is" clear_of 1 24 42 80
-check "all rows are used" filled 22 24 1 38
+check "where nothing is drawn, nothing is" soon clear_of 1 24 42 80
+check "all rows are used" soon filled 22 24 1 38
 mux capture-pane -e -p -t view >coloured
 check "in colour" grep -q "$(printf '\033')" coloured
 type_keys h
@@ -64,8 +64,8 @@ sed "s/size=640;384/size=192;384/; s/in ..6/in ..3/; s/left/high/" left.fl >high
 start high.fl
 started
 check "a high picture is there" soon filled 1 24 29 51
-check "nothing beside it" clear_of 1 24 1 27
-check "on either side" clear_of 1 24 54 80
+check "nothing beside it" soon clear_of 1 24 1 27
+check "on either side" soon clear_of 1 24 54 80
 type_keys q
 check "q quits" ended 0
 
@@ -85,7 +85,7 @@ start hands.fl
 soon seen
 type_keys -l "$(printf '\033[<35;20;5M')"
 check "the pointer moves" soon filled 4 6 17 23
-check "nothing elsewhere" clear_of 10 24 1 80
+check "nothing elsewhere" soon clear_of 10 24 1 80
 type_keys -l "$(printf '\033[<0;60;16M')"
 check "a button is pressed" soon filled 13 15 54 66
 type_keys -l "$(printf '\033[<0;60;16m')"
@@ -120,13 +120,13 @@ check "and no third" soon clear_of 1 10 17 80
 check "and the mark" soon filled 21 24 75 80
 type_keys Up
 check "the first key tells what is chosen" soon shows 'DOTS = 2  (1..9)  dots in a row'
-check "and changes nothing" clear_of 1 10 17 80
+check "and changes nothing" soon clear_of 1 10 17 80
 type_keys Up
 check "up changes it" soon shows 'DOTS = 3  (1..9, default 2)  dots in a row'
 check "which is seen" soon filled 2 6 18 22
 type_keys + =
 check "+ and = as well" soon shows 'DOTS = 5'
-check "what the world keeps is kept" filled 21 24 75 80
+check "what the world keeps is kept" soon filled 21 24 75 80
 type_keys Down -
 check "down and - go back" soon shows 'DOTS = 3'
 type_keys Space
@@ -149,7 +149,7 @@ type_keys '[' '['
 check "[ chooses the one before" soon shows 'DOTS = 2'
 type_keys PPage
 check "a key that the script asks for is the script's" soon filled 21 24 68 72
-check "and changes no parameter" shows 'DOTS = 2'
+check "and changes no parameter" soon shows 'DOTS = 2'
 type_keys Up
 soon shows 'DOTS = 3'
 cp dots.fl dots.saved
@@ -157,7 +157,7 @@ sed 's/-- 1..9 dots/-- 1..20 spots/' dots.saved >dots.fl
 check "a saved script keeps what was set" soon shows 'loaded the changed script'
 type_keys h
 check "h shows it, and the keys" soon shows 'DOTS = 3  (1..20, default 2)  spots in a row'
-check "with theirs" shows 'tab parameter'
+check "with theirs" soon shows 'tab parameter'
 type_keys 0
 check "0 sets the default" soon shows 'DOTS = 2  (1..20)'
 type_keys q
@@ -176,12 +176,12 @@ started
 cp left.fl good.fl
 echo '        !rect size=(' >>left.fl
 check "a mistake is told" soon shows 'cannot be loaded'
-check "with its place" shows 'left.fl:'
-check "the last good version is running" filled 12 24 1 38
+check "with its place" soon shows 'left.fl:'
+check "the last good version is running" soon filled 12 24 1 38
 sed 's/30+48/350+48/' good.fl >left.fl
 check "the mended script is loaded" soon clear_of 1 24 1 38
-check "the message goes" hides 'cannot be loaded'
-check "the picture is another" filled 1 24 42 80
+check "the message goes" soon hides 'cannot be loaded'
+check "the picture is another" soon filled 1 24 42 80
 type_keys q
 check "q quits" ended 0
 check "afterwards the mistake is on standard error" has err 'error:'
@@ -191,12 +191,12 @@ mv good.fl left.fl
 sed 's/stroke_width=3/stroke_with=3/' left.fl >warn.fl
 start warn.fl
 check "a corner shows that there is a warning" soon shows '1 warning: w'
-check "in the first row" eval 'screen | head -n 1 | grep -q "1 warning: w *$"'
-check "the picture is there all the same" filled 12 24 1 38
+check "in the first row" soon eval 'screen | head -n 1 | grep -q "1 warning: w *$"'
+check "the picture is there all the same" soon filled 12 24 1 38
 type_keys w
 check "w lists it" soon shows "unknown attribute 'stroke_with'"
-check "with its place" shows 'warn.fl:6'
-check "the mark is not needed then" hides 'warning: w '
+check "with its place" soon shows 'warn.fl:6'
+check "the mark is not needed then" soon hides 'warning: w '
 type_keys w
 check "w hides the list" soon hides 'stroke_with'
 check "and the mark is back" soon shows '1 warning: w'
@@ -206,7 +206,7 @@ check "after a reload there are others" soon shows '3 warnings: w'
 cp warn.fl other.fl
 echo '        !rect size=(' >>warn.fl
 check "a mistake comes first" soon shows 'cannot be loaded'
-check "without the mark" hides 'warnings: w'
+check "without the mark" soon hides 'warnings: w'
 cp other.fl warn.fl
 check "the mended script has its own again" soon shows '3 warnings: w'
 cp left.fl warn.fl
@@ -239,7 +239,7 @@ check "and it ended well" soon shows 'status 0'
 wipe
 type_keys "clear; $petri view left.fl --frames 12 --quiet; echo status \$?" Enter
 check "not with --quiet" soon shows 'status 0'
-check "which says nothing" hides 'frames in'
+check "which says nothing" soon hides 'frames in'
 if [ "${3:-sdl}" = none ]; then
     wipe
     type_keys "clear; DISPLAY=:77 $petri view left.fl --frames 3; echo status \$?" Enter

@@ -131,7 +131,7 @@ render still.fl --frames 1 --scale 2 -o large.png
 # What the script draws, in its size, under its title.
 view still still.fl
 check "it has the script's size" size_is 320 240
-check "it shows what petri render draws" shows still.png
+check "it shows what petri render draws" soon shows still.png
 press q
 check "q closes it" ended 0
 check "nothing is said" [ ! -s err ]
@@ -149,18 +149,18 @@ END
 if lacks err needs-gpu; then
     check "a ball is drawn" [ "$(convert ball.png -depth 8 -crop 1x1+100+100 rgb:- | od -An -tu1 | awk '{ print ($1 > 200) }')" = 1 ]
     view ball ball.fl
-    check "it is drawn in the window as in files" shows ball.png
+    check "it is drawn in the window as in files" soon shows ball.png
     press q
     check "q closes it" ended 0
     check "nothing is said" [ ! -s err ]
     # Where the window has OpenGL ES it stays on the card.
     unset SDL_RENDER_DRIVER
     view ball ball.fl --verbose
-    check "it is drawn on the window as in files" shows ball.png
+    check "it is drawn on the window as in files" soon shows ball.png
     press h
     check "with texts over it" dark 150 178
     press h
-    check "and without" shows ball.png
+    check "and without" soon shows ball.png
     press q
     check "q closes it" ended 0
     check "nothing was read back" has err "read back from the graphics card: 0"
@@ -172,9 +172,9 @@ if lacks err needs-gpu; then
     check "q closes it" ended 0
     check "that was read back" has err "read back from the graphics card: 1"
     view still still.fl
-    check "canvases are shown there, too" shows still.png
+    check "canvases are shown there, too" soon shows still.png
     xdotool windowsize "$window" 640 480
-    check "in the window's size" shows large.png
+    check "in the window's size" soon shows large.png
     press q
     check "q closes it" ended 0
     check "nothing is said" [ ! -s err ]
@@ -201,7 +201,7 @@ check "SIGTERM ends it" ended 143
 # Another size of the window: the picture is drawn anew, as large as it goes, in the middle.
 view still still.fl
 xdotool windowsize "$window" 640 480
-check "it is drawn in the window's size" shows large.png
+check "it is drawn in the window's size" soon shows large.png
 xdotool windowsize "$window" 640 600
 check "bars are black" point 5 5 000000
 check "the picture is in the middle" point 5 70 336699
@@ -277,7 +277,7 @@ check "and is in the middle" point 960 690 336699
 check "with bars beside it" point 20 350 000000
 press f
 check "f goes back" soon size_is 320 240
-check "with the picture as it was" shows still.png
+check "with the picture as it was" soon shows still.png
 press q
 check "q quits" ended 0
 
