@@ -129,7 +129,7 @@ check "--dump=code prints the code" test -s out
 cat >slow.fl <<'END'
 func twice(x)
     2*x
-let many=sum(sin(i+frame) for i in ..3000)
+let many=sum(sin(i+frame) for i in ..200000)
 for i in ..5
     if frame >= 0
         !item a=twice(many+i)
