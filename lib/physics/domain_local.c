@@ -84,7 +84,8 @@ static bool order_columns(PhysSystem *system, Domain *domain) {
     Buffer orders = domain->last_orders;
     domain->last_orders = domain->orders;
     domain->orders = orders;
-    if (!phys_buffer_reserve(system, &domain->orders, 0, 2 * (uint64_t)local->particle_count, sizeof(uint32_t)))
+    // One at least: there is no place in nothing.
+    if (!phys_buffer_reserve(system, &domain->orders, 0, 2 * (uint64_t)local->particle_count + 1, sizeof(uint32_t)))
         return false;
     const uint32_t *last_order = local->order, *renumbered = domain->renumbered.bytes;
     uint32_t *sources = domain->sources.bytes, last = local->columns.count, next = 0;
