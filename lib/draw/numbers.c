@@ -122,6 +122,8 @@ static void add_source(Numbers *numbers, const ListPaint *paint) {
     }
 }
 
+static void add_filter(Numbers *numbers, uint32_t number);
+
 static void add_paint(Numbers *numbers, const ListPaint *paint) {
     const ListEffect *effect = paint->effect == LIST_NONE ? NULL : &numbers->list->effects.at[paint->effect];
     add_source(numbers, paint);
@@ -131,8 +133,61 @@ static void add_paint(Numbers *numbers, const ListPaint *paint) {
         add(numbers, numbers->list->numbers.at + effect->numbers, effect->count);
     else if (effect)
         add_undrawn(numbers, "a path effect");
-    if (paint->filter != LIST_NONE)
-        add_undrawn(numbers, "a filter");
+    if (paint->filter != LIST_NONE) {
+        ADD(PETRI_DRAW_FILTER);
+        add_filter(numbers, paint->filter);
+    }
+}
+
+static void add_blend(Numbers *numbers, const ListFilter *filter) {
+    if (filter->numbers == LIST_NONE) {
+        ADD(filter->mode);
+    } else {
+        ADD(-1);
+        add(numbers, numbers->list->numbers.at + filter->numbers, 4);
+    }
+}
+
+// Kinds are those of ListFilterKind.
+static void add_filter(Numbers *numbers, uint32_t number) {
+    if (number == LIST_NONE) {
+        ADD(PETRI_FILTER_DRAWN);
+        return;
+    }
+    const ListFilter *filter = &numbers->list->filters.at[number];
+    ADD(filter->kind);
+    switch (filter->kind) {
+    case FILTER_SHADOW:
+        ADD(filter->radius[0], filter->radius[1], filter->offset[0], filter->offset[1]);
+        add(numbers, filter->color, 4);
+        ADD(filter->only);
+        break;
+    case FILTER_BLUR:
+    case FILTER_DILATE:
+    case FILTER_ERODE:
+        ADD(filter->radius[0], filter->radius[1]);
+        break;
+    case FILTER_OFFSET:
+        ADD(filter->offset[0], filter->offset[1]);
+        break;
+    case FILTER_MATRIX:
+        add(numbers, numbers->list->numbers.at + filter->numbers, 20);
+        break;
+    case FILTER_PAINT: {
+        ListPaint paint = numbers->list->paints.at[filter->paint];
+        paint.filter = paint.effect = LIST_NONE;
+        add_paint(numbers, &paint);
+        return;
+    }
+    case FILTER_BLEND:
+        add_blend(numbers, filter);
+        break;
+    case FILTER_DRAWN:
+        return;
+    }
+    add_filter(numbers, filter->inputs[0]);
+    if (filter->kind == FILTER_BLEND)
+        add_filter(numbers, filter->inputs[1]);
 }
 
 static void add_letters(Numbers *numbers, const ListCommand *command) {

@@ -1,4 +1,5 @@
 // drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_numbers) on a Canvas 2D.
+import { drawFiltered, readFilter } from './filters.mjs';
 import { drawSystems } from './systems.mjs';
 
 const TURN = 2 * Math.PI;
@@ -89,6 +90,7 @@ class Painter {
         this.alpha = 1; // of the paint, for images
         this.solid = true;
         this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
+        this.filter = null;
     }
 
     take(count) {
@@ -206,13 +208,53 @@ class Painter {
         this.layOver(context, all.canvas, 'lighter');
     }
 
-    layOver(context, canvas, composite, alpha = 1) {
+    layOver(context, canvas, composite, alpha = 1, x = 0, y = 0) {
         context.save();
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.globalAlpha = alpha;
         context.globalCompositeOperation = composite;
-        context.drawImage(canvas, 0, 0);
+        context.drawImage(canvas, x, y);
         context.restore();
+    }
+
+    // What is drawn by itself on a canvas whose corner is at x, y of the one that is drawn on; its context.
+    apart(width, height, x, y, act) {
+        const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
+        Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
+        act();
+        Object.assign(this, { context, base, line, filter });
+        return apart;
+    }
+
+    // A paint, as numbers have it, for later.
+    readPaint() {
+        const keep = ({ paint, alpha, solid, round, line }) => ({ paint, alpha, solid, round, line }), before = keep(this);
+        let kind;
+        do
+            this.command(kind = this.n[this.at++]);
+        while (kind !== 4);
+        const { line, ...paint } = keep(this);
+        Object.assign(this, before);
+        return paint;
+    }
+
+    paintAll(paint) {
+        const { paint: before, alpha, solid, round } = this;
+        Object.assign(this, paint);
+        this.begin(true, false);
+        this.fillPath(this.context, this.everywhere(), 'nonzero');
+        Object.assign(this, { paint: before, alpha, solid, round });
+    }
+
+    // Another canvas combined with what a context has, by a number of petri's words.
+    combine(context, other, composite) {
+        if (COMPOSITES[composite])
+            this.layOver(context, other, COMPOSITES[composite]);
+        return context;
+    }
+
+    filtered(act) {
+        this.filter ? drawFiltered(this, act, COMPOSITES[this.line.composite]) : act();
     }
 
     letters() {
@@ -316,9 +358,9 @@ class Painter {
     }
 
     // A canvas of its own, as large as what is drawn on.
-    beside({ width, height } = this.context.canvas) {
+    beside({ width, height } = this.context.canvas, willReadFrequently = false) {
         const canvas = typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(width, height);
-        return Object.assign(canvas, { width, height }).getContext('2d');
+        return Object.assign(canvas, { width, height }).getContext('2d', { willReadFrequently });
     }
 
     beginLayer() {
@@ -341,11 +383,12 @@ class Painter {
         case 4: {
             const [width, join, cap, composite, , count, offset] = this.take(7);
             this.line = { width, join, cap, composite, offset, dashes: Array.from(this.take(count)) };
+            this.filter = null;
             break;
         }
-        case 5: this.figure(); break;
-        case 6: this.letters(); break;
-        case 7: this.picture(); break;
+        case 5: this.filtered(() => this.figure()); break;
+        case 6: this.filtered(() => this.letters()); break;
+        case 7: this.filtered(() => this.picture()); break;
         case 8: this.clip(); break;
         case 9: this.context.save(); break;
         case 10: this.context.restore(); break;
@@ -354,11 +397,12 @@ class Painter {
         case 13: this.undrawn.add(this.text()); break;
         case 14: this.at = drawSystems(this.context, this.n, this.at, this.base); break;
         case 15: {
-            const box = this.take(5);
-            this.drawImage(this.pixels(), ...box);
+            const box = this.take(5), picture = this.pixels();
+            this.filtered(() => this.drawImage(picture, ...box));
             break;
         }
         case 16: this.paint = this.pattern(); break;
+        case 17: this.filter = readFilter(this); break;
         default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
         }
     }
