@@ -162,6 +162,10 @@ enum {
                           // matrix, alpha, the picture likewise, or 0, 0 and a file
     PETRI_DRAW_FILTER,    // what is drawn from here on up to the next PETRI_DRAW_LINE goes through a filter: a kind
                           // (PETRI_FILTER_…) and what belongs to it. Filters in it are written likewise
+    PETRI_DRAW_BLEND, // paints come from here on from two: a ratio of the second, or -1 and a composite of the second
+                      // on the first; alpha, two paints
+    PETRI_DRAW_NOISE, // … from noise: frequencies, sides of its tiles, seed, octaves, type (0 fractal, 1 turbulence,
+                      // 2 improved), alpha
 };
 enum { // move x, y; line x, y; curves with one and two control points; arcs that begin a figure or go on with it: x, y,
        // radii, start, sweep clockwise; an arc to a point: radii, rotation, large, clockwise, x, y; close

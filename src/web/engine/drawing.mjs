@@ -1,5 +1,6 @@
 // drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_numbers) on a Canvas 2D.
 import { drawFiltered, readFilter } from './filters.mjs';
+import { noisePixels } from './noise.mjs';
 import { drawSystems } from './systems.mjs';
 
 const TURN = 2 * Math.PI;
@@ -226,16 +227,28 @@ class Painter {
         return apart;
     }
 
-    // A paint, as numbers have it, for later.
-    readPaint() {
-        const keep = ({ paint, alpha, solid, round, line }) => ({ paint, alpha, solid, round, line }), before = keep(this);
+    // The commands up to one that `ends`, for what they paint with, which is kept for later.
+    readUpTo(ends) {
+        const keep = ({ paint, alpha, solid, round, line, filter }) => ({ paint, alpha, solid, round, line, filter });
+        const before = keep(this);
         let kind;
         do
             this.command(kind = this.n[this.at++]);
-        while (kind !== 4);
-        const { line, ...paint } = keep(this);
+        while (!ends(kind));
+        const { paint, alpha, solid, round } = this;
         Object.assign(this, before);
-        return paint;
+        return { paint, alpha, solid, round };
+    }
+
+    readPaint() {
+        return this.readUpTo(kind => kind === 4);
+    }
+
+    readSource() {
+        const source = this.readUpTo(() => true);
+        while (this.n[this.at] === 13)
+            this.command(this.n[this.at++]); // what is left out of it
+        return source;
     }
 
     paintAll(paint) {
@@ -351,6 +364,43 @@ class Painter {
         };
     }
 
+    // A paint that is made of pixels, those of what is drawn on: `make` draws it on a canvas of its own.
+    ofPixels(alpha, make) {
+        Object.assign(this, { solid: false, alpha, round: null });
+        return () => {
+            const { context } = this, made = this.beside(), pattern = context.createPattern(make(made).canvas, 'no-repeat');
+            pattern.setTransform(context.getTransform().invertSelf());
+            return pattern;
+        };
+    }
+
+    blend() {
+        const [ratio, mode, alpha] = this.take(3), paints = [this.readSource(), this.readSource()];
+        return this.ofPixels(alpha, made => {
+            const { width, height } = made.canvas;
+            const [first, second] = paints.map(paint => this.apart(width, height, 0, 0, () => this.paintAll(paint)).canvas);
+            this.layOver(made, first, 'source-over', ratio < 0 ? 1 : 1 - ratio);
+            if (ratio >= 0)
+                this.layOver(made, second, 'lighter', ratio);
+            else
+                this.combine(made, second, mode);
+            if (alpha < 1) {
+                Object.assign(made, { globalCompositeOperation: 'destination-in', fillStyle: `rgba(0,0,0,${alpha})` });
+                made.fillRect(0, 0, width, height);
+            }
+            return made;
+        });
+    }
+
+    noise() {
+        const noise = this.take(8);
+        return this.ofPixels(noise[7], made => {
+            const { width, height } = made.canvas;
+            made.putImageData(noisePixels(noise, this.context.getTransform().invertSelf(), width, height), 0, 0);
+            return made;
+        });
+    }
+
     clip() {
         const [outside, evenOdd] = this.take(2), path = this.path();
         this.setMatrix();
@@ -403,6 +453,8 @@ class Painter {
         }
         case 16: this.paint = this.pattern(); break;
         case 17: this.filter = readFilter(this); break;
+        case 18: this.paint = this.blend(); break;
+        case 19: this.paint = this.noise(); break;
         default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
         }
     }
