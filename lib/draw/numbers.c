@@ -361,6 +361,8 @@ static const DrawNode *find_canvas(Numbers *numbers, const DrawNode *node, int d
 
 static void add_canvas(Numbers *numbers, const DrawNode *canvas) {
     ListSizes sizes = {0};
+    if (draw_flag(canvas, ATTR_LINEAR) && draw_number(canvas, ATTR_COLORBITS) > 8)
+        add_undrawn(numbers, "light beyond 1 (colorbits)");
     numbers->list = list_build(numbers->arena, canvas, &sizes);
     for (uint32_t i = 0; i < numbers->list->commands.count; i++)
         add_command(numbers, &numbers->list->commands.at[i]);

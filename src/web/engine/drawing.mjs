@@ -10,7 +10,7 @@ const SLANTS = ['normal', 'oblique', 'italic'];
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
 // In the order of lib/schema/composite_list.h.
-const COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
+const MODULATE = 0, COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
     'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
     'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
     'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
@@ -18,6 +18,16 @@ const COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destinati
 const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
 const PIECE_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
+
+// The product of two canvases, alpha and all, for which Canvas 2D has no word.
+function multiply(context, { canvas }) {
+    const { width, height } = canvas, image = context.getImageData(0, 0, width, height);
+    const other = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+    image.data.forEach((value, i) => {
+        image.data[i] = value * other[i] / 255;
+    });
+    context.putImageData(image, 0, 0);
+}
 
 const byte = x => Math.round(255 * Math.min(Math.max(x, 0), 1));
 const color = (n, at, alpha = 1) =>
@@ -183,7 +193,8 @@ class Painter {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
             return;
-        if (!inverse && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
+        const modulates = this.line.composite === MODULATE;
+        if (!inverse && !modulates && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
             if (!this.begin(fill, stroke))
                 return;
             fill && act(this.context, true);
@@ -198,11 +209,12 @@ class Painter {
         fill && act(mask, true);
         stroke && act(mask, false);
         Object.assign(this, { context: all, paint, line });
-        this.begin(true, false);
         if (composite === 'clear')
             all.reset();
+        else if (modulates)
+            multiply(all, this.apart(all.canvas.width, all.canvas.height, 0, 0, () => this.paintAll({})));
         else
-            this.fillPath(all, this.everywhere(), 'nonzero');
+            this.paintAll({});
         this.context = context;
         this.layOver(all, mask.canvas, 'destination-in');
         this.layOver(context, mask.canvas, 'destination-out');
