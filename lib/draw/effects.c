@@ -1,308 +1,21 @@
-// effects.c: what changes paths before they are drawn (spec canvas.md 7). Figures become lists of lines and curves,
-// which one effect after the other makes anew.
+// effects.c: what changes paths before Cairo draws them (spec canvas.md 7, outline.h).
 #include "draw/draw.h"
-
-#include "maths/maths.h"
-#include "maths/random.h"
+#include "draw/outline.h"
 
 #include <math.h>
-#include <string.h>
-
-enum { MOST_PIECES = 100000 };
-
-typedef struct Point {
-    double x;
-    double y;
-} Point;
-
-// PIECE_MOVE, PIECE_LINE, PIECE_CURVE_3 and PIECE_CLOSE; the last of the points is where it ends.
-typedef struct Piece {
-    ListPiece kind;
-    Point points[3];
-} Piece;
-
-typedef struct Outline {
-    Arena *arena;
-    double fine; // flat enough
-    LIST_ARRAY(Piece) pieces;
-} Outline;
-
-// A figure cut into straight lines.
-typedef struct Flat {
-    LIST_ARRAY(Point) points;
-    bool closed; // its last point is its first
-    double length;
-} Flat;
-
-static Point end_of(const Piece *piece) {
-    return piece->points[piece->kind == PIECE_CURVE_3 ? 2 : 0];
-}
-
-static void add(Outline *out, ListPiece kind, Point point) {
-    *LIST_ADD(out->arena, out->pieces, 1) = (Piece){kind, {point}};
-}
-
-static double distance(Point a, Point b) {
-    return maths_hypot(b.x - a.x, b.y - a.y);
-}
-
-static Point between(Point a, Point b, double share) {
-    return (Point){a.x + share * (b.x - a.x), a.y + share * (b.y - a.y)};
-}
-
-static void add_point(Outline *out, Flat *flat, Point point) {
-    if (flat->points.count > 0)
-        flat->length += distance(flat->points.at[flat->points.count - 1], point);
-    *LIST_ADD(out->arena, flat->points, 1) = point;
-}
-
-static void add_curve(Outline *out, Flat *flat, Point from, const Point *points) {
-    double rough = distance(from, points[0]) + distance(points[0], points[1]) + distance(points[1], points[2]);
-    int count = (int)fmin(fmax(ceil(sqrt(rough / out->fine)), 1), 200);
-    for (int i = 1; i <= count; i++) {
-        double t = (double)i / count;
-        Point a = between(from, points[0], t), b = between(points[0], points[1], t),
-              c = between(points[1], points[2], t);
-        add_point(out, flat, between(between(a, b, t), between(b, c, t), t));
-    }
-}
-
-// The next figure from *at on, which is moved behind it.
-static Flat flatten(Outline *from, uint32_t *at) {
-    Flat flat = {.closed = false};
-    uint32_t i = *at;
-    for (bool begun = false; i < from->pieces.count && !flat.closed; i++, begun = true) {
-        const Piece *piece = &from->pieces.at[i];
-        if (piece->kind == PIECE_MOVE && begun)
-            break;
-        if (piece->kind == PIECE_CURVE_3 && flat.points.count > 0) {
-            add_curve(from, &flat, flat.points.at[flat.points.count - 1], piece->points);
-        } else if (piece->kind != PIECE_CLOSE) {
-            add_point(from, &flat, end_of(piece));
-        } else if (flat.points.count > 0) {
-            add_point(from, &flat, flat.points.at[0]);
-            flat.closed = true;
-        }
-    }
-    *at = i;
-    return flat;
-}
-
-// A way along a figure.
-typedef struct Walk {
-    const Flat *flat;
-    uint32_t piece; // that one is on: from its point to the next
-    double before;  // length of all pieces before it
-} Walk;
-
-// The point so far along, which is not before where the walk has been; and, if wanted, the direction there.
-static Point walk_to(Walk *walk, double along, Point *direction) {
-    const Point *points = walk->flat->points.at;
-    uint32_t last = walk->flat->points.count - 2;
-    double length = distance(points[walk->piece], points[walk->piece + 1]);
-    while (walk->piece < last && walk->before + length < along) {
-        walk->before += length;
-        walk->piece++;
-        length = distance(points[walk->piece], points[walk->piece + 1]);
-    }
-    Point a = points[walk->piece], b = points[walk->piece + 1];
-    if (direction)
-        *direction = length > 0 ? (Point){(b.x - a.x) / length, (b.y - a.y) / length} : (Point){0, 0};
-    return between(a, b, length > 0 ? fmin((along - walk->before) / length, 1) : 0);
-}
-
-static void copy_flat(Outline *out, const Flat *flat) {
-    uint32_t count = flat->points.count - (flat->closed ? 1 : 0);
-    for (uint32_t i = 0; i < count; i++)
-        add(out, i ? PIECE_LINE : PIECE_MOVE, flat->points.at[i]);
-    if (flat->closed)
-        add(out, PIECE_CLOSE, flat->points.at[0]);
-}
-
-static void jitter(const ListEffect *effect, Outline *from, Outline *out) {
-    uint64_t key = random_hash_step(RANDOM_HASH_START, random_hash_number(effect->seed)), item = 0;
-    for (uint32_t at = 0; at < from->pieces.count;) {
-        Flat flat = flatten(from, &at);
-        double count = fmin(rint(flat.length / effect->amounts[0]), MOST_PIECES);
-        if (flat.points.count < 2 || count < 2 || out->pieces.count > MOST_PIECES) {
-            copy_flat(out, &flat);
-            continue;
-        }
-        Walk walk = {.flat = &flat};
-        // A closed one has no ends: it begins half a piece further on.
-        uint32_t points = (uint32_t)count + (flat.closed ? 0 : 1);
-        for (uint32_t i = 0; i < points; i++) {
-            Point direction, point = walk_to(&walk, (i + (flat.closed ? 0.5 : 0)) * flat.length / count, &direction);
-            double side = effect->amounts[1] * (2 * random_uniform(key, item++) - 1);
-            add(out, i ? PIECE_LINE : PIECE_MOVE, (Point){point.x - side * direction.y, point.y + side * direction.x});
-        }
-        if (flat.closed)
-            add(out, PIECE_CLOSE, flat.points.at[0]);
-    }
-}
-
-// Which interval an offset lies in, and what is left of it.
-static uint32_t find_interval(const ListEffect *effect, const double *intervals, double *left) {
-    double sum = 0;
-    for (uint32_t i = 0; i < effect->count; i++)
-        sum += intervals[i];
-    double offset = effect->amounts[0] - sum * floor(effect->amounts[0] / sum);
-    uint32_t at = 0;
-    for (; at + 1 < effect->count && offset >= intervals[at]; at++)
-        offset -= intervals[at];
-    *left = fmax(intervals[at] - offset, 0);
-    return at;
-}
-
-static void dash_figure(const ListEffect *effect, const double *intervals, const Flat *flat, Outline *out) {
-    double left, along = 0;
-    uint32_t interval = find_interval(effect, intervals, &left);
-    Walk walk = {.flat = flat};
-    while (along < flat->length && out->pieces.count < MOST_PIECES) {
-        double end = fmin(along + left, flat->length);
-        if (interval % 2 == 0) {
-            add(out, PIECE_MOVE, walk_to(&walk, along, NULL));
-            for (uint32_t first = walk.piece; walk_to(&walk, end, NULL), first < walk.piece; first++)
-                add(out, PIECE_LINE, flat->points.at[first + 1]);
-            add(out, PIECE_LINE, walk_to(&walk, end, NULL));
-        }
-        along = end;
-        interval = (interval + 1) % effect->count;
-        left = intervals[interval];
-    }
-}
-
-static void dash(const ListEffect *effect, const double *intervals, Outline *from, Outline *out) {
-    double sum = 0;
-    for (uint32_t i = 0; i < effect->count; i++)
-        sum += intervals[i];
-    for (uint32_t at = 0; at < from->pieces.count;) {
-        Flat flat = flatten(from, &at);
-        bool countless = flat.length * effect->count / sum > MOST_PIECES;
-        if (flat.points.count < 2 || countless)
-            copy_flat(out, &flat);
-        else
-            dash_figure(effect, intervals, &flat, out);
-    }
-}
-
-// Rounds the corner at p between two straight pieces; the curve begins where the line to it ends.
-static void round_corner(Outline *out, Point before, Point p, Point after, double radius) {
-    double in = distance(before, p), away = distance(p, after);
-    Point a = between(p, before, in > 0 ? fmin(radius / in, 0.5) : 0);
-    Point b = between(p, after, away > 0 ? fmin(radius / away, 0.5) : 0);
-    add(out, PIECE_LINE, a);
-    *LIST_ADD(out->arena, out->pieces, 1) = (Piece){PIECE_CURVE_3, {between(a, p, 2.0 / 3), between(b, p, 2.0 / 3), b}};
-}
-
-// Pieces `first` to `end` are a figure: a beginning, lines and curves, perhaps its close.
-static void round_figure(const Piece *pieces, uint32_t first, uint32_t end, double radius, Outline *out) {
-    bool closed = end - first > 2 && pieces[end - 1].kind == PIECE_CLOSE;
-    uint32_t last = closed ? end - 1 : end; // behind the last piece that goes somewhere
-    Point start = pieces[first].points[0], back = end_of(&pieces[last - 1]);
-    bool gap = closed && distance(start, back) > 0; // the close is a line of its own
-    bool corner = closed && (gap || pieces[last - 1].kind == PIECE_LINE) && pieces[first + 1].kind == PIECE_LINE;
-    Point behind = gap ? back : end_of(&pieces[last - 2]); // before the start, the way round
-    double length = distance(start, pieces[first + 1].points[0]);
-    add(out, PIECE_MOVE,
-        corner ? between(start, pieces[first + 1].points[0], length > 0 ? fmin(radius / length, 0.5) : 0) : start);
-    for (uint32_t i = first + 1; i < last; i++) {
-        Point p = end_of(&pieces[i]);
-        bool ends = i + 1 == last;
-        if (pieces[i].kind == PIECE_CURVE_3) {
-            *LIST_ADD(out->arena, out->pieces, 1) = pieces[i];
-        } else if (ends && !gap) {
-            if (corner)
-                round_corner(out, end_of(&pieces[i - 1]), start, pieces[first + 1].points[0], radius);
-            else
-                add(out, PIECE_LINE, p);
-        } else if (ends || pieces[i + 1].kind == PIECE_LINE) {
-            round_corner(out, end_of(&pieces[i - 1]), p, ends ? start : pieces[i + 1].points[0], radius);
-        } else {
-            add(out, PIECE_LINE, p);
-        }
-    }
-    if (corner && gap)
-        round_corner(out, behind, start, pieces[first + 1].points[0], radius);
-    if (closed)
-        add(out, PIECE_CLOSE, start);
-}
-
-static void round_all(const ListEffect *effect, const Outline *from, Outline *out) {
-    const Piece *pieces = from->pieces.at;
-    for (uint32_t first = 0, end; first < from->pieces.count; first = end) {
-        for (end = first + 1; end < from->pieces.count && pieces[end].kind != PIECE_MOVE; end++)
-            ;
-        if (end - first > 1 && pieces[first].kind == PIECE_MOVE && pieces[first + 1].kind != PIECE_CLOSE)
-            round_figure(pieces, first, end, effect->amounts[0], out);
-        else
-            for (uint32_t i = first; i < end; i++)
-                *LIST_ADD(out->arena, out->pieces, 1) = pieces[i];
-    }
-}
-
-static void transform(const double *m, const Outline *from, Outline *out) {
-    for (uint32_t i = 0; i < from->pieces.count; i++) {
-        Piece *piece = LIST_ADD(out->arena, out->pieces, 1);
-        *piece = from->pieces.at[i];
-        for (int k = 0; k < 3; k++) {
-            Point *p = &piece->points[k], old = *p;
-            double w = m[6] * old.x + m[7] * old.y + m[8];
-            p->x = (m[0] * old.x + m[1] * old.y + m[2]) / w;
-            p->y = (m[3] * old.x + m[4] * old.y + m[5]) / w;
-        }
-    }
-}
-
-static Outline apply(const List *list, uint32_t number, Outline from, bool lines) {
-    Outline out = {.arena = from.arena, .fine = from.fine};
-    if (number == LIST_NONE)
-        return from;
-    const ListEffect *effect = &list->effects.at[number];
-    const double *numbers = list->numbers.at + effect->numbers;
-    if (effect->kind == EFFECT_SUM) {
-        for (uint32_t i = 0; i < effect->count; i++) {
-            Outline part = apply(list, (uint32_t)numbers[i], from, lines);
-            if (part.pieces.count > 0)
-                memcpy(LIST_ADD(out.arena, out.pieces, part.pieces.count), part.pieces.at,
-                       part.pieces.count * sizeof *part.pieces.at);
-        }
-        return out;
-    }
-    from = apply(list, effect->inner, from, lines);
-    switch (effect->kind) {
-    case EFFECT_DASH:
-        if (!lines)
-            return from;
-        dash(effect, numbers, &from, &out);
-        break;
-    case EFFECT_ROUND:
-        round_all(effect, &from, &out);
-        break;
-    case EFFECT_JITTER:
-        jitter(effect, &from, &out);
-        break;
-    default:
-        transform(numbers, &from, &out);
-    }
-    return out;
-}
 
 bool draw_has_effect(const Canvas *canvas, const ListPaint *paint) {
-    if (paint->effect == LIST_NONE)
-        return false;
-    const ListEffect *effect = &canvas->list->effects.at[paint->effect];
-    return effect->kind != EFFECT_DASH || effect->inner != LIST_NONE;
+    return outline_has_effect(canvas->list, paint);
 }
 
 static void take_path(Outline *out, const cairo_path_t *path) {
     for (int i = 0; i < path->num_data; i += path->data[i].header.length) {
         static const ListPiece kinds[] = {PIECE_MOVE, PIECE_LINE, PIECE_CURVE_3, PIECE_CLOSE};
         const cairo_path_data_t *data = &path->data[i];
-        Piece *piece = LIST_ADD(out->arena, out->pieces, 1);
-        *piece = (Piece){.kind = kinds[data->header.type]};
+        OutlinePiece *piece = LIST_ADD(out->arena, out->pieces, 1);
+        *piece = (OutlinePiece){.kind = kinds[data->header.type]};
         for (int k = 1; k < data->header.length; k++)
-            piece->points[k - 1] = (Point){data[k].point.x, data[k].point.y};
+            piece->points[k - 1] = (OutlinePoint){data[k].point.x, data[k].point.y};
     }
 }
 
@@ -319,10 +32,10 @@ static void apply_protected(void *context) {
     const List *list = canvas->list;
     Outline from = {.arena = &canvas->painter->arena, .fine = 2 / fmax(draw_scale_of(canvas->cr), 1e-6)};
     take_path(&from, task->path);
-    Outline outline = apply(list, task->effect, from, task->lines);
+    Outline outline = outline_apply(list, task->effect, from, task->lines);
     canvas->work += task->effect == LIST_NONE ? 0 : 800.0 * outline.pieces.count; // to be drawn, too
     for (uint32_t i = 0; i < outline.pieces.count; i++) {
-        const Piece *piece = &outline.pieces.at[i];
+        const OutlinePiece *piece = &outline.pieces.at[i];
         double numbers[6];
         for (int k = 0; k < 3; k++) {
             numbers[2 * k] = piece->points[k].x;

@@ -3,8 +3,10 @@
 #include "draw/picture.h"
 
 #include "draw/list.h"
+#include "draw/outline.h"
 
 #include <math.h>
+#include <string.h>
 
 static const char other_node[] = "the picture of another node";
 
@@ -94,49 +96,120 @@ static void add_pattern(Numbers *numbers, const ListSource *source, double alpha
     }
 }
 
-// A gradient, or what stands in for other sources.
-static void add_source(Numbers *numbers, const ListPaint *paint) {
-    static const char *const undrawn[] = {[SOURCE_BLEND] = "!blend", [SOURCE_NOISE] = "!noise"};
-    const ListSource *source = paint->source == LIST_NONE ? NULL : &numbers->list->sources.at[paint->source];
-    if (source && source->kind == SOURCE_PATTERN) {
-        add_pattern(numbers, source, fmin(fmax(paint->color[3], 0), 1));
-        return;
-    }
-    if (!source || source->kind == SOURCE_COLOR || source->kind >= SOURCE_PATTERN) {
-        const double *c = source && source->kind == SOURCE_COLOR ? source->color : paint->color;
-        ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
-        if (source && source->kind >= SOURCE_PATTERN)
-            add_undrawn(numbers, undrawn[source->kind]);
-        return;
-    }
+static void add_gradient(Numbers *numbers, const ListSource *source, double alpha) {
     if (source->kind == SOURCE_LINEAR) {
         ADD(PETRI_DRAW_LINEAR, source->ends[0], source->ends[1], source->ends[2], source->ends[3]);
     } else {
         ADD(PETRI_DRAW_RADIAL);
         add_matrix(numbers, &source->matrix);
     }
-    ADD(fmin(fmax(paint->color[3], 0), 1), source->stop_count);
+    ADD(alpha, source->stop_count);
     for (uint32_t i = 0; i < source->stop_count; i++) {
         const ListStop *stop = &numbers->list->stops.at[source->first_stop + i];
         ADD(stop->offset, stop->color[0], stop->color[1], stop->color[2], stop->color[3]);
     }
 }
 
+// Blends of blends are no deeper than scripts can nest them.
+static void add_source(Numbers *numbers, const ListSource *source, double alpha) {
+    const double *c = source->color;
+    switch (source->kind) {
+    case SOURCE_COLOR:
+        ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
+        break;
+    case SOURCE_LINEAR:
+    case SOURCE_RADIAL:
+        add_gradient(numbers, source, alpha);
+        break;
+    case SOURCE_PATTERN:
+        add_pattern(numbers, source, alpha);
+        break;
+    case SOURCE_BLEND:
+        ADD(PETRI_DRAW_BLEND, isnan(source->ratio) ? -1 : source->ratio, source->mode, alpha);
+        add_source(numbers, &numbers->list->sources.at[source->first_stop], 1);
+        add_source(numbers, &numbers->list->sources.at[source->stop_count], 1);
+        break;
+    case SOURCE_NOISE:
+        ADD(PETRI_DRAW_NOISE, source->ends[0], source->ends[1], source->ends[2], source->ends[3], source->ratio,
+            source->stop_count, source->mode, alpha);
+        break;
+    }
+}
+
+static void add_filter(Numbers *numbers, uint32_t number);
+
 static void add_paint(Numbers *numbers, const ListPaint *paint) {
     const ListEffect *effect = paint->effect == LIST_NONE ? NULL : &numbers->list->effects.at[paint->effect];
-    add_source(numbers, paint);
+    const double *c = paint->color;
+    if (paint->source == LIST_NONE)
+        ADD(PETRI_DRAW_COLOR, c[0], c[1], c[2], c[3]);
+    else
+        add_source(numbers, &numbers->list->sources.at[paint->source], fmin(fmax(c[3], 0), 1));
     ADD(PETRI_DRAW_LINE, paint->stroke_width, paint->join, paint->cap, paint->composite, paint->antialias);
     ADD(effect && effect->kind == EFFECT_DASH ? effect->count : 0, effect ? effect->amounts[0] : 0);
     if (effect && effect->kind == EFFECT_DASH)
         add(numbers, numbers->list->numbers.at + effect->numbers, effect->count);
-    else if (effect)
-        add_undrawn(numbers, "a path effect");
-    if (paint->filter != LIST_NONE)
-        add_undrawn(numbers, "a filter");
+    if (paint->filter != LIST_NONE) {
+        ADD(PETRI_DRAW_FILTER);
+        add_filter(numbers, paint->filter);
+    }
+}
+
+static void add_blend(Numbers *numbers, const ListFilter *filter) {
+    if (filter->numbers == LIST_NONE) {
+        ADD(filter->mode);
+    } else {
+        ADD(-1);
+        add(numbers, numbers->list->numbers.at + filter->numbers, 4);
+    }
+}
+
+// Kinds are those of ListFilterKind.
+static void add_filter(Numbers *numbers, uint32_t number) {
+    if (number == LIST_NONE) {
+        ADD(PETRI_FILTER_DRAWN);
+        return;
+    }
+    const ListFilter *filter = &numbers->list->filters.at[number];
+    ADD(filter->kind);
+    switch (filter->kind) {
+    case FILTER_SHADOW:
+        ADD(filter->radius[0], filter->radius[1], filter->offset[0], filter->offset[1]);
+        add(numbers, filter->color, 4);
+        ADD(filter->only);
+        break;
+    case FILTER_BLUR:
+    case FILTER_DILATE:
+    case FILTER_ERODE:
+        ADD(filter->radius[0], filter->radius[1]);
+        break;
+    case FILTER_OFFSET:
+        ADD(filter->offset[0], filter->offset[1]);
+        break;
+    case FILTER_MATRIX:
+        add(numbers, numbers->list->numbers.at + filter->numbers, 20);
+        break;
+    case FILTER_PAINT: {
+        ListPaint paint = numbers->list->paints.at[filter->paint];
+        paint.filter = paint.effect = LIST_NONE;
+        add_paint(numbers, &paint);
+        return;
+    }
+    case FILTER_BLEND:
+        add_blend(numbers, filter);
+        break;
+    case FILTER_DRAWN:
+        return;
+    }
+    add_filter(numbers, filter->inputs[0]);
+    if (filter->kind == FILTER_BLEND)
+        add_filter(numbers, filter->inputs[1]);
 }
 
 static void add_letters(Numbers *numbers, const ListCommand *command) {
     const ListText *text = &numbers->list->texts.at[command->item];
+    if (outline_has_effect(numbers->list, &numbers->list->paints.at[command->paint]))
+        add_undrawn(numbers, "a path effect on text");
     ADD(PETRI_DRAW_TEXT, command->fill, command->stroke, text->point[0], text->point[1], text->size, text->weight,
         text->width, text->slant, text->center);
     add_text(numbers, str_from(text->family ? text->family : ""));
@@ -156,6 +229,54 @@ static void add_image(Numbers *numbers, const ListImage *image) {
     }
 }
 
+static void add_outline(Numbers *numbers, const Outline *outline) {
+    uint32_t count_at = numbers->out.count;
+    ADD(0);
+    for (uint32_t i = 0; i < outline->pieces.count; i++) {
+        const OutlinePiece *piece = &outline->pieces.at[i];
+        const OutlinePoint *p = piece->points;
+        if (piece->kind == PIECE_CURVE_3)
+            ADD(PETRI_PIECE_CURVE_3, p[0].x, p[0].y, p[1].x, p[1].y, p[2].x, p[2].y);
+        else if (piece->kind == PIECE_CLOSE)
+            ADD(PETRI_PIECE_CLOSE);
+        else
+            ADD(piece->kind, p[0].x, p[0].y);
+    }
+    numbers->out.at[count_at] = numbers->out.count - count_at - 1;
+}
+
+// What a path effect makes of a figure. Where lines are drawn otherwise than what they enclose, they are one of their
+// own.
+static void add_changed(Numbers *numbers, const ListCommand *command, const ListPaint *paint) {
+    const List *list = numbers->list;
+    const ListMatrix *m = &list->matrices.at[command->matrix];
+    const ListEffect *effect = &list->effects.at[paint->effect];
+    uint32_t number = effect->kind == EFFECT_DASH ? effect->inner : paint->effect; // the last dashes are the host's
+    Outline from = {.arena = numbers->arena, .fine = 2 / fmax(sqrt(fabs(m->xx * m->yy - m->xy * m->yx)), 1e-6)};
+    outline_take(&from, list, &command->path);
+    Outline filled = outline_apply(list, number, from, false), lines = outline_apply(list, number, from, true);
+    bool same = filled.pieces.count == lines.pieces.count &&
+                !memcmp(filled.pieces.at, lines.pieces.at, lines.pieces.count * sizeof *lines.pieces.at);
+    if (command->fill || same) {
+        ADD(PETRI_DRAW_FIGURE, command->fill, same && command->stroke, command->path.fill_type);
+        add_outline(numbers, &filled);
+    }
+    if (command->stroke && !same) {
+        ADD(PETRI_DRAW_FIGURE, false, true, command->path.fill_type);
+        add_outline(numbers, &lines);
+    }
+}
+
+static void add_figure(Numbers *numbers, const ListCommand *command) {
+    const ListPaint *paint = &numbers->list->paints.at[command->paint];
+    if (outline_has_effect(numbers->list, paint)) {
+        add_changed(numbers, command, paint);
+        return;
+    }
+    ADD(PETRI_DRAW_FIGURE, command->fill, command->stroke, command->path.fill_type);
+    add_path(numbers, &command->path);
+}
+
 static void add_command(Numbers *numbers, const ListCommand *command) {
     if (command->kind < LIST_SAVE && command->matrix != numbers->matrix) {
         ADD(PETRI_DRAW_MATRIX);
@@ -168,8 +289,7 @@ static void add_command(Numbers *numbers, const ListCommand *command) {
     }
     switch (command->kind) {
     case LIST_DRAW:
-        ADD(PETRI_DRAW_FIGURE, command->fill, command->stroke, command->path.fill_type);
-        add_path(numbers, &command->path);
+        add_figure(numbers, command);
         break;
     case LIST_TEXT:
         add_letters(numbers, command);
@@ -241,6 +361,8 @@ static const DrawNode *find_canvas(Numbers *numbers, const DrawNode *node, int d
 
 static void add_canvas(Numbers *numbers, const DrawNode *canvas) {
     ListSizes sizes = {0};
+    if (draw_flag(canvas, ATTR_LINEAR) && draw_number(canvas, ATTR_COLORBITS) > 8)
+        add_undrawn(numbers, "light beyond 1 (colorbits)");
     numbers->list = list_build(numbers->arena, canvas, &sizes);
     for (uint32_t i = 0; i < numbers->list->commands.count; i++)
         add_command(numbers, &numbers->list->commands.at[i]);

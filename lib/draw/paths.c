@@ -1,10 +1,9 @@
 // paths.c: paths of a list, and parts of ellipses, become Cairo's.
 #include "draw/draw.h"
-#include "maths/maths.h"
+
+#include "draw/arcs.h"
 
 #include <math.h>
-
-static const double TURN = 6.283185307179586;
 
 // Cairo reckons with 24 bits before the point; beyond that lines would jump to the other side.
 static const double FARTHEST = 4e6;
@@ -54,60 +53,26 @@ static void quadratic_to(Canvas *canvas, double cx, double cy, double x, double 
     curve_to(canvas, x0 + (cx - x0) * 2 / 3, y0 + (cy - y0) * 2 / 3, x + (cx - x) * 2 / 3, y + (cy - y) * 2 / 3, x, y);
 }
 
-// A part of an ellipse as Bézier curves, each of at most a quarter or, where the difference would show, an eighth of
-// it.
 void draw_ellipse_path(Canvas *canvas, double x, double y, double rx, double ry, double start, double sweep,
                        bool join) {
-    double turns = fmin(fmax(sweep, -1), 1);
-    double largest = fmax(rx, ry) * draw_scale_of(canvas->cr);
-    int pieces = (int)ceil(fabs(turns) * (largest < 64 ? 4 : 8));
-    double from = (start - floor(start)) * TURN, step = turns * TURN / (pieces ? pieces : 1);
-    double handle = 4.0 / 3 * maths_tan(step / 4);
-    double c = maths_cos(from), s = maths_sin(from);
+    double begin[2], curves[ARCS_MOST][6];
+    int count = arcs_of_ellipse((const double[]){x, y, rx, ry, start, sweep}, draw_scale_of(canvas->cr), begin, curves);
     if (join)
-        line_to(canvas, x + rx * c, y + ry * s); // begins the path if there is none
+        line_to(canvas, begin[0], begin[1]); // begins the path if there is none
     else
-        move_to(canvas, x + rx * c, y + ry * s);
-    for (int i = 1; i <= pieces; i++) {
-        double c2 = maths_cos(from + i * step), s2 = maths_sin(from + i * step);
-        curve_to(canvas, x + rx * (c - handle * s), y + ry * (s + handle * c), x + rx * (c2 + handle * s2),
-                 y + ry * (s2 - handle * c2), x + rx * c2, y + ry * s2);
-        c = c2;
-        s = s2;
-    }
+        move_to(canvas, begin[0], begin[1]);
+    for (int i = 0; i < count; i++)
+        curve_to(canvas, curves[i][0], curves[i][1], curves[i][2], curves[i][3], curves[i][4], curves[i][5]);
 }
 
-// The arc of an ellipse from where the path ends to x, y, as SVG has it (its appendix on implementing arcs): on the
-// unit circle, the middle is found from the chord.
 static void arc_to(Canvas *canvas, const double *n) {
-    double x0, y0, x = n[5], y = n[6], c = maths_cos(n[2] * TURN), s = maths_sin(n[2] * TURN);
-    cairo_get_current_point(canvas->cr, &x0, &y0);
-    double rx = n[0], ry = n[1], dx = (x - x0) / 2, dy = (y - y0) / 2;
-    double a = (c * dx + s * dy) / rx, b = (c * dy - s * dx) / ry; // half the chord
-    double half = maths_hypot(a, b);
-    if (!(half > 0) || !isfinite(half)) { // no way to go, or no radius: then it is straight
-        line_to(canvas, x, y);
-        return;
-    }
-    double grow = fmax(half, 1), height = sqrt(fmax(grow * grow / (half * half) - 1, 0));
-    double side = (n[3] != 0) == (n[4] != 0) ? -1 : 1;
-    double mx = -b * height * side, my = a * height * side; // from the middle of the chord to that of the circle
-    double from = maths_atan2(-b - my, -a - mx), to = maths_atan2(b - my, a - mx);
-    double sweep = to - from + (n[4] != 0 && to < from ? TURN : n[4] == 0 && to > from ? -TURN : 0);
-    int pieces = (int)ceil(fabs(sweep) / (TURN / 8));
-    double step = sweep / (pieces ? pieces : 1), handle = 4.0 / 3 * maths_tan(step / 4);
-    for (int i = 1; i <= pieces; i++) {
-        double at = from + (i - 1) * step, next = from + i * step, p[3][2];
-        double c1 = maths_cos(at), s1 = maths_sin(at), c2 = maths_cos(next), s2 = maths_sin(next);
-        const double circle[3][2] = {
-            {c1 - handle * s1, s1 + handle * c1}, {c2 + handle * s2, s2 - handle * c2}, {c2, s2}};
-        for (int k = 0; k < 3; k++) {
-            double u = (circle[k][0] * grow + mx) * rx, v = (circle[k][1] * grow + my) * ry;
-            p[k][0] = (x0 + x) / 2 + c * u - s * v;
-            p[k][1] = (y0 + y) / 2 + s * u + c * v;
-        }
-        curve_to(canvas, p[0][0], p[0][1], p[1][0], p[1][1], p[2][0], p[2][1]);
-    }
+    double from[2], curves[ARCS_MOST][6];
+    cairo_get_current_point(canvas->cr, &from[0], &from[1]);
+    int count = arcs_to_point(from, n, curves);
+    if (count == 0)
+        line_to(canvas, n[5], n[6]);
+    for (int i = 0; i < count; i++)
+        curve_to(canvas, curves[i][0], curves[i][1], curves[i][2], curves[i][3], curves[i][4], curves[i][5]);
 }
 
 void draw_add_piece(Canvas *canvas, ListPiece kind, const double *n) {

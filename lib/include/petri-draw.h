@@ -160,6 +160,12 @@ enum {
                           // picture: its width and height, and each pixel, as petri_picture_draw has them
     PETRI_DRAW_PATTERN,   // paints come from here on from a picture that is repeated, on which a matrix acts: the
                           // matrix, alpha, the picture likewise, or 0, 0 and a file
+    PETRI_DRAW_FILTER,    // what is drawn from here on up to the next PETRI_DRAW_LINE goes through a filter: a kind
+                          // (PETRI_FILTER_…) and what belongs to it. Filters in it are written likewise
+    PETRI_DRAW_BLEND, // paints come from here on from two: a ratio of the second, or -1 and a composite of the second
+                      // on the first; alpha, two paints
+    PETRI_DRAW_NOISE, // … from noise: frequencies, sides of its tiles, seed, octaves, type (0 fractal, 1 turbulence,
+                      // 2 improved), alpha
 };
 enum { // move x, y; line x, y; curves with one and two control points; arcs that begin a figure or go on with it: x, y,
        // radii, start, sweep clockwise; an arc to a point: radii, rotation, large, clockwise, x, y; close
@@ -171,6 +177,21 @@ enum { // move x, y; line x, y; curves with one and two control points; arcs tha
     PETRI_PIECE_ARC_ON,
     PETRI_PIECE_ARC_TO,
     PETRI_PIECE_CLOSE,
+};
+// What comes after the kinds of filters (lengths in the units of the matrix in force, both ways): blur, dilate, erode
+// two radii, a filter; shadow two radii, offset, colour, without what casts it, a filter; offset two lengths, a filter;
+// matrix four rows of five numbers, a filter; paint a paint, up to its PETRI_DRAW_LINE; blend a composite or -1 and
+// four factors (of the product, of the second, of the first, and what is added), two filters; drawn nothing.
+enum {
+    PETRI_FILTER_BLUR,
+    PETRI_FILTER_SHADOW,
+    PETRI_FILTER_OFFSET,
+    PETRI_FILTER_DILATE,
+    PETRI_FILTER_ERODE,
+    PETRI_FILTER_MATRIX,
+    PETRI_FILTER_PAINT,
+    PETRI_FILTER_BLEND,
+    PETRI_FILTER_DRAWN
 };
 // The picture as numbers, for hosts that draw by themselves; it takes no Cairo. Of a window it is the first canvas.
 // Valid as long as the picture. PETRI_MEMORY.

@@ -158,5 +158,15 @@ for (const name of ['adjust', 'bloom', 'blur', 'chromakey', 'edges', 'feedback',
     test(`the effect ${name}`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
 for (const name of ['dots', 'lights', 'metal', 'translucency'])
     test(`the scene ${name}`, options, () => check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
-for (const name of ['canvases', 'composite_stroke', 'fill_type', 'fill_and_stroke', 'gradient_radial', 'image', 'window_image'])
+for (const name of ['blend', 'canvases', 'composite', 'composite_stroke', 'fill_type', 'fill_and_stroke', 'filter_blend', 'filter_colors',
+    'filter_spread', 'filters', 'gradient_radial', 'image', 'noise_source',
+    'window_image'])
     test(`the picture ${name}`, options, () => check(join(pictures, `${name}.fl`), 2, 5e-3, ['images/small.png', 'images/small.jpg']));
+test('path effects but on text', options, () => check(written('path_effects.fl',
+    readFileSync(join(pictures, 'path_effects.fl'), 'utf8').replace(/^.*!text.*\n/m, '')), 2, 5e-3));
+
+test('light beyond 1 is not there, and that is told', options, async () => {
+    const script = join(pictures, 'canvas_wide.fl'), files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
+    const { undrawn } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);
+    assert.deepEqual(undrawn, ['light beyond 1 (colorbits)']);
+});

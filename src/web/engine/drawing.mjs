@@ -1,4 +1,6 @@
 // drawing.mjs: draws a picture that petri has written as numbers (petri-draw.h, petri_picture_numbers) on a Canvas 2D.
+import { drawFiltered, readFilter } from './filters.mjs';
+import { noisePixels } from './noise.mjs';
 import { drawSystems } from './systems.mjs';
 
 const TURN = 2 * Math.PI;
@@ -8,7 +10,7 @@ const SLANTS = ['normal', 'oblique', 'italic'];
 const STRETCHES = ['ultra-condensed', 'extra-condensed', 'condensed', 'semi-condensed', 'normal', 'semi-expanded', 'expanded',
     'extra-expanded', 'ultra-expanded'];
 // In the order of lib/schema/composite_list.h.
-const COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
+const MODULATE = 0, COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destination-over', 'source-in',
     'destination-in', 'source-out', 'destination-out', 'source-atop', 'destination-atop', 'xor', 'lighter', 'multiply',
     'screen', 'overlay', 'darken', 'lighten', 'color-dodge', 'color-burn', 'hard-light', 'soft-light', 'difference',
     'exclusion', 'hue', 'saturation', 'color', 'luminosity'];
@@ -16,6 +18,16 @@ const COMPOSITES = ['multiply', 'clear', 'copy', null, 'source-over', 'destinati
 const UNBOUNDED = new Set(['clear', 'copy', 'source-in', 'destination-in', 'source-out', 'destination-atop']);
 const PIECE_SIZES = [2, 2, 4, 6, 6, 6, 7, 0];
 const FONTS = { Helvetica: '"Liberation Sans"', Arial: '"Liberation Sans"', Menlo: '"DejaVu Sans Mono"' };
+
+// The product of two canvases, alpha and all, for which Canvas 2D has no word.
+function multiply(context, { canvas }) {
+    const { width, height } = canvas, image = context.getImageData(0, 0, width, height);
+    const other = canvas.getContext('2d').getImageData(0, 0, width, height).data;
+    image.data.forEach((value, i) => {
+        image.data[i] = value * other[i] / 255;
+    });
+    context.putImageData(image, 0, 0);
+}
 
 const byte = x => Math.round(255 * Math.min(Math.max(x, 0), 1));
 const color = (n, at, alpha = 1) =>
@@ -89,6 +101,7 @@ class Painter {
         this.alpha = 1; // of the paint, for images
         this.solid = true;
         this.line = { width: 1, join: 0, cap: 0, composite: 4, offset: 0, dashes: [] };
+        this.filter = null;
     }
 
     take(count) {
@@ -180,7 +193,8 @@ class Painter {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
             return;
-        if (!inverse && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
+        const modulates = this.line.composite === MODULATE;
+        if (!inverse && !modulates && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
             if (!this.begin(fill, stroke))
                 return;
             fill && act(this.context, true);
@@ -195,24 +209,77 @@ class Painter {
         fill && act(mask, true);
         stroke && act(mask, false);
         Object.assign(this, { context: all, paint, line });
-        this.begin(true, false);
         if (composite === 'clear')
             all.reset();
+        else if (modulates)
+            multiply(all, this.apart(all.canvas.width, all.canvas.height, 0, 0, () => this.paintAll({})));
         else
-            this.fillPath(all, this.everywhere(), 'nonzero');
+            this.paintAll({});
         this.context = context;
         this.layOver(all, mask.canvas, 'destination-in');
         this.layOver(context, mask.canvas, 'destination-out');
         this.layOver(context, all.canvas, 'lighter');
     }
 
-    layOver(context, canvas, composite, alpha = 1) {
+    layOver(context, canvas, composite, alpha = 1, x = 0, y = 0) {
         context.save();
         context.setTransform(1, 0, 0, 1, 0, 0);
         context.globalAlpha = alpha;
         context.globalCompositeOperation = composite;
-        context.drawImage(canvas, 0, 0);
+        context.drawImage(canvas, x, y);
         context.restore();
+    }
+
+    // What is drawn by itself on a canvas whose corner is at x, y of the one that is drawn on; its context.
+    apart(width, height, x, y, act) {
+        const { context, base, line, filter } = this, apart = this.beside({ width, height }, true);
+        Object.assign(this, { context: apart, base: [base[0], base[1] - x, base[2] - y], line: { ...line, composite: 4 }, filter: null });
+        act();
+        Object.assign(this, { context, base, line, filter });
+        return apart;
+    }
+
+    // The commands up to one that `ends`, for what they paint with, which is kept for later.
+    readUpTo(ends) {
+        const keep = ({ paint, alpha, solid, round, line, filter }) => ({ paint, alpha, solid, round, line, filter });
+        const before = keep(this);
+        let kind;
+        do
+            this.command(kind = this.n[this.at++]);
+        while (!ends(kind));
+        const { paint, alpha, solid, round } = this;
+        Object.assign(this, before);
+        return { paint, alpha, solid, round };
+    }
+
+    readPaint() {
+        return this.readUpTo(kind => kind === 4);
+    }
+
+    readSource() {
+        const source = this.readUpTo(() => true);
+        while (this.n[this.at] === 13)
+            this.command(this.n[this.at++]); // what is left out of it
+        return source;
+    }
+
+    paintAll(paint) {
+        const { paint: before, alpha, solid, round } = this;
+        Object.assign(this, paint);
+        this.begin(true, false);
+        this.fillPath(this.context, this.everywhere(), 'nonzero');
+        Object.assign(this, { paint: before, alpha, solid, round });
+    }
+
+    // Another canvas combined with what a context has, by a number of petri's words.
+    combine(context, other, composite) {
+        if (COMPOSITES[composite])
+            this.layOver(context, other, COMPOSITES[composite]);
+        return context;
+    }
+
+    filtered(act) {
+        this.filter ? drawFiltered(this, act, COMPOSITES[this.line.composite]) : act();
     }
 
     letters() {
@@ -309,6 +376,43 @@ class Painter {
         };
     }
 
+    // A paint that is made of pixels, those of what is drawn on: `make` draws it on a canvas of its own.
+    ofPixels(alpha, make) {
+        Object.assign(this, { solid: false, alpha, round: null });
+        return () => {
+            const { context } = this, made = this.beside(), pattern = context.createPattern(make(made).canvas, 'no-repeat');
+            pattern.setTransform(context.getTransform().invertSelf());
+            return pattern;
+        };
+    }
+
+    blend() {
+        const [ratio, mode, alpha] = this.take(3), paints = [this.readSource(), this.readSource()];
+        return this.ofPixels(alpha, made => {
+            const { width, height } = made.canvas;
+            const [first, second] = paints.map(paint => this.apart(width, height, 0, 0, () => this.paintAll(paint)).canvas);
+            this.layOver(made, first, 'source-over', ratio < 0 ? 1 : 1 - ratio);
+            if (ratio >= 0)
+                this.layOver(made, second, 'lighter', ratio);
+            else
+                this.combine(made, second, mode);
+            if (alpha < 1) {
+                Object.assign(made, { globalCompositeOperation: 'destination-in', fillStyle: `rgba(0,0,0,${alpha})` });
+                made.fillRect(0, 0, width, height);
+            }
+            return made;
+        });
+    }
+
+    noise() {
+        const noise = this.take(8);
+        return this.ofPixels(noise[7], made => {
+            const { width, height } = made.canvas;
+            made.putImageData(noisePixels(noise, this.context.getTransform().invertSelf(), width, height), 0, 0);
+            return made;
+        });
+    }
+
     clip() {
         const [outside, evenOdd] = this.take(2), path = this.path();
         this.setMatrix();
@@ -316,9 +420,9 @@ class Painter {
     }
 
     // A canvas of its own, as large as what is drawn on.
-    beside({ width, height } = this.context.canvas) {
+    beside({ width, height } = this.context.canvas, willReadFrequently = false) {
         const canvas = typeof OffscreenCanvas === 'undefined' ? document.createElement('canvas') : new OffscreenCanvas(width, height);
-        return Object.assign(canvas, { width, height }).getContext('2d');
+        return Object.assign(canvas, { width, height }).getContext('2d', { willReadFrequently });
     }
 
     beginLayer() {
@@ -341,11 +445,12 @@ class Painter {
         case 4: {
             const [width, join, cap, composite, , count, offset] = this.take(7);
             this.line = { width, join, cap, composite, offset, dashes: Array.from(this.take(count)) };
+            this.filter = null;
             break;
         }
-        case 5: this.figure(); break;
-        case 6: this.letters(); break;
-        case 7: this.picture(); break;
+        case 5: this.filtered(() => this.figure()); break;
+        case 6: this.filtered(() => this.letters()); break;
+        case 7: this.filtered(() => this.picture()); break;
         case 8: this.clip(); break;
         case 9: this.context.save(); break;
         case 10: this.context.restore(); break;
@@ -354,11 +459,14 @@ class Painter {
         case 13: this.undrawn.add(this.text()); break;
         case 14: this.at = drawSystems(this.context, this.n, this.at, this.base); break;
         case 15: {
-            const box = this.take(5);
-            this.drawImage(this.pixels(), ...box);
+            const box = this.take(5), picture = this.pixels();
+            this.filtered(() => this.drawImage(picture, ...box));
             break;
         }
         case 16: this.paint = this.pattern(); break;
+        case 17: this.filter = readFilter(this); break;
+        case 18: this.paint = this.blend(); break;
+        case 19: this.paint = this.noise(); break;
         default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
         }
     }

@@ -1,0 +1,178 @@
+// sheets.mjs: pixels as numbers from 0 to 1, multiplied by alpha, and what filters make of them (lib/draw/sheets.c, for
+// hosts that have Canvas 2D only).
+
+const WIDEST = 256, WIDEST_EXACT = 8; // standard deviations of a blur, pixels
+
+// To the nearest whole number, ties to the even one.
+const nearest = x => (Math.abs(x % 1) === 0.5 ? 2 * Math.round(x / 2) : Math.round(x));
+
+export class Sheet {
+    constructor(width, height, pixels = new Float32Array(4 * width * height)) {
+        Object.assign(this, { width, height, pixels });
+    }
+
+    static of(context, x, y, width, height) {
+        const { data } = context.getImageData(x, y, width, height), sheet = new Sheet(width, height);
+        for (let i = 0; i < data.length; i += 4) {
+            const alpha = data[i + 3] / 255;
+            for (let k = 0; k < 3; k++)
+                sheet.pixels[i + k] = data[i + k] / 255 * alpha;
+            sheet.pixels[i + 3] = alpha;
+        }
+        return sheet;
+    }
+
+    put(context) {
+        const image = new ImageData(this.width, this.height), { pixels } = this;
+        for (let i = 0; i < pixels.length; i += 4) {
+            const alpha = Math.min(Math.max(pixels[i + 3], 0), 1);
+            for (let k = 0; k < 3; k++)
+                image.data[i + k] = alpha > 0 ? 255 * pixels[i + k] / alpha : 0;
+            image.data[i + 3] = 255 * alpha;
+        }
+        context.putImageData(image, 0, 0);
+        return context.canvas;
+    }
+
+    copy() {
+        return new Sheet(this.width, this.height, this.pixels.slice());
+    }
+
+    // Changes all rows (axis 0) or all columns; `change` gives the four numbers of a line's pixel.
+    lines(axis, change) {
+        const { width, height, pixels } = this, count = axis ? height : width, step = axis ? 4 * width : 4;
+        const line = new Float32Array(4 * count);
+        for (let i = 0; i < (axis ? width : height); i++) {
+            const start = axis ? 4 * i : 4 * width * i;
+            for (let j = 0; j < count; j++)
+                for (let k = 0; k < 4; k++)
+                    line[4 * j + k] = pixels[start + j * step + k];
+            const made = change(line, count);
+            for (let j = 0; j < count; j++)
+                for (let k = 0; k < 4; k++)
+                    pixels[start + j * step + k] = made[4 * j + k];
+        }
+    }
+
+    blur(sigmas) {
+        sigmas.forEach((sigma, axis) => sigma > 0.05 && this.lines(axis, blurOf(Math.min(sigma, WIDEST))));
+        return this;
+    }
+
+    // Grows what is there, or shrinks it.
+    spread(radii, least) {
+        radii.forEach((radius, axis) => {
+            const reach = Math.min(nearest(radius), axis ? this.height : this.width);
+            if (reach > 0)
+                this.lines(axis, spreadOf(reach, least ? Math.min : Math.max));
+        });
+        return this;
+    }
+
+    move(dx, dy) {
+        const { width, height } = this, out = new Sheet(width, height), x0 = nearest(dx), y0 = nearest(dy);
+        const first = Math.max(x0, 0), last = Math.min(width, width + x0);
+        for (let y = Math.max(y0, 0); y < Math.min(height, height + y0) && last > first; y++) {
+            const from = 4 * ((y - y0) * width + first - x0);
+            out.pixels.set(this.pixels.subarray(from, from + 4 * (last - first)), 4 * (y * width + first));
+        }
+        return out;
+    }
+
+    // Gives all of it one colour, and leaves its alpha, times that of the colour.
+    shade([red, green, blue, alpha]) {
+        for (let i = 0; i < this.pixels.length; i += 4) {
+            const there = this.pixels[i + 3] * alpha;
+            this.pixels.set([there * red, there * green, there * blue, there], i);
+        }
+        return this;
+    }
+
+    under(above) {
+        this.pixels.forEach((below, i) => {
+            this.pixels[i] = above.pixels[i] + below * (1 - above.pixels[i | 3]);
+        });
+        return this;
+    }
+
+    // Four rows of five numbers, on colours that are not multiplied by alpha.
+    recolour(matrix) {
+        const plain = [0, 0, 0, 0, 1], out = [0, 0, 0, 0], { pixels } = this;
+        for (let i = 0; i < pixels.length; i += 4) {
+            const alpha = plain[3] = pixels[i + 3];
+            for (let k = 0; k < 3; k++)
+                plain[k] = alpha > 0 ? pixels[i + k] / alpha : 0;
+            for (let row = 0; row < 4; row++) {
+                let sum = 0;
+                for (let k = 0; k < 5; k++)
+                    sum += matrix[5 * row + k] * plain[k];
+                out[row] = Math.min(Math.max(sum, 0), 1);
+            }
+            for (let k = 0; k < 4; k++)
+                pixels[i + k] = k < 3 ? out[k] * out[3] : out[3];
+        }
+        return this;
+    }
+
+    // Factors of the product, of what is above, of this, and what is added.
+    combine({ pixels: above }, [both, other, own, more]) {
+        const { pixels } = this;
+        for (let i = pixels.length - 1; i >= 0; i--) { // alpha first
+            const sum = both * above[i] * pixels[i] + other * above[i] + own * pixels[i] + more;
+            pixels[i] = Math.min(Math.max(sum, 0), i % 4 === 3 ? 1 : pixels[i | 3]);
+        }
+        return this;
+    }
+}
+
+// What neighbours give with their weights; there is nothing beyond the ends.
+function weigh(weights, from, count, at, to, i) {
+    const reach = weights.length - 1;
+    for (let k = 0; k < 4; k++)
+        to[i + k] = 0;
+    for (let j = Math.max(at - reach, 0); j <= Math.min(at + reach, count - 1); j++)
+        for (let k = 0; k < 4; k++)
+            to[i + k] += weights[Math.abs(at - j)] * from[4 * j + k];
+}
+
+// A wide blur weighs cells of several pixels, and pixels lie between the middles of cells; both are blurs, too, of
+// (cell² − 1)/12 and twice that.
+function blurOf(sigma) {
+    const cell = sigma > WIDEST_EXACT ? Math.floor(sigma / 4) : 1;
+    const narrow = Math.sqrt(sigma * sigma - (cell * cell - 1) / 4) / cell;
+    const weights = Array.from({ length: Math.ceil(3 * narrow) + 1 }, (_, i) => Math.exp(-0.5 * i * i / (narrow * narrow)));
+    const sum = weights.reduce((all, weight, i) => all + (i ? 2 : 1) * weight, 0);
+    weights.forEach((weight, i) => {
+        weights[i] = weight / sum;
+    });
+    return (line, count) => {
+        const cells = Math.ceil(count / cell), from = cell > 1 ? new Float32Array(4 * cells) : line;
+        for (let i = 0; cell > 1 && i < 4 * count; i++)
+            from[4 * Math.floor((i >> 2) / cell) + i % 4] += line[i] / cell;
+        const margin = cell > 1 ? 1 : 0, weighed = new Float32Array(4 * (cells + 2 * margin)); // of cells from -1 on
+        for (let i = -margin; i < cells + margin; i++)
+            weigh(weights, from, cells, i, weighed, 4 * (i + margin));
+        if (cell === 1)
+            return weighed;
+        const made = new Float32Array(4 * count);
+        for (let i = 0; i < count; i++) {
+            const at = (i - (cell - 1) / 2) / cell, low = Math.floor(at), share = at - low;
+            for (let k = 0; k < 4; k++)
+                made[4 * i + k] = (1 - share) * weighed[4 * (low + 1) + k] + share * weighed[4 * (low + 2) + k];
+        }
+        return made;
+    };
+}
+
+// The greatest or least within reach: of more and more pixels, then of two such runs.
+function spreadOf(reach, choose) {
+    return (line, count) => {
+        const all = count + 2 * reach, other = new Float32Array(4 * all), wanted = 2 * reach + 1;
+        let run = 1;
+        other.set(line, 4 * reach);
+        for (; 2 * run <= wanted; run *= 2)
+            for (let i = 0; i < 4 * (all - run); i++)
+                other[i] = choose(other[i], other[i + 4 * run]);
+        return line.map((_, i) => choose(other[i], other[i + 4 * (wanted - run)]));
+    };
+}
