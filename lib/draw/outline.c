@@ -281,7 +281,7 @@ bool outline_has_effect(const List *list, const ListPaint *paint) {
     return effect->kind != EFFECT_DASH || effect->inner != LIST_NONE;
 }
 
-static void add_curves(Outline *out, const double curves[][6], int count) {
+static void add_curves(Outline *out, double curves[][6], int count) {
     for (int i = 0; i < count; i++)
         *LIST_ADD(out->arena, out->pieces, 1) = (OutlinePiece){
             PIECE_CURVE_3, {{curves[i][0], curves[i][1]}, {curves[i][2], curves[i][3]}, {curves[i][4], curves[i][5]}}};
@@ -310,7 +310,7 @@ static void take_piece(Outline *out, ListPiece kind, const double *n, OutlinePoi
     case PIECE_CURVE_3:
         if (begins)
             add(out, PIECE_MOVE, *here = *first = point);
-        add_curves(out, (const double[1][6]){{n[0], n[1], n[2], n[3], n[4], n[5]}}, 1);
+        add_curves(out, (double[1][6]){{n[0], n[1], n[2], n[3], n[4], n[5]}}, 1);
         break;
     case PIECE_ARC:
     case PIECE_ARC_ON:
