@@ -14,13 +14,17 @@ void draw_give(Canvas *canvas, size_t bytes) {
     canvas->taken -= bytes;
 }
 
+const char draw_left_out[] = "what comes now is left out";
+
 bool draw_spend(Canvas *canvas, const Origin *place, double work, const char *outcome) {
-    static const double MOST = 4e9;
-    if (canvas->work + work <= MOST) {
-        canvas->work += work;
+    static const double UNIT = 10; // nanoseconds (meter.h)
+    Meter *meter = &canvas->painter->meter;
+    if (work / UNIT <= (double)(meter->work_limit - meter->work)) {
+        meter->work += (uint64_t)(work / UNIT);
         return true;
     }
-    draw_fault_at(canvas, place, DIAG_WARNING, "drawing-limit", "this canvas takes too long to draw: %s", outcome);
+    draw_fault_at(canvas, place, DIAG_WARNING, "drawing-limit", "drawing takes longer than a script may (--work): %s",
+                  outcome);
     return false;
 }
 

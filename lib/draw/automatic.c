@@ -92,6 +92,10 @@ static void set_ball(cairo_t *cr, const Seen *seen, double radius, Colour colour
     cairo_pattern_destroy(ball);
 }
 
+// What it costs to paint: as one colour, or as one of a gradient.
+static const ListPaint PLAIN = {.composite = COMPOSITE_OVER, .source = LIST_NONE},
+                       SHADED = {.composite = COMPOSITE_OVER};
+
 static void draw_body(const Panel *panel, const AutoBody *body, const Seen *seen) {
     cairo_t *cr = panel->canvas->cr;
     double radius = body->radius * seen->size;
@@ -105,14 +109,18 @@ static void draw_body(const Panel *panel, const AutoBody *body, const Seen *seen
         cairo_stroke(cr);
         return;
     }
+    bool ball = panel->system->dimensions == 3 && shown > 2 * panel->pixel;
+    draw_forget_path(panel->canvas);
     circle(panel->canvas, seen->x, seen->y, shown);
-    if (panel->system->dimensions == 3 && shown > 2 * panel->pixel) {
+    if (!draw_spend_figure(panel->canvas, ball ? &SHADED : &PLAIN, true, false)) {
+        cairo_new_path(cr);
+    } else if (ball) {
         set_ball(cr, seen, shown, colour);
         cairo_fill(cr);
-        return;
+    } else {
+        set_colour(cr, colour, shown > 2 * panel->pixel ? 0.85 : 1);
+        cairo_fill(cr);
     }
-    set_colour(cr, colour, shown > 2 * panel->pixel ? 0.85 : 1);
-    cairo_fill(cr);
 }
 
 // The order from the farthest to the nearest; of equal ones the first first.
@@ -168,7 +176,7 @@ static void draw_wall(const Panel *panel, const AutoBarrier *barrier) {
     Seen at = see(panel, barrier->position);
     double nx = barrier->normal[0], ny = panel->system->dimensions == 1 ? 0 : -barrier->normal[1];
     double length = maths_hypot(nx, ny), far = panel->width + panel->height;
-    if (!(length > 0) || !isfinite(length))
+    if (!(length > 0) || !isfinite(length) || !draw_spend_box(panel->canvas, &PLAIN, far, far, 1))
         return;
     nx /= length;
     ny /= length;

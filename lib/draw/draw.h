@@ -26,23 +26,31 @@ struct Letters {
     ListText font;
 };
 
+// How much of the target a path covers, from its points and control points there, all as one figure.
+typedef struct PathSize {
+    double left, right, top, bottom;
+    double last_x, last_y;
+    double length; // across and down
+    double area;   // twice; what runs the other way round counts against it
+} PathSize;
+
 // A picture being drawn.
 typedef struct Canvas {
     PetriPainter *painter;
     const CanvasPicture *picture;
     cairo_t *cr;
     DiagSink *faults;
-    bool vector;                // the target is no array of pixels
-    uint32_t layers;            // that are open
-    double layer_pixels;        // in them
-    double rows;                // of the target
+    bool vector;         // the target is no array of pixels
+    uint32_t layers;     // that are open
+    double layer_pixels; // in them
+    double columns;      // of the target
+    double rows;
     double path_work;           // rows that the edges of the current path cross
-    double last_y;              // of its last point, on the target
+    PathSize size;              // of that path
     const List *list;           // or NULL
     const ListCommand *path_of; // the command whose path is the current one; or NULL
     cairo_matrix_t base;        // of the list's units
     bool failed;                // an error was reported
-    double work;                // of filters and the like, so far
     size_t taken;               // bytes that are charged
     SheetMemory *sheets;        // all there are
     Sheet wide;                 // what is drawn on in place of the target's pixels; or none
@@ -67,8 +75,9 @@ void draw_give(Canvas *canvas, size_t bytes);
 // Draws on a surface of its own from here on, whose top left corner is at x, y of the target; NULL without memory.
 cairo_surface_t *draw_begin_apart(Canvas *canvas, int width, int height, double x, double y);
 void draw_end_apart(Canvas *canvas);
-// Charges work, about a nanosecond a unit, of what would else have no bounds; false, after a report, if it is too much:
-// then what comes of it is told.
+// Charges work, in nanoseconds, to the picture; false, after a report, if it is too much: then what comes of it is
+// told.
+extern const char draw_left_out[]; // all that comes now
 bool draw_spend(Canvas *canvas, const Origin *place, double work, const char *outcome);
 // If memory was lacking: tells that something is drawn without this, or leaves if it is the machine's.
 void draw_lacks(Canvas *canvas, const Origin *place, const char *what, bool lacking);
@@ -108,6 +117,12 @@ bool draw_find_box(Canvas *canvas, const ListCommand *command, const ListPaint *
 void draw_clip_to_box(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
 // Can the path be drawn in reasonable time? If not, the picture fails.
 bool draw_is_drawable(Canvas *canvas);
+
+// costs.c
+// Charges what the current path takes to be drawn; false, after a report, if it is too much.
+bool draw_spend_figure(Canvas *canvas, const ListPaint *paint, bool fill, bool stroke);
+// The same for so many boxes of the script's units, wherever they are.
+bool draw_spend_box(Canvas *canvas, const ListPaint *paint, double width, double height, double count);
 
 // colours.c
 void draw_set_source(Canvas *canvas, const ListPaint *paint);

@@ -33,7 +33,8 @@ static void apply_protected(void *context) {
     Outline from = {.arena = &canvas->painter->arena, .fine = 2 / fmax(draw_scale_of(canvas->cr), 1e-6)};
     take_path(&from, task->path);
     Outline outline = outline_apply(list, task->effect, from, task->lines);
-    canvas->work += task->effect == LIST_NONE ? 0 : 800.0 * outline.pieces.count; // to be drawn, too
+    if (task->effect != LIST_NONE && !draw_spend(canvas, NULL, 800.0 * outline.pieces.count, draw_left_out))
+        return; // that is also what drawing it would take
     for (uint32_t i = 0; i < outline.pieces.count; i++) {
         const OutlinePiece *piece = &outline.pieces.at[i];
         double numbers[6];

@@ -228,6 +228,10 @@ static cairo_surface_t *find_file(PetriPainter *painter, const CanvasPicture *pi
     return found->surface;
 }
 
+static bool may_copy(Canvas *canvas, int width, int height) {
+    return draw_spend(canvas, NULL, 3.0 * width * height, draw_left_out);
+}
+
 // The picture of a node in memory; NULL if there is none.
 static Texture *find_texture(Canvas *canvas, Str id) {
     PetriPainter *painter = canvas->painter;
@@ -237,7 +241,7 @@ static Texture *find_texture(Canvas *canvas, Str id) {
 
 static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
     Texture *texture = find_texture(canvas, id);
-    if (!texture)
+    if (!texture || !may_copy(canvas, texture->width, texture->height))
         return NULL;
     cairo_surface_t *surface = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, texture->width, texture->height);
     uint32_t *pixels = (uint32_t *)(void *)cairo_image_surface_get_data(surface);
@@ -251,8 +255,10 @@ static cairo_surface_t *find_picture(Canvas *canvas, Str id) {
 }
 
 // Files count as sRGB: another copy for a linear canvas.
-static cairo_surface_t *linear_copy(cairo_surface_t *file) {
+static cairo_surface_t *linear_copy(Canvas *canvas, cairo_surface_t *file) {
     int width = cairo_image_surface_get_width(file), height = cairo_image_surface_get_height(file);
+    if (!may_copy(canvas, width, height))
+        return NULL;
     cairo_surface_t *copy = cairo_image_surface_create(CAIRO_FORMAT_ARGB32, width, height);
     cairo_t *cr = cairo_create(copy);
     cairo_set_source_surface(cr, file, 0, 0);
@@ -271,7 +277,7 @@ cairo_surface_t *draw_find_image(Canvas *canvas, const ListImage *image) {
         return find_picture(canvas, image->id);
     cairo_surface_t *surface =
         find_file(canvas->painter, canvas->picture, image->file, image->kind, &image->place, canvas->faults);
-    return !surface ? NULL : canvas->list->linear ? linear_copy(surface) : cairo_surface_reference(surface);
+    return !surface ? NULL : canvas->list->linear ? linear_copy(canvas, surface) : cairo_surface_reference(surface);
 }
 
 bool draw_find_pixels(Canvas *canvas, const ListImage *image, const Texture **texture, cairo_surface_t **file) {
@@ -295,7 +301,8 @@ void draw_image(Canvas *canvas, const ListImage *image, const ListPaint *paint) 
         return;
     int width = pixels ? cairo_image_surface_get_width(pixels) : shade.texture->width;
     int height = pixels ? cairo_image_surface_get_height(pixels) : shade.texture->height;
-    if (find_box(image, width, height, &box))
+    if (find_box(image, width, height, &box) &&
+        (!surface || draw_spend_box(canvas, paint, width * box.scale_x, height * box.scale_y, 1)))
         paint_image(canvas, surface, &shade, width, height, &box, image->point, paint);
     cairo_surface_destroy(surface);
 }

@@ -79,7 +79,7 @@ static void lay_stamp(Canvas *canvas, Stamp *stamp) {
     int last = cover.y + cover.height < bottom ? cover.y + cover.height : bottom;
     int right = cover.x + cover.width < edge ? cover.x + cover.width : edge;
     bool good = cover.at && (!stamp->colors || colors.at) && right > left && last > first &&
-                draw_spend(canvas, NULL, 2.0 * (right - left) * (last - first), "what comes now is left out");
+                draw_spend(canvas, NULL, 2.0 * (right - left) * (last - first), draw_left_out);
     for (int y = first; good && y < last; y++) {
         const unsigned char *row = row_of(&cover, y);
         for (int x = left; x < right; x++) {

@@ -79,7 +79,6 @@ static PetriStatus draw_hosted(Hosted *hosted) {
     if (!painter->host.draw)
         return missing(hosted->faults);
     Arena *arenas[] = {&painter->arena, hosted->faults->arena};
-    draw_limit(painter, hosted->picture);
     ArenaMark mark = arena_mark(&painter->arena);
     ArenaEnd end = arena_protect(arenas, 2, ask_host, hosted);
     arena_rewind(&painter->arena, mark);

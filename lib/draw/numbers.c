@@ -6,9 +6,9 @@
 #include "draw/outline.h"
 
 #include <math.h>
-#include <string.h>
 
 static const char other_node[] = "the picture of another node";
+enum { MOST_CHANGED = 2000000 }; // pieces of a picture's paths that effects make
 
 typedef struct Numbers {
     const CanvasPicture *picture; // or NULL, of a canvas
@@ -18,6 +18,7 @@ typedef struct Numbers {
     const List *list;
     uint32_t matrix; // that was written last
     uint32_t paint;
+    uint32_t changed; // pieces that effects have made
 } Numbers;
 
 static void add(Numbers *numbers, const double *values, uint32_t count) {
@@ -254,22 +255,21 @@ static void add_changed(Numbers *numbers, const ListCommand *command, const List
     uint32_t number = effect->kind == EFFECT_DASH ? effect->inner : paint->effect; // the last dashes are the host's
     Outline from = {.arena = numbers->arena, .fine = 2 / fmax(sqrt(fabs(m->xx * m->yy - m->xy * m->yx)), 1e-6)};
     outline_take(&from, list, &command->path);
-    Outline filled = outline_apply(list, number, from, false), lines = outline_apply(list, number, from, true);
-    bool same = filled.pieces.count == lines.pieces.count &&
-                !memcmp(filled.pieces.at, lines.pieces.at, lines.pieces.count * sizeof *lines.pieces.at);
-    if (command->fill || same) {
-        ADD(PETRI_DRAW_FIGURE, command->fill, same && command->stroke, command->path.fill_type);
-        add_outline(numbers, &filled);
+    bool apart = outline_has_dashes(list, number) && command->fill && command->stroke;
+    for (int part = 0; part < 1 + apart; part++) {
+        bool fill = command->fill && part == 0, stroke = command->stroke && part == apart;
+        Outline outline = outline_apply(list, number, from, !fill);
+        ADD(PETRI_DRAW_FIGURE, fill, stroke, command->path.fill_type);
+        add_outline(numbers, &outline);
+        numbers->changed += outline.pieces.count;
     }
-    if (command->stroke && !same) {
-        ADD(PETRI_DRAW_FIGURE, false, true, command->path.fill_type);
-        add_outline(numbers, &lines);
-    }
+    if (numbers->changed > MOST_CHANGED)
+        add_undrawn(numbers, "path effects on more than two million pieces");
 }
 
 static void add_figure(Numbers *numbers, const ListCommand *command) {
     const ListPaint *paint = &numbers->list->paints.at[command->paint];
-    if (outline_has_effect(numbers->list, paint)) {
+    if (numbers->changed <= MOST_CHANGED && outline_has_effect(numbers->list, paint)) {
         add_changed(numbers, command, paint);
         return;
     }

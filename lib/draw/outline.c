@@ -274,6 +274,16 @@ Outline outline_apply(const List *list, uint32_t number, Outline from, bool line
     return out;
 }
 
+bool outline_has_dashes(const List *list, uint32_t number) {
+    if (number == LIST_NONE)
+        return false;
+    const ListEffect *effect = &list->effects.at[number];
+    bool any = effect->kind == EFFECT_DASH || (effect->kind != EFFECT_SUM && outline_has_dashes(list, effect->inner));
+    for (uint32_t i = 0; effect->kind == EFFECT_SUM && i < effect->count; i++)
+        any = any || outline_has_dashes(list, (uint32_t)list->numbers.at[effect->numbers + i]);
+    return any;
+}
+
 bool outline_has_effect(const List *list, const ListPaint *paint) {
     if (paint->effect == LIST_NONE)
         return false;

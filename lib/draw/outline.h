@@ -23,6 +23,8 @@ typedef struct Outline {
 
 // Whether the paint has an effect that changes the path, other than dashes of its lines.
 bool outline_has_effect(const List *list, const ListPaint *paint);
+// Whether this effect or one in it dashes lines, and so makes another path of them than of what they enclose.
+bool outline_has_dashes(const List *list, uint32_t effect);
 // What this effect and those in it make of an outline, filled or as lines, in its arena. LIST_NONE: as it is.
 Outline outline_apply(const List *list, uint32_t effect, Outline from, bool lines);
 // Adds what the list says of a path, its arcs as curves.

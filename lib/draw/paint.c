@@ -108,13 +108,13 @@ static PetriStatus draw_on(PetriPainter *painter, const Page *page, cairo_surfac
                            double height, DiagSink *faults) {
     cairo_t *cr = cairo_create(surface);
     PetriStatus result = result_of(cairo_status(cr));
-    draw_limit(painter, page->picture);
     if (result == PETRI_OK) {
         Drawing drawing = {.canvas = {.painter = painter,
                                       .picture = page->picture,
                                       .cr = cr,
                                       .faults = faults,
                                       .vector = vector,
+                                      .columns = width,
                                       .rows = height,
                                       .wide = page->wide},
                            .page = page,
@@ -202,6 +202,7 @@ PetriStatus draw_pixels(PetriPainter *painter, const CanvasPicture *picture, uin
     }
     cairo_surface_t *surface = surface_of(pixels, width, height, stride);
     Page page = page_of(painter, picture, false);
+    draw_limit(painter, picture);
     result = draw_on(painter, &page, surface, false, width, height, faults);
     cairo_surface_destroy(page.pixels);
     cairo_surface_finish(surface);
@@ -243,6 +244,7 @@ static PetriStatus encode_vector(PetriPainter *painter, const Page *page, bool p
         cairo_pdf_surface_set_metadata(surface, CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
     else
         cairo_svg_surface_set_document_unit(surface, CAIRO_SVG_UNIT_PX);
+    draw_limit(painter, page->picture);
     PetriStatus result = draw_on(painter, page, surface, true, width, height, faults);
     cairo_surface_finish(surface);
     if (result == PETRI_OK)

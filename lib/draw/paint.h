@@ -34,6 +34,7 @@ typedef struct CanvasPicture {
     bool opaque;   // nothing is transparent: black where nothing is drawn
     Reach reach;   // of the files that it names
     size_t memory; // bytes that drawing it may take, those included that the painter keeps
+    uint64_t work; // units that the frame may take (meter.h), of which drawing has a share of its own
 } CanvasPicture;
 
 typedef enum CanvasFormat { CANVAS_PNG, CANVAS_SVG, CANVAS_PDF, CANVAS_JPEG } CanvasFormat;

@@ -12,7 +12,7 @@ typedef struct Picture Picture; // of an image file: images.c
 
 struct PetriPainter {
     Arena arena; // reset with each picture
-    Meter meter; // of the memory that drawing may have
+    Meter meter; // of the memory that drawing may have, and of its work
     Letters *letters;
     ListSizes sizes; // of the list that was built last
     Picture *images;
@@ -36,7 +36,7 @@ void draw_report_args(DiagSink *faults, const Origin *place, DiagLevel level, co
 // Whether memory was lacking because of the limit and not of the machine; tells that a node is left out then.
 bool draw_is_refused(PetriPainter *painter, const Origin *place, const char *node, int width, int height,
                      DiagSink *faults);
-// Sets how much memory the painter may take from here on.
+// Sets how much memory the painter may take from here on, and how much work.
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture);
 // Reports that a drawing was given up because of that: PETRI_INVALID, or PETRI_MEMORY without room for it.
 PetriStatus draw_tell_limit(DiagSink *faults);

@@ -76,7 +76,7 @@ double draw_fit(double width, double height, double box_width, double box_height
 
 void draw_limit(PetriPainter *painter, const CanvasPicture *picture) {
     painter->meter.memory_limit = picture->memory;
-    painter->meter.memory_refused = false;
+    meter_begin(&painter->meter, picture->work / 4 * 3, NULL); // drawing is not charged to the frame
 }
 
 static void report_limit(void *faults) {

@@ -286,6 +286,8 @@ void draw_figure(Canvas *canvas, const ListCommand *command, const ListPaint *pa
         light_figure(canvas, command, paint);
         return;
     }
+    if (!draw_spend_figure(canvas, paint, command->fill, command->stroke))
+        return;
     bool odd = is_unbounded(paint->composite) || paint->composite == COMPOSITE_MODULATE,
          both = command->fill && command->stroke;
     bool pieces = command->stroke && canvas->path_work > SMOOTH_WORK; // which overlap

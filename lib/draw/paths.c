@@ -12,17 +12,31 @@ static double within(double x) {
     return x > FARTHEST ? FARTHEST : x > -FARTHEST ? x : -FARTHEST; // nan too goes far away
 }
 
+static void note_point(Canvas *canvas, double x, double y) {
+    PathSize *size = &canvas->size;
+    double rows = fmin(fabs(y - size->last_y), canvas->rows), columns = fmin(fabs(x - size->last_x), canvas->columns);
+    // What filling costs is about the number of rows that the edges cross.
+    canvas->path_work += 1 + rows;
+    size->length += rows + columns;
+    size->area += size->last_x * y - x * size->last_y;
+    size->left = fmin(size->left, x);
+    size->right = fmax(size->right, x);
+    size->top = fmin(size->top, y);
+    size->bottom = fmax(size->bottom, y);
+    size->last_x = x;
+    size->last_y = y;
+}
+
 void draw_tame(Canvas *canvas, double *x, double *y) {
     double device_x = *x, device_y = *y;
     cairo_user_to_device(canvas->cr, &device_x, &device_y);
-    // What filling costs is about the number of rows that the edges cross.
-    canvas->path_work += 1 + fmin(fabs(device_y - canvas->last_y), canvas->rows);
-    canvas->last_y = device_y;
+    note_point(canvas, device_x, device_y);
     if (fabs(device_x) <= FARTHEST && fabs(device_y) <= FARTHEST)
         return;
     *x = within(device_x);
     *y = within(device_y);
-    canvas->last_y = *y;
+    canvas->size.last_x = *x;
+    canvas->size.last_y = *y;
     cairo_device_to_user(canvas->cr, x, y);
 }
 
@@ -130,5 +144,11 @@ void draw_set_path(Canvas *canvas, const ListCommand *command) {
 void draw_forget_path(Canvas *canvas) {
     cairo_new_path(canvas->cr);
     canvas->path_work = 0;
+    canvas->size = (PathSize){.left = INFINITY,
+                              .right = -INFINITY,
+                              .top = INFINITY,
+                              .bottom = -INFINITY,
+                              .last_x = canvas->size.last_x,
+                              .last_y = canvas->size.last_y};
     canvas->path_of = NULL;
 }

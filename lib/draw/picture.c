@@ -373,6 +373,7 @@ PetriStatus petri_picture(PetriSession *session, const PetriPictureOptions *opti
     else
         request.problem = "there is nothing to draw: no frame has been made yet";
     size_t left = shown.meter->memory_limit - shown.meter->memory;
+    picture->picture.work = shown.meter->work_limit;
     picture->picture.memory = left < shown.memory_bytes ? left : shown.memory_bytes;
     arena_release(&picture->arena); // the picture may be freed in another thread
     if (status == PETRI_OK)

@@ -87,13 +87,14 @@ static void clip(Canvas *canvas, const ListCommand *command) {
     int fill_type = command->path.fill_type;
     bool inverse = (command->kind == LIST_MASK) != (fill_type > FILL_EVEN_ODD);
     draw_set_path(canvas, command);
-    if (!draw_is_drawable(canvas))
+    const ListPaint *paint = &canvas->list->paints.at[command->paint];
+    if (!draw_is_drawable(canvas) || !draw_spend_figure(canvas, paint, false, false))
         return;
     if (inverse) {
         add_frame(canvas);
         fill_type = FILL_EVEN_ODD;
     }
-    draw_set_edges(canvas, canvas->list->paints.at[command->paint].antialias, fill_type);
+    draw_set_edges(canvas, paint->antialias, fill_type);
     cairo_clip_preserve(canvas->cr);
     if (inverse)
         draw_forget_path(canvas);

@@ -171,10 +171,11 @@ void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *pain
         draw_fault(canvas, DIAG_WARNING, "long-text", "!text: texts of more than %d bytes are not drawn", LONGEST_TEXT);
         return;
     }
+    if (!draw_spend_box(canvas, paint, text->size, text->size / 3, (double)text->text.len)) // a third is ink
+        return;
     PangoLayout *layout = canvas->painter->letters->layout;
     double point[2] = {text->point[0], text->point[1]};
     set_font(canvas, text);
-    pango_cairo_update_layout(canvas->cr, layout);
     pango_layout_set_text(layout, text->text.bytes, (int)text->text.len);
     place(layout, text->center, point);
     draw_forget_path(canvas);

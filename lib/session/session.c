@@ -81,7 +81,7 @@ static PhysOptions physics_options(const PetriOptions *options) {
     const PetriRanks *ranks = options->ranks;
     if (ranks)
         physics.ranks = (PhysRanks){ranks->rank,    ranks->count,  ranks->least,  ranks->host, ranks->send,
-                                    ranks->receive, ranks->spread, ranks->gather, ranks->most};
+                                    ranks->receive, ranks->spread, ranks->gather, ranks->most, ranks->share};
     return physics;
 }
 

@@ -12,8 +12,8 @@
 typedef struct Shown {
     int64_t number; // of the frame; -1: none has been made
     Value tree;
-    Schema *schema;     // for reading its windows
-    const Scene *scene; // its systems: scene_view
+    Schema *schema; // for reading its windows
+    Scene *scene;   // its systems: scene_view
     const State *state;
     Str directory;       // what relative file names start from
     const Reach *reach;  // of its files

@@ -418,6 +418,19 @@ END
         timeout 1 "$petri" render long.fl --frames 1000000 -o long.mp4 >out 2>err </dev/null
         check "timeout's signal, sent twice, keeps what is done" ffprobe -v error long.mp4
     fi
+    # What a picture takes is charged before it is drawn, whatever it consists of.
+    for many in '!ellipse point=50 radius=50 fill=true' '!ellipse point=50 radius=50 stroke=true stroke_width=50' \
+        '!rect size=100 fill=true composite=:hue' '!text text="many" point=0;90 font_size=80 fill=true' \
+        '!image filename="disc.png" size=100'; do
+        printf '!window size=100\n    !canvas id=:c\n        for i in ..1000\n            %s\n' "$many" >many.fl
+        petri render many.fl -o many.png --work 500k --scale 5
+        check "drawing is charged: $many" has err "drawing takes longer than a script may (--work): what comes now is left"
+        petri render many.fl -o many.png
+        check "… but not for so few: $many" [ ! -s err ]
+    done
+    printf '!physics state=:p dimensions=2\n    for i in ..1000\n        !particle id=i position=0 radius=1\n' >many.fl
+    petri render many.fl -o many.png --work 500k
+    check "drawing is charged: particles" has err "drawing takes longer than a script may (--work)"
     PATH='' "$petri" render disc.fl -o none.mp4 --frames 5 >out 2>err </dev/null
     status=$?
     check "without ffmpeg a film is an error" status_is 1

@@ -347,6 +347,11 @@ static void test_numbers(void **state) {
         "        !image filename='a.png' size=2\n",
         "jabeicefkjabeilabegmabehk");
     check_kinds(player, "!window size=8;4\n    !bloom radius=2\n        !canvas\n    !canvas3d\n", "nn");
+    // Effects that make too much of paths: told once, from there on lines are as they were.
+    check_kinds(player,
+                "!window size=8;4\n    !canvas\n        !group\n            !jitter length=0.00004 deviation=1\n"
+                "            for i in ..25\n                !line points=0;0;4;i stroke=true\n",
+                "abeffffffffffffffffffffnfffff");
     player_run(player, "!physics state=:p dimensions=2 time=time\n    !particle id=1 position=3;4 radius=2 charge=1\n",
                3);
     PetriPicture *picture = take(player, petri_default_picture_options(), PETRI_OK);
