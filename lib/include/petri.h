@@ -119,6 +119,10 @@ typedef struct PetriRanks {
     void (*gather)(void *host, double *numbers, const size_t *starts);
     // Each number becomes the largest that a rank has. None is NaN.
     void (*most)(void *host, double *numbers, size_t count);
+    // Memory for so many doubles that all ranks see, such as that of one machine, until the next call, which all make
+    // together; all get NULL if there is none, and may have no such function. What was written before one of the
+    // functions above that all take part in is seen after it.
+    double *(*share)(void *host, size_t count);
     // After petri_interrupt, on all ranks, they need not wait for each other any more: numbers that do not come are 0.
 } PetriRanks;
 

@@ -74,7 +74,7 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 //   if τ > 0: motion again with τ for delta and the same force; else a = 0
 void phys_bounce(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
-    double x = particle_height(columns, i, barrier, -columns->radius[i]);
+    double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);
     if (x >= 0)
         return;
     double w = velocity_along(columns, i, barrier), b = acceleration_along(columns, barrier);
@@ -89,7 +89,7 @@ void phys_bounce(const Columns *columns, size_t i, const Force *force, double de
     back_to_contact(columns, i, tau, barrier->restitution);
     w = velocity_along(columns, i, barrier);
     if (outside) {
-        x = particle_height(columns, i, barrier, -columns->radius[i]);
+        x = particle_height(columns, i, barrier, -radius);
         if (x < 0)
             put_on_surface(columns, i, barrier, x);
     }

@@ -1,7 +1,6 @@
 // domain.c: see domain.h. What the ranks do in a frame.
 #include "physics/domain.h"
 
-#include <string.h>
 #include <time.h>
 
 enum {
@@ -65,14 +64,12 @@ void phys_domain_free(PhysSystem *system) {
     Domain *domain = system->domain.bytes;
     if (!domain)
         return;
-    Buffer *buffers[] = {&domain->plot_owners, &domain->inland,    &domain->owners,        &domain->counts,
-                         &domain->columns,     &domain->own,       &domain->local_numbers, &domain->last_columns,
-                         &domain->foreign,     &domain->built,     &domain->movers,        &domain->draws,
-                         &domain->to.starts,   &domain->to.items,  &domain->from.starts,   &domain->from.items,
-                         &domain->parcels,     &domain->table,     &domain->numbers,       &domain->whole,
-                         &domain->starts,      &domain->loads,     &domain->shore.columns, &domain->fresh.columns,
-                         &domain->sources,     &domain->spare,     &domain->nexts,         &domain->orders,
-                         &domain->last_orders, &domain->renumbered};
+    Buffer *buffers[] = {
+        &domain->plot_owners, &domain->inland,     &domain->owners,  &domain->counts,        &domain->foreign,
+        &domain->built,       &domain->movers,     &domain->draws,   &domain->to.starts,     &domain->to.items,
+        &domain->from.starts, &domain->from.items, &domain->parcels, &domain->table,         &domain->numbers,
+        &domain->whole,       &domain->starts,     &domain->loads,   &domain->shore.columns, &domain->fresh.columns,
+        &domain->sources,     &domain->spare,      &domain->orders,  &domain->last_orders,   &domain->places};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
     phys_neighbours_free(&domain->survey);
@@ -157,23 +154,23 @@ bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
 }
 
 // Has an own particle left its skin, or grown? For forces that have no lists, which would tell.
-static bool stirred(const Domain *domain) {
+static bool stirred(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
-    const uint32_t *own = domain->own.bytes;
     const double *built = domain->built.bytes;
-    size_t n = columns->dimensions, count = domain->own_count;
     double most = phys_skin_square(domain->survey.skin);
     bool still = domain->noted;
-    for (size_t i = 0; i < count && still; i++) {
-        uint32_t at = phys_local_column(domain, own[i]);
+    for (uint32_t c = 0; c < system->particle_count && still; c++) {
+        if (phys_owners(domain)[c] != (uint32_t)system->options.ranks.rank)
+            continue;
+        uint32_t at = phys_local_column(domain, c);
         double square = 0;
         bool finite = true;
-        for (size_t k = 0; k < n; k++) {
-            double x = columns->position[k * columns->stride + at], d = x - built[k * count + i];
-            finite &= isfinite(x) || !isfinite(built[k * count + i]);
+        for (size_t k = 0; k < columns->dimensions; k++, built++) {
+            double x = columns->position[k * columns->stride + at], d = x - *built;
+            finite &= isfinite(x) || !isfinite(*built);
             square += d * d;
         }
-        still = finite && !(square > most) && !(columns->radius[at] > built[n * count + i]);
+        still = finite && !(square > most) && !(columns->radius[at] > *built++);
     }
     return !still;
 }
@@ -193,7 +190,7 @@ static bool prepare(PhysSystem *system, Domain *domain) {
     if (!phys_domain_exchange(system, domain))
         return false;
     PhysSystem *local = domain->local;
-    double news[2] = {!phys_lists_hold(local, domain->age) || (local->unlisted && stirred(domain)), 0};
+    double news[2] = {!phys_lists_hold(local, domain->age) || (local->unlisted && stirred(system, domain)), 0};
     for (int i = 0; i < PHYS_MOST_LISTS; i++)
         news[1] += local->lists[i].built ? (double)local->lists[i].padded : 0;
     ranks->most(ranks->host, news, 2);
@@ -223,8 +220,9 @@ bool phys_domain_step(PhysSystem *system, double clock, double delta, double spe
     domain->seconds += seconds() - start;
     domain->age++;
     domain->steps++;
-    system->traffic.own += domain->own_count;
-    system->traffic.halo += domain->local->particle_count - domain->own_count;
+    uint32_t own = phys_own_count(system, domain);
+    system->traffic.own += own;
+    system->traffic.halo += domain->local->particle_count - own;
     domain->local->stepped = true;
     if (domain->local->failed)
         system->failed = true;

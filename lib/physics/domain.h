@@ -47,25 +47,18 @@ typedef struct Domain {
     uint32_t large_count;
     // who owns what
     Grid plots;
-    Buffer plot_owners; // uint32_t
-    Buffer inland;      // uint32_t by plot: what is there, nobody else needs; 0 if somebody may
-    Buffer owners;      // uint32_t by column
-    Buffer counts;      // uint32_t by rank: particles that it owns
-    Buffer local_numbers;
-    uint32_t *local_of; // by column: the local number of own particles and of the halo, else UINT32_MAX
-    Buffer columns, last_columns;
-    uint32_t *column;           // by local number
-    Buffer orders, last_orders; // the local system's `order` and `place`: its columns may be in that of a list
-    Buffer renumbered;          // uint32_t by local number before: that of now
-    bool may_settle;            // the same on all ranks
-    Buffer own;                 // uint32_t: local numbers of own particles, ascending
-    uint32_t own_count;
-    Buffer foreign;   // bool by the local system's column: of the halo
-    Buffer built;     // own particles when the halo was made: n columns of positions, one of radii
-    bool noted;       // … if that was wanted
+    Buffer plot_owners;                 // uint32_t
+    Buffer inland;                      // uint32_t by plot: what is there, nobody else needs; 0 if somebody may
+    Buffer owners;                      // uint32_t by column
+    Buffer counts;                      // uint32_t by rank: particles that it owns
+    Buffer orders, last_orders, places; // the local system's `order`, that before, its `place`: handles are columns
+    bool may_settle;                    // the same on all ranks
+    Buffer foreign;                     // bool by the local system's column: of the halo, or of another rank by now
+    Buffer built;                       // own particles when the halo was made, by column: position and radius
+    bool noted;                         // … if that was wanted
     Buffer movers;    // uint32_t by column: particles of its group before it that move; if a force is random
-    Buffer draws;     // the same by local number
-    Parcels to, from; // the halo, by local number
+    Buffer draws;     // the same by the local system's column
+    Parcels to, from; // the halo
     // while a halo is made: what others get is in the system's columns meanwhile, and what comes from others
     ColumnList shore; // own particles that others may need
     ColumnList fresh; // those that have come, to be owned or of the halo
@@ -77,7 +70,6 @@ typedef struct Domain {
     Buffer numbers; // of messages
     Buffer whole;   // all particles, by rank
     Buffer starts;  // size_t
-    Buffer nexts;   // size_t
     // when
     uint32_t age; // steps that the halo has served
     uint64_t padded;
@@ -130,9 +122,13 @@ void phys_domain_give_back_items(PhysSystem *system, const PhysSystem *local);
 // Brings its particles up to date that were given new numbers. Rows must be whole.
 void phys_domain_reload(const PhysSystem *system, Domain *domain);
 
-// Where the local system has the particle with a local number.
-static inline uint32_t phys_local_column(const Domain *domain, uint32_t number) {
-    return domain->local->place[number];
+// Where the local system has the particle of a column.
+static inline uint32_t phys_local_column(const Domain *domain, uint32_t column) {
+    return domain->local->place[column];
+}
+
+static inline uint32_t phys_own_count(const PhysSystem *system, const Domain *domain) {
+    return ((const uint32_t *)domain->counts.bytes)[system->options.ranks.rank];
 }
 
 static inline uint32_t *phys_owners(const Domain *domain) {

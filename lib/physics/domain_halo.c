@@ -88,32 +88,19 @@ static double *reserve_numbers(PhysSystem *system, Domain *domain, uint64_t coun
     return phys_buffer_reserve(system, &domain->numbers, 0, count, sizeof(double)) ? domain->numbers.bytes : NULL;
 }
 
-// One component after the other.
-static void pack(const double *vectors, size_t n, size_t stride, const uint32_t *columns, size_t count, double *to) {
-    for (size_t k = 0; k < n; k++)
+// One component after the other, of the particles of some columns; `place`: where each is, unless there.
+static void pack(const double *vectors, const Columns *at, const uint32_t *place, const uint32_t *columns, size_t count,
+                 double *to) {
+    for (size_t k = 0; k < at->dimensions; k++)
         for (size_t i = 0; i < count; i++)
-            *to++ = vectors[k * stride + columns[i]];
+            *to++ = vectors[k * at->stride + (place ? place[columns[i]] : columns[i])];
 }
 
-static void pack_places(const Domain *domain, const uint32_t *locals, size_t count, double *to) {
-    const Columns *columns = &domain->local->columns;
-    for (size_t k = 0; k < columns->dimensions; k++)
-        for (size_t i = 0; i < count; i++)
-            *to++ = columns->position[k * columns->stride + phys_local_column(domain, locals[i])];
-}
-
-static void unpack_places(const Domain *domain, const uint32_t *locals, size_t count, const double *from) {
-    const Columns *columns = &domain->local->columns;
-    for (size_t k = 0; k < columns->dimensions; k++)
-        for (size_t i = 0; i < count; i++)
-            columns->position[k * columns->stride + phys_local_column(domain, locals[i])] = *from++;
-}
-
-static void unpack(double *vectors, size_t n, size_t stride, const uint32_t *columns, size_t count,
+static void unpack(double *vectors, const Columns *at, const uint32_t *place, const uint32_t *columns, size_t count,
                    const double *from) {
-    for (size_t k = 0; k < n; k++)
+    for (size_t k = 0; k < at->dimensions; k++)
         for (size_t i = 0; i < count; i++)
-            vectors[k * stride + columns[i]] = *from++;
+            vectors[k * at->stride + (place ? place[columns[i]] : columns[i])] = *from++;
 }
 
 static void pack_numbers(const uint32_t *columns, size_t count, double *to) {
@@ -139,8 +126,8 @@ static bool send_movers(PhysSystem *system, Domain *domain, const Parcels *to) {
         if (r == (uint32_t)system->options.ranks.rank)
             continue;
         pack_numbers(phys_parcel(to, 0), all, numbers);
-        pack(columns->position, n, columns->stride, phys_parcel(to, r), count, numbers + all);
-        pack(columns->velocity, n, columns->stride, phys_parcel(to, r), count, numbers + all + n * count);
+        pack(columns->position, columns, NULL, phys_parcel(to, r), count, numbers + all);
+        pack(columns->velocity, columns, NULL, phys_parcel(to, r), count, numbers + all + n * count);
         send(system, domain, r, all + 2 * n * count);
     }
     return numbers != NULL;
@@ -170,8 +157,8 @@ static bool receive_movers(PhysSystem *system, Domain *domain, const double *tab
             if (!phys_list_column(system, &domain->fresh, column) || !phys_list_column(system, &domain->shore, column))
                 return false;
         }
-    unpack(columns->position, n, columns->stride, movers->items.bytes, mine, numbers + all);
-    unpack(columns->velocity, n, columns->stride, movers->items.bytes, mine, numbers + all + n * mine);
+    unpack(columns->position, columns, NULL, movers->items.bytes, mine, numbers + all);
+    unpack(columns->velocity, columns, NULL, movers->items.bytes, mine, numbers + all + n * mine);
     return true;
 }
 
@@ -193,8 +180,44 @@ static void give_ends_back(const PhysSystem *system, const Domain *domain) {
         uint32_t ends[2] = {forces[f].given.from, forces[f].given.to};
         for (int i = 0; i < 2; i++)
             if (phys_owners(domain)[ends[i]] == (uint32_t)system->options.ranks.rank)
-                give_back(system, domain, phys_local_column(domain, domain->local_of[ends[i]]), ends[i]);
+                give_back(system, domain, phys_local_column(domain, ends[i]), ends[i]);
     }
+}
+
+enum { CHUNK = 64, SIDE_BY_SIDE = 8, MOST_PLOTS = 32 };
+
+// Whether all particles of a whole chunk are inland, as most are; by the box that they are in, which is small where
+// columns are in the order of a list. False, too, where that is not easily found out.
+static bool chunk_inland(const Columns *columns, const Grid *plots, const uint32_t *inland, size_t first) {
+    uint32_t low[PHYS_VECTOR_DIMENSIONS] = {0}, high[PHYS_VECTOR_DIMENSIONS] = {0}, count = 1;
+    for (size_t k = 0; k < plots->dimensions; k++) {
+        const double *x = columns->position + k * columns->stride + first;
+        double least[SIDE_BY_SIDE], most[SIDE_BY_SIDE], finite[SIDE_BY_SIDE] = {0};
+        memcpy(least, x, sizeof least);
+        memcpy(most, x, sizeof most);
+        for (size_t i = 0; i < CHUNK; i += SIDE_BY_SIDE)
+            for (size_t l = 0; l < SIDE_BY_SIDE; l++) {
+                least[l] = x[i + l] < least[l] ? x[i + l] : least[l];
+                most[l] = x[i + l] > most[l] ? x[i + l] : most[l];
+                finite[l] += x[i + l] * 0;
+            }
+        for (size_t l = 1; l < SIDE_BY_SIDE; l++) {
+            least[0] = least[l] < least[0] ? least[l] : least[0];
+            most[0] = most[l] > most[0] ? most[l] : most[0];
+            finite[0] += finite[l];
+        }
+        low[k] = phys_axis_cell(plots, k, least[0]);
+        high[k] = phys_axis_cell(plots, k, most[0]);
+        count *= high[k] - low[k] < MOST_PLOTS ? high[k] - low[k] + 1 : MOST_PLOTS + 1;
+        if (!(finite[0] == 0) || count > MOST_PLOTS)
+            return false;
+    }
+    bool all = true;
+    for (uint32_t z = low[2]; z <= high[2]; z++)
+        for (uint32_t y = low[1]; y <= high[1]; y++)
+            for (uint32_t x = low[0]; x <= high[0]; x++)
+                all &= inland[(z * plots->cells[1] + y) * plots->cells[0] + x] > 0;
+    return all;
 }
 
 // Own particles that are not inland: they move, or are on the shore.
@@ -205,10 +228,14 @@ static bool look_along_shore(PhysSystem *system, Domain *domain) {
     const uint32_t *inland = domain->inland.bytes, *owners = domain->plot_owners.bytes;
     uint32_t self = (uint32_t)system->options.ranks.rank;
     for (uint32_t i = 0; i < columns->count; i++) {
+        while (i % CHUNK == 0 && i + CHUNK <= columns->count && chunk_inland(columns, &plots, inland, i))
+            i += CHUNK;
+        if (i == columns->count)
+            break;
         uint32_t plot = phys_cell_of(&plots, columns->position + i, columns->stride);
         if (inland[plot] || foreign[i])
             continue;
-        uint32_t column = domain->column[domain->local->order[i]];
+        uint32_t column = domain->local->order[i];
         give_back(system, domain, i, column);
         if (owners[plot] == self ? !phys_list_column(system, &domain->shore, column)
                                  : !phys_add_parcel(system, domain, owners[plot], column))
@@ -227,8 +254,11 @@ bool phys_domain_move(PhysSystem *system, Domain *domain) {
         !send_movers(system, domain, &domain->to))
         return false;
     for (uint32_t r = 0; r < ranks; r++)
-        for (size_t i = 0; i < phys_parcel_count(&domain->to, r); i++)
-            pass_on(domain, self, r, phys_parcel(&domain->to, r)[i]);
+        for (size_t i = 0; i < phys_parcel_count(&domain->to, r); i++) {
+            uint32_t column = phys_parcel(&domain->to, r)[i];
+            pass_on(domain, self, r, column);
+            domain->local->foreign[phys_local_column(domain, column)] = true;
+        }
     bool done = true;
     for (uint32_t r = 0; r < ranks && done; r++)
         done = r == self || receive_movers(system, domain, table, r, &domain->from);
@@ -246,7 +276,7 @@ static bool send_halo(PhysSystem *system, Domain *domain) {
         if (!numbers)
             return false;
         pack_numbers(phys_parcel(&domain->to, r), count, numbers);
-        pack(columns->position, n, columns->stride, phys_parcel(&domain->to, r), count, numbers + count);
+        pack(columns->position, columns, NULL, phys_parcel(&domain->to, r), count, numbers + count);
         send(system, domain, r, (1 + n) * count);
     }
     return true;
@@ -277,7 +307,7 @@ static bool receive_halo(PhysSystem *system, Domain *domain, const double *table
             if (!phys_list_column(system, &domain->fresh, items[i]))
                 return false;
         }
-        unpack(columns->position, n, columns->stride, items, count, numbers + count);
+        unpack(columns->position, columns, NULL, items, count, numbers + count);
     }
     return true;
 }
@@ -290,6 +320,7 @@ bool phys_domain_find_halo(PhysSystem *system, Domain *domain) {
 }
 
 bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
+    const Columns *columns = &domain->local->columns;
     size_t n = system->dimensions, ranks = (size_t)system->options.ranks.count;
     for (uint32_t r = 0; r < ranks; r++) {
         size_t count = phys_parcel_count(&domain->to, r);
@@ -298,7 +329,7 @@ bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
             continue;
         if (!numbers)
             return false;
-        pack_places(domain, phys_parcel(&domain->to, r), count, numbers);
+        pack(columns->position, columns, domain->local->place, phys_parcel(&domain->to, r), count, numbers);
         send(system, domain, r, n * count);
     }
     for (uint32_t r = 0; r < ranks; r++) {
@@ -309,7 +340,7 @@ bool phys_domain_exchange(PhysSystem *system, Domain *domain) {
         if (!numbers)
             return false;
         receive(system, domain, r, n * count);
-        unpack_places(domain, phys_parcel(&domain->from, r), count, numbers);
+        unpack(columns->position, columns, domain->local->place, phys_parcel(&domain->from, r), count, numbers);
     }
     return true;
 }

@@ -1,120 +1,67 @@
 // domain_local.c: the system that one process simulates: its own particles and its halo.
 //
-// Local numbers count them in the order of all. The columns are in that order, too, or else in that of a list
-// (settle.c): then own particles keep it when a new halo comes, and fresh ones are put behind them.
+// Its handles are the columns of the whole system, so they are in the order of all, with gaps. Its columns are in that
+// order, too, or else in that of a list (settle.c): then own particles stay where they are when a new halo comes, and
+// fresh ones take the places of those that have gone.
 #include "physics/domain.h"
 #include "physics/threads.h"
 
 #include <stdlib.h>
 #include <string.h>
 
+enum { LINE = 8 }; // particles, by which the room for columns is rounded up
+
 static int by_number(const void *left, const void *right) {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return (a > b) - (a < b);
 }
 
-static void put(Domain *domain, uint32_t column, uint32_t source, bool own) {
-    uint32_t number = domain->local->particle_count++;
-    domain->column[number] = column;
-    domain->local_of[column] = number;
-    ((uint32_t *)domain->sources.bytes)[number] = source;
-    if (own)
-        ((uint32_t *)domain->own.bytes)[domain->own_count++] = number;
+static void put(const Domain *domain, uint32_t here, uint32_t column, uint32_t source) {
+    domain->local->order[here] = column;
+    domain->local->place[column] = here;
+    ((uint32_t *)domain->sources.bytes)[here] = source;
 }
 
-// Without a local system before: all own particles, whose numbers are in the system's columns.
-static bool list_own(PhysSystem *system, Domain *domain) {
-    uint32_t self = (uint32_t)system->options.ranks.rank, next = 0;
-    const uint32_t *owners = phys_owners(domain);
-    if (!phys_buffer_reserve(system, &domain->local_numbers, 0, system->particle_count, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->columns, 0, ((uint32_t *)domain->counts.bytes)[self], sizeof(uint32_t)))
-        return false;
-    domain->local_of = domain->local_numbers.bytes;
-    domain->column = domain->columns.bytes;
-    for (uint32_t i = 0; i < system->particle_count; i++)
-        if (owners[i] == self)
-            domain->column[next++] = i;
-        else
-            domain->local_of[i] = UINT32_MAX;
-    domain->local->particle_count = next;
-    return true;
-}
-
-// Numbers whom the rank knows from now on in the order of the system's columns: own particles that stay, and fresh
-// ones.
-static bool number_columns(PhysSystem *system, Domain *domain) {
-    uint32_t self = (uint32_t)system->options.ranks.rank, fresh = domain->fresh.count, next = 0;
-    if (!domain->made && !list_own(system, domain))
-        return false;
-    Buffer columns = domain->columns;
-    domain->columns = domain->last_columns;
-    domain->last_columns = columns;
-    uint32_t last = domain->local->particle_count;
-    const uint32_t *last_column = columns.bytes, *owners = phys_owners(domain);
-    const bool *foreign = domain->made ? domain->foreign.bytes : NULL;
-    uint32_t *come = domain->fresh.columns.bytes;
-    if (!phys_buffer_reserve(system, &domain->columns, 0, (uint64_t)last + fresh, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->sources, 0, (uint64_t)last + fresh, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->renumbered, 0, last, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->own, 0, ((const uint32_t *)domain->counts.bytes)[self], sizeof(uint32_t)))
-        return false;
-    uint32_t *renumbered = domain->renumbered.bytes;
-    domain->column = domain->columns.bytes;
-    domain->local->particle_count = domain->own_count = 0;
-    if (fresh)
-        qsort(come, fresh, sizeof *come, by_number);
-    for (uint32_t i = 0; i < last; i++) {
-        uint32_t column = last_column[i];
-        domain->local_of[column] = renumbered[i] = UINT32_MAX;
-        if (owners[column] != self || (foreign && foreign[phys_local_column(domain, i)]))
-            continue;
-        for (; next < fresh && come[next] < column; next++)
-            put(domain, come[next], 0, owners[come[next]] == self);
-        renumbered[i] = domain->local->particle_count;
-        put(domain, column, foreign ? i : column, true);
-    }
-    for (; next < fresh; next++)
-        put(domain, come[next], 0, owners[come[next]] == self);
-    return true;
-}
-
-// Which column each gets.
-static bool order_columns(PhysSystem *system, Domain *domain) {
-    PhysSystem *local = domain->local;
+// Room for columns in order, and for more than there are now.
+static bool reserve(PhysSystem *system, Domain *domain, uint64_t count) {
     Buffer orders = domain->last_orders;
     domain->last_orders = domain->orders;
     domain->orders = orders;
-    // One at least: there is no place in nothing.
-    if (!phys_buffer_reserve(system, &domain->orders, 0, 2 * (uint64_t)local->particle_count + 1, sizeof(uint32_t)))
+    if (!phys_buffer_reserve(system, &domain->orders, 0, count, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->sources, 0, count, sizeof(uint32_t)) ||
+        !phys_buffer_reserve(system, &domain->places, 0, system->particle_count, sizeof(uint32_t)))
         return false;
-    const uint32_t *last_order = local->order, *renumbered = domain->renumbered.bytes;
-    uint32_t *sources = domain->sources.bytes, last = local->columns.count, next = 0;
-    local->order = domain->orders.bytes;
-    local->place = local->order + local->particle_count;
-    if (!domain->made)
-        phys_forget_order(local);
-    if (!local->settled)
-        for (; next < local->particle_count; next++)
-            local->order[next] = local->place[next] = next;
-    for (uint32_t i = 0; local->settled && i < last; i++)
-        if (renumbered[last_order[i]] != UINT32_MAX) {
-            local->order[next] = renumbered[last_order[i]];
-            sources[next++] = i;
-        }
-    const uint32_t *fresh = domain->fresh.columns.bytes;
-    for (uint32_t f = 0; next < local->particle_count; f++) {
-        local->order[next] = domain->local_of[fresh[f]];
-        sources[next++] = 0;
-    }
-    for (uint32_t i = 0; i < next; i++)
-        local->place[local->order[i]] = i;
+    domain->local->order = domain->orders.bytes;
+    domain->local->place = domain->places.bytes;
+    domain->local->places = system->particle_count;
     return true;
 }
 
-static void localize(const Domain *domain, const Parcels *parcels, uint32_t count) {
-    uint32_t *items = parcels->items.bytes;
-    for (uint32_t i = 0; i < count; i++)
-        items[i] = domain->local_of[items[i]];
+// Orders all columns anew. Without a local system before, own particles come from the system's columns.
+static bool order_columns(PhysSystem *system, Domain *domain, uint32_t spare) {
+    PhysSystem *local = domain->local;
+    uint32_t self = (uint32_t)system->options.ranks.rank, fresh = domain->fresh.count, next = 0, here = 0;
+    const uint32_t *last_order = local->order, *owners = phys_owners(domain), *come = domain->fresh.columns.bytes;
+    const bool *foreign = local->foreign;
+    uint64_t last = domain->made ? local->particle_count : phys_own_count(system, domain);
+    if (!reserve(system, domain, last + fresh + spare + LINE))
+        return false;
+    if (!domain->made) {
+        memset(local->place, 0xff, system->particle_count * sizeof *local->place); // NO_PLACE
+        phys_forget_order(local);
+    }
+    for (uint32_t i = 0, end = domain->made ? local->particle_count : system->particle_count; i < end; i++) {
+        uint32_t column = domain->made ? last_order[i] : i;
+        if (domain->made ? foreign[i] : owners[i] != self)
+            continue;
+        for (; !local->settled && next < fresh && come[next] < column; next++)
+            put(domain, here++, come[next], 0);
+        put(domain, here++, column, i);
+    }
+    for (; next < fresh; next++)
+        put(domain, here++, come[next], 0);
+    local->particle_count = here;
+    return true;
 }
 
 static bool take_groups(const PhysSystem *system, const Domain *domain) {
@@ -129,7 +76,7 @@ static bool take_groups(const PhysSystem *system, const Domain *domain) {
         uint32_t end = groups[g].first + groups[g].count;
         own[g] = groups[g];
         own[g].first = next;
-        while (next < local->particle_count && domain->column[next] < end)
+        while (next < local->particle_count && local->order[next] < end)
             next++;
         own[g].count = next - own[g].first;
     }
@@ -170,7 +117,7 @@ static bool take_draws(PhysSystem *system, Domain *domain) {
         return false;
     uint32_t *draws = domain->draws.bytes;
     for (uint32_t i = 0; i < own->count; i++)
-        draws[i] = ((const uint32_t *)domain->movers.bytes)[domain->column[i]];
+        draws[i] = ((const uint32_t *)domain->movers.bytes)[domain->local->order[i]];
     Group *groups = domain->local->groups.bytes;
     for (uint32_t g = 0; g < system->group_count; g++)
         groups[g].movers = ((const Group *)system->groups.bytes)[g].movers;
@@ -215,10 +162,8 @@ static void take_attributes(const Taking *taking, size_t first, size_t end) {
         take(sources, first, end, from->own_force + k * from->stride, to->own_force + k * to->stride);
 }
 
-static void take_share(void *context, int share, int shares) {
-    const Taking *taking = context;
+static void take_range(const Taking *taking, size_t first, size_t end) {
     const Columns *from = &taking->from, *to = &taking->domain->local->columns;
-    size_t first = phys_share(to->count, share, shares), end = phys_share(to->count, share + 1, shares);
     if (first == end)
         return; // a rank without particles has no columns
     for (size_t k = 0; k < to->dimensions; k++) {
@@ -230,6 +175,12 @@ static void take_share(void *context, int share, int shares) {
     take_attributes(taking, first, end);
 }
 
+static void take_share(void *context, int share, int shares) {
+    const Taking *taking = context;
+    uint32_t count = taking->domain->local->columns.count;
+    take_range(taking, phys_share(count, share, shares), phys_share(count, share + 1, shares));
+}
+
 // Attributes are in the system's columns, the rest is in the rows.
 static void reload_share(void *context, int share, int shares) {
     const Taking *taking = context;
@@ -237,8 +188,6 @@ static void reload_share(void *context, int share, int shares) {
     const Columns *to = &taking->domain->local->columns;
     size_t n = to->dimensions, first = phys_share(to->count, share, shares);
     size_t end = phys_share(to->count, share + 1, shares);
-    if (first == end)
-        return;
     for (size_t i = first; i < end; i++) {
         const double *row = phys_row(system, system->order[taking->sources[i]]);
         for (size_t k = 0; k < n; k++) {
@@ -246,7 +195,8 @@ static void reload_share(void *context, int share, int shares) {
             to->velocity[k * to->stride + i] = row[n + k];
         }
     }
-    take_attributes(taking, first, end);
+    if (first < end)
+        take_attributes(taking, first, end);
 }
 
 static int shares_for(const PhysSystem *local) {
@@ -254,102 +204,125 @@ static int shares_for(const PhysSystem *local) {
 }
 
 void phys_domain_reload(const PhysSystem *system, Domain *domain) {
-    uint32_t *sources = domain->sources.bytes;
-    for (uint32_t i = 0; i < domain->local->particle_count; i++)
-        sources[i] = domain->column[domain->local->order[i]];
-    Taking taking = {system, domain, system->columns, sources};
+    Taking taking = {system, domain, system->columns, domain->local->order};
     domain->local->radii++;
+    domain->local->motion++;
     phys_parallel(domain->local, shares_for(domain->local), reload_share, &taking);
 }
 
 static void take_fresh(const PhysSystem *system, const Domain *domain) {
-    const Columns *from = &system->columns, *to = &domain->local->columns;
-    const uint32_t *fresh = domain->fresh.columns.bytes;
+    const Columns *to = &domain->local->columns;
+    const uint32_t *fresh = domain->fresh.columns.bytes, *owners = phys_owners(domain);
     uint32_t *sources = domain->sources.bytes;
-    Taking taking = {system, domain, *from, sources};
+    Taking taking = {system, domain, system->columns, sources};
     for (uint32_t f = 0; f < domain->fresh.count; f++) {
-        size_t here = phys_local_column(domain, domain->local_of[fresh[f]]);
+        uint32_t here = phys_local_column(domain, fresh[f]);
         sources[here] = fresh[f];
-        for (size_t k = 0; k < to->dimensions; k++) {
-            to->position[k * to->stride + here] = from->position[k * from->stride + fresh[f]];
-            to->velocity[k * to->stride + here] = from->velocity[k * from->stride + fresh[f]];
-        }
-        take_attributes(&taking, here, here + 1);
+        take_range(&taking, here, here + 1);
+        for (size_t k = 0; k < to->dimensions; k++)
+            to->force[k * to->stride + here] = 0;
+        domain->local->foreign[here] = owners[fresh[f]] != (uint32_t)system->options.ranks.rank;
+        to->anchor[here] |= domain->local->foreign[here];
     }
 }
 
-// The numbers of all into new columns.
-static bool take_numbers(const PhysSystem *system, Domain *domain) {
+// The numbers of all into new columns, with some room behind them.
+static bool take_all(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    Taking taking = {system, domain, domain->made ? local->columns : system->columns, domain->sources.bytes};
+    uint32_t spare = phys_own_count(system, domain) / 32 + 256;
+    const Columns last = local->columns;
+    if (!order_columns(system, domain, spare))
+        return false;
+    Taking taking = {system, domain, domain->made ? last : system->columns, domain->sources.bytes};
     Buffer memory = domain->spare;
     domain->spare = local->column_data;
     local->column_data = memory;
     local->dimensions = system->dimensions;
     local->has_own_forces = system->has_own_forces;
     local->has_eased_forces = system->has_eased_forces;
-    if (!phys_reserve_columns(local))
-        return false;
-    local->radii++;
-    if (taking.from.count)
-        phys_parallel(local, shares_for(local), take_share, &taking);
-    take_fresh(system, domain);
-    return true;
-}
-
-static void mark_fresh(const PhysSystem *system, const Domain *domain, bool *foreign) {
-    const uint32_t *fresh = domain->fresh.columns.bytes, *owners = phys_owners(domain);
-    for (uint32_t f = 0; f < domain->fresh.count; f++) {
-        uint32_t at = phys_local_column(domain, domain->local_of[fresh[f]]);
-        foreign[at] = owners[fresh[f]] != (uint32_t)system->options.ranks.rank;
-        domain->local->columns.anchor[at] = foreign[at] || system->columns.anchor[fresh[f]];
-    }
-}
-
-static bool take_particles(PhysSystem *system, Domain *domain) {
-    PhysSystem *local = domain->local;
-    if (!take_numbers(system, domain) ||
-        !phys_buffer_reserve(system, &domain->foreign, 0, local->particle_count, sizeof(bool)))
+    if (!phys_buffer_reserve(system, &domain->foreign, 0, (uint64_t)local->particle_count + spare + LINE,
+                             sizeof(bool)) ||
+        !phys_reserve_columns(local, spare))
         return false;
     local->foreign = domain->foreign.bytes;
-    if (local->particle_count)
-        memset(local->foreign, false, local->particle_count);
-    mark_fresh(system, domain, local->foreign);
+    memset(local->foreign, false, local->columns.stride);
+    if (taking.from.count)
+        phys_parallel(local, shares_for(local), take_share, &taking);
     return true;
 }
 
-static void take_placed(const Domain *domain, const double *from, double *to) {
-    const uint32_t *own = domain->own.bytes;
-    for (uint32_t i = 0; i < domain->own_count; i++)
-        to[i] = from[phys_local_column(domain, own[i])];
+// Those that have gone leave their columns to fresh ones, or to the last.
+static void fill_gaps(const PhysSystem *system, const Domain *domain) {
+    PhysSystem *local = domain->local;
+    const uint32_t *come = domain->fresh.columns.bytes;
+    uint32_t count = local->particle_count, next = 0;
+    Taking taking = {system, domain, local->columns, domain->sources.bytes};
+    for (uint32_t i = phys_next_foreign(local, 0); i < count; i = phys_next_foreign(local, i + 1)) {
+        if (next < domain->fresh.count) {
+            put(domain, i, come[next], 0);
+            next++;
+            continue;
+        }
+        while (--count > i && local->foreign[count])
+            ;
+        if (count == i)
+            break;
+        put(domain, i, local->order[count], count);
+        take_range(&taking, i, (size_t)i + 1);
+        local->foreign[i] = false;
+    }
+    for (; next < domain->fresh.count; next++)
+        put(domain, count++, come[next], 0);
+    local->particle_count = local->columns.count = count;
+}
+
+// The particles whom the rank knows from now on.
+static bool take_particles(PhysSystem *system, Domain *domain) {
+    PhysSystem *local = domain->local;
+    uint32_t fresh = domain->fresh.count;
+    if (fresh)
+        qsort(domain->fresh.columns.bytes, fresh, sizeof(uint32_t), by_number);
+    uint32_t i = domain->made ? phys_next_foreign(local, 0) : local->particle_count;
+    for (; i < local->particle_count; i = phys_next_foreign(local, i + 1))
+        local->place[local->order[i]] = NO_PLACE;
+    if (domain->made && local->settled && (uint64_t)local->particle_count + fresh <= local->columns.stride)
+        fill_gaps(system, domain);
+    else if (!take_all(system, domain))
+        return false;
+    local->radii++;
+    take_fresh(system, domain);
+    return true;
 }
 
 // Where own particles were when the halo was made, and how large, if some pass had no list so far.
 static bool note_places(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
+    size_t n = columns->dimensions;
     domain->noted = domain->local->unlisted;
     if (!domain->noted)
         return true;
-    if (!phys_buffer_reserve(system, &domain->built, 0, (columns->dimensions + 1) * (uint64_t)domain->own_count,
+    if (!phys_buffer_reserve(system, &domain->built, 0, (n + 1) * (uint64_t)phys_own_count(system, domain),
                              sizeof(double)))
         return false;
     double *built = domain->built.bytes;
-    for (size_t k = 0; k < columns->dimensions && domain->own_count; k++, built += domain->own_count)
-        take_placed(domain, columns->position + k * columns->stride, built);
-    take_placed(domain, columns->radius, built);
+    for (uint32_t c = 0; c < system->particle_count; c++) {
+        if (phys_owners(domain)[c] != (uint32_t)system->options.ranks.rank)
+            continue;
+        size_t at = phys_local_column(domain, c);
+        for (size_t k = 0; k < n; k++)
+            *built++ = columns->position[k * columns->stride + at];
+        *built++ = columns->radius[at];
+    }
     return true;
 }
 
 bool phys_domain_gather(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    if (!number_columns(system, domain) || !order_columns(system, domain) || !take_groups(system, domain) ||
-        !take_particles(system, domain) || !phys_domain_take_forces(system, domain) || !note_places(system, domain)) {
+    if (!take_particles(system, domain) || !take_groups(system, domain) || !phys_domain_take_forces(system, domain) ||
+        !note_places(system, domain)) {
         system->failed = true;
         return false;
     }
-    uint32_t ranks = (uint32_t)system->options.ranks.count;
-    localize(domain, &domain->to, domain->to.start[ranks]);
-    localize(domain, &domain->from, domain->from.start[ranks]);
     phys_lists_drop(local, domain->survey.skin);
     local->unlisted = false;
     domain->age = 0;
@@ -362,8 +335,8 @@ static bool take_force(const PhysSystem *system, const Domain *domain, Force *fo
         return true;
     uint32_t self = (uint32_t)system->options.ranks.rank, from = force->given.from, to = force->given.to;
     const uint32_t *owners = phys_owners(domain);
-    force->given.from = domain->local_of[from];
-    force->given.to = domain->local_of[to];
+    force->given.from = phys_local_column(domain, from);
+    force->given.to = phys_local_column(domain, to);
     return (owners[from] == self || owners[to] == self) && from != to;
 }
 

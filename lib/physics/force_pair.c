@@ -138,7 +138,7 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     uint32_t number = (uint32_t)(group - groups);
     Pass pass = prepare_pass(system, phys_forces(system, level, STAGE_PAIR));
     pass.move = move;
-    if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level))
+    if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level, move))
         return;
     if (system->settled)
         phys_unsettle(system);

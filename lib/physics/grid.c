@@ -9,6 +9,7 @@
 #include "physics/threads.h"
 
 #include <float.h>
+#include <string.h>
 
 enum { SAMPLES = 256 }; // particles by which the grid is chosen
 
@@ -53,17 +54,18 @@ static bool idle(const PairPass *pass, const Neighbours *list, size_t column) {
 
 // Looks at some of the particles, so that outliers cannot spoil the grid.
 static void take_samples(const PairPass *pass, const Neighbours *list, Samples *samples) {
-    uint64_t every = list->total / SAMPLES + 1, number = 0;
+    uint64_t every = list->total / SAMPLES + 1, i = 0;
     samples->count = 0;
     for (uint32_t r = 0; r < list->ranges.count; r++) {
         const ColumnRange *range = &list->ranges.at[r];
-        for (uint32_t i = 0; i < range->count; i++, number++) {
-            if (number % every || idle(pass, list, range->first + i))
+        for (; i < range->count; i += every) {
+            if (idle(pass, list, range->first + i))
                 continue;
             for (size_t k = 0; k < pass->dimensions; k++)
                 samples->of[k][samples->count] = pass->position[k * pass->stride + range->first + i];
             samples->of[PHYS_VECTOR_DIMENSIONS][samples->count++] = pass->radius[range->first + i];
         }
+        i -= range->count;
     }
     for (size_t k = 0; k <= PHYS_VECTOR_DIMENSIONS; k++)
         sort_doubles(samples->of[k], k < pass->dimensions || k == PHYS_VECTOR_DIMENSIONS ? samples->count : 0);
@@ -114,13 +116,55 @@ static void survey_one(const PairPass *pass, Survey *survey, size_t column) {
     }
 }
 
+// The least and the largest of some numbers; false if one of them is not finite.
+static bool extremes(const double *numbers, size_t count, double *low, double *high) {
+    enum { WIDE = 8 }; // that a compiler takes at once
+    double least[WIDE], most[WIDE], rest[WIDE], lost = 0;
+    for (size_t m = 0; m < WIDE; m++) {
+        least[m] = INFINITY;
+        most[m] = -INFINITY;
+        rest[m] = 0;
+    }
+    for (size_t i = 0; i < count; i += WIDE) {
+        size_t from = i + WIDE <= count ? i : count < WIDE ? 0 : count - WIDE, wide = count < WIDE ? count : WIDE;
+        for (size_t m = 0; m < wide; m++) {
+            double x = numbers[from + m];
+            least[m] = x < least[m] ? x : least[m];
+            most[m] = x > most[m] ? x : most[m];
+            rest[m] += x - x;
+        }
+    }
+    for (size_t m = 0; m < WIDE; m++) {
+        *low = fmin(*low, least[m]);
+        *high = fmax(*high, most[m]);
+        lost += rest[m];
+    }
+    return lost == 0;
+}
+
+// A share in which all particles are regular, as most are; else false.
+static bool survey_regular(const Sorting *sorting, size_t first, size_t count, Survey *survey) {
+    const PairPass *pass = sorting->pass;
+    bool regular = extremes(pass->radius + first, count, &survey->narrowest, &survey->widest);
+    for (size_t k = 0; k < pass->dimensions && regular; k++)
+        regular = extremes(pass->position + k * pass->stride + first, count, &survey->low[k], &survey->high[k]);
+    survey->regular = (uint32_t)count;
+    return regular && survey->narrowest > 0 && survey->widest <= sorting->large;
+}
+
 static void survey_share(void *context, int share, int shares) {
     const Sorting *sorting = context;
     const PairPass *pass = sorting->pass;
     Neighbours *list = sorting->list;
     Survey survey = no_survey();
-    uint32_t end = share_start(list, share + 1, shares);
-    for (uint32_t i = share_start(list, share, shares); i < end; i++) {
+    uint32_t first = share_start(list, share, shares), end = share_start(list, share + 1, shares);
+    if (list->ranges.count == 1 && survey_regular(sorting, list->ranges.at[0].first + first, end - first, &survey)) {
+        memset(list->cell + first, 0, (end - first) * sizeof *list->cell);
+        sorting->parts[share] = survey;
+        return;
+    }
+    survey = no_survey();
+    for (uint32_t i = first; i < end; i++) {
         size_t column = column_of(list, i);
         bool lost = idle(pass, list, column), large = !lost && pass->radius[column] > sorting->large;
         list->cell[i] = lost ? PHYS_CELL_IDLE : large ? PHYS_CELL_LARGE : 0;
@@ -269,8 +313,14 @@ static void fill_up(const PairPass *pass, Neighbours *list, uint32_t dummy) {
         list->view.radius[place] = 0;
     }
     ListView *view = &list->view;
-    for (size_t m = 0; m < view->width; m++)
-        view->quads[view->width * (size_t)dummy + m] = m < pass->dimensions ? NAN : 0;
+    // Pairs leave half of the quads' room.
+    list->next = view->width == PHYS_PAIR ? view->quads + PHYS_PAIR * ((size_t)dummy + PHYS_MOST_LANES) : NULL;
+    for (size_t m = 0; m < view->width; m++) {
+        size_t last = view->width * (size_t)dummy + m;
+        view->quads[last] = m < pass->dimensions ? NAN : 0;
+        if (list->next)
+            list->next[last] = view->quads[last];
+    }
     if (list->view.sources)
         list->view.sources[2 * (size_t)dummy] = list->view.sources[2 * (size_t)dummy + 1] = 0;
 }
@@ -311,7 +361,7 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
     Grid grid = {.dimensions = pass->dimensions, .cells = {1, 1, 1}};
     Sorting sorting = {.system = system, .pass = pass, .list = list, .grid = &grid};
     list->total = (uint32_t)phys_ranges_total(&list->ranges);
-    list->order = system->settled ? system->order : NULL;
+    list->order = system->may_settle ? system->order : NULL;
     list->view.direct = false;
     if (list->total > UINT32_MAX / PHYS_QUAD - 2 * PHYS_MOST_LANES || !reserve_arrays(system, pass, list) ||
         !lay(&sorting, INFINITY, &survey, &grid))

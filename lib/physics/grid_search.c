@@ -65,7 +65,8 @@ static bool find_all(PhysSystem *system, Shares *shares, Neighbours *list) {
 
 bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy, Neighbours *list) {
     uint64_t own = list->ranges.at[0].count, total = list->total;
-    ListSearch search = {.list = list, .grid = grid, .foreign = system->foreign, .own = (uint32_t)own, .dummy = dummy};
+    ListSearch search = {
+        .list = list, .grid = grid, .foreign = system->foreign, .own = phys_own_keys(list), .dummy = dummy};
     // Where nearly everybody is a candidate of everybody, a grid does not help.
     search.scan_limit = own * total / 4 + 64 * total;
     if (search.scan_limit > 4000 * total)

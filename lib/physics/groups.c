@@ -85,6 +85,7 @@ bool phys_arrange(PhysSystem *system) {
     system->order = system->indices.bytes;
     system->place = system->order + particles;
     system->starts = system->place + particles;
+    system->places = system->particle_count;
     arrange_particles(system);
     return true;
 }

@@ -28,6 +28,7 @@ typedef struct Buffer {
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
+#define NO_PLACE UINT32_MAX
 
 enum {
     PHYS_MOST_LISTS = 8,         // passes that have neighbour lists
@@ -81,6 +82,8 @@ typedef struct Columns {
     double *ease;
     double *radius;
     double *mass;
+    bool alike;    // the sweep may take the first of both for all
+    bool all_move; // likewise: none is an anchor
     double *charge;
     double *section;       // radius^(n-1), valid if some force needs it
     double *volume;        // radius^n, likewise
@@ -129,6 +132,7 @@ struct PhysSystem {
     Buffer column_data; // what `columns` points to
     uint32_t *order;    // column -> handle
     uint32_t *place;    // handle -> column
+    uint32_t places;    // how many; that of a handle which the system lacks is NO_PLACE
     uint32_t *starts;   // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
     Columns columns;
     // kept from step to step and from frame to frame
@@ -140,6 +144,7 @@ struct PhysSystem {
     // on several processes (domain.h)
     uint64_t arrangement; // counts how often the columns have been filled
     uint64_t radii;       // another number whenever a radius has changed
+    uint64_t motion;      // another number whenever a position may have changed
     bool touched;         // particles were given new numbers since the last frame
     bool behind;          // positions and velocities are in the rows only, not in the columns
     Buffer domain;        // Domain
@@ -199,13 +204,13 @@ bool phys_load(PhysSystem *system);
 void phys_load_motion(PhysSystem *system);
 void phys_raise_radii(PhysSystem *system);
 void phys_store(PhysSystem *system, bool keep_last_finite);
-// PhysTime.keep_last_finite for one particle: numbers go into its row or, if they may not, are put back to the row's.
-// `stride` doubles from one component to the next. Returns marks of `not_finite`, which it sets.
-uint8_t phys_keep_row(const PhysSystem *system, size_t n, uint32_t handle, double *position, double *velocity,
-                      size_t stride);
+// Those of some particles from other columns, without anchors perhaps. What PhysTime.keep_last_finite puts back goes to
+// `home`, a system whose handles are the columns of this one, unless it is this one itself or NULL.
+void phys_store_columns(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
+                        const PhysSystem *home);
 
-// particles.c: points the columns into their memory.
-bool phys_reserve_columns(PhysSystem *system);
+// particles.c: points the columns into their memory, which has room for `spare` more.
+bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
 // groups.c: short cuts past enclosing groups that have nothing to say, which make deep nesting cheap.
 void phys_link_groups(PhysSystem *system);
 
@@ -235,6 +240,11 @@ void phys_bounce(const Columns *columns, size_t i, const Force *barrier, double 
 
 static inline double *phys_acceleration(const Columns *columns) {
     return columns->scratch;
+}
+
+// Where radius and mass of particle i are found.
+static inline size_t phys_numbers_at(const Columns *columns, size_t i) {
+    return columns->alike ? 0 : i;
 }
 
 static inline double phys_at(PhysVector vector, size_t k) {

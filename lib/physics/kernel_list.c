@@ -125,7 +125,7 @@ void PER_ISA(list_forces)(const PairPass *pass, const ListView *view, size_t fir
 }
 
 KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimensions, size_t first, size_t end) {
-    bool one_size = view->one_radius > 0, hold = !one_size || view->same_radii;
+    bool one_size = view->one_radius > 0, hold = !one_size || view->same_radii, pairs = pairs_do(dimensions, one_size);
     for (size_t s = first; s < end; s += LANES) {
         Mask live = mask_first(end - s);
         Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
@@ -134,11 +134,13 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
             Real d = parts[k] - real_load(view->built[k] + s);
             square += d * d;
         }
-        Real radius = real_load(view->radius + s), built = radius;
+        Real radius = real_zero(), built = radius;
+        if (!pairs || !view->same_radii)
+            radius = built = real_load(view->radius + s);
         if (!view->same_radii)
             radius = load_at(pass->radius, view, s);
         parts[radius_part(dimensions)] = radius;
-        if (pairs_do(dimensions, one_size))
+        if (pairs)
             real_store_pairs(view->quads + PHYS_PAIR * s, parts);
         else
             real_store_quads(view->quads + PHYS_QUAD * s, parts);

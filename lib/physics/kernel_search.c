@@ -215,7 +215,7 @@ KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure measure
     uint32_t last = batch->end < search->list->view.regular ? batch->end - 1 : search->list->view.regular - 1;
     finder->cell = cell_from(grid, finder->cell, first);
     uint32_t high = cell_from(grid, finder->cell, last);
-    batch->ordered = search->own == search->list->total && finder->cell / grid->cells[0] == high / grid->cells[0];
+    batch->ordered = search->own == UINT32_MAX && finder->cell / grid->cells[0] == high / grid->cells[0];
     if (!batch->ordered)
         return;
     look_around(search, finder, finder->cell, high);

@@ -46,7 +46,9 @@ void sweep_all_one(SweepPass *pass, size_t first, size_t end) {
 KERNEL Mask hits(const SweepPass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
-    Real start = real_set(-0.0) - real_load(pass->columns->radius + block->first);
+    const Columns *columns = pass->columns;
+    const double *radius = columns->radius;
+    Real start = real_set(-0.0) - (columns->alike ? real_set(radius[0]) : real_load(radius + block->first));
     for (uint32_t b = 0; b < pass->barrier_count; b++)
         clear = real_at_most_where(clear, real_zero(), height_above(&barriers[b]->given, n, block, start));
     return mask_and(block->live, mask_not(clear));
@@ -90,7 +92,9 @@ KERNEL void sweep_block(SweepPass *pass, size_t n, size_t i, size_t count) {
     const Columns *columns = pass->columns;
     Real place[PHYS_VECTOR_DIMENSIONS], velocity[PHYS_VECTOR_DIMENSIONS], force[PHYS_VECTOR_DIMENSIONS];
     Real before[PHYS_VECTOR_DIMENSIONS];
-    Block block = {i, 0, 1, live_lanes(columns, i, count), place, velocity, force, real_load(columns->mass + i)};
+    Mask live = columns->all_move ? mask_first(count) : live_lanes(columns, i, count);
+    Real mass = columns->alike ? real_set(columns->mass[0]) : real_load(columns->mass + i);
+    Block block = {i, 0, 1, live, place, velocity, force, mass};
     block.active = (size_t)__builtin_popcount(mask_bits(block.live));
     for (size_t k = 0; k < n; k++) {
         place[k] = real_load(columns->position + k * columns->stride + i);

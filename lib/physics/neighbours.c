@@ -1,5 +1,6 @@
 // neighbours.c: when to use neighbour lists, and how (see neighbours.h).
 #include "physics/neighbours.h"
+#include "physics/sweep.h"
 #include "physics/threads.h"
 
 #include <string.h>
@@ -11,6 +12,7 @@ enum {
     ENTRIES_A_UNIT = 4,
     LIFE_FIRST = 8, // steps that a list is expected to serve at first
     LIFE_LEAST = 8, // and that it should serve
+    MANY = 250000,  // particles that no cache holds
 };
 
 void phys_neighbours_free(Neighbours *list) {
@@ -77,6 +79,8 @@ typedef struct ListPass {
     const Kernels *kernels;
     const PairPass *pass;
     Neighbours *list;
+    const Sweep *sweep;          // of step_share
+    bool reuse;                  // likewise: chunks of a share take turns with one piece of the column of forces
     bool held[PHYS_MOST_SHARES]; // by share: nothing has left its skin
 } ListPass;
 
@@ -102,26 +106,94 @@ static void force_share(void *context, int worker, int workers) {
     work->kernels->list_forces(work->pass, view, first, share_begin(work, view->regular, worker + 1, workers));
 }
 
+// Forces, motion and the quads of the next step in one go, by chunks that stay in the cache. What moves is the columns,
+// and the kernels for forces read the quads alone.
+static void step_share(void *context, int worker, int workers) {
+    enum { CHUNK = 16384 }; // places
+    ListPass *work = context;
+    const ListView *view = &work->list->view;
+    ListView next = *view;
+    next.quads = work->list->next;
+    size_t lanes = work->list->lanes, start = share_begin(work, view->regular, worker, workers) * lanes;
+    size_t stop = share_begin(work, view->regular, worker + 1, workers) * lanes;
+    stop = stop < view->regular ? stop : view->regular;
+    for (size_t first = start, end; first < stop; first = end) {
+        end = stop - first > CHUNK ? first + CHUNK : stop;
+        PairPass pass = *work->pass;
+        Columns columns = *work->sweep->pass.columns;
+        Sweep sweep = *work->sweep;
+        columns.force = pass.force -= work->reuse ? first - start : 0;
+        sweep.pass.columns = &columns;
+        work->kernels->list_forces(&pass, view, first / lanes, (end + lanes - 1) / lanes);
+        phys_sweep_rows(&sweep, first, end);
+        work->held[worker] &= work->kernels->list_refresh(&pass, &next, first, end);
+    }
+}
+
 static int shares_for(const PhysSystem *system, const Neighbours *list) {
     return phys_shares(system, list->total, PHYS_MIN_FOR_THREADS);
 }
 
-// Brings the list's copy of the particles up to date. False if something has left its skin.
-static bool refresh(const PhysSystem *system, ListPass *work) {
+// Runs `share`; false if something has left its skin.
+static bool run(const PhysSystem *system, ListPass *work, PhysWork *share) {
+    bool held = true;
     memset(work->held, true, sizeof work->held);
-    work->list->view.same_radii = work->list->radii == system->radii;
-    phys_parallel(system, shares_for(system, work->list), refresh_share, work);
-    bool held = still_idle(work->pass, work->list);
+    phys_parallel(system, shares_for(system, work->list), share, work);
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
         held &= work->held[w];
     return held;
+}
+
+// The halo is where others say.
+static bool refresh_foreign(const PhysSystem *system, const ListPass *work) {
+    const ListView *view = &work->list->view;
+    uint32_t lanes = (uint32_t)work->list->lanes, count = system->foreign ? work->list->total : 0, i = 0;
+    bool held = true;
+    for (; i < count && (i = phys_next_foreign(system, i)) < count; i = i / lanes * lanes + lanes) {
+        uint32_t first = i / lanes * lanes, end = first + lanes < view->listed ? first + lanes : view->listed;
+        held &= work->kernels->list_refresh(work->pass, view, first, end);
+    }
+    return held;
+}
+
+// Brings the list's copy of the particles up to date. False if something has left its skin.
+static bool refresh(const PhysSystem *system, ListPass *work) {
+    Neighbours *list = work->list;
+    if (list->ahead && list->ahead == system->motion) {
+        double *quads = list->view.quads;
+        list->view.quads = list->next;
+        list->next = quads;
+        list->ahead = 0;
+        return refresh_foreign(system, work) && list->next_holds;
+    }
+    list->view.same_radii = list->radii == system->radii;
+    return run(system, work, refresh_share) && still_idle(work->pass, list);
+}
+
+// The whole step, if all that it has is this pass, the motion and what is in the columns. Where caches hold all of it,
+// this gains nothing.
+static bool step(PhysSystem *system, ListPass *work, Move *move) {
+    Neighbours *list = work->list;
+    bool many = list->total >= MANY || system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
+    if (!move || !many || !list->next || !list->view.direct || list->view.regular < list->total)
+        return false;
+    Sweep sweep;
+    work->sweep = &sweep;
+    work->reuse = !system->has_own_forces && !system->options.keep_forces;
+    move->done = true;
+    if (!phys_sweep_begin(system, 0, move->delta, move->speed_of_light, &sweep))
+        return true; // the meter gives the step up
+    list->next_holds = run(system, work, step_share);
+    list->ahead = system->motion + 1; // as it is after the step
+    phys_sweep_end(&sweep);
+    return true;
 }
 
 // The few large particles: each takes everyone.
 static void large_forces(const ListPass *work) {
     const Neighbours *list = work->list;
     const PassRanges *ranges = &list->ranges;
-    uint32_t end = list->view.listed, own = list->ranges.at[0].count;
+    uint32_t end = list->view.listed, own = phys_own_keys(list);
     for (uint32_t place = list->view.regular; place < end && !phys_pass_stopped(work->pass);) {
         uint32_t targets[8] = {0}, count = 0;
         bool inner = list->key[place] < own;
@@ -195,6 +267,7 @@ static bool sort(PhysSystem *system, const Kernels *kernels, const PairPass *pas
 }
 
 static bool build(PhysSystem *system, const Kernels *kernels, const PairPass *pass, Neighbours *list) {
+    list->ahead = 0;
     list->built = sort(system, kernels, pass, list);
     list->radii = system->radii;
     system->failed = false; // lists may fail, the frame need not
@@ -277,7 +350,7 @@ void phys_lists_drop(PhysSystem *system, double skin) {
 }
 
 bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
-                         uint32_t level) {
+                         uint32_t level, Move *move) {
     Neighbours *list = list_for(system, kernels, pass, group, level);
     if (!list)
         return false;
@@ -299,6 +372,8 @@ bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairP
     list->age++;
     uint64_t large = (uint64_t)(list->view.listed - list->view.regular) * list->total;
     if (!phys_charge(system, (list->padded + large) * pass->term_count / ENTRIES_A_UNIT + list->total))
+        return true;
+    if (step(system, &work, move))
         return true;
     phys_parallel(system, shares_for(system, list), force_share, &work);
     large_forces(&work);

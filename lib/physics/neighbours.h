@@ -9,6 +9,8 @@
 #include "physics/internal.h"
 #include "physics/kernels.h"
 
+#include <string.h>
+
 // In units of Neighbours.base.
 #define SKIN_LEAST 0.05
 #define SKIN_MOST 0.6
@@ -41,6 +43,9 @@ typedef struct Neighbours {
     // what it is
     bool built;
     ListView view;
+    double *next;          // quads that the next step begins with, made by this one; NULL: no room
+    uint64_t ahead;        // PhysSystem.motion for which they hold, else 0
+    bool next_holds;       // and nothing has left its skin then
     uint32_t *key;         // by place: position in the order of the pass
     uint32_t *cell;        // by column of the ranges, counted through
     const uint32_t *order; // by column: position in the order of the pass; NULL: columns are in that order
@@ -66,9 +71,10 @@ typedef struct Neighbours {
 // force_pair.c: a pass over the columns, without forces.
 PairPass phys_columns_pass(const Columns *columns);
 
-// neighbours.c: computes a pass with neighbour lists, or returns false if all pairs are the better way.
+// neighbours.c: computes a pass with neighbour lists, or returns false if all pairs are the better way. `move` as in
+// phys_apply_pairs.
 bool phys_neighbour_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
-                         uint32_t level);
+                         uint32_t level, Move *move);
 void phys_neighbours_free(Neighbours *list);
 // domain.c: another skin for what has served `life` steps.
 void phys_adapt_skin(Neighbours *list, uint32_t life);
@@ -86,10 +92,22 @@ bool phys_grid_build(PhysSystem *system, const Kernels *kernels, const PairPass 
 // neighbours.c: with more entries than this a list costs more than all pairs.
 uint64_t phys_max_useful_entries(const Neighbours *list);
 
+// The first column from one on that is foreign, or their number.
+static inline uint32_t phys_next_foreign(const PhysSystem *local, uint32_t from) {
+    const bool *mark =
+        from < local->particle_count ? memchr(local->foreign + from, true, local->particle_count - from) : NULL;
+    return mark ? (uint32_t)(mark - local->foreign) : local->particle_count;
+}
+
 // The square of how far a particle may move until lists with the skin no longer hold: a little less than half of it, so
 // that rounding cannot let a pair slip through.
 static inline double phys_skin_square(double skin) {
     return 0.25 * skin * skin * (1 - 1e-6);
+}
+
+// Keys below this are of the pass's own group. (Keys of a group alone are handles, which may have gaps.)
+static inline uint32_t phys_own_keys(const Neighbours *list) {
+    return list->ranges.count > 1 ? list->ranges.at[0].count : UINT32_MAX;
 }
 
 static inline uint64_t phys_ranges_total(const PassRanges *ranges) {

@@ -7,7 +7,7 @@
 
 #include <string.h>
 
-bool phys_reserve_columns(PhysSystem *system) {
+bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
     Columns *columns = &system->columns;
     uint64_t n = system->dimensions, count = system->particle_count;
     // The last of each only if there are own forces; the first one that comes has the columns made anew.
@@ -19,9 +19,9 @@ bool phys_reserve_columns(PhysSystem *system) {
     // n * count is bounded by the rows, which exist already. Without particles nothing is needed, however large n is.
     // Vector kernels want columns that begin at a cache line, and may read one vector beyond the last.
     enum { LINE = 8 };
-    uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + LINE - 1) / LINE * LINE : count;
+    uint64_t stride = n <= PHYS_VECTOR_DIMENSIONS ? (count + spare + LINE - 1) / LINE * LINE : count;
     uint64_t doubles = vector_count * n * stride + scalar_count * stride + (count ? SCRATCH * n : 0) + 2 * LINE;
-    uint64_t flags = (count + sizeof(double) - 1) / sizeof(double);
+    uint64_t flags = (stride + sizeof(double) - 1) / sizeof(double);
     if (!phys_buffer_reserve(system, &system->column_data, 0, doubles + flags, sizeof(double)) ||
         (system->options.keep_forces &&
          !phys_buffer_reserve(system, &system->force_rows, 0, count, n * sizeof(double))))
@@ -110,61 +110,67 @@ static void load_share(void *context, int worker, int workers) {
 
 typedef struct Storing {
     PhysSystem *system;
+    const Columns *columns;
+    const uint32_t *order; // handles by column
     bool keep_last_finite;
+    const PhysSystem *home;                // whose columns get what the rows do not take; NULL: none
     bool any_not_finite[PHYS_MOST_SHARES]; // something was not finite
 } Storing;
 
-// PhysTime.keep_last_finite for one vector: the column's replaces the row's, or the row's is put back into the column.
-// False if the column's was not finite. No other function keeps inf and nan of `!physics` out of the state: its entries
-// borrow the rows (scene/mirror.h).
-static inline bool keep_last_finite(double *column, size_t stride, double *row, size_t n, bool from_attribute) {
+// PhysTime.keep_last_finite for one vector: the column's replaces the row's, or the row's is put back `home`. False if
+// the column's was not finite. No other function keeps inf and nan of `!physics` out of the state: its entries borrow
+// the rows (scene/mirror.h).
+static inline bool keep_last_finite(const Columns *columns, const double *column, double *row, bool from_attribute,
+                                    double *home, size_t home_stride) {
+    size_t n = columns->dimensions, stride = columns->stride;
     bool finite = numbers_finite(column, n, stride), equal = true;
     for (size_t k = 0; k < n; k++)
         equal &= column[k * stride] == row[k];
-    if (finite && (from_attribute || !equal))
-        for (size_t k = 0; k < n; k++)
-            row[k] = column[k * stride];
-    else
-        for (size_t k = 0; k < n; k++)
-            column[k * stride] = row[k];
+    bool taken = finite && (from_attribute || !equal);
+    for (size_t k = 0; k < n && taken; k++)
+        row[k] = column[k * stride];
+    for (size_t k = 0; k < n && !taken && home; k++)
+        home[k * home_stride] = row[k];
     return finite;
 }
 
-uint8_t phys_keep_row(const PhysSystem *system, size_t n, uint32_t handle, double *position, double *velocity,
-                      size_t stride) {
-    double *row = (double *)system->rows.bytes + 2 * n * handle;
+// For one particle. False if something was not finite, which it marks.
+static bool keep_row(const Storing *storing, size_t i) {
+    const PhysSystem *system = storing->system, *home = storing->home;
+    const Columns *columns = storing->columns;
+    uint32_t handle = storing->order[i];
+    double *row = phys_row(system, handle), *position = NULL, *velocity = NULL;
+    size_t n = columns->dimensions, stride = home ? home->columns.stride : 0;
+    if (home) {
+        size_t at = home == system ? i : home->place[system->place[handle]];
+        position = home->columns.position + at;
+        velocity = home->columns.velocity + at;
+    }
     uint8_t *from = system->any_from_attribute ? (uint8_t *)system->from_attribute.bytes + handle : NULL;
-    bool kept = keep_last_finite(position, stride, row, n, from && (*from & PHYS_POSITION));
-    bool kept_too = keep_last_finite(velocity, stride, row + n, n, from && (*from & PHYS_VELOCITY));
+    bool given = from && (*from & PHYS_POSITION), given_too = from && (*from & PHYS_VELOCITY);
+    bool kept = keep_last_finite(columns, columns->position + i, row, given, position, stride);
+    bool kept_too = keep_last_finite(columns, columns->velocity + i, row + n, given_too, velocity, stride);
     uint8_t marks = (uint8_t)((kept ? 0 : PHYS_POSITION) | (kept_too ? 0 : PHYS_VELOCITY));
     if (from)
         *from &= marks;
     if (marks)
         ((uint8_t *)system->not_finite.bytes)[handle] = marks;
-    return marks;
+    return !marks;
 }
 
-static inline void copy_to_row(PhysSystem *system, size_t n, size_t i) {
-    const Columns *columns = &system->columns;
-    double *row = (double *)system->rows.bytes + 2 * n * system->order[i];
+static inline void copy_to_row(const Storing *storing, size_t n, size_t i) {
+    const Columns *columns = storing->columns;
+    double *row = phys_row(storing->system, storing->order[i]);
     for (size_t k = 0; k < n; k++) {
         row[k] = columns->position[k * columns->stride + i];
         row[n + k] = columns->velocity[k * columns->stride + i];
     }
 }
 
-static inline void keep_range(Storing *storing, size_t n, size_t i, size_t end, int worker) {
-    PhysSystem *system = storing->system;
-    const Columns *columns = &system->columns;
-    for (; i < end; i++)
-        if (phys_keep_row(system, n, system->order[i], columns->position + i, columns->velocity + i, columns->stride))
-            storing->any_not_finite[worker] = true;
-}
-
 static void store_share(void *context, int worker, int workers) {
     Storing *storing = context;
-    PhysSystem *system = storing->system;
-    const Columns *columns = &system->columns;
+    const PhysSystem *system = storing->system;
+    const Columns *columns = storing->columns;
     size_t n = columns->dimensions, end = phys_share(columns->count, worker + 1, workers);
     size_t first = phys_share(columns->count, worker, workers);
     if (storing->keep_last_finite) {
@@ -172,15 +178,15 @@ static void store_share(void *context, int worker, int workers) {
         const Kernels *kernels = phys_kernels(system);
         while (first < end) {
             if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)
-                first = kernels->store(columns, system->order, system->rows.bytes, first, end);
+                first = kernels->store(columns, storing->order, system->rows.bytes, first, end);
             size_t stop = end - first < kernels->lanes ? end : first + kernels->lanes;
-            keep_range(storing, n, first, stop, worker);
-            first = stop;
+            for (; first < stop; first++)
+                storing->any_not_finite[worker] |= !keep_row(storing, first);
         }
         return;
     }
     for (size_t i = first; i < end; i++)
-        copy_to_row(system, n, i);
+        copy_to_row(storing, n, i);
 }
 
 bool phys_clear_not_finite(PhysSystem *system) {
@@ -194,42 +200,48 @@ bool phys_clear_not_finite(PhysSystem *system) {
 }
 
 // The forces by handle, for those who look.
-static void store_forces(PhysSystem *system) {
-    const Columns *columns = &system->columns;
+static void store_forces(PhysSystem *system, const Columns *columns, const uint32_t *order) {
     size_t n = columns->dimensions;
     for (size_t i = 0; i < columns->count; i++) {
-        double *row = (double *)system->force_rows.bytes + n * system->order[i];
+        double *row = (double *)system->force_rows.bytes + n * order[i];
         for (size_t k = 0; k < n; k++)
-            row[k] = columns->anchor[i] ? 0 : columns->force[k * columns->stride + i];
+            row[k] = columns->anchor && columns->anchor[i] ? 0 : columns->force[k * columns->stride + i];
     }
 }
 
-static int shares_for(const PhysSystem *system) {
-    enum { MIN_FOR_THREADS = 10000 }; // particles
-    return phys_shares(system, system->particle_count, MIN_FOR_THREADS);
+static int shares_for(const PhysSystem *system, uint32_t particles) {
+    enum { MIN_FOR_THREADS = 10000 };
+    return phys_shares(system, particles, MIN_FOR_THREADS);
 }
 
 bool phys_load(PhysSystem *system) {
-    if (!phys_reserve_columns(system))
+    if (!phys_reserve_columns(system, 0))
         return false;
-    phys_parallel(system, shares_for(system), load_share, system);
+    phys_parallel(system, shares_for(system, system->particle_count), load_share, system);
     system->arrangement++;
     system->radii++;
+    system->motion++;
     system->behind = false;
     return true;
 }
 
 void phys_load_motion(PhysSystem *system) {
-    phys_parallel(system, shares_for(system), load_motion_share, system);
+    phys_parallel(system, shares_for(system, system->particle_count), load_motion_share, system);
+    system->motion++;
     system->behind = false;
 }
 
-void phys_store(PhysSystem *system, bool keep) {
-    Storing storing = {.system = system, .keep_last_finite = keep};
-    phys_parallel(system, shares_for(system), store_share, &storing);
+void phys_store_columns(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep,
+                        const PhysSystem *home) {
+    Storing storing = {.system = system, .columns = columns, .order = order, .keep_last_finite = keep, .home = home};
+    phys_parallel(system, shares_for(system, columns->count), store_share, &storing);
     for (int w = 0; w < PHYS_MOST_SHARES; w++)
         system->any_not_finite |= storing.any_not_finite[w];
-    system->any_from_attribute &= !keep || system->any_not_finite;
     if (system->options.keep_forces && system->stepped)
-        store_forces(system);
+        store_forces(system, columns, order);
+}
+
+void phys_store(PhysSystem *system, bool keep) {
+    phys_store_columns(system, &system->columns, system->order, keep, system);
+    system->any_from_attribute &= !keep || system->any_not_finite;
 }

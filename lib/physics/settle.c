@@ -155,8 +155,11 @@ void phys_forget_order(PhysSystem *system) {
 // there.
 void phys_unsettle(PhysSystem *system) {
     Settling settling = {.system = system};
-    uint32_t *order = system->order;
+    uint32_t *order = system->order, *place = system->place, next = 0;
     add_arrays(&settling, true);
+    for (uint32_t handle = 0; handle < system->places; handle++) // what is to be in which column
+        if (place[handle] != NO_PLACE)
+            order[place[handle]] = next++;
     for (uint32_t i = 0; i < system->columns.count; i++)
         for (uint32_t home = order[i]; home != i; home = order[i]) {
             for (size_t a = 0; a < settling.count; a++) {
@@ -168,9 +171,13 @@ void phys_unsettle(PhysSystem *system) {
             if (system->foreign)
                 swap_marks(system->foreign, i, home);
             order[i] = order[home];
-            order[home] = system->place[home] = home;
+            order[home] = home;
         }
-    for (uint32_t i = 0; i < system->columns.count; i++)
-        system->place[i] = i;
+    next = 0;
+    for (uint32_t handle = 0; handle < system->places; handle++)
+        if (place[handle] != NO_PLACE) {
+            order[next] = handle;
+            place[handle] = next++;
+        }
     phys_forget_order(system);
 }

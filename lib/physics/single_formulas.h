@@ -31,7 +31,7 @@ KERNEL Block block_at(const Columns *columns, size_t i) {
                    .place = columns->position + i,
                    .velocity = columns->velocity + i,
                    .force = columns->force + i,
-                   .mass = columns->mass[i]};
+                   .mass = columns->mass[phys_numbers_at(columns, i)]};
 }
 #endif
 

@@ -71,6 +71,7 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
     for (uint32_t g = 0; g < system->group_count && !move.done; g++)
         if (groups[g].count)
             phys_sweep(system, g, delta, speed_of_light);
+    system->motion++;
     bool whole = phys_goes_on(system);
     system->columns.forces_clear = whole && !system->options.keep_forces;
     return whole;

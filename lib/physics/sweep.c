@@ -80,6 +80,8 @@ bool phys_sweep_begin(PhysSystem *system, uint32_t number, double delta, double 
     pass.barrier_count = collect(system, number, STAGE_BARRIER, singles);
     pass.force_count = singles + pass.barrier_count;
     pass.forces = system->chain.bytes;
+    system->columns.alike = !system->record_stride;
+    system->columns.all_move = !system->record_stride && !system->foreign && !columns->anchor[0];
     pass.keep_force = system->options.keep_forces;
     *sweep = (Sweep){.kernel = sweep_all_one, .lanes = 1, .pass = pass, .group = group, .random = draws(&pass)};
     sweep->wide = columns->dimensions <= PHYS_VECTOR_DIMENSIONS && group->count >= MIN_FOR_LANES;

@@ -199,6 +199,7 @@ static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRe
     if (!system->arranged)
         return;
     system->touched = true;
+    system->motion++;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
     if (columns->radius[i] != record->radius) {

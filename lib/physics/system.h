@@ -92,6 +92,9 @@ typedef struct PhysRanks {
     void (*gather)(void *host, double *numbers, const size_t *starts);
     // Each becomes the largest that a rank has; there is no NaN among them.
     void (*most)(void *host, double *numbers, size_t count);
+    // Memory for so many doubles that all ranks have in common, until the next call; NULL if they have none, on all of
+    // them. The function may be NULL, too.
+    double *(*share)(void *host, size_t count);
     // A wish for an end, which the meter has, too, lets all these return without the others: what comes is zeros then.
 } PhysRanks;
 

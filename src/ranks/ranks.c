@@ -5,8 +5,10 @@
 #include <mpi.h>
 #include <sched.h>
 #include <signal.h>
+#include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include "base/cpu.h"
@@ -27,6 +29,9 @@ typedef struct Ranks {
     size_t room;
     double *numbers; // of a message that comes
     size_t numbers_room;
+    bool near;      // all are on one machine
+    double *common; // memory that all of them see
+    size_t common_room;
     int patience; // how often it is looked for what should be there soon before others may have the processor
 } Ranks;
 
@@ -153,6 +158,55 @@ static void find_most(void *host, double *numbers, size_t count) {
     }
 }
 
+static void *map(const char *name, int flags, size_t bytes) {
+    void *memory = MAP_FAILED;
+    int file = shm_open(name, O_RDWR | flags, S_IRUSR | S_IWUSR);
+    // With room for all of it at once: else it would be missing later, where nobody can be told.
+    if (file >= 0 && (!(flags & O_CREAT) || posix_fallocate(file, 0, (off_t)bytes) == 0)) {
+        memory = mmap(NULL, bytes, PROT_READ | PROT_WRITE, MAP_SHARED, file, 0);
+    }
+    if (file >= 0) {
+        close(file);
+    }
+    return memory == MAP_FAILED ? NULL : memory;
+}
+
+// Rank 0 makes it; its name is gone as soon as all have it, so that nothing stays behind.
+static double *map_common(size_t bytes) {
+    static int count;
+    char name[64];
+    double maker = getpid(), lacks = 0;
+    spread_numbers(NULL, 0, &maker, 1, 1, 1);
+    snprintf(name, sizeof name, "/petri-%.0f-%d", maker, ++count);
+    double *memory = ranks.as_options.rank == 0 ? map(name, O_CREAT | O_EXCL, bytes) : NULL;
+    find_most(NULL, &lacks, 1); // it is there, or never will be
+    if (ranks.as_options.rank > 0) {
+        memory = map(name, 0, bytes);
+    }
+    lacks = !memory;
+    find_most(NULL, &lacks, 1);
+    if (ranks.as_options.rank == 0) {
+        shm_unlink(name);
+    }
+    if (memory && lacks > 0) {
+        munmap(memory, bytes);
+    }
+    return lacks > 0 ? NULL : memory;
+}
+
+static double *share_memory(void *host, size_t count) {
+    (void)host;
+    if (ranks.near && ranks.common_room < count) {
+        if (ranks.common) {
+            munmap(ranks.common, ranks.common_room * sizeof *ranks.common);
+        }
+        ranks.common_room = count + count / 8; // halos come and go
+        ranks.common = map_common(ranks.common_room * sizeof *ranks.common);
+        ranks.near = ranks.common;
+    }
+    return ranks.near ? ranks.common : NULL;
+}
+
 enum { NUMBERS, LETTER }; // tags
 
 static void send_letter(int to, const void *bytes, size_t length) {
@@ -199,7 +253,8 @@ void ranks_begin(Host *host) {
                             .receive = receive_numbers,
                             .spread = spread_numbers,
                             .gather = gather_numbers,
-                            .most = find_most};
+                            .most = find_most,
+                            .share = share_memory};
     MPI_Comm_rank(MPI_COMM_WORLD, &options->rank);
     MPI_Comm_size(MPI_COMM_WORLD, &options->count);
     // What is worth sharing depends on the processor: all go by the least one.
@@ -208,7 +263,10 @@ void ranks_begin(Host *host) {
     host->ranks = options;
     host->leave_ranks = leave;
     enum { PATIENCE = 1000 }; // some 100 microseconds
-    ranks.patience = count_neighbours() <= cpu_count() ? PATIENCE : 0;
+    int neighbours = count_neighbours();
+    ranks.patience = neighbours <= cpu_count() ? PATIENCE : 0;
+    const char *apart = getenv("PETRI_APART"); // as if each were on a machine of its own
+    ranks.near = neighbours == options->count && !(apart && *apart);
     ranks.mail = (Mail){options->rank, options->count, send_letter, take_letter};
     host->mail = &ranks.mail;
     if (options->rank > 0) {

@@ -131,6 +131,10 @@ static void go_through(size_t dimensions, const PhysOptions *options) {
     Twins twins = twins_of(dimensions, options);
     begin(&twins, COUNT, 1, false);
     FRAMES(&twins, 6, true);
+    for (int i = 0; i < 4; i++) { // between frames, after which the next step is prepared
+        put(&twins, 17 + 100 * i, 1.3 + 4 * i);
+        FRAMES(&twins, 1, true);
+    }
     change(&twins, 5, 0.4, 2);
     change(&twins, 300, 0.6, 0);
     FRAMES(&twins, 3, true);
@@ -183,7 +187,37 @@ static void test_kept_forces(void **state) {
                       .threads = 4, .keep_forces = true, .cpu = cpu_here.level, .neighbours = PHYS_NEIGHBOURS_ALWAYS});
 }
 
+// So many that one thread takes several chunks of places: each may have a column of forces to itself, or the same one.
+static void test_chunks(void **state) {
+    (void)state;
+    enum { MANY = 40000, ROW = 200, STEPS = 4 };
+    PhysSystem *systems[] = {phys_new(), phys_new()};
+    for (int s = 0; s < 2; s++) {
+        phys_set_options(systems[s], &(PhysOptions){.threads = 1, .keep_forces = s, .cpu = cpu_here.level});
+        phys_begin(systems[s], 2);
+        Dice dice = {5};
+        for (uint32_t i = 0; i < MANY; i++) {
+            double place[] = {i % ROW * 0.95, i / ROW * 0.95}, velocity[] = {dice_next(&dice) % 9 - 4.0, i % 5 - 2.0};
+            phys_add_particle(systems[s], 0,
+                              &(PhysParticle){.position = place, .velocity = velocity, .radius = 0.5, .mass = 1});
+        }
+        PhysForce collision = force_of(PHYS_COLLISION);
+        collision.strength = 300;
+        phys_add_force(systems[s], 0, &collision);
+        for (int f = 0; f < STEPS; f++) {
+            PhysTime time = {.last = f * 0.01, .now = (f + 1) * 0.01, .resolution = 0.01, .performance = 1};
+            assert_int_equal(phys_simulate(systems[s], &time).status, PHYS_OK);
+        }
+        assert_true(systems[s]->settled);
+    }
+    for (uint32_t i = 0; i < MANY; i++)
+        assert_memory_equal(phys_position(systems[0], i), phys_position(systems[1], i), 4 * sizeof(double));
+    phys_free(systems[0]);
+    phys_free(systems[1]);
+}
+
 int main(void) {
-    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels), cmocka_unit_test(test_kept_forces)};
+    const struct CMUnitTest tests[] = {cmocka_unit_test(test_all_levels), cmocka_unit_test(test_kept_forces),
+                                       cmocka_unit_test(test_chunks)};
     return cmocka_run_group_tests(tests, NULL, NULL);
 }

@@ -26,7 +26,8 @@ typedef struct World {
     const char *file; // or, if NULL:
     const char *text;
     int frames;
-    bool silent; // hashes of large worlds take longer than the frames
+    bool silent;    // hashes of large worlds take longer than the frames
+    double *common; // memory
 } World;
 
 typedef struct Rank {
@@ -102,6 +103,21 @@ static void most(void *host, double *numbers, size_t count) {
     free(others);
 }
 
+// New memory each time: nothing of the frame before is in it.
+static double *share(void *host, size_t count) {
+    const Rank *rank = host;
+    double all = 0, address = 0;
+    most(host, &all, 1); // nobody reads the memory before
+    if (rank->number == 0) {
+        free(rank->world->common);
+        rank->world->common = malloc(count * sizeof *rank->world->common);
+    }
+    spread(host, 0, &address, 1, 1, 1);
+    return rank->world->common;
+}
+
+static bool in_common; // ranks have memory in common
+
 // The forces of the last step, as one number.
 static void note_forces(PetriSession *session, Notebook *book) {
     PetriSystem system;
@@ -122,7 +138,8 @@ static void *run(void *context) {
     Rank *rank = context;
     const World *world = rank->world;
     Player player = {0};
-    PetriRanks ranks = {rank->number, world->count, 1, rank, send, receive, spread, gather, most};
+    PetriRanks ranks = {rank->number, world->count, 1,      rank, send,
+                        receive,      spread,       gather, most, in_common ? share : NULL};
     PetriOptions options = player_options(&player);
     options.threads = 1;
     options.ranks = &ranks;
@@ -175,6 +192,7 @@ static Notebook run_world(const char *file, const char *text, int count, int fra
         regions.reductions = ranks[i].traffic.reductions;
         regions.step_bytes += ranks[i].traffic.step_bytes;
         regions.step_messages += ranks[i].traffic.step_messages;
+        regions.frame_bytes += ranks[i].traffic.frame_bytes;
         regions.own += ranks[i].traffic.own;
         regions.halo += ranks[i].traffic.halo;
         assert_string_equal(ranks[i].came.text, ranks[0].came.text);
@@ -182,6 +200,7 @@ static Notebook run_world(const char *file, const char *text, int count, int fra
             free(ranks[i].came.text);
     }
     pthread_attr_destroy(&attributes);
+    free(world.common);
     return ranks[0].came;
 }
 
@@ -337,6 +356,15 @@ static const char *const reaching[] = {
     "    !collision strength=300\n"
     "    if frame == 3\n"
     "        !random strength=9\n",
+    // in a plane, whose steps are made in one go
+    "!physics state=:a dimensions=2 resolution=1/300\n"
+    "    for i in ..1200\n"
+    "        !particle id=i position=30*uniform(:p)[2*i..2*i+2] velocity=3*normal(:v)[2*i..2*i+2] radius=0.4 "
+    "mass=(2 if frame == 3 else 1)\n"
+    "    !collision strength=300\n"
+    "    !constant acceleration=0;-5\n"
+    "    !barrier position=0;0 normal=0;1\n"
+    "    !barrier position=30;0 normal=-1;0\n",
 };
 
 static void test_regions(void **state) {
@@ -344,16 +372,21 @@ static void test_regions(void **state) {
     for (size_t i = 0; i < sizeof reaching / sizeof *reaching; i++) {
         uint64_t sent, halo = 0;
         Notebook alone = run_world(NULL, reaching[i], 1, FRAMES, &sent);
-        for (int count = 2; count <= MOST_RANKS; count += count - 1) {
+        static const int counts[] = {2, 3, MOST_RANKS};
+        for (int c = 0; c < 2 * 3; c++) {
+            int count = counts[c / 2];
+            in_common = c % 2;
             Notebook together = run_world(NULL, reaching[i], count, FRAMES, &sent);
             assert_string_equal(alone.text, together.text);
             assert_int_equal(regions.sharing, PETRI_BY_REGION);
+            assert_int_equal(in_common, regions.frame_bytes == 0);
             assert_true(regions.reductions > regions.steps + FRAMES); // particles have moved house within a frame
             halo += regions.halo;
             free(together.text);
         }
         assert_true(halo > regions.own / 100);
         free(alone.text);
+        in_common = false;
     }
 }
 
