@@ -21,7 +21,10 @@ static double scene_number(const State *state, StateSlot slot, double fallback) 
 
 // The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
 static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
+    PhysicsSystem *expected = scene->expected; // as in the frame before
     *occurrence = 0;
+    if (expected && expected->start == start && expected->occurrence == 0 && expected->seen != scene->frame_number)
+        return expected;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         arena_charge(arena, 4); // they lie anywhere in memory
         if (system->start != start)
@@ -37,10 +40,8 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     PhysicsSystem *system = meter_take(scene->meter, PHYSICS_SYSTEM_BYTES) ? heap_zeroed(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
-    PhysicsSystem **end = &scene->systems;
-    while (*end)
-        end = &(*end)->next;
-    *end = system;
+    *scene->systems_end = system;
+    scene->systems_end = &system->next;
     Value prefix = state_slot_key(frame->state, start);
     *system = (PhysicsSystem){
         .start = start,
@@ -74,6 +75,7 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     PhysicsSystem *system = known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return new_system(scene, start, occurrence, frame);
+    scene->expected = system->next;
     note_absence(scene, system, frame->state);
     return system;
 }

@@ -14,6 +14,7 @@ Scene *scene_new(Arena *arena, Schema *schema) {
     physics_take_defaults(scene);
     input_init(&scene->input, symbols);
     scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level, .meter = scene->meter};
+    scene->systems_end = &scene->systems;
     scene->key_run = symbol_know(symbols, STR("run"));
     scene->key_iteration = symbol_know(symbols, STR("iteration"));
     scene->key_clock = symbol_know(symbols, STR("clock"));
@@ -47,9 +48,15 @@ void scene_free_systems(PhysicsSystem *systems) {
     }
 }
 
+static void find_end(Scene *scene) {
+    for (scene->systems_end = &scene->systems; *scene->systems_end;)
+        scene->systems_end = &(*scene->systems_end)->next;
+}
+
 PhysicsSystem *scene_set_aside(Scene *scene) {
     PhysicsSystem *systems = scene->systems;
-    scene->systems = NULL;
+    scene->systems = scene->expected = scene->viewed = NULL;
+    scene->systems_end = &scene->systems;
     scene->marked = NULL;
     return systems;
 }
@@ -57,6 +64,7 @@ PhysicsSystem *scene_set_aside(Scene *scene) {
 void scene_bring_back(Scene *scene, PhysicsSystem *systems) {
     scene_reset(scene);
     scene->systems = systems;
+    find_end(scene);
 }
 
 void scene_reset(Scene *scene) {
@@ -135,7 +143,8 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
 // has, which is all that there was.
 static void drop_absent(Scene *scene, const SceneFrame *frame) {
     enum { FRAMES = 8 };
-    for (PhysicsSystem **link = &scene->systems; *link;) {
+    PhysicsSystem **link = &scene->systems;
+    while (*link) {
         PhysicsSystem *system = *link;
         if (system->seen + FRAMES >= scene->frame_number) {
             link = &system->next;
@@ -146,6 +155,9 @@ static void drop_absent(Scene *scene, const SceneFrame *frame) {
         free_system(system);
         scene->marked = NULL;
     }
+    scene->systems_end = link;
+    scene->expected = scene->systems;
+    scene->viewed = NULL;
 }
 
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
@@ -175,10 +187,14 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     return steps;
 }
 
-bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view) {
-    for (const PhysicsSystem *system = scene->systems; system; system = system->next) {
-        if (system->seen != scene->frame_number || !system->engine || !system->dimensions || number-- > 0)
+bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view) {
+    bool further = scene->viewed && number >= scene->viewed_number; // hosts ask for one after the other
+    size_t at = further ? scene->viewed_number : 0;
+    for (PhysicsSystem *system = further ? scene->viewed : scene->systems; system; system = system->next) {
+        if (system->seen != scene->frame_number || !system->engine || !system->dimensions || at++ < number)
             continue;
+        scene->viewed = system;
+        scene->viewed_number = number;
         uint32_t count = phys_particle_count(system->engine), listed = system->mirror.slot_count / 2;
         *view = (SceneView){.engine = system->engine,
                             .prefix = state_slot_key(state, system->start),
@@ -187,7 +203,7 @@ bool scene_view(const Scene *scene, const State *state, size_t number, SceneView
                             .steps = system->steps,
                             .began = system->began,
                             .slots = system->mirror.slots,
-                            .system = (PhysicsSystem *)system};
+                            .system = system};
         return true;
     }
     return false;

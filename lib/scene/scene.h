@@ -58,7 +58,7 @@ typedef struct SceneView {
     const StateSlot *slots;
     PhysicsSystem *system;
 } SceneView;
-bool scene_view(const Scene *scene, const State *state, size_t number, SceneView *view);
+bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view);
 // The id of a particle of a view: what its key has beyond the prefix.
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle);
 // All ids, if each is one number, else NULL; false if memory is used up. They stay until the system gets others.

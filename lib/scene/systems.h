@@ -61,6 +61,10 @@ struct Scene {
     Meter *meter;
     Input input;
     PhysicsSystem *systems;
+    PhysicsSystem **systems_end; // where the next one goes
+    PhysicsSystem *expected;     // the one after that of the last node; or NULL
+    PhysicsSystem *viewed;       // the last one that was asked for; or NULL
+    size_t viewed_number;
     uint64_t frame_number;
     PhysOptions physics;
     uint32_t *bodies; // by slot: 2 * (base + handle) of the particle whose position it is, + 1 if it is its velocity

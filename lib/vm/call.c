@@ -60,7 +60,8 @@ static uint64_t cost_of(const Code *code) {
 }
 
 static bool may_enter(Vm *vm, const Closure *closure, const Origin *at) {
-    vm_work(vm, at, cost_of(closure->code->code));
+    enum { CALL_WORK = 1 }; // frame and arguments
+    vm_work(vm, at, CALL_WORK + cost_of(closure->code->code));
     const char *limit = closure->active >= VM_CLOSURE_DEPTH ? "500 calls of one function"
                         : vm->depth >= VM_CALL_DEPTH        ? "8192 nested calls"
                         : !vm_stack_left(vm)                ? "the stack"

@@ -174,6 +174,24 @@ static void test_several_systems(void **state) {
         strstr(player_state(player), "$(:z;:iteration) = 5\n")); // updated twice a frame, one after the other
 }
 
+// Each has its own past, in whatever order they come; two of one prefix keep theirs.
+static void test_order_of_systems(void **state) {
+    Player *player = *state;
+    static const char systems[] = "let a=((!physics state=:a dimensions=1) << (!particle id=1 velocity=8))\n"
+                                  "let b=((!physics state=:b dimensions=1) << (!particle id=1 velocity=16))\n"
+                                  "let y=((!physics state=:z dimensions=1) << (!particle id=1 velocity=2))\n"
+                                  "let z=((!physics state=:z dimensions=1) << (!particle id=2 velocity=4))\n";
+    char script[600], wanted[2000];
+    snprintf(script, sizeof script, "%sa;b;y;z\n", systems);
+    player_run(player, script, 6);
+    snprintf(wanted, sizeof wanted, "%s", player_state(player));
+    snprintf(script, sizeof script, "%s(a;b;y;z) if frame %% 2 == 0 else (b;y;a;z) if frame %% 3 else (y;z;b;a)\n",
+             systems);
+    petri_clear(player->session);
+    player_run(player, script, 6);
+    assert_text("another order", player_state(player), wanted);
+}
+
 // Systems and counters in document order (spec counters.md): a later one sees what an earlier wrote.
 static void test_update_order(void **state) {
     Player *player = *state;
@@ -227,6 +245,7 @@ int main(void) {
         PLAYER_TEST(test_time),
         PLAYER_TEST(test_absent_systems),
         PLAYER_TEST(test_several_systems),
+        PLAYER_TEST(test_order_of_systems),
         PLAYER_TEST(test_update_order),
         PLAYER_TEST(test_signed_zero),
         PLAYER_TEST(test_steps_are_counted),
