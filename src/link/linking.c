@@ -5,7 +5,6 @@
 #include <string.h>
 
 #include "cli/script.h"
-#include "petri-draw.h"
 
 // There is no file: a link has one script. Folders, for `glob`, are empty.
 static const char *note_file(void *host, const char *name, size_t *length) {
@@ -45,12 +44,32 @@ static bool set_parameters(const Linking *linking, int64_t frame) {
     return true;
 }
 
+// The pictures of frames before the last, on which later ones may depend.
+static void follow(Linking *linking) {
+    PetriSession *session = linking->frames.session;
+    PetriPictureOptions options = petri_default_picture_options();
+    PetriPicture *picture = NULL;
+    if (petri_frame(session).number >= linking->linked.frame || !petri_looks_back(session) ||
+        petri_picture(session, &options, &picture) != PETRI_OK) {
+        return;
+    }
+    if (linking->painter == NULL) {
+        linking->painter = petri_painter_open();
+    }
+    petri_picture_make(picture, linking->painter);
+    petri_picture_tell(session, picture);
+    petri_picture_free(&picture);
+}
+
 static int make_frames(Linking *linking) {
     Frames *frames = &linking->frames;
     frames_begin(frames);
     bool going = true;
     while (going && frames_due(frames)) {
         going = frames_step(frames) && set_parameters(linking, petri_frame(frames->session).number);
+        if (going) {
+            follow(linking);
+        }
     }
     frames_end(frames, going);
     if (frames_signal() != 0) {
@@ -107,6 +126,7 @@ bool linking_tell(const Linking *linking, const char *before, const char *behind
 }
 
 void linking_close(Linking *linking) {
+    petri_painter_close(&linking->painter);
     petri_close(&linking->frames.session);
     link_free(&linking->linked);
     texts_free(&linking->wanted);

@@ -3,12 +3,14 @@
 #define PETRI_SRC_LINKING_H
 
 #include "link/pack.h"
+#include "petri-draw.h"
 #include "run/frames.h"
 
 typedef struct Linking {
     Linked linked;
     Frames frames;
-    TextList wanted; // the files that the script has asked for
+    TextList wanted;       // the files that the script has asked for
+    PetriPainter *painter; // that has the pictures of the frames before the last, if that depends on them; or NULL
 } Linking;
 
 // Opens a session, loads the text and makes frames up to the link's with its changes of parameters. Returns

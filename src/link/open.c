@@ -9,6 +9,8 @@
 #include "cli/script.h"
 #include "link/linking.h"
 #include "petri-draw.h"
+#include "view/still.h"
+#include "view/terminal_picture.h"
 
 static bool read_link(Linked *linked, const char *operand) {
     static const size_t most_bytes = (size_t)1 << 20;
@@ -22,19 +24,35 @@ static bool read_link(Linked *linked, const char *operand) {
     return link_read(linked, &link);
 }
 
-static int save_picture(PetriSession *session, const char *file) {
+static int save_picture(Linking *linking, const char *file) {
+    PetriSession *session = linking->frames.session;
     PetriPictureOptions wanted = {0};
     petri_picture_options_init(&wanted, sizeof wanted);
     PetriPicture *picture = NULL;
-    PetriPainter *painter = petri_painter_open();
-    bool saved = painter != NULL && petri_picture(session, &wanted, &picture) == PETRI_OK &&
-                 petri_picture_save(picture, painter, file) == PETRI_OK;
+    if (linking->painter == NULL) {
+        linking->painter = petri_painter_open();
+    }
+    bool saved = linking->painter != NULL && petri_picture(session, &wanted, &picture) == PETRI_OK &&
+                 petri_picture_save(picture, linking->painter, file) == PETRI_OK;
     if (picture != NULL) {
         petri_picture_tell(session, picture);
     }
     petri_picture_free(&picture);
-    petri_painter_close(&painter);
     return saved ? STATUS_DONE : STATUS_FAILED;
+}
+
+// Shows the picture to who sits at the terminal; output is not redirected then.
+static int show_picture(PetriSession *session, PetriPainter *painter, const Options *options) {
+    bool wanted = options->output == NULL && options->verbosity > LOG_QUIET && isatty(STDOUT_FILENO) &&
+                  terminal_picture_possible() && progress_possible() && petri_drawable(session);
+    if (!wanted) {
+        return STATUS_DONE;
+    }
+    enum { BELOW = 6 }; // rows for the hash and what it tells
+    Output output;
+    output_start(&output, STDOUT_FILENO);
+    PetriStatus status = still_show(session, painter, !options->monochrome, BELOW, output_write, &output);
+    return output_finish(&output, status == PETRI_OK ? STATUS_DONE : STATUS_FAILED);
 }
 
 static int write_script(const Host *host, const Linked *linked, const char *file) {
@@ -109,7 +127,11 @@ static int open_link(const Host *host, Options *options, Linking *linking) {
         return status == STATUS_USAGE ? STATUS_FAILED : status;
     }
     if (file != NULL && !is_script(file)) {
-        wrote = save_picture(linking->frames.session, file);
+        wrote = save_picture(linking, file);
+    }
+    if (linked->frame >= 0) {
+        int shown = show_picture(linking->frames.session, linking->painter, options);
+        wrote = shown != STATUS_DONE ? shown : wrote;
     }
     status = linked->frame < 0 ? STATUS_DONE : compare(linking, options);
     return wrote != STATUS_DONE ? wrote : status;
@@ -129,8 +151,9 @@ const Command OPEN_COMMAND = {
     .details =
         "Runs the script that is in a link, of petri link or of the page in a browser, to the frame that the link\n"
         "names, with the parameters as they were changed, and tells whether the state has the same hash: the exit\n"
-        "status is 1 if not. The hash goes to standard output; with --output a file gets the script (FILE.fl, or -\n"
-        "for standard output) or the picture of the frame. The script neither reads nor writes files.\n"
+        "status is 1 if not. The hash goes to standard output, at a terminal below the picture of the frame; with\n"
+        "--output a file gets the script (FILE.fl, or - for standard output) or the picture. The script neither\n"
+        "reads nor writes files.\n"
         "\n"
         "LINK is the whole address, or what begins with '#', in quotes because of that; - is standard input.",
     .examples = "  petri open 'http://127.0.0.1:8080/#q1bKU...'    is the frame the same here?\n"

@@ -22,8 +22,8 @@ static const char *skip_escape(const char *text) {
 }
 
 static bool is_control(const char *text, size_t length) {
-    unsigned char first = (unsigned char)text[0];
-    return (length == 1 && (first < ' ' || first == 127)) || (first == 0xC2 && (unsigned char)text[1] < 0xA0);
+    size_t at = 0;
+    return utf8_is_control(utf8_next((Str){text, length}, &at));
 }
 
 bool overlay_set(char *text, size_t size, const char *from) {

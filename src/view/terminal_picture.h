@@ -1,7 +1,7 @@
 // terminal_picture.h: a picture as text that a terminal shows: kitty's or sixel graphics where it has them, else cells
 // of Unicode (or ASCII, unless the locale is UTF-8), in the colours that it has.
 //
-// To show one picture, as the prompt's `.show` does:
+// To show one picture, as still.h does:
 //     TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, true);
 //     TerminalCells cells = terminal_picture_fit(way, columns, rows, width, height);   // of the picture as it is
 //     ... draw it with cells.width x cells.height pixels ...

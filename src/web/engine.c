@@ -150,11 +150,12 @@ EXPORT(PetriStatus, web_prompt, PetriSession *session, const char *text, size_t 
     return petri_prompt(session, text, length, write_text, NULL, &done);
 }
 
-// The number that an expression is; its text is written. NaN if it is none.
-EXPORT(double, web_evaluate, PetriSession *session, const char *text, size_t length) {
+// An expression: its text is written, the number that it is an entry, NaN if it is none.
+EXPORT(PetriStatus, web_evaluate, PetriSession *session, const char *text, size_t length) {
     PetriResult result = {.number = __builtin_nan("")};
-    petri_evaluate(session, text, length, &result, write_text, NULL);
-    return result.number;
+    PetriStatus status = petri_evaluate(session, text, length, &result, write_text, NULL);
+    host_entry("", &result.number, 1, NULL);
+    return status;
 }
 
 static bool draw_canvas(void *host, const double *numbers, size_t count, int width, int height, uint32_t *pixels) {

@@ -36,6 +36,15 @@ check "a file that cannot be written" status_is 1
 petri open "$link" -o -
 check "the script goes to standard output" cmp -s count.fl out
 
+printf '!window size=40;30\n    !feedback mixer=0.6 translate=5;5\n        !canvas\n            !rect size=20;20 fill=true color=1\n' >back.fl
+for frame in 1 8; do
+    "$petri" link back.fl --frame $frame >link 2>/dev/null
+    petri open "$(cat link)" -o back$frame.png
+done
+if [ -s back8.png ] && ! grep -Eq "OpenGL|without" err; then
+    check "a picture has in it what frames before have left" eval '! cmp -s back1.png back8.png'
+fi
+
 petri open "$page_link"
 check "a link of another state is told" status_is 1
 check "… as that" has err "is not that where the link was made"

@@ -55,4 +55,14 @@ check "a terminal that can nothing is shown nothing" soon shows 'physics step'
 check "without a terminal it is as without --show" has out "> 'only text'"
 check "in silence" [ ! -s err ]
 
+if ! "$petri" open '#' 2>&1 | grep -q 'built without'; then
+    "$petri" link dish.fl --frame 9 >link
+    typed "'$petri' open - <link"
+    check "petri open tells that the frame of a link is the same" soon shows 'frame 9 has the same state'
+    check "below its picture" eval 'screen | grep -q "[▀▄█▌▐]"'
+    typed "'$petri' open --quiet - <link"
+    check "quietly there is the hash alone" soon shows 'status 0'
+    check "and no picture" eval '! screen | grep -q "[▀▄█▌▐]"'
+fi
+
 finish

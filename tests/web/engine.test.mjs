@@ -106,6 +106,38 @@ test('what goes on for long is ended when the host wants it, and has changed not
     session.close();
 });
 
+test('an end that is wanted is met or forgotten: it never comes to the next call', () => {
+    let wanted = false;
+    const session = engine.open({ wantsEnd: () => wanted });
+    const script = 'let N=N or 3\n!counter state=:c rate=1\n!physics state=:p dimensions=2 time=time\n    for i in ..2000\n'
+        + "        !particle id=(:q;i) position=i;0 charge='word'\n!window\n    !canvas\n        !rect size=9;9\n";
+    session.load(script).step().step();
+    const whole = { state: session.state, parameters: session.parameters, systems: session.systems.length, table: session.table().text,
+        picture: session.picture().numbers, help: session.help(), tokens: session.tokens(script), evaluated: session.evaluate('sum(..99)'),
+        told: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')), drawable: true };
+    const acts = { state: () => session.state, parameters: () => session.parameters, systems: () => session.systems.length,
+        table: () => session.table().text, picture: () => session.picture()?.numbers, help: () => session.help(),
+        tokens: () => session.tokens(script), evaluated: () => session.evaluate('sum(..99)'), hash: () => session.hash(),
+        told: () => session.diagnose(`${script}!x a=`).length, symbol: () => session.symbolName(session.symbol('q')),
+        drawable: () => session.drawable };
+    const ended = [];
+    for (const [name, act] of Object.entries(acts)) {
+        wanted = true;
+        try {
+            assert.deepEqual(act(), whole[name], name);
+        } catch (error) {
+            assert.equal(error.status, 'interrupted', `${name}: ${error.message}`);
+            ended.push(name);
+        }
+        wanted = false;
+        assert.doesNotThrow(() => session.print('hash'), name);
+        assert.deepEqual(act(), whole[name], name);
+    }
+    assert.deepEqual(ended, ['table', 'evaluated', 'hash', 'told']);
+    assert.equal(session.step().frame.number, 2);
+    session.close();
+});
+
 test('recursion that is too deep is told, and the engine goes on', () => {
     const names = Array.from({ length: 40 }, (_, i) => `f${i}`);
     const nested = '(1+' + '(2*'.repeat(150), end = ')'.repeat(151);

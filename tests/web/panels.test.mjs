@@ -154,3 +154,38 @@ test('all is done by the keyboard alone', options, () => opened('', {
         await tabTo('watch-line');
     },
 }));
+
+test('pointer and keys go to the script while the picture has the focus', options, () => opened('', {
+    use: async page => {
+        const keys = { Enter: 'enter', a: 'a', PageUp: 'page_up', F2: 'f2', Shift: 'left_shift', ';': 'semicolon', ArrowLeft: 'left' };
+        const nodes = Object.values(keys).map(name => `    !key name=:${name} state=:${name}\n`).join('');
+        await typed(page, `!window size=200;100\n    !pointer state=:at\n${nodes}    !canvas\n        !rect size=200;100 fill=true\n`);
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('picture').width === 200);
+        const shows = async (expression, value) => { // in the next frame; neither pointer nor focus are taken for it
+            await page.evaluate(() => document.getElementById('step').click());
+            await page.evaluate(text => {
+                document.getElementById('line').value = text;
+                document.getElementById('line').form.requestSubmit();
+            }, expression);
+            await page.waitForFunction(end => document.getElementById('printed').textContent.trimEnd().endsWith(end), `${expression}\n${value}`);
+        };
+        await page.focus('#picture');
+        for (const [key, name] of Object.entries(keys)) {
+            await page.keyboard.down(key);
+            await shows(`$(:${name})`, '1');
+            await page.keyboard.up(key);
+            await shows(`$(:${name})`, '0');
+        }
+        await page.keyboard.down('a');
+        await shows('$(:a)', '1');
+        await page.focus('#line'); // it is let go where the picture does not hear of it
+        await page.keyboard.up('a');
+        await shows('$(:a)', '0');
+        const { x, y, width, height } = await page.locator('#picture').boundingBox();
+        await page.mouse.move(x + width / 4, y + height / 2);
+        await shows('round(100*$(:at))', '25;50');
+        await page.mouse.move(1, 1);
+        await shows('$(:at)', 'null');
+    },
+}));

@@ -3,7 +3,7 @@
 // are not.
 import assert from 'node:assert/strict';
 import { execFileSync } from 'node:child_process';
-import { existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
+import { cpSync, existsSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from 'node:fs';
 import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { after, before, test } from 'node:test';
@@ -20,7 +20,7 @@ let browser, server, page;
 
 const FRAME = 12;
 // What share of the pixels may be otherwise; most of terrain is seams between shapes.
-const SHARE = 1e-3, SHARES = { terrain: 1e-2, garden: 2e-3 };
+const SHARE = 1e-3, SHARES = { terrain: 1e-2, garden: 2e-3, font_on: 6e-3 };
 
 before(async () => {
     if (missing)
@@ -128,6 +128,7 @@ async function check(script, frame, share = SHARE, names = []) {
 }
 
 const written = (name, text) => {
+    cpSync(join(root, 'tests/pictures/images'), join(scratch, 'images'), { recursive: true });
     writeFileSync(join(scratch, name), text);
     return join(scratch, name);
 };
@@ -158,12 +159,40 @@ for (const name of ['adjust', 'bloom', 'blur', 'chromakey', 'edges', 'feedback',
     test(`the effect ${name}`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
 for (const name of ['dots', 'lights', 'metal', 'translucency'])
     test(`the scene ${name}`, options, () => check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
-for (const name of ['blend', 'canvases', 'composite', 'composite_stroke', 'fill_type', 'fill_and_stroke', 'filter_blend', 'filter_colors',
-    'filter_spread', 'filters', 'gradient_radial', 'image', 'noise_source',
-    'window_image'])
-    test(`the picture ${name}`, options, () => check(join(pictures, `${name}.fl`), 2, 5e-3, ['images/small.png', 'images/small.jpg']));
+// All pictures of canvases, but for those that have tests of their own, that have nothing in them, or whose pixels are enlarged, or
+// covered by hundreds of lines each.
+const OTHERS = new Set(['canvas_wide', 'path_effects', 'gallery', 'window_default', 'window_size', 'canvas_size', 'image_id', 'long_path']);
+for (const name of readdirSync(pictures).filter(file => /^(?!effect_).*\.fl$/.test(file)).map(file => file.slice(0, -3))
+    .filter(file => !OTHERS.has(file)))
+    test(`the picture ${name}`, options, () => check(join(pictures, `${name}.fl`), 2, SHARES[name] ?? 5e-3, ['images/small.png', 'images/small.jpg']));
 test('path effects but on text', options, () => check(written('path_effects.fl',
     readFileSync(join(pictures, 'path_effects.fl'), 'utf8').replace(/^.*!text.*\n/m, '')), 2, 5e-3));
+
+// What a paint's alpha leaves of an image that repeats, and of those of others.
+const FADED = `!window size=64;48
+    !canvas
+        !rect size=64;48 fill=true color=0;0.6;0.2
+        !group color=1;1;1;0.35
+            !pattern filename='images/small.png'
+            !rect point=4;4 size=40;30 fill=true
+        !group color=1;1;1;0.6
+            !pattern filename='images/small.png' scale=2
+            !line points=10;40;58;10 stroke=true stroke_width=8
+`;
+test('patterns fade with their paint', options, () => check(written('faded.fl', FADED), 2, 5e-3, ['images/small.png']));
+
+// Gradients that are no circles on lines and letters, patterns on letters.
+const TURNED = `!window size=120;90
+    !canvas font_family='DejaVu Sans' font_size=40
+        !gradient radius=40;15 point=60;20 rotate=1/8
+            !stop offset=0 color=1;0.2;0.2
+            !stop offset=1 color=0.2;0.4;1
+        !line points=10;10;110;30 stroke=true stroke_width=12
+        !text text='word' point=60;50
+        !pattern filename='images/small.png'
+        !text text='word' point=60;75
+`;
+test('letters and lines have paints that follow another matrix', options, () => check(written('turned.fl', TURNED), 2, 5e-3, ['images/small.png']));
 
 test('light beyond 1 is not there, and that is told', options, async () => {
     const script = join(pictures, 'canvas_wide.fl'), files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };

@@ -173,7 +173,7 @@ class Painter {
             context.globalCompositeOperation = 'destination-out';
             context.fill(path, inside);
             context.globalCompositeOperation = 'source-over';
-        }, rule > 1);
+        }, rule > 1 || (stroke && this.round));
     }
 
     fillPath(context, path, rule) {
@@ -188,13 +188,14 @@ class Painter {
         context.restore();
     }
 
-    // Fill and stroke are one figure: drawn through a mask where something would shine through, or act beyond it.
-    paintFigure(fill, stroke, act, inverse = false) {
+    // Fill and stroke are one figure: drawn through a mask where something would shine through, act beyond it, or (`masked`)
+    // where the paint would follow another matrix than its own.
+    paintFigure(fill, stroke, act, masked) {
         const composite = COMPOSITES[this.line.composite];
         if (!composite)
             return;
         const modulates = this.line.composite === MODULATE;
-        if (!inverse && !modulates && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
+        if (!masked && !modulates && !UNBOUNDED.has(composite) && !(fill && stroke && !(this.solid && composite === 'source-over'))) {
             if (!this.begin(fill, stroke))
                 return;
             fill && act(this.context, true);
@@ -308,7 +309,7 @@ class Painter {
             }
             isFill ? here.fillText(text, left, base) : here.strokeText(text, left, base);
             here.restore();
-        });
+        }, typeof this.paint === 'function');
     }
 
     picture() {
@@ -370,10 +371,20 @@ class Painter {
             }
         }
         return () => {
-            const pattern = this.context.createPattern(image, 'repeat');
+            const pattern = this.context.createPattern(this.faded(image, alpha), 'repeat');
             pattern.setTransform(matrix);
             return pattern;
         };
+    }
+
+    // An image, or what is as much of it as alpha says: patterns know no other.
+    faded(image, alpha) {
+        if (alpha >= 1)
+            return image;
+        const context = this.beside(image);
+        context.globalAlpha = alpha;
+        context.drawImage(image, 0, 0);
+        return context.canvas;
     }
 
     // A paint that is made of pixels, those of what is drawn on: `make` draws it on a canvas of its own.
@@ -457,7 +468,7 @@ class Painter {
         case 11: this.beginLayer(); break;
         case 12: this.endLayer(); break;
         case 13: this.undrawn.add(this.text()); break;
-        case 14: this.at = drawSystems(this.context, this.n, this.at, this.base); break;
+        case 14: this.systems(); break;
         case 15: {
             const box = this.take(5), picture = this.pixels();
             this.filtered(() => this.drawImage(picture, ...box));
@@ -469,6 +480,13 @@ class Painter {
         case 19: this.paint = this.noise(); break;
         default: throw new Error(`the picture has a kind ${kind}, which this drawing.mjs does not know`);
         }
+    }
+
+    systems() {
+        const { canvas } = this.context, [scale, x, y] = this.base, [width, height] = this.n;
+        if (this.at === 3 && x <= 0 && y <= 0 && scale * width >= canvas.width && scale * height >= canvas.height)
+            this.background = null; // nothing of it would be seen, and it costs more than all discs
+        this.at = drawSystems(this.context, this.n, this.at, this.base);
     }
 
     plain() {

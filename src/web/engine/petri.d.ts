@@ -42,7 +42,8 @@ export interface Options {
     files?: Record<string, string | Uint8Array>;
     onDiagnostic?: (diagnostic: Diagnostic) => void;
     /**
-     * Asked every ten microseconds or so of a call: true ends it, with the status "interrupted", and nothing has changed.
+     * Asked every ten microseconds or so of a call that may take long: true ends it, with the status "interrupted", and
+     * nothing has changed. Calls that only look at what is there are made to their end.
      * It may look at a clock, or at a SharedArrayBuffer that another thread writes.
      */
     wantsEnd?: () => boolean;

@@ -40,7 +40,7 @@ class Engine {
         const now = () => this.session;
         this.memory = instantiate(module, {
             write: (at, length) => now().written.push(this.memory.text(at, length)),
-            wants_end: () => (now().wantsEnd?.() ? 1 : 0),
+            wants_end: () => (now().mayEnd && now().wantsEnd?.() ? 1 : 0),
             read: (name, length) => now().readFile(text(name), length),
             diagnostic: (level, file, message, code, hint, rendered, line, column, endLine, endColumn) =>
                 now().tell({
@@ -130,12 +130,13 @@ export class Session {
     }
 
     // Everything that enters the engine goes through here. An exception that comes out of it means that the engine is
-    // in the middle of something, for good.
-    run(act) {
+    // in the middle of something, for good. The host may end only what can tell that it was ended.
+    run(act, mayEnd = false) {
         if (this.engine.broken)
             throw this.engine.broken;
         const outer = this.engine.session;
         this.engine.session = this;
+        this.mayEnd = mayEnd;
         this.told = [];
         this.written = [];
         this.taken = [];
@@ -151,7 +152,7 @@ export class Session {
 
     // The same for calls that return a status.
     check(what, act) {
-        const status = STATUS[this.run(act)];
+        const status = STATUS[this.run(act, true)];
         if (status !== 'ok')
             throw new PetriError(status, this.told, what);
         return this;
@@ -177,8 +178,10 @@ export class Session {
 
     // What would be told of a text; nothing is changed.
     diagnose(text, name = 'script.fl') {
-        this.run(this.with(name, (wasm, called) =>
-            this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))));
+        const status = STATUS[this.run(this.with(name, (wasm, called) =>
+            this.memory.withText(text, (at, length) => wasm.petri_check_text(this.handle, called, at, length))), true)];
+        if (status === 'interrupted')
+            throw new PetriError(status, this.told, 'diagnose');
         return this.told;
     }
 
@@ -219,7 +222,7 @@ export class Session {
     // The particles of the last frame as rows of a table, as `petri run --trajectory` has them; `dimensions` as an earlier
     // call gave them, or 0 for a header, too.
     table(dimensions = 0) {
-        const has = this.run(wasm => wasm.web_particles(this.handle, dimensions));
+        const has = this.run(wasm => wasm.web_particles(this.handle, dimensions), true);
         if (has <= 0)
             throw new PetriError(has ? 'interrupted' : 'memory', this.told, 'table');
         return { text: this.written.join(''), dimensions: has };
@@ -273,10 +276,10 @@ export class Session {
 
     // An expression in the last frame.
     evaluate(expression) {
-        const number = this.run(this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
+        this.check('evaluate', this.with(expression, (wasm, at, length) => wasm.web_evaluate(this.handle, at, length)));
         if (this.told.some(told => told.level === 'error'))
             throw new PetriError('invalid', this.told, 'evaluate');
-        return { text: this.written.join(''), number };
+        return { text: this.written.join(''), number: this.taken[0].value[0] };
     }
 
     // A line typed at the prompt: what it prints.

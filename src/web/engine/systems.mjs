@@ -7,8 +7,9 @@ const GROUND = [0.06, 0.07, 0.09], WALL = [0.75, 0.7, 0.55], LINK = [0.6, 0.65, 
 const CHARGES = [[0.25, 0.55, 1], [0.85, 0.87, 0.9], [1, 0.5, 0.15]];
 const SPEEDS = [[0.2, 0.35, 0.75], [0.2, 0.75, 0.7], [1, 0.95, 0.6]];
 
-const mix = (a, b, part) => a.map((x, i) => x + (b[i] - x) * part);
-const css = (c, alpha = 1) => `rgba(${c.map(x => Math.round(255 * x)).join(',')},${alpha})`;
+const mix = (a, b, part) => [a[0] + (b[0] - a[0]) * part, a[1] + (b[1] - a[1]) * part, a[2] + (b[2] - a[2]) * part];
+const byte = x => Math.round(255 * x);
+const css = (c, alpha = 1) => `rgba(${byte(c[0])},${byte(c[1])},${byte(c[2])},${alpha})`;
 const clamp = (x, low, high) => Math.min(Math.max(x, low), high);
 
 function shade({ charged }, value) {
@@ -81,8 +82,9 @@ function line(context, from, to, width, style) {
 }
 
 function drawLinks(context, panel) {
-    for (const [from, to] of panel.system.links) {
-        const a = see(panel, panel.system.bodies[from].position), b = see(panel, panel.system.bodies[to].position);
+    const { bodies, links } = panel.system;
+    for (const [from, to] of links) {
+        const a = see(panel, bodies[from].position), b = see(panel, bodies[to].position);
         line(context, a, b, panel.pixel, css(inMist(panel, LINK, (a.depth + b.depth) / 2), 0.4));
     }
 }
@@ -129,8 +131,6 @@ function drawPanel(context, panel) {
     context.beginPath();
     context.rect(left, top, panel.width, panel.height);
     context.clip();
-    context.fillStyle = css(GROUND);
-    context.fillRect(left, top, panel.width, panel.height);
     system.barriers.forEach(barrier => (system.dimensions === 3 ? drawGrid : drawWall)(context, panel, barrier));
     if (system.dimensions === 1) {
         const { y } = see(panel, [system.middle[0], 0, 0]);
@@ -142,15 +142,17 @@ function drawPanel(context, panel) {
 }
 
 function readSystem(n, at) {
-    const take = count => Array.from(n.subarray(at, at += count));
-    const many = make => Array.from({ length: take(1)[0] }, make);
-    const [dimensions, charged, x, y, z, half] = take(6);
-    const bodies = many(() => {
-        const [bx, by, bz, radius, value, anchor] = take(6);
-        return { position: [bx, by, bz], radius, shade: value, anchor };
-    });
-    const links = many(() => take(2)), barriers = many(() => ({ point: take(3), normal: take(3) }));
-    return [{ dimensions, charged, middle: [x, y, z], half, bodies, links, barriers }, at];
+    const three = i => [n[i], n[i + 1], n[i + 2]];
+    const dimensions = n[at], charged = n[at + 1], middle = three(at + 2), half = n[at + 5];
+    at += 6;
+    const many = (size, make) => {
+        const length = n[at], first = at + 1;
+        at = first + length * size;
+        return Array.from({ length }, (_, i) => make(first + i * size));
+    };
+    const bodies = many(6, i => ({ position: three(i), radius: n[i + 3], shade: n[i + 4], anchor: n[i + 5] }));
+    const links = many(2, i => [n[i], n[i + 1]]), barriers = many(6, i => ({ point: three(i), normal: three(i + 3) }));
+    return [{ dimensions, charged, middle, half, bodies, links, barriers }, at];
 }
 
 // Draws the systems that begin at n[at]; returns what is behind them.

@@ -13,7 +13,7 @@ export class Dish {
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
             canvas, host, running: false, loaded: null, name: null, frame: -1, most: -1, fps: 60, speed: 1, behind: 0, last: 0,
-            files: new Map(), images: new Map(), wanted: null,
+            files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
     }
@@ -190,8 +190,9 @@ export class Dish {
         const { canvas } = this;
         canvas.onpointermove = canvas.onpointerdown = canvas.onpointerup = event => this.point(event, true);
         canvas.onpointerleave = event => this.point(event, false);
-        canvas.onkeydown = event => this.key(event, true);
-        canvas.onkeyup = event => this.key(event, false);
+        canvas.onkeydown = event => this.press(event);
+        canvas.onkeyup = event => this.letGo(keyName(event));
+        canvas.onblur = () => this.pressed.forEach(name => this.letGo(name));
     }
 
     point(event, inside) {
@@ -205,16 +206,36 @@ export class Dish {
         });
     }
 
-    key(event, pressed) {
-        const name = KEYS[event.key] ?? (/^[a-z0-9]$/i.test(event.key) ? event.key.toLowerCase() : null);
+    // Tab, and what is pressed with Control or Alt, stay the browser's; keys that scroll are the script's.
+    press(event) {
+        const name = keyName(event);
         if (this.loaded === null || !name || event.ctrlKey || event.metaKey || event.altKey)
             return;
-        event.preventDefault();
-        this.ask('key', { name, pressed }).catch(() => {});
+        if (event.key.length === 1 || /^(Arrow|Page|Home|End)/.test(event.key))
+            event.preventDefault();
+        this.pressed.add(name);
+        this.ask('key', { name, pressed: true }).catch(() => {});
+    }
+
+    letGo(name) {
+        if (this.pressed.delete(name))
+            this.ask('key', { name, pressed: false }).catch(() => {});
     }
 }
 
-const KEYS = { ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'return' };
+// As petri has it, of what a browser calls it.
+const KEYS = {
+    ' ': 'space', ArrowLeft: 'left', ArrowRight: 'right', ArrowUp: 'up', ArrowDown: 'down', Enter: 'enter', Escape: 'escape',
+    Backspace: 'backspace', Insert: 'insert', Delete: 'delete', PageUp: 'page_up', PageDown: 'page_down', Home: 'home', End: 'end',
+    "'": 'apostrophe', ',': 'comma', '-': 'minus', '.': 'period', '/': 'slash', ';': 'semicolon', '=': 'equal', '[': 'left_bracket',
+    '\\': 'backslash', ']': 'right_bracket', '`': 'grave_accent',
+};
+
+function keyName({ key, code }) {
+    if (key === 'Shift')
+        return code === 'ShiftRight' ? 'right_shift' : 'left_shift';
+    return /^([a-z0-9]|F\d+)$/i.test(key) ? key.toLowerCase() : KEYS[key] ?? null;
+}
 
 // What to say of an error.
 export const sayError = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'
