@@ -71,7 +71,7 @@ static void format_caret_line(Text *out, Str line, uint32_t column, size_t width
 static void add_printable(Text *out, Str text) {
     for (size_t at = 0; at < text.len;) {
         int32_t c = utf8_next(text, &at);
-        if (c == '\t' || c == '\n' || (c >= 0x20 && c != 0x7f && !(c >= 0x80 && c < 0xa0)))
+        if (c == '\t' || c == '\n' || !utf8_is_control(c))
             text_add_code_point(out, (uint32_t)c);
         else
             text_add_char(out, '?');

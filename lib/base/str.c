@@ -236,6 +236,10 @@ int32_t utf8_next(Str text, size_t *at) {
     return code_point;
 }
 
+bool utf8_is_control(int32_t c) {
+    return c < 0x20 || (c >= 0x7f && c < 0xa0);
+}
+
 size_t utf8_encode(uint32_t code_point, char bytes[UTF8_MAX]) {
     if (code_point < 0x80) {
         bytes[0] = (char)code_point;

@@ -77,6 +77,8 @@ enum { UTF8_MAX = 4 };
 // Decodes the code point at `*at` and advances; returns -1 for ill-formed UTF-8 (surrogates and overlong forms
 // included) and then advances by one byte.
 int32_t utf8_next(Str text, size_t *at);
+// Whether a terminal might obey it: a control character, or what utf8_next says of ill-formed bytes.
+bool utf8_is_control(int32_t code_point);
 // Writes 1 to 4 bytes and returns how many. The code point must be at most 0x10FFFF.
 size_t utf8_encode(uint32_t code_point, char bytes[UTF8_MAX]);
 // Offset of the first ill-formed byte, or text.len.

@@ -13,6 +13,7 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/pass_on.h"
+#include "cli/script.h"
 #include "cli/unfinished.h"
 
 static bool wait_for(pid_t process) {
@@ -116,6 +117,5 @@ bool hdf5_table(const char *path, const char *csv, size_t length) {
 }
 
 bool hdf5_is_wanted(const char *path) {
-    const char *dot = strrchr(path, '.');
-    return dot != NULL && str_word_number(str_from(dot), ".h5 .hdf5") >= 0;
+    return script_suffix(path, ".h5 .hdf5") >= 0;
 }

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include "base/file.h"
+#include "base/str.h"
 #include "cli/cli.h"
 
 void signal_catch(int number, void (*handler)(int), int flags) {
@@ -16,16 +17,20 @@ void signal_catch(int number, void (*handler)(int), int flags) {
     }
 }
 
-// What a stranger's script or link is called must not reach a terminal as its orders.
-static void without_controls(char *line, size_t length) {
-    for (size_t i = 0; i < length; i++) {
-        unsigned char c = (unsigned char)line[i];
-        bool order = (c < ' ' && c != '\t' && c != '\n') || c == 0x7f;
-        if (i > 0 && (unsigned char)line[i - 1] == 0xc2 && c >= 0x80 && c < 0xa0) { // U+0080 to U+009F
-            line[i - 1] = line[i] = '?';
+// What a stranger's script or link is called must not reach a terminal as its orders. The new length.
+static size_t without_controls(char *line, size_t length) {
+    size_t kept = 0;
+    for (size_t at = 0; at < length;) {
+        size_t from = at;
+        int32_t c = utf8_next((Str){line, length}, &at);
+        if (c != '\t' && c != '\n' && utf8_is_control(c)) {
+            line[kept++] = '?';
+            continue;
         }
-        line[i] = order ? '?' : line[i];
+        memmove(line + kept, line + from, at - from);
+        kept += at - from;
     }
+    return kept;
 }
 
 void message(const char *format, ...) {
@@ -40,7 +45,7 @@ void message(const char *format, ...) {
     if (length > sizeof line - 2) {
         length = sizeof line - 2;
     }
-    without_controls(line, length);
+    length = without_controls(line, length);
     line[length] = '\n';
     length++;
     // Not by stdio, which drops what a signal interrupts: Ctrl-C comes just when there is something to say about it.

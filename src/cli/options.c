@@ -138,8 +138,7 @@ static bool read_sections(const Args *args, void *field) {
 }
 
 static bool read_trajectory(const Args *args, void *field) {
-    const char *dot = strrchr(args->value, '.');
-    bool known = dot != NULL && dot != args->value && str_word_number(str_from(dot), ".xyz .csv .h5 .h5md") >= 0;
+    bool known = script_suffix(args->value, ".xyz .csv .h5 .h5md") >= 0;
     return known ? read_text(args, field) : wrong_value(args, "a file name that ends in .xyz, .csv or .h5");
 }
 

@@ -9,6 +9,7 @@
 #include <unistd.h>
 
 #include "base/source.h"
+#include "base/str.h"
 #include "cli/bytes.h"
 #include "cli/cli.h"
 
@@ -23,15 +24,13 @@ const char *script_shown(const char *name) {
     return script_is_stdin(name) ? SCRIPT_STDIN : name;
 }
 
-static bool is_picture(const char *name) {
-    static const char *const suffixes[] = {".png", ".svg", ".pdf", ".mp4", ".webm", ".gif"};
+int script_suffix(const char *name, const char *words) {
     const char *dot = strrchr(name, '.');
-    for (size_t i = 0; dot != NULL && i < sizeof suffixes / sizeof suffixes[0]; i++) {
-        if (strcmp(dot, suffixes[i]) == 0) {
-            return true;
-        }
-    }
-    return false;
+    return dot == NULL || dot == name ? -1 : str_word_number(str_from(dot), words);
+}
+
+static bool is_picture(const char *name) {
+    return script_suffix(name, ".png .svg .pdf .mp4 .webm .gif") >= 0;
 }
 
 void script_second(const char *first, const char *second) {

@@ -21,6 +21,8 @@ void script_second(const char *first, const char *second);
 // Gives that message, after one that a script cannot be read: the name that is nearest to this one, or what a folder
 // holds.
 void script_suggest(const char *name);
+// Which of the words, from 0 on, a file's name ends in, such as ".png" in ".csv .png"; -1 for none.
+int script_suffix(const char *name, const char *words);
 // The folder that it is in, "." for this one; to be freed.
 char *script_folder(const char *name);
 // Adds a word as a shell takes it.

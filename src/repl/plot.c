@@ -7,8 +7,8 @@
 #include <unistd.h>
 
 #include "cli/progress.h"
-#include "petri-draw.h"
 #include "repl/repl.h"
+#include "view/still.h"
 #include "view/terminal_picture.h"
 
 // Cells of the picture. A braille cell is 2 dots wide and 4 high; without Unicode a cell is one dot.
@@ -177,53 +177,20 @@ static bool run_plot(Repl *repl, const char *rest) {
            plot_frames(repl, expression, count);
 }
 
-enum { DEFAULT_COLUMNS = 78, DEFAULT_ROWS = 30, BELOW = 2 };
-
-static PetriStatus show_picture(Repl *repl, PetriPicture *picture, PetriPainter *painter, TerminalPicture *way) {
-    int columns = DEFAULT_COLUMNS, rows = DEFAULT_ROWS + BELOW, width = 0, height = 0;
-    if (painter == NULL || way == NULL) {
-        return PETRI_MEMORY;
-    }
-    terminal_extent(STDOUT_FILENO, &columns, &rows);
-    petri_picture_size(picture, &width, &height);
-    // With room for the prompt.
-    TerminalCells cells = terminal_picture_fit(way, columns, rows > BELOW ? rows - BELOW : 1, width, height);
-    uint32_t *pixels = memory_zeroed((size_t)cells.width * (size_t)cells.height * sizeof *pixels);
-    PetriStatus status =
-        petri_picture_draw(picture, painter, pixels, cells.width, cells.height, (size_t)cells.width * sizeof *pixels);
-    petri_picture_tell(repl->session, picture);
-    size_t length = 0;
-    SCOPED_TEXT text = status == PETRI_OK ? terminal_picture_text(way, pixels, &cells, &length) : NULL;
-    free(pixels);
-    if (text != NULL) {
-        output_write(&repl->output, text, length);
-        output_write(&repl->output, "\n", 1);
-    }
-    return status == PETRI_OK && text == NULL ? PETRI_MEMORY : status;
-}
+enum { BELOW = 2 }; // rows for the prompt
 
 static bool run_show(Repl *repl, const char *rest) {
     (void)rest;
     if (!terminal_picture_possible()) {
         return repl_fail(repl, "this petri was built without libchafa: it cannot show pictures in the terminal");
     }
-    PetriPictureOptions options = petri_default_picture_options();
-    PetriPicture *picture = NULL;
     repl_complete_frame(repl);
     repl_busy(repl);
     PetriStatus status = petri_preview(repl->session);
     if (status == PETRI_OK) {
-        status = petri_picture(repl->session, &options, &picture);
+        status = still_show(repl->session, NULL, repl->options->colour, BELOW, output_write, &repl->output);
     }
-    PetriPainter *painter = petri_painter_open();
-    TerminalPicture *way = terminal_picture_new(STDOUT_FILENO, repl->options->colour);
-    if (status == PETRI_OK) {
-        status = show_picture(repl, picture, painter, way);
-    }
-    terminal_picture_free(way);
-    petri_painter_close(&painter);
     repl_idle(repl);
-    petri_picture_free(&picture);
     return repl_status(repl, status);
 }
 

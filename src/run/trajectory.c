@@ -19,6 +19,7 @@
 #include "cli/bytes.h"
 #include "cli/cli.h"
 #include "cli/particles.h"
+#include "cli/script.h"
 #include "cli/unfinished.h"
 
 enum { XYZ_DIMENSIONS = 3 };
@@ -50,10 +51,8 @@ static void keep_now(void *context) {
 }
 
 static TrajectoryFormat format_of(const char *path) {
-    const char *suffix = strrchr(path, '.');
-    return strcmp(suffix, ".csv") == 0   ? TRAJECTORY_CSV
-           : strcmp(suffix, ".xyz") == 0 ? TRAJECTORY_XYZ
-                                         : TRAJECTORY_H5MD;
+    int format = script_suffix(path, ".xyz .csv"); // in the order of TrajectoryFormat
+    return format < 0 ? TRAJECTORY_H5MD : (TrajectoryFormat)format;
 }
 
 static void write_named(Trajectory *trajectory, int fd, size_t end) {

@@ -145,8 +145,8 @@ static bool take_plot(const Sweep *sweep) {
 }
 
 static bool take_output(const Sweep *sweep) {
-    const char *output = sweep->options->output, *dot = output == NULL ? NULL : strrchr(output, '.');
-    if (dot == NULL || str_word_number(str_from(dot), ".nc .nc4 .cdf") < 0) {
+    const char *output = sweep->options->output;
+    if (output == NULL || script_suffix(output, ".nc .nc4 .cdf") < 0) {
         return true;
     }
     message("option '--output' expects a file name that ends in .csv or .h5, not '%s': NetCDF is not written", output);
