@@ -142,7 +142,8 @@ cairo_pattern_t *draw_noise(Canvas *canvas, const ListSource *source, double alp
 void draw_filtered(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
 
 // text.c
-bool draw_text_open(PetriPainter *painter);
+// Fonts, from the first call on; NULL if memory is lacking.
+Letters *draw_letters(PetriPainter *painter);
 void draw_text_close(PetriPainter *painter);
 void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *paint);
 

@@ -39,19 +39,22 @@ static void draw_lines(cairo_t *cr, PangoLayout *layout, const PetriLabel *label
 
 PetriStatus petri_painter_labels(PetriPainter *painter, const PetriLabel *labels, size_t count, double scale,
                                  uint32_t *pixels, int width, int height, size_t stride) {
+    Letters *letters = draw_letters(painter);
+    if (!letters)
+        return PETRI_MEMORY;
     cairo_surface_t *target =
         cairo_image_surface_create_for_data((unsigned char *)pixels, CAIRO_FORMAT_ARGB32, width, height, (int)stride);
     cairo_t *cr = cairo_create(target);
     PangoFontDescription *font = pango_font_description_from_string("monospace");
     cairo_scale(cr, scale, scale);
-    pango_cairo_update_layout(cr, painter->letters->layout);
-    pango_layout_set_attributes(painter->letters->layout, NULL);
-    painter->letters->family = NULL;
+    pango_cairo_update_layout(cr, letters->layout);
+    pango_layout_set_attributes(letters->layout, NULL);
+    letters->family = NULL;
     for (size_t i = 0; i < count; i++) {
         pango_font_description_set_absolute_size(font, labels[i].size * PANGO_SCALE);
-        pango_layout_set_font_description(painter->letters->layout, font);
+        pango_layout_set_font_description(letters->layout, font);
         draw_panel(cr, &labels[i]);
-        draw_lines(cr, painter->letters->layout, &labels[i]);
+        draw_lines(cr, letters->layout, &labels[i]);
     }
     PetriStatus status = cairo_status(cr) == CAIRO_STATUS_SUCCESS ? PETRI_OK : PETRI_MEMORY;
     pango_font_description_free(font);

@@ -3,11 +3,6 @@
 
 #include <string.h>
 
-bool draw_tools_open(PetriPainter *painter) {
-    (void)painter;
-    return true;
-}
-
 void draw_tools_close(PetriPainter *painter) {
     (void)painter;
 }

@@ -9,10 +9,6 @@
 #include <math.h>
 #include <string.h>
 
-bool draw_tools_open(PetriPainter *painter) {
-    return draw_text_open(painter);
-}
-
 void draw_tools_close(PetriPainter *painter) {
     draw_text_close(painter);
     draw_images_close(painter);
@@ -64,7 +60,8 @@ static void draw_image_of(cairo_t *cr, cairo_surface_t *pixels) {
 // Draws the whole page. False if Cairo gave up.
 static bool draw_page(Canvas *canvas, const Page *page, double width, double height) {
     cairo_t *cr = canvas->cr;
-    canvas->painter->letters->family = NULL;
+    if (canvas->painter->letters)
+        canvas->painter->letters->family = NULL;
     cairo_set_tolerance(cr, 0.1);
     if (page->black) {
         cairo_set_source_rgb(cr, 0, 0, 0);

@@ -55,7 +55,6 @@ const double *draw_canvas_numbers(PetriPainter *painter, const DrawNode *canvas,
 const double *draw_picture_numbers(Arena *arena, const CanvasPicture *picture, size_t *count);
 
 // paint.c, or none.c
-bool draw_tools_open(PetriPainter *painter);
 void draw_tools_close(PetriPainter *painter);
 // Draws a canvas into a cleared picture of its size: sRGB, or linear light. PETRI_OK, PETRI_INVALID after an error was
 // reported, or PETRI_MEMORY.

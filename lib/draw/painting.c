@@ -16,7 +16,7 @@ PetriPainter *petri_painter_open(void) {
     meter_begin(&painter->meter, UINT64_MAX, NULL);
     painter->arena.meter = &painter->meter;
     painter->pictures = pictures_new();
-    if (painter->pictures && draw_tools_open(painter))
+    if (painter->pictures)
         return painter;
     petri_painter_close(&painter);
     return NULL;

@@ -12,13 +12,20 @@
 enum { LONGEST_TEXT = 10000 };           // bytes
 static const double LARGEST_FONT = 4000; // pixels
 
-bool draw_text_open(PetriPainter *painter) {
-    Letters *letters = painter->letters = heap_zeroed(1, sizeof *letters);
-    if (!letters)
-        return false;
-    letters->fonts = pango_cairo_font_map_new();
-    if (!letters->fonts)
-        return false;
+// Pango reads what fonts there are in a thread of its own, which nobody waits for but who asks for a font: it is begun
+// for a text alone. A process that ended meanwhile took what the thread was reading from it.
+Letters *draw_letters(PetriPainter *painter) {
+    Letters *letters = painter->letters;
+    if (letters)
+        return letters;
+    letters = heap_zeroed(1, sizeof *letters);
+    PangoFontMap *fonts = letters ? pango_cairo_font_map_new() : NULL;
+    if (!fonts) {
+        heap_give(letters);
+        return NULL;
+    }
+    painter->letters = letters;
+    letters->fonts = fonts;
     letters->context = pango_font_map_create_context(letters->fonts);
     cairo_font_options_t *options = cairo_font_options_create();
     cairo_font_options_set_hint_style(options, CAIRO_HINT_STYLE_NONE);
@@ -29,17 +36,16 @@ bool draw_text_open(PetriPainter *painter) {
     pango_context_set_round_glyph_positions(letters->context, FALSE);
     letters->layout = pango_layout_new(letters->context);
     pango_layout_set_single_paragraph_mode(letters->layout, TRUE);
-    return true;
+    return letters;
 }
 
 void draw_text_close(PetriPainter *painter) {
     Letters *letters = painter->letters;
-    if (letters && letters->layout)
-        g_object_unref(letters->layout);
-    if (letters && letters->context)
-        g_object_unref(letters->context);
-    if (letters && letters->fonts)
-        g_object_unref(letters->fonts);
+    if (!letters)
+        return;
+    g_object_unref(letters->layout);
+    g_object_unref(letters->context);
+    g_object_unref(letters->fonts);
     heap_give(letters);
 }
 
@@ -173,7 +179,10 @@ void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *pain
     }
     if (!draw_spend_box(canvas, paint, text->size, text->size / 3, (double)text->text.len)) // a third is ink
         return;
-    PangoLayout *layout = canvas->painter->letters->layout;
+    Letters *letters = draw_letters(canvas->painter);
+    if (!letters)
+        arena_exhausted(&canvas->painter->arena);
+    PangoLayout *layout = letters->layout;
     double point[2] = {text->point[0], text->point[1]};
     set_font(canvas, text);
     pango_layout_set_text(layout, text->text.bytes, (int)text->text.len);
@@ -183,9 +192,9 @@ void draw_text(Canvas *canvas, const ListCommand *command, const ListPaint *pain
     cairo_move_to(canvas->cr, point[0], point[1]);
     pango_cairo_layout_path(canvas->cr, layout);
     ListPaint smooth = *paint;
-    ListCommand letters = *command;
+    ListCommand outline = *command;
     smooth.antialias = true;
-    letters.path.fill_type = FILL_WINDING;
-    draw_figure(canvas, &letters, &smooth);
+    outline.path.fill_type = FILL_WINDING;
+    draw_figure(canvas, &outline, &smooth);
     draw_forget_path(canvas);
 }
