@@ -2,7 +2,7 @@
 import assert from 'node:assert/strict';
 import { test } from 'node:test';
 import { packLink } from '../../src/web/page/link.mjs';
-import { atFrame, opened, options, typed, visited, world } from './browser.mjs';
+import { SLOW, atFrame, opened, options, typed, visited, world } from './browser.mjs';
 
 const SQUARE = '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;0.5;0 fill=true\n';
 const said = (page, pattern) => page.waitForFunction(([source]) => new RegExp(source).test(document.getElementById('message').textContent), [pattern.source]);
@@ -86,13 +86,16 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
     settings: { serviceWorkers: 'block' }, prepare: unshared, expected: /willReadFrequently|Service Worker registration blocked/,
     use: async page => {
         assert.equal(await page.evaluate(() => crossOriginIsolated), false);
-        await typed(page, `!a x=sum(i*j*frame for i in ..30000 for j in ..30000)\n${SQUARE}`);
+        await typed(page, `${SLOW}!a x=fib(frame+40)\n${SQUARE}`);
         await page.click('#run');
         await page.waitForSelector('.busy');
         await page.click('#stop');
         await said(page, /^Stopped. What the frame was at is given up/);
-        assert.match(await text(page), /30000/);
+        assert.match(await text(page), /fib/);
+        await page.evaluate(() => delete document.body.dataset.checked);
         await typed(page, SQUARE);
+        await page.waitForFunction(() => document.body.dataset.checked === '0'); // by the new engine, which said nothing before
+        await said(page, /^Stopped/);
         await page.click('#run');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);
     },

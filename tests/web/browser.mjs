@@ -61,6 +61,9 @@ export async function seek(page, frame) {
     await atFrame(page, frame);
 }
 
+// A script's function that takes seconds and no memory, which would end it sooner.
+export const SLOW = 'func fib(n)\n    n if n<2 else fib(n-1)+fib(n-2)\n';
+
 // What a canvas shows, as a number.
 export const pixels = (page, selector = '#picture') => page.locator(selector).first().evaluate(canvas => {
     const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);

@@ -6,7 +6,7 @@ import { tmpdir } from 'node:os';
 import { dirname, join } from 'node:path';
 import { test } from 'node:test';
 import { gzipSync } from 'node:zlib';
-import { atFrame, folder, frameOf, opened, options, pixels, root, seek, typed, world } from './browser.mjs';
+import { SLOW, atFrame, folder, frameOf, opened, options, pixels, root, seek, typed, world } from './browser.mjs';
 
 const DISH = readFileSync(join(root, 'samples/dish.fl'), 'utf8');
 
@@ -233,8 +233,8 @@ test('axe finds nothing serious, dark or light', options, async () => {
 test('what takes long is stopped, and goes on from the frame before', options, () => opened('', {
     use: async page => {
         assert.ok(await page.evaluate(() => crossOriginIsolated));
-        await typed(page, 'let LONG=LONG or 1 -- 1..2\n!window size=64;8\n    !canvas\n        '
-            + '!rect size=(sum(i*j*frame for i in ..30000 for j in ..30000) if frame==9 and LONG==1 else frame);8 fill=true\n');
+        await typed(page, SLOW + 'let LONG=LONG or 1 -- 1..2\n!window size=64;8\n    !canvas\n        '
+            + '!rect size=(fib(frame+31) if frame==9 and LONG==1 else frame);8 fill=true\n');
         await page.click('#run');
         await page.waitForFunction(() => document.querySelector('.busy'));
         await page.click('#stop');
@@ -255,12 +255,12 @@ test('what takes long is stopped, and goes on from the frame before', options, (
 
 test('what runs for ever is stopped, and the text stays', options, () => opened('', {
     use: async page => {
-        const text = '!a x=sum(i*j for i in ..30000 for j in ..30000)\n';
+        const text = `${SLOW}!a x=fib(frame+40)\n`;
         await typed(page, text);
         await page.click('#run');
         await page.click('#stop');
         await page.waitForFunction(() => document.getElementById('message').textContent.startsWith('Stopped'));
-        assert.equal(await page.evaluate(() => document.querySelector('.cm-line').textContent), text.trim());
+        assert.equal(await page.evaluate(() => document.querySelector('.cm-line').textContent), SLOW.split('\n')[0]);
         await typed(page, '!window size=32;32\n    !canvas\n');
         await page.click('#run');
         await page.waitForFunction(() => document.getElementById('picture').width === 32);

@@ -64,13 +64,18 @@ export class Remote {
         return this.waiting.size > 0;
     }
 
+    // What is asked while the engine is on its way waits for it.
     ask(act, message = {}) {
-        const id = ++this.number;
-        if (this.worker.dead)
-            return Promise.reject(new Error(this.worker.dead));
+        const id = ++this.number, { worker } = this;
+        if (worker.dead)
+            return Promise.reject(new Error(worker.dead));
         return new Promise((resolve, reject) => {
             this.waiting.set(id, { resolve, reject });
-            this.worker.postMessage({ ...message, act, id });
+            const post = () => worker.postMessage({ ...message, act, id });
+            if (act === 'open')
+                post();
+            else
+                this.ready.then(post, error => this.waiting.delete(id) && reject(error));
         });
     }
 
