@@ -4,7 +4,7 @@
 #include <stdlib.h>
 #include <string.h>
 
-enum { PLOTS_EACH = 1024 }; // plots for a rank
+enum { PLOTS_EACH = 8192 }; // plots for a rank: the smaller they are, the fewer particles are looked at one by one
 
 static uint32_t rotated(uint32_t word, uint32_t by, uint32_t bits) {
     by %= bits;

@@ -76,8 +76,10 @@ static bool take_groups(const PhysSystem *system, const Domain *domain) {
         uint32_t end = groups[g].first + groups[g].count;
         own[g] = groups[g];
         own[g].first = next;
-        while (next < local->particle_count && local->order[next] < end)
+        bool last = g + 1 == system->group_count;
+        while (!last && next < local->particle_count && local->order[next] < end)
             next++;
+        next = last ? local->particle_count : next;
         own[g].count = next - own[g].first;
     }
     return true;
