@@ -2,7 +2,8 @@
 # ranks.sh: what ranks gain and what they send. `./dev bench --ranks` runs it on a quiet machine.
 # usage: ranks.sh PATH-OF-PETRI [ROUNDS [SIDE]]: rounds of the times (3); discs along an edge (1000).
 #
-# 1. Two ranks of one thread and one rank of two threads take turns; a figure is the median over the rounds.
+# 1. Two ranks of one thread and one rank of two threads take turns; a figure is the median over the rounds,
+#    of frames after the first three.
 # 2. What is sent: by soft discs of three sizes on four ranks, and of one size on up to 16 (they need not run at once).
 # 3. A model of both: a step on R ranks takes N c / R, twice log2 R latencies for each decision, a latency for each
 #    message, its halo's bytes over the bandwidth; a frame besides what each rank does for all N, and 32 N bytes.
@@ -31,15 +32,24 @@ median() {
     sort -n | awk '{ v[NR] = $1 } END { print (v[int((NR + 1) / 2)] + v[int(NR / 2) + 1]) / 2 }'
 }
 
-# compare NAME SCRIPT OPTIONS...
-compare() {
-    name=$1
+# steady FRAMES COMMAND...: of a frame among so many that come after the first three, in which all is made.
+steady() {
+    frames=$1
     shift
+    start=$(milliseconds "$@" --frames 3)
+    milliseconds "$@" --frames "$((frames + 3))" |
+        awk -v start="$start" -v n="$frames" '{ print ($1 * (n + 3) - start * 3) / n }'
+}
+
+# compare NAME FRAMES SCRIPT OPTIONS...
+compare() {
+    name=$1 frames=$2
+    shift 2
     : >"$work/one"
     : >"$work/two"
     for _ in $(seq "$rounds"); do
-        milliseconds "$petri" run "$@" --threads 2 >>"$work/one"
-        milliseconds mpirun -n 2 "$petri" run "$@" --threads 1 >>"$work/two"
+        steady "$frames" "$petri" run "$@" --threads 2 >>"$work/one"
+        steady "$frames" mpirun -n 2 "$petri" run "$@" --threads 1 >>"$work/two"
     done
     one=$(median <"$work/one") two=$(median <"$work/two")
     awk -v name="$name" -v one="$one" -v two="$two" \
@@ -48,8 +58,8 @@ compare() {
 
 echo "milliseconds a frame              2 threads    2 ranks    ratio"
 soft=$(discs "$side")
-compare "soft discs $((side * side)) x10" "$soft" --fps 5 --frames 13
-compare "gravity 4000" "$workloads/gravity_n4000.fl" --frames 120
+compare "soft discs $((side * side)) x10" 20 "$soft" --fps 5
+compare "gravity 4000" 120 "$workloads/gravity_n4000.fl"
 
 # traffic SIDE RANKS: own particles, those of others, bytes and messages of a step, decisions, bytes of a frame: of the
 # rank that has most.
@@ -75,8 +85,8 @@ done
 read -r own _ bytes messages agreed _ <"$work/row" # of 16 ranks, most of which have others on all sides
 
 if [ -z "${STEP_NS:-}" ]; then
-    each=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 5 --frames 13 --threads 1)
-    frame=$(milliseconds mpirun -n 2 "$petri" run "$soft" --fps 25 --frames 33 --threads 1)
+    each=$(steady 20 mpirun -n 2 "$petri" run "$soft" --fps 5 --threads 1)
+    frame=$(steady 60 mpirun -n 2 "$petri" run "$soft" --fps 25 --threads 1)
     # A frame at 5 fps has ten steps, one at 25 has two.
     STEP_NS=$(echo "$each $frame $side" | awk '{ print ($1 - $2) / 8 / $3 / $3 * 2e6 }')
     FRAME_NS=$(echo "$each $frame $side" | awk '{ f = (10 * $2 - 2 * $1) / 8 / $3 / $3 * 1e6; print (f > 0 ? f : 0) }')
