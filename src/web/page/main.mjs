@@ -1,6 +1,6 @@
 // main.mjs: the page: an editor beside a dish, and what the buttons do.
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, sayError } from './dish.mjs';
+import { Dish, sayError, sayLeft } from './dish.mjs';
 import { Editor } from './editor.mjs';
 import { Keeper, keptScripts } from './kept.mjs';
 import { packLink, readLink } from './link.mjs';
@@ -36,7 +36,7 @@ const host = {
         if (answer.picture)
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
-            say(`Not drawn in the browser${answer.picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`);
+            say(sayLeft(answer, left));
         document.body.dataset.frame = answer.frame;
         look();
     },

@@ -63,9 +63,10 @@ ${body}</main>
 const index = { pages: [], sections: [] };
 const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
 
-// Sections take the text up to the next heading.
+// Sections take the text up to the next heading; a page is found by its own title, too, whatever its headings are.
 function addToIndex(page, body, sections) {
     const number = index.pages.push([`${page.name}.html`, page.title]) - 1;
+    index.sections.push([number, page.title, 'text', page.about]);
     const pieces = new Map([...body.matchAll(/<h[1-4] id="([^"]*)">.*?<\/h[1-4]>(.*?)(?=<h[1-4] id=|$)/gs)].map(([, id, text]) => [id, text]));
     for (const { title, id, text } of sections)
         index.sections.push([number, title, id, words(text || pieces.get(id)?.replaceAll(/<petri-dish.*?<\/petri-dish>/gs, ' ') || '')]);

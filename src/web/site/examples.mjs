@@ -100,7 +100,7 @@ export class Examples {
             return this.code(content);
         if (told[0] === 'tree' || told[0] === 'state')
             return this.try(told[0], Number(told[1] ?? 0), content, next.content, env);
-        return this.kindOf(content) === 'dish' && !info.endsWith('warns') ? this.dish(content, label, env) : this.code(content);
+        return this.kindOf(content) === 'dish' ? this.dish(content, label, env) : this.code(content);
     }
 
     // Lines `EXPRESSION => RESULT`.

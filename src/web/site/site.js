@@ -44,7 +44,7 @@
         list.append(...best.map(([, [page, title, id, text]]) => {
             const item = document.createElement('li'), link = document.createElement('a'), small = document.createElement('small');
             link.href = `${pages[page][0]}#${id}`;
-            link.textContent = `${pages[page][1]}: ${title}`;
+            link.textContent = title === pages[page][1] ? title : `${pages[page][1]}: ${title}`;
             link.onclick = () => (found.hidden = true);
             small.textContent = around(text, words);
             item.append(link, small);
