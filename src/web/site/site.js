@@ -30,7 +30,8 @@
     function around(text, words) {
         const at = Math.max(0, Math.min(...words.map(word => text.toLowerCase().indexOf(word)).filter(place => place >= 0), text.length) - 60);
         const start = at && text.indexOf(' ', at) + 1;
-        return `${start ? '… ' : ''}${text.slice(start, start + 180)}`;
+        const end = text.length > start + 180 ? text.lastIndexOf(' ', start + 180) : text.length;
+        return `${start ? '… ' : ''}${text.slice(start, end)}${end < text.length ? ' …' : ''}`;
     }
 
     async function search() {
