@@ -126,11 +126,13 @@ test('the speed menu gives so many frames for the same ticks of the display', op
 test('without WebGL 2 the page says so and draws the rest', options, () => opened('', {
     prepare: page => page.route('**/worker.js', async route => {
         const response = await route.fetch(), get = 'OffscreenCanvas.prototype.getContext';
-        const without = `const get = ${get};${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
+        const without = `const get = ${get};
+            ${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
         route.fulfill({ response, body: without + await response.text() });
     }),
     use: async page => {
-        await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n            !rect size=64;32 color=1;0.5;0 fill=true\n');
+        await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n'
+            + '            !rect size=64;32 color=1;0.5;0 fill=true\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);
         assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: bloom.');
@@ -280,7 +282,8 @@ test('axe finds nothing serious, dark or light', options, async () => {
                 await look();
                 await page.evaluate(async () => {
                     await import('./petri-dish.js');
-                    document.body.innerHTML = '<main><h1>t</h1><petri-dish controls editor>let A=A or 1 -- 1..2\n!window size=9;9\n    !canvas\n</petri-dish></main>';
+                    document.body.innerHTML = '<main><h1>t</h1><petri-dish controls editor>let A=A or 1 -- 1..2\n'
+                        + '!window size=9;9\n    !canvas\n</petri-dish></main>';
                 });
                 await page.waitForFunction(() => document.querySelector('petri-dish').frame === 2);
                 await look();

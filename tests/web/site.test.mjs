@@ -62,7 +62,7 @@ test('each sample is in the gallery, draws, and has its script beside it', ways,
         const script = readFileSync(join(root, 'samples', name), 'utf8');
         assert.equal(read(name), script);
         assert.equal(await dish.evaluate(element => element.text), script);
-        const shown = await dish.evaluate(element => element.nextElementSibling.matches('details') && element.nextElementSibling.textContent);
+        const shown = await dish.evaluate(({ nextElementSibling: below }) => below.matches('details') ? below.textContent : '');
         assert.ok(shown.includes(script), name);
         assert.ok(await dish.locator('#open').isVisible(), name);
     });
@@ -81,7 +81,7 @@ test('how petri differs from Flitter is told, from the first page on, and its ex
     assert.deepEqual(told, [[`script.${warning}`, true]]);
 }));
 
-test('each node of physics has its attributes with units, its limits, and a dish that runs', ways, () => visit('physics.html', async page => {
+test('each node of physics has its attributes, in which units, and a dish that runs', ways, () => visit('physics.html', async page => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), all = read('nodes.html');
     const plain = html => html.replaceAll(/<[^>]*>/g, '').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&amp;', '&');
     const ours = nodes.filter(({ area }) => area === 'physics');
@@ -90,7 +90,8 @@ test('each node of physics has its attributes with units, its limits, and a dish
         const here = read('physics.html').split(`<h2 id="${name}">`)[1].split('<h2 ')[0];
         const there = all.split(`<h3 id="physics-${name}">`)[1].split(/<h[23] /)[0];
         for (const attribute of attributes) {
-            assert.ok(here.includes(`<code>${attribute.name}</code>`) || /^(min|max)(imum)?$|^fixed$/.test(attribute.name), `${name} ${attribute.name}`);
+            const told = here.includes(`<code>${attribute.name}</code>`);
+            assert.ok(told || /^(min|max)(imum)?$|^fixed$/.test(attribute.name), `${name} ${attribute.name}`);
             const row = there.split('<tr>').find(one => one.startsWith(`<td><code>${attribute.name}</code></td>`)) ?? '';
             const cells = row.split('<td>').slice(1).map(plain).map(cell => cell.trim());
             assert.deepEqual(cells.slice(0, 3), [attribute.name, attribute.type, attribute.unit], `${name} ${attribute.name}`);
@@ -112,7 +113,8 @@ test('all other dishes of the manual run without a word', ways, async () => {
 });
 
 test('each page is reached from the first, and named on each other', built, () => {
-    const pages = readdirSync(site).filter(name => name.endsWith('.html')), links = name => [...read(name).matchAll(/<a href="([^"#]*)/g)].map(([, to]) => to);
+    const pages = readdirSync(site).filter(name => name.endsWith('.html'));
+    const links = name => [...read(name).matchAll(/<a href="([^"#]*)/g)].map(([, to]) => to);
     const reached = new Set(['index.html']);
     for (const name of reached)
         links(name).filter(to => pages.includes(to)).forEach(to => reached.add(to));
@@ -126,8 +128,10 @@ test('each page is reached from the first, and named on each other', built, () =
     }
 });
 
+const INDEX = `${pathToFileURL(join(site, 'index.html'))}`;
+
 // Opened from a file, where no server is asked for anything.
-test('each page is found by its title, and each section is in the index', ways, () => visited(`${pathToFileURL(join(site, 'index.html'))}`, {
+test('each page is found by its title, and each section is in the index', ways, () => visited(INDEX, {
     expected: /CORS|Failed to load/, ready: () => document.readyState === 'complete', use: async page => {
         const titles = [...read('index.html').split('class="cards"').slice(1).join('').matchAll(/<a href="([^"]*)">([^<]*)<\/a>/g)];
         assert.ok(titles.length > 18);
@@ -137,7 +141,10 @@ test('each page is found by its title, and each section is in the index', ways, 
             await page.waitForFunction(wanted => [...document.querySelectorAll('#found a')].some(link =>
                 link.getAttribute('href').startsWith(`${wanted}#`)), name);
         }
-        const sections = await page.evaluate(() => globalThis.PETRI_INDEX.sections.map(([number, , id]) => `${globalThis.PETRI_INDEX.pages[number][0]}#${id}`));
+        const sections = await page.evaluate(() => {
+            const { pages, sections: all } = globalThis.PETRI_INDEX;
+            return all.map(([number, , id]) => `${pages[number][0]}#${id}`);
+        });
         for (const [, name] of titles)
             for (const [, id] of read(name).matchAll(/<h[1-3] id="([^"]*)"/g))
                 assert.ok(sections.includes(`${name}#${id}`) || id === 'top', `${name}#${id}`);

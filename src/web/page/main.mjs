@@ -142,7 +142,8 @@ async function takeFiles(files) {
     await dish.giveFiles();
     const decoded = [...files].filter(file => file.name.endsWith('.fl'))
         .map(file => ({ called: file.name, text: new TextDecoder().decode(dish.files.get(file.name)) }));
-    const isNamed = called => [{ called: name, text: editor.text }, ...decoded].some(other => other.called !== called && other.text.includes(called));
+    const isNamed = called => [{ called: name, text: editor.text }, ...decoded]
+        .some(other => other.called !== called && other.text.includes(called));
     const script = decoded.find(({ called }) => !isNamed(called));
     if (script)
         await openText(script.text, script.called);
@@ -160,7 +161,8 @@ function fillMenu() {
     const menu = $('samples'), { value } = menu;
     menu.replaceChildren(new Option('choose …', ''),
         ...group('Samples', Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample))),
-        ...group('Written here', keptScripts().map(({ name: own, when }) => new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
+        ...group('Written here', keptScripts().map(({ name: own, when }) =>
+            new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
     menu.value = value;
 }
 

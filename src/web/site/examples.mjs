@@ -53,7 +53,8 @@ export class Examples {
             if (end === start)
                 continue;
             const piece = escape(bytes.subarray(start, end).toString());
-            html += escape(bytes.subarray(at, start).toString()) + (kind === 'name' || kind === 'operator' ? piece : `<span class="${kind}">${piece}</span>`);
+            html += escape(bytes.subarray(at, start).toString())
+                + (kind === 'name' || kind === 'operator' ? piece : `<span class="${kind}">${piece}</span>`);
             at = end;
         }
         session.close();
@@ -71,7 +72,8 @@ export class Examples {
     // A dish with its text to be changed; without scripts of the browser's, the text.
     dish(text, label, env) {
         this.all.push({ page: env.page, kind: 'dish', text, files: {} });
-        return `<petri-dish controls editor label="${escape(label)}"><pre tabindex="0" class="script">${this.coloured(text)}</pre></petri-dish>\n`;
+        return `<petri-dish controls editor label="${escape(label)}">`
+            + `<pre tabindex="0" class="script">${this.coloured(text)}</pre></petri-dish>\n`;
     }
 
     try(kind, frame, text, result, env) {
@@ -106,19 +108,23 @@ export class Examples {
     // Lines `EXPRESSION => RESULT`.
     evaluations(content, env) {
         const lines = content.trimEnd().split('\n').map(line => line.split(/ => (?!.* => )/));
-        return this.try('eval', 0, lines.map(([text]) => `${text.trimEnd()}\n`).join(''), lines.map(([, result = '']) => `${result}\n`).join(''), env);
+        const texts = lines.map(([text]) => `${text.trimEnd()}\n`), results = lines.map(([, result = '']) => `${result}\n`);
+        return this.try('eval', 0, texts.join(''), results.join(''), env);
     }
 
     // The script behind a picture, to be run below it.
     behind(file, env) {
         const text = readFileSync(join(this.root, file), 'utf8');
-        return this.kindOf(text, {}) === 'dish'
-            ? `<details><summary>Run ${basename(file)}</summary>\n${this.dish(text, `The picture of ${basename(file)}`, env)}</details>\n` : '';
+        if (this.kindOf(text, {}) !== 'dish')
+            return '';
+        const dish = this.dish(text, `The picture of ${basename(file)}`, env);
+        return `<details><summary>Run ${basename(file)}</summary>\n${dish}</details>\n`;
     }
 
     // What stands below the heading of a node of physics.
     under(title, env) {
         const name = title.match(/^!(\w+)$/)?.[1];
-        return env.page === 'physics' && this.nodes.has(name) ? this.dish(this.nodes.get(name), `!${name}, with what can be changed`, env) : '';
+        return env.page === 'physics' && this.nodes.has(name)
+            ? this.dish(this.nodes.get(name), `!${name}, with what can be changed`, env) : '';
     }
 }
