@@ -125,3 +125,60 @@ test('the page of petri itself may have it, too', options, () => opened('', {
         await page.waitForFunction(() => document.querySelector('petri-dish').frame === 2);
     },
 }));
+
+test('who can change the script is told what petri warns of, others are not', options, () => embedded(
+    ['editor', ''].map((given, i) =>
+        `<petri-dish id="d${i}" ${given}><pre>!window size=9;9\n    !canvas\n        !rect sice=9\n</pre></petri-dish>`).join(''),
+    async page => {
+        const message = id => page.locator(`#d${id} >> #message`).textContent();
+        assert.match(await message(0), /^script\.fl:3:15: warning: !rect: .*'sice'[^]*\^~~~/);
+        assert.equal(await message(1), '');
+        await page.locator('#d0 >> #text').fill('!window size=9;9\n    !canvas\n        !rect size=9\n');
+        await page.locator('#d0 >> #text').press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('d0').running);
+        assert.equal(await message(0), '');
+    }));
+
+test('what is not drawn without WebGL 2 is told below the picture', options, () => embedded(
+    '<petri-dish><pre>!window size=64;32\n    !bloom radius=2\n        !canvas\n</pre></petri-dish>', async page => {
+        assert.equal(await page.textContent(within('#message')), 'Not drawn in the browser, which has no WebGL 2: bloom.');
+    }, {
+        prepare: page => page.route('**/worker.js', async route => {
+            const response = await route.fetch();
+            await route.fulfill({ response, body: `OffscreenCanvas.prototype.getContext = (get => function (kind, ...more) {
+                return kind === 'webgl2' ? null : get.call(this, kind, ...more); })(OffscreenCanvas.prototype.getContext);
+                ${await response.text()}` });
+        }),
+    }));
+
+for (const reducedMotion of ['no-preference', 'reduce'])
+    test(`autoplay, and motion: ${reducedMotion}`, options, () => embedded(
+        `<petri-dish autoplay label="what it is"><pre>${SQUARE}</pre></petri-dish>`, async page => {
+            assert.equal(await page.locator(within('#picture')).getAttribute('aria-label'), 'what it is');
+            if (reducedMotion === 'reduce') {
+                await shown(page, 2);
+                assert.equal(await page.evaluate(() => document.querySelector('petri-dish').running), false);
+                await page.click(within('#start'));
+            }
+            await page.waitForFunction(() => document.querySelector('petri-dish').frame > 5);
+        }, { settings: { reducedMotion } }));
+
+test('the engine is fetched once, starts when an element comes into view, and rests when it is out of it', options, async () => {
+    const asked = [];
+    await embedded(`<petri-dish id="a"><pre>${SQUARE}</pre></petri-dish><div style="height: 5000px"></div>
+        <petri-dish id="b"><pre>${SQUARE}</pre></petri-dish>`, async page => {
+        const frame = id => page.evaluate(name => document.getElementById(name).frame, id);
+        assert.equal(await frame('b'), -1);
+        await page.evaluate(() => document.getElementById('a').run());
+        await page.waitForFunction(() => document.getElementById('a').frame > 4);
+        await page.evaluate(() => document.getElementById('b').scrollIntoView());
+        await page.waitForFunction(() => document.getElementById('b').frame === 2 && !document.getElementById('a').running);
+        const rested = await frame('a');
+        await page.evaluate(() => scrollTo(0, 0));
+        await page.waitForFunction(before => document.getElementById('a').frame > before, rested);
+        assert.equal(asked.filter(url => url.endsWith('engine.wasm')).length, 1);
+    }, {
+        ready: () => document.getElementById('a')?.frame >= 0,
+        prepare: page => page.on('request', request => asked.push(request.url())),
+    });
+});

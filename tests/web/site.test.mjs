@@ -12,6 +12,9 @@ const built = { skip: missing }, ways = { ...options, skip: options.skip || miss
 const read = name => readFileSync(join(site, name), 'utf8');
 const visit = (name, use) => visited(`${world.server.url}manual/${name}`, { ready: () => document.readyState === 'complete', use });
 
+const plain = html => html.replaceAll(/<[^>]*>/g, '').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"')
+    .replaceAll('&amp;', '&');
+
 // Each element of the page in turn, with what it says and its picture's bytes; more than a colour has more of them than two.
 async function eachDish(page, look, frames = 4) {
     const count = await page.locator('petri-dish').count();
@@ -83,7 +86,11 @@ test('how petri differs from Flitter is told, from the first page on, and its ex
 
 test('each node of physics has its attributes, in which units, and a dish that runs', ways, () => visit('physics.html', async page => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), all = read('nodes.html');
-    const plain = html => html.replaceAll(/<[^>]*>/g, '').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&amp;', '&');
+    // Letters of the formulas, and what all is measured in.
+    assert.match(all, /in your units of mass·length\/time²/);
+    const units = plain(read('physics.html').split('<h2 id="units-and-axes">')[1].split('<h2 ')[0]);
+    for (const quantity of ['time', 'length', 'mass', 'charge', 'velocity', 'force'])
+        assert.ok(units.includes(`\n${quantity}\n`), quantity);
     const ours = nodes.filter(({ area }) => area === 'physics');
     assert.ok(ours.length > 14);
     for (const { name, attributes } of ours) {
@@ -100,13 +107,16 @@ test('each node of physics has its attributes, in which units, and a dish that r
     await eachDish(page, runsWell);
 }));
 
-test('all other dishes of the manual run without a word', ways, async () => {
+test('all other dishes of the manual run, and say what the page says that they do', ways, async () => {
     const done = ['tutorial', 'gallery', 'flitter', 'physics'];
     for (const name of readdirSync(site).filter(file => file.endsWith('.html') && !done.includes(file.slice(0, -5)))) {
         if (!read(name).includes('<petri-dish '))
             continue;
+        const text = plain(read(name));
         await visit(name, page => eachDish(page, ({ message, label, frame }) => {
-            assert.equal(message, '', `${name}: ${label}`);
+            for (const [, said] of message.matchAll(/^script\.(fl:.*)$/gm))
+                assert.ok(text.includes(said), `${name}: ${label}: ${said}`);
+            assert.ok(message === '' || message.startsWith('script.fl:'), `${name}: ${label}: ${message}`);
             assert.equal(frame, 4, `${name}: ${label}`);
         }));
     }

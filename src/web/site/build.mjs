@@ -17,7 +17,7 @@ rmSync(output, { recursive: true, force: true });
 mkdirSync(output, { recursive: true });
 const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm')));
 const site = {
-    root, output, tables: JSON.parse(readFileSync(tables, 'utf8')), places: placesOf(root), examples: new Examples(engine, root),
+    root, output, tables: JSON.parse(readFileSync(tables, 'utf8')), places: placesOf(root), examples: new Examples(engine, root, output),
 };
 site.text = new Text(site);
 
