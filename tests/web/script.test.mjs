@@ -46,7 +46,8 @@ test('a comment gives range and step, a value changes what comes after, and that
         assert.deepEqual(await page.locator('#parameters input:not([type=range])').evaluateAll(all =>
             all.map(({ id, type, value }) => [id, type, value])),
         [['parameter-A', 'number', '20'], ['parameter-B', 'number', '3'], ['parameter-C', 'text', "'red'"]]);
-        const at = x => page.evaluate(place => [...document.getElementById('picture').getContext('2d').getImageData(place, 4, 1, 1).data], x);
+        const at = x => page.locator('#picture').evaluate((canvas, place) =>
+            [...canvas.getContext('2d').getImageData(place, 4, 1, 1).data], x);
         await steps(page, 5);
         await seek(page, 3);
         await slider.focus();
