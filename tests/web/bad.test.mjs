@@ -5,7 +5,8 @@ import { packLink } from '../../src/web/page/link.mjs';
 import { SLOW, atFrame, opened, options, typed, visited, world } from './browser.mjs';
 
 const SQUARE = '!window size=64;32\n    !canvas\n        !rect point=0;0 size=64;32 color=1;0.5;0 fill=true\n';
-const said = (page, pattern) => page.waitForFunction(([source]) => new RegExp(source).test(document.getElementById('message').textContent), [pattern.source]);
+const said = (page, pattern) => page.waitForFunction(source =>
+    new RegExp(source).test(document.getElementById('message').textContent), pattern.source);
 const text = page => page.evaluate(() => [...document.querySelectorAll('.cm-line')].map(line => line.textContent).join('\n'));
 
 async function packed(object) {
@@ -13,14 +14,17 @@ async function packed(object) {
     return `#${Buffer.from(await new Response(stream).arrayBuffer()).toString('base64url')}`;
 }
 
-test('a link that is cut off, too long, of a newer petri or of something else says so, and leaves what was there', options, () => opened('', {
+const LINKS = 'a link that is cut off, too long, of a newer petri or of something else says so, and leaves what was there';
+test(LINKS, options, () => opened('', {
     use: async page => {
         await typed(page, SQUARE);
         await page.waitForFunction(() => document.body.dataset.checked === '0');
         const link = await packLink({ text: SQUARE.replace('64;32', '32;32'), name: 'a.fl', frame: 3, hash: 'f'.repeat(64) });
-        const bad = [[link.slice(0, -9), /cut off/], [`#${'A'.repeat(150000)}`, /too long/], [await packed({ v: 2, text: [] }), /newer petri/],
-            ['#%%%', /damaged/], [await packed({ v: 1, t: 5 }), /none of petri's/], [await packed(null), /none of petri's/],
-            [await packed({ v: 1, t: ' '.repeat(5 << 20) }), /more than 4 MiB/]];
+        const bad = [
+            [link.slice(0, -9), /cut off/], [`#${'A'.repeat(150000)}`, /too long/], ['#%%%', /damaged/],
+            [await packed({ v: 2, text: [] }), /newer petri/], [await packed({ v: 1, t: ' '.repeat(5 << 20) }), /more than 4 MiB/],
+            [await packed({ v: 1, t: 5 }), /none of petri's/], [await packed(null), /none of petri's/],
+        ];
         for (const [hash, message] of bad) {
             await page.evaluate(at => (location.hash = at), hash);
             await said(page, message);
@@ -101,9 +105,11 @@ test('where threads share no memory, stop ends the engine, and it goes on with a
     },
 }));
 
-for (const [file, message] of [['petri/engine.wasm', /the engine cannot be loaded: .* answers 404/], ['worker.js', /the engine cannot be started/]])
+const LOST = [['petri/engine.wasm', /the engine cannot be loaded: .* answers 404/], ['worker.js', /the engine cannot be started/]];
+for (const [file, message] of LOST)
     test(`a page that gets no ${file} says so, and has the text`, options, () => visited(world.server.url, {
-        prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })), expected: /404|willReadFrequently|MIME|Failed to/,
+        prepare: page => page.route(`**/${file}`, route => route.fulfill({ status: 404 })),
+        expected: /404|willReadFrequently|MIME|Failed to/,
         ready: () => document.getElementById('message').textContent,
         use: async page => {
             await said(page, message);
@@ -147,6 +153,7 @@ test('a script of a link reads no files and reaches no network', options, async 
         },
     });
     const own = ['', 'start.js', 'page.js', 'style.css', 'samples.json', 'worker.js', 'petri/engine.wasm', 'petri-dish.js', 'offline.js'];
-    const others = asked.map(url => url.replace(/#.*/, '')).filter(url => !own.some(name => url === world.server.url + name) && !/^(data|blob):/.test(url));
+    const others = asked.map(url => url.replace(/#.*/, ''))
+        .filter(url => !own.some(name => url === world.server.url + name) && !/^(data|blob):/.test(url));
     assert.deepEqual(others, []);
 });

@@ -13,8 +13,8 @@ let other, html = '';
 // A server as anybody has: no headers of petri's.
 before(() => new Promise(resolve => {
     other = createServer((request, response) => {
-        const [type, text] = request.url === '/folder/dish.fl' ? ['text/plain', DISH] : request.url === '/m.fl' ? ['text/plain', 'let N=7\n']
-            : request.url === '/' ? ['text/html', html] : [null, ''];
+        const served = { '/folder/dish.fl': ['text/plain', DISH], '/m.fl': ['text/plain', 'let N=7\n'], '/': ['text/html', html] };
+        const [type, text] = served[request.url] ?? [null, ''];
         response.writeHead(type ? 200 : 404, { 'Content-Type': type ?? 'text/plain' }).end(text);
     }).listen(0, '127.0.0.1', resolve);
 }));
@@ -39,7 +39,8 @@ test('a script in a page from elsewhere, by src and between the tags, with contr
     </script></petri-dish>`, async page => {
         const first = await pixels(page, within('#picture'));
         assert.ok(first.width > 100 && first.all > 20, JSON.stringify(first));
-        const [r, g, b] = await page.locator('petri-dish.b >> #picture').evaluate(canvas => canvas.getContext('2d').getImageData(30, 10, 1, 1).data);
+        const [r, g, b] = await page.locator('petri-dish.b >> #picture')
+            .evaluate(canvas => canvas.getContext('2d').getImageData(30, 10, 1, 1).data);
         assert.deepEqual([r, g, b], [255, 5, 0]);
         assert.equal(await page.evaluate(() => globalThis.crossOriginIsolated), false);
         await page.click(within('#run'));
@@ -62,7 +63,8 @@ test('a page looks as without it, and it looks as without the page', options, ()
         assert.equal(await style('#button', 'borderTopWidth'), '9px');
         assert.equal(await style(within('#run'), 'borderTopWidth'), '1px');
         assert.equal(await style(within('#picture'), 'borderTopWidth'), '0px');
-        const added = await page.evaluate(() => [document.title, document.head.children.length, document.querySelectorAll('petri-dish > *').length]);
+        const added = await page.evaluate(() =>
+            [document.title, document.head.children.length, document.querySelectorAll('petri-dish > *').length]);
         assert.deepEqual(added, ['t', 5, 0]);
     }));
 
@@ -78,7 +80,8 @@ test('a script that the reader changes, and a link to the page with what it has 
         await page.click(within('#run'));
         await text.fill('!a x=)\n');
         await page.click(within('#run'));
-        await page.waitForFunction(() => /script\.fl:1:6: error/.test(document.querySelector('petri-dish').shadowRoot.getElementById('message').textContent));
+        await page.waitForFunction(() =>
+            /script\.fl:1:6: error/.test(document.querySelector('petri-dish').shadowRoot.getElementById('message').textContent));
         await text.fill(SQUARE.replace('size=64;32\n', 'size=40;20\n'));
         const [linked] = await Promise.all([context.waitForEvent('page'), page.click(within('#open'))]);
         await linked.waitForFunction(() => document.body.dataset.ready);
@@ -104,7 +107,8 @@ test('a page commands it and hears of it', options, () => embedded(
             await dish.seek(12);
             const { frame, running } = dish;
             dish.run();
-            return { frame, running, frames: globalThis.heard.filter(([type]) => type === 'petri-frame').map(([, detail]) => detail.frame) };
+            const pictures = globalThis.heard.filter(([type]) => type === 'petri-frame');
+            return { frame, running, frames: pictures.map(([, detail]) => detail.frame) };
         }, "import N from 'm.fl'\nlet A=A or N\n!window size=8;8\n    !canvas\n        !rect size=A;8 fill=true\n");
         assert.deepEqual([done.frame, done.running], [12, false]);
         assert.deepEqual(done.frames, [0, 2, 9, 9, 12]);
@@ -121,3 +125,60 @@ test('the page of petri itself may have it, too', options, () => opened('', {
         await page.waitForFunction(() => document.querySelector('petri-dish').frame === 2);
     },
 }));
+
+test('who can change the script is told what petri warns of, others are not', options, () => embedded(
+    ['editor', ''].map((given, i) =>
+        `<petri-dish id="d${i}" ${given}><pre>!window size=9;9\n    !canvas\n        !rect sice=9\n</pre></petri-dish>`).join(''),
+    async page => {
+        const message = id => page.locator(`#d${id} >> #message`).textContent();
+        assert.match(await message(0), /^script\.fl:3:15: warning: !rect: .*'sice'[^]*\^~~~/);
+        assert.equal(await message(1), '');
+        await page.locator('#d0 >> #text').fill('!window size=9;9\n    !canvas\n        !rect size=9\n');
+        await page.locator('#d0 >> #text').press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('d0').running);
+        assert.equal(await message(0), '');
+    }));
+
+test('what is not drawn without WebGL 2 is told below the picture', options, () => embedded(
+    '<petri-dish><pre>!window size=64;32\n    !bloom radius=2\n        !canvas\n</pre></petri-dish>', async page => {
+        assert.equal(await page.textContent(within('#message')), 'Not drawn in the browser, which has no WebGL 2: bloom.');
+    }, {
+        prepare: page => page.route('**/worker.js', async route => {
+            const response = await route.fetch();
+            await route.fulfill({ response, body: `OffscreenCanvas.prototype.getContext = (get => function (kind, ...more) {
+                return kind === 'webgl2' ? null : get.call(this, kind, ...more); })(OffscreenCanvas.prototype.getContext);
+                ${await response.text()}` });
+        }),
+    }));
+
+for (const reducedMotion of ['no-preference', 'reduce'])
+    test(`autoplay, and motion: ${reducedMotion}`, options, () => embedded(
+        `<petri-dish autoplay label="what it is"><pre>${SQUARE}</pre></petri-dish>`, async page => {
+            assert.equal(await page.locator(within('#picture')).getAttribute('aria-label'), 'what it is');
+            if (reducedMotion === 'reduce') {
+                await shown(page, 2);
+                assert.equal(await page.evaluate(() => document.querySelector('petri-dish').running), false);
+                await page.click(within('#start'));
+            }
+            await page.waitForFunction(() => document.querySelector('petri-dish').frame > 5);
+        }, { settings: { reducedMotion } }));
+
+test('the engine is fetched once, starts when an element comes into view, and rests when it is out of it', options, async () => {
+    const asked = [];
+    await embedded(`<petri-dish id="a"><pre>${SQUARE}</pre></petri-dish><div style="height: 5000px"></div>
+        <petri-dish id="b"><pre>${SQUARE}</pre></petri-dish>`, async page => {
+        const frame = id => page.evaluate(name => document.getElementById(name).frame, id);
+        assert.equal(await frame('b'), -1);
+        await page.evaluate(() => document.getElementById('a').run());
+        await page.waitForFunction(() => document.getElementById('a').frame > 4);
+        await page.evaluate(() => document.getElementById('b').scrollIntoView());
+        await page.waitForFunction(() => document.getElementById('b').frame === 2 && !document.getElementById('a').running);
+        const rested = await frame('a');
+        await page.evaluate(() => scrollTo(0, 0));
+        await page.waitForFunction(before => document.getElementById('a').frame > before, rested);
+        assert.equal(asked.filter(url => url.endsWith('engine.wasm')).length, 1);
+    }, {
+        ready: () => document.getElementById('a')?.frame >= 0,
+        prepare: page => page.on('request', request => asked.push(request.url())),
+    });
+});

@@ -46,7 +46,8 @@ test('types are there for each method, and no others', () => {
     const types = read('src/web/engine/petri.d.ts').match(/interface Session \{([^]*?)\n\}/)[1];
     const declared = [...types.matchAll(/^ {4}(?:readonly )?(\w+)[(:]/gm)].map(match => match[1]).sort();
     const session = engine.open();
-    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'giveImage', 'openPainter', 'closePainter', 'forgetPicture'];
+    const inner = ['constructor', 'run', 'check', 'with', 'tell', 'readFile', 'listFolder', 'addColumn', 'drawCanvas', 'giveImage',
+        'openPainter', 'closePainter', 'forgetPicture'];
     const real = Object.getOwnPropertyNames(Object.getPrototypeOf(session)).filter(name => !inner.includes(name)).sort();
     assert.deepEqual(declared, real);
     session.close();
@@ -114,7 +115,8 @@ test('an end that is wanted is met or forgotten: it never comes to the next call
     session.load(script).step().step();
     const whole = { state: session.state, parameters: session.parameters, systems: session.systems.length, table: session.table().text,
         picture: session.picture().numbers, help: session.help(), tokens: session.tokens(script), evaluated: session.evaluate('sum(..99)'),
-        told: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')), drawable: true };
+        told: session.diagnose(`${script}!x a=`).length, hash: session.hash(), symbol: session.symbolName(session.symbol('q')),
+        drawable: true };
     const acts = { state: () => session.state, parameters: () => session.parameters, systems: () => session.systems.length,
         table: () => session.table().text, picture: () => session.picture()?.numbers, help: () => session.help(),
         tokens: () => session.tokens(script), evaluated: () => session.evaluate('sum(..99)'), hash: () => session.hash(),

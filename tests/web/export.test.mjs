@@ -34,7 +34,9 @@ test('text, picture and state are saved as files', options, () => opened('', {
     },
 }));
 
-test('particles are saved as petri run --trajectory writes them', { ...options, skip: options.skip || (existsSync(petri) ? false : `there is no ${petri}`) }, () => opened('', {
+const beside = { ...options, skip: options.skip || (existsSync(petri) ? false : `there is no ${petri}`) };
+
+test('particles are saved as petri run --trajectory writes them', beside, () => opened('', {
     use: async page => {
         const scratch = mkdtempSync(join(tmpdir(), 'petri-')), way = join(scratch, 'way.csv');
         execFileSync(petri, ['run', join(root, 'samples/dish.fl'), '--frames', '25', '--trajectory', way, '--quiet', '--print', 'state']);
@@ -48,7 +50,8 @@ test('particles are saved as petri run --trajectory writes them', { ...options, 
 
 test('a film has one frame for each of the script, and is in the right colours', options, () => opened('', {
     use: async (page, context) => {
-        await typed(page, '%pragma fps 25\n!window size=101;51\n    !canvas\n        !rect point=0;0 size=(frame+1);51 color=1;0.5;0 fill=true\n');
+        await typed(page, '%pragma fps 25\n!window size=101;51\n    !canvas\n'
+            + '        !rect point=0;0 size=(frame+1);51 color=1;0.5;0 fill=true\n');
         await page.click('#run');
         await page.waitForFunction(() => document.getElementById('picture').width === 101);
         await page.click('#run');
@@ -62,13 +65,17 @@ test('a film has one frame for each of the script, and is in the right colours',
             const video = document.createElement('video');
             const bytes = Uint8Array.from(atob(text), character => character.charCodeAt(0));
             video.src = URL.createObjectURL(new Blob([bytes], { type: 'video/webm' }));
-            await new Promise((resolve, reject) => Object.assign(video, { onloadeddata: resolve, onerror: () => reject(new Error(video.error.message)) }));
+            await new Promise((resolve, reject) => {
+                video.onloadeddata = resolve;
+                video.onerror = () => reject(new Error(video.error.message));
+            });
             video.currentTime = 49.5 / 25;
             await new Promise(resolve => (video.onseeked = resolve));
             const context = new OffscreenCanvas(101, 51).getContext('2d');
             context.drawImage(video, 0, 0);
             const at = x => [...context.getImageData(x, 25, 1, 1).data].slice(0, 3);
-            return { duration: video.duration, size: [video.videoWidth, video.videoHeight], inside: at(40), outside: at(60), edge: [at(48), at(51)] };
+            const { duration, videoWidth, videoHeight } = video;
+            return { duration, size: [videoWidth, videoHeight], inside: at(40), outside: at(60), edge: [at(48), at(51)] };
         }, film.toString('base64'));
         assert.ok(Math.abs(seen.duration - 91 / 25) < 0.01, `${seen.duration}`);
         assert.deepEqual(seen.size, [101, 51]);
@@ -115,7 +122,8 @@ test('an export is given up', options, () => opened('', {
 
 test('scripts, modules and images are opened, and dropped', options, () => opened('', {
     use: async page => {
-        const script = "import WIDE from 'wide.fl'\n!window size=WIDE;20\n    !canvas\n        !image filename='red.png' point=0;0 size=WIDE;20\n";
+        const script = "import WIDE from 'wide.fl'\n!window size=WIDE;20\n    !canvas\n"
+            + "        !image filename='red.png' point=0;0 size=WIDE;20\n";
         const red = Buffer.from(await page.evaluate(async () => {
             const canvas = new OffscreenCanvas(2, 2), context = canvas.getContext('2d');
             context.fillStyle = '#f00';
@@ -124,7 +132,8 @@ test('scripts, modules and images are opened, and dropped', options, () => opene
         }));
         const files = width => [['wide.fl', `let WIDE=${width}\n`], ['red.png', red], ['main.fl', script]];
         const at = () => page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(5, 5, 1, 1).data]);
-        const wide = width => page.waitForFunction(wanted => document.getElementById('picture').width === wanted && document.body.dataset.frame === '2', width);
+        const wide = width => page.waitForFunction(wanted =>
+            document.getElementById('picture').width === wanted && document.body.dataset.frame === '2', width);
         await page.setInputFiles('#file', files(40).map(([name, content]) => ({ name, mimeType: '', buffer: Buffer.from(content) })));
         await wide(40);
         assert.deepEqual(await at(), [255, 0, 0, 255]);

@@ -47,14 +47,16 @@ test('examples give in WebAssembly what the manual shows', built, async () => {
             assert.ok(given.startsWith(result.trimEnd()), `${where}\n${given}`);
     }
     const count = kind => examples.filter(example => example.kind === kind).length;
-    assert.ok(count('dish') > 40 && count('eval') > 20 && count('tree') > 30 && count('state') > 15, JSON.stringify(examples.map(({ kind }) => kind)));
+    const counts = { dish: count('dish'), eval: count('eval'), tree: count('tree'), state: count('state') };
+    assert.ok(counts.dish > 40 && counts.eval > 20 && counts.tree > 30 && counts.state > 15, JSON.stringify(counts));
 });
 
 test('links lead somewhere, pictures are there', built, () => {
-    const ids = new Map(pages.map(name => [name, new Set([...read(name).matchAll(/ id="([^"]+)"/g)].map(([, id]) => id))]));
+    const idsOf = name => [...read(name).matchAll(/ id="([^"]+)"/g)].map(([, id]) => id);
+    const ids = new Map(pages.map(name => [name, new Set(idsOf(name))]));
     let count = 0;
     for (const name of pages) {
-        const text = read(name), twice = [...text.matchAll(/ id="([^"]+)"/g)].map(([, id]) => id).filter((id, i, all) => all.indexOf(id) !== i);
+        const text = read(name), twice = idsOf(name).filter((id, i, all) => all.indexOf(id) !== i);
         assert.deepEqual(twice, [], `${name}: ids that are there twice`);
         for (const [, link] of text.matchAll(/(?:href|src)="([^"]*)"/g)) {
             const [path, id] = link.split('#');
@@ -68,16 +70,20 @@ test('links lead somewhere, pictures are there', built, () => {
     assert.ok(pages.length > 18 && count > 1000, `${pages.length} pages, ${count} links`);
 });
 
+const FORCES = ['distance', 'collision', 'gravity', 'electrostatic', 'adhesion', 'constant', 'random', 'field', 'drag', 'buoyancy',
+    'barrier'];
+
 test('each node of physics has a formula or none, and an example that runs', built, () => {
     const { nodes } = JSON.parse(readFileSync(join(folder, '../web-tables.json'), 'utf8')), text = read('physics.html');
     for (const { name } of nodes.filter(({ area }) => area === 'physics')) {
         const part = text.split(`<h2 id="${name}">`)[1]?.split('<h2 ')[0];
         assert.match(part ?? '', /<petri-dish controls editor/, name);
-        assert.equal(/class="formula"/.test(part), /^(distance|collision|gravity|electrostatic|adhesion|constant|random|field|drag|buoyancy|barrier)$/.test(name), name);
+        assert.equal(/class="formula"/.test(part), FORCES.includes(name), name);
     }
 });
 
-const visit = (name, use, settings = {}) => visited(`${world.server.url}manual/${name}`, { settings, ready: () => document.readyState === 'complete', use });
+const visit = (name, use, settings = {}) =>
+    visited(`${world.server.url}manual/${name}`, { settings, ready: () => document.readyState === 'complete', use });
 const shown = page => page.waitForFunction(() => document.querySelector('petri-dish').frame >= 0);
 
 const ways = { ...options, skip: options.skip || built.skip };
@@ -114,7 +120,8 @@ test('a reader changes an example, and sees what comes of it', ways, () => visit
     const script = page.locator('.try[data-kind=tree]').first();
     await script.locator('button').click();
     await script.locator('textarea').fill('for i in ..2\n    !a b=i c=nowhere\n');
-    await page.waitForFunction(() => /^!a b=0\n!a b=1\n.*unbound name 'nowhere'/s.test(document.querySelector('.try[data-kind=tree] .result').textContent));
+    await page.waitForFunction(() => /^!a b=0\n!a b=1\n.*unbound name 'nowhere'/s
+        .test(document.querySelector('.try[data-kind=tree] .result').textContent));
 }));
 
 test('pages work for all, in light and dark, on a phone, and without a network', ways, async () => {
@@ -122,7 +129,8 @@ test('pages work for all, in light and dark, on a phone, and without a network',
         await visit(name, async page => {
             await page.evaluate(readFileSync(AXE, 'utf8'));
             const { violations } = await page.evaluate(() => globalThis.axe.run());
-            assert.deepEqual(violations.filter(({ impact }) => impact === 'serious' || impact === 'critical').map(({ id, nodes }) => [id, nodes[0].html]), [], name);
+            const bad = violations.filter(({ impact }) => impact === 'serious' || impact === 'critical');
+            assert.deepEqual(bad.map(({ id, nodes }) => [id, nodes[0].html]), [], name);
         }, { colorScheme });
     await visit('tutorial.html', async (page, context) => {
         assert.equal(await page.evaluate(() => document.documentElement.scrollWidth <= innerWidth), true);

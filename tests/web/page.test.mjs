@@ -63,14 +63,76 @@ test('a picture is there, runs, goes back and forth to the same pictures', optio
     },
 }));
 
+const centre = page => page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(32, 16, 1, 1).data]);
+
+test('a picture with effects takes the place of one without, of the same size, and the other way round', options, () => opened('', {
+    use: async page => {
+        const flat = '!window size=64;32\n    !canvas\n        !rect size=64;32 color=1;0.5;0 fill=true\n';
+        const effect = '!window size=64;32\n    !vignette inset=0\n        !canvas\n            !rect size=64;32 color=0;0;1 fill=true\n';
+        const seen = [];
+        for (const script of [flat, effect, flat]) {
+            await page.evaluate(() => delete document.body.dataset.frame);
+            await typed(page, script);
+            await page.click('#reset');
+            await atFrame(page, 0);
+            seen.push(await centre(page));
+        }
+        assert.equal(await page.textContent('#message'), '');
+        assert.deepEqual([seen[0], seen[2]], [[255, 128, 0, 255], [255, 128, 0, 255]]);
+        assert.ok(seen[1][0] < 5 && seen[1][2] > 200, `${seen[1]}`);
+    },
+}));
+
+test('the speed menu gives so many frames for the same ticks of the display', options, () => opened('', {
+    use: async page => {
+        await typed(page, '!window size=8;8\n    !canvas\n');
+        await page.click('#reset');
+        await atFrame(page, 0);
+        const frames = await page.evaluate(async () => {
+            const $ = id => document.getElementById(id), waiting = [], counts = [];
+            let now = 1000;
+            performance.now = () => now;
+            globalThis.requestAnimationFrame = callback => waiting.push(callback);
+            // 64 ticks make a second, exactly; each comes when the frames of the one before are there.
+            const tick = async () => {
+                while (waiting.length === 0)
+                    await new Promise(resolve => setTimeout(resolve));
+                now += 15.625;
+                waiting.splice(0).forEach(callback => callback(now));
+            };
+            const drawn = async count => {
+                while (waiting.length === 0 && $('run').textContent === 'Pause')
+                    await new Promise(resolve => setTimeout(resolve));
+                return Number(document.body.dataset.frame) - count;
+            };
+            for (const { value } of $('speed').options) {
+                $('speed').value = value;
+                $('speed').dispatchEvent(new Event('change'));
+                const before = await drawn(0);
+                $('run').click();
+                await new Promise(resolve => setTimeout(resolve));
+                for (let i = 0; i < 64; i++)
+                    await tick();
+                counts.push([value, await drawn(before)]);
+                $('run').click();
+                waiting.length = 0;
+            }
+            return counts;
+        });
+        assert.deepEqual(frames, [['0.25', 15], ['0.5', 30], ['1', 60], ['2', 120], ['4', 240]]);
+    },
+}));
+
 test('without WebGL 2 the page says so and draws the rest', options, () => opened('', {
     prepare: page => page.route('**/worker.js', async route => {
         const response = await route.fetch(), get = 'OffscreenCanvas.prototype.getContext';
-        const without = `const get = ${get};${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
+        const without = `const get = ${get};
+            ${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
         route.fulfill({ response, body: without + await response.text() });
     }),
     use: async page => {
-        await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n            !rect size=64;32 color=1;0.5;0 fill=true\n');
+        await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n'
+            + '            !rect size=64;32 color=1;0.5;0 fill=true\n');
         await page.keyboard.press('Control+Enter');
         await page.waitForFunction(() => document.getElementById('picture').width === 64);
         assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: bloom.');
@@ -220,7 +282,8 @@ test('axe finds nothing serious, dark or light', options, async () => {
                 await look();
                 await page.evaluate(async () => {
                     await import('./petri-dish.js');
-                    document.body.innerHTML = '<main><h1>t</h1><petri-dish controls editor>let A=A or 1 -- 1..2\n!window size=9;9\n    !canvas\n</petri-dish></main>';
+                    document.body.innerHTML = '<main><h1>t</h1><petri-dish controls editor>let A=A or 1 -- 1..2\n'
+                        + '!window size=9;9\n    !canvas\n</petri-dish></main>';
                 });
                 await page.waitForFunction(() => document.querySelector('petri-dish').frame === 2);
                 await look();

@@ -46,7 +46,8 @@ test('watched expressions are plotted, for frames before, too', options, () => o
         await page.click('#back');
         await said('round(frame*10) = 20 in frame 2');
         const inked = () => page.evaluate(() => {
-            const canvas = document.getElementById('plot-picture'), { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
+            const canvas = document.getElementById('plot-picture');
+            const { data } = canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height);
             let blue = 0;
             for (let i = 0; i < data.length; i += 4)
                 blue += data[i + 2] > data[i] + 100 && data[i + 3] > 100;
@@ -65,9 +66,11 @@ test('watched expressions are plotted, for frames before, too', options, () => o
 
 test('a state of a hundred thousand keys is filtered and sorted', options, () => opened('', {
     use: async page => {
-        await running(page, '!physics state=:p dimensions=2 time=time\n    for i in ..50000\n        !particle id=i position=i;(0-i)\n!window size=8;8\n    !canvas\n');
+        await running(page, '!physics state=:p dimensions=2 time=time\n    for i in ..50000\n'
+            + '        !particle id=i position=i;(0-i)\n!window size=8;8\n    !canvas\n');
         await page.click('#tab-state');
-        const count = wanted => page.waitForFunction(pattern => new RegExp(pattern).test(document.getElementById('state-count').textContent), wanted);
+        const count = wanted => page.waitForFunction(pattern =>
+            new RegExp(pattern).test(document.getElementById('state-count').textContent), wanted);
         await count('^1 to 100 of 10000\\d$');
         assert.equal(await page.locator('#state-rows tr').count(), 100);
         const begun = Date.now();
@@ -168,7 +171,8 @@ test('pointer and keys go to the script while the picture has the focus', option
                 document.getElementById('line').value = text;
                 document.getElementById('line').form.requestSubmit();
             }, expression);
-            await page.waitForFunction(end => document.getElementById('printed').textContent.trimEnd().endsWith(end), `${expression}\n${value}`);
+            await page.waitForFunction(end =>
+                document.getElementById('printed').textContent.trimEnd().endsWith(end), `${expression}\n${value}`);
         };
         await page.focus('#picture');
         for (const [key, name] of Object.entries(keys)) {

@@ -158,13 +158,15 @@ for (const name of ['adjust', 'bloom', 'blur', 'chromakey', 'edges', 'feedback',
     'transform', 'vignette'])
     test(`the effect ${name}`, options, () => check(join(pictures, `effect_${name}.fl`), 2, 5e-3));
 for (const name of ['dots', 'lights', 'metal', 'translucency'])
-    test(`the scene ${name}`, options, () => check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
+    test(`the scene ${name}`, options, () =>
+        check(join(pictures, `scenes/${name}.fl`), 2, 2e-3, name === 'metal' ? ['models/pyramid.obj'] : []));
 // All pictures of canvases, but for those that have tests of their own, that have nothing in them, or whose pixels are enlarged, or
 // covered by hundreds of lines each.
 const OTHERS = new Set(['canvas_wide', 'path_effects', 'gallery', 'window_default', 'window_size', 'canvas_size', 'image_id', 'long_path']);
 for (const name of readdirSync(pictures).filter(file => /^(?!effect_).*\.fl$/.test(file)).map(file => file.slice(0, -3))
     .filter(file => !OTHERS.has(file)))
-    test(`the picture ${name}`, options, () => check(join(pictures, `${name}.fl`), 2, SHARES[name] ?? 5e-3, ['images/small.png', 'images/small.jpg']));
+    test(`the picture ${name}`, options, () =>
+        check(join(pictures, `${name}.fl`), 2, SHARES[name] ?? 5e-3, ['images/small.png', 'images/small.jpg']));
 test('path effects but on text', options, () => check(written('path_effects.fl',
     readFileSync(join(pictures, 'path_effects.fl'), 'utf8').replace(/^.*!text.*\n/m, '')), 2, 5e-3));
 
@@ -192,10 +194,12 @@ const TURNED = `!window size=120;90
         !pattern filename='images/small.png'
         !text text='word' point=60;75
 `;
-test('letters and lines have paints that follow another matrix', options, () => check(written('turned.fl', TURNED), 2, 5e-3, ['images/small.png']));
+test('letters and lines have paints that follow another matrix', options, () =>
+    check(written('turned.fl', TURNED), 2, 5e-3, ['images/small.png']));
 
 test('light beyond 1 is not there, and that is told', options, async () => {
-    const script = join(pictures, 'canvas_wide.fl'), files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
+    const script = join(pictures, 'canvas_wide.fl');
+    const files = { 'images/small.png': readFileSync(join(pictures, 'images/small.png')).toString('base64') };
     const { undrawn } = await page.evaluate(given => window.draw(...given), [readFileSync(script, 'utf8'), 2, files, render(script, 2)]);
     assert.deepEqual(undrawn, ['light beyond 1 (colorbits)']);
 });

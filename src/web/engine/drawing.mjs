@@ -538,9 +538,11 @@ class Painter {
             this.command(this.n[this.at++]);
         this.context.restore();
         if (this.background) { // behind all, for colours combine with what is drawn only
+            this.context.save();
             Object.assign(this.context, { globalCompositeOperation: 'destination-over', fillStyle: this.background });
             this.context.setTransform(1, 0, 0, 1, 0, 0);
             this.context.fillRect(0, 0, canvas.width, canvas.height);
+            this.context.restore();
         }
         return [...this.undrawn];
     }

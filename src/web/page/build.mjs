@@ -7,8 +7,12 @@ import { build } from 'esbuild';
 const here = dirname(fileURLToPath(import.meta.url));
 const [, , output, samples] = process.argv;
 await build({
-    entryPoints: { page: join(here, 'main.mjs'), start: join(here, 'start.mjs'), worker: join(here, 'worker.mjs'), 'petri-dish': join(here, 'embed.mjs') },
-    outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' }, external: ['node:fs/promises'], logLevel: 'warning',
+    entryPoints: {
+        page: join(here, 'main.mjs'), start: join(here, 'start.mjs'), worker: join(here, 'worker.mjs'),
+        'petri-dish': join(here, 'embed.mjs'),
+    },
+    outdir: output, bundle: true, minify: true, format: 'esm', target: 'es2022', loader: { '.css': 'text' },
+    external: ['node:fs/promises'], logLevel: 'warning',
 });
 for (const name of ['index.html', 'style.css', 'offline.js'])
     copyFileSync(join(here, name), join(output, name));

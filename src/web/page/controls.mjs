@@ -8,7 +8,9 @@ export const CONTROLS = `
   <button id="step" title="Forward one frame" aria-label="Forward one frame">▶</button>
   <button id="reset" title="Start anew">Reset</button>
   <button id="stop" title="End what takes too long">Stop</button>
-  <label>Speed <select id="speed"><option>0.25</option><option>0.5</option><option selected>1</option><option>2</option><option>4</option></select></label>
+  <label>Speed <select id="speed">
+    <option>0.25</option><option>0.5</option><option selected>1</option><option>2</option><option>4</option>
+  </select></label>
   <output id="number">no frame</output>
 </div>
 <input id="time" type="range" min="0" max="0" value="0" aria-label="Frame">

@@ -12,7 +12,7 @@ export class Dish {
     // not any more; and, where they are, loaded() and slow(whether).
     constructor(canvas, host, { source, worker }) {
         Object.assign(this, {
-            canvas, host, running: false, loaded: null, name: null, frame: -1, most: -1, fps: 60, speed: 1, behind: 0, last: 0,
+            canvas, host, running: false, loaded: null, name: null, frame: -1, most: -1, fps: 60, speed: 1, behind: 0, last: 0, turn: 0,
             files: new Map(), images: new Map(), wanted: null, pressed: new Set(),
         });
         this.remote = hasEngine() ? new Remote(source, worker) : null;
@@ -108,9 +108,10 @@ export class Dish {
     run() {
         if (this.running || this.loaded === null)
             return;
+        const turn = ++this.turn;
         Object.assign(this, { running: true, last: performance.now(), behind: 0 });
         this.host.changed();
-        requestAnimationFrame(now => this.tick(now));
+        requestAnimationFrame(now => this.tick(now, turn));
     }
 
     pause() {
@@ -118,9 +119,10 @@ export class Dish {
         this.host.changed();
     }
 
-    // At display rate: as many frames as the time since the last one is worth, when the engine is free.
-    async tick(now) {
-        if (!this.running)
+    // At display rate: as many frames as the time since the last one is worth, when the engine is free. What was paused and
+    // run again while a frame was made has another turn: the one before must not go on beside it.
+    async tick(now, turn) {
+        if (!this.running || turn !== this.turn)
             return;
         this.behind = Math.min(this.behind + Math.max(now - this.last, 0) / 1000 * this.fps * this.speed, MOST_STEPS);
         this.last = now;
@@ -128,7 +130,7 @@ export class Dish {
         this.behind -= count;
         if (count > 0)
             await this.showAnswer('step', { count });
-        requestAnimationFrame(later => this.tick(later));
+        requestAnimationFrame(later => this.tick(later, turn));
     }
 
     async step() {
@@ -241,3 +243,7 @@ function keyName({ key, code }) {
 export const sayError = error => error.type === 'stopped' ? 'Stopped; the frame before is still there.'
     : error.type === 'ended' ? 'Stopped. What the frame was at is given up; Run starts anew.'
         : error.type === 'broken' ? `${error.message}. Run starts anew.` : error.message.split('\n')[0];
+
+// What to say of what a picture leaves out.
+export const sayLeft = ({ picture }, left) =>
+    `Not drawn in the browser${picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`;

@@ -98,7 +98,8 @@ export class Editor {
 
     show(told) {
         const { state } = this.view;
-        const problems = told.filter(({ line, level }) => line > 0 && level !== 'note').map(({ line, column, endLine, endColumn, ...rest }) => {
+        const placed = told.filter(({ line, level }) => line > 0 && level !== 'note');
+        const problems = placed.map(({ line, column, endLine, endColumn, ...rest }) => {
             const from = offset(state, line, column);
             return {
                 from, to: Math.max(offset(state, endLine, endColumn), from), severity: rest.level,
@@ -125,7 +126,8 @@ export class Editor {
             const here = row.kind === 'attribute' && row.node === node;
             if (here || !options.has(row.name))
                 options.set(row.name, {
-                    label: (row.kind === 'node' ? '!' : '') + row.name, detail: row.kind === 'function' ? `(${row.parameters})` : row.parameters,
+                    label: (row.kind === 'node' ? '!' : '') + row.name,
+                    detail: row.kind === 'function' ? `(${row.parameters})` : row.parameters,
                     info: describe(row) || undefined, type: TYPES[row.kind], boost: here ? 50 : 0,
                     apply: row.kind === 'attribute' ? `${row.name}=` : undefined,
                 });
@@ -145,7 +147,8 @@ export class Editor {
         if (rows.length === 0)
             return null;
         const node = nodeAt(view.state, from + word.index), row = rows.find(({ node: of }) => of === node) ?? rows[0];
-        const head = row.kind === 'function' ? `${row.name}(${row.parameters})` : row.kind === 'node' ? `!${row.name}` : `!${row.node} ${row.name}`;
+        const head = row.kind === 'function' ? `${row.name}(${row.parameters})`
+            : row.kind === 'node' ? `!${row.name}` : `!${row.node} ${row.name}`;
         return {
             pos: from + word.index, end: from + word.index + word[0].length, above: true,
             create() {

@@ -2,13 +2,15 @@
 // the element comes into view, and is that of the folder where this file is.
 import { loadEngine } from '../engine/petri.mjs';
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, sayError } from './dish.mjs';
+import { Dish, sayError, sayLeft } from './dish.mjs';
 import style from './embed.css';
 import { packLink } from './link.mjs';
 
 // Fetched and compiled once for all elements of a page.
 let compiled = null;
 const engine = () => (compiled ??= loadEngine(new URL('petri/engine.wasm', import.meta.url)).then(({ module }) => module));
+
+const MOST_PROBLEMS = 4; // that are told below a picture
 
 // Element names and their attributes, most of all `on…`, stay out of this.
 const TEMPLATE = `<style>${style}</style>
@@ -80,8 +82,8 @@ class PetriDish extends HTMLElement {
         if (this.dish || !this.isConnected)
             return;
         const dish = this.dish = new Dish(this.get('picture'), {
-            shown: answer => this.shown(answer), failed: (error, told) => this.failed(error, told), changed: () => this.changed(),
-            loaded: () => this.say(''),
+            shown: (answer, left) => this.shown(answer, left), failed: (error, told) => this.failed(error, told),
+            changed: () => this.changed(), loaded: () => this.say(''),
         }, { source: engine() });
         this.controls = new Controls(this.shadowRoot, dish, options => this.ready(options));
         dish.listen();
@@ -169,7 +171,13 @@ class PetriDish extends HTMLElement {
         return this.dish?.running ?? false;
     }
 
-    shown(answer) {
+    // Who can change the script is told what petri warns of.
+    shown(answer, left) {
+        const problems = this.hasAttribute('editor') ? answer.told.filter(({ level }) => level !== 'note') : [];
+        if (problems.length)
+            this.say(problems.slice(0, MOST_PROBLEMS).map(({ rendered }) => rendered.trimEnd()).join('\n'));
+        else if (left.length)
+            this.say(sayLeft(answer, left));
         this.controls.show(answer);
         this.get('picture').dataset.frame = answer.frame;
         this.tell('petri-frame', { frame: answer.frame, time: answer.time });

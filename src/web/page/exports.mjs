@@ -46,6 +46,7 @@ export async function makeTable(player, range) {
 const quoted = text => /[,"\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
 
 export function makeState(player) {
-    const rows = Array.from(player.session.state, ([key, value]) => `${quoted(key)},${quoted(Array.isArray(value) ? value.join(';') : value)}\n`);
+    const rows = Array.from(player.session.state, ([key, value]) =>
+        `${quoted(key)},${quoted(Array.isArray(value) ? value.join(';') : value)}\n`);
     return new Blob(['key,value\n', ...rows], { type: 'text/csv' });
 }

@@ -36,7 +36,8 @@ export class Film {
 
     // What is on the canvas is the next frame.
     async add() {
-        const frame = new VideoFrame(this.canvas, { timestamp: Math.round(this.count * 1e6 / this.fps), duration: Math.round(1e6 / this.fps) });
+        const microseconds = count => Math.round(count * 1e6 / this.fps);
+        const frame = new VideoFrame(this.canvas, { timestamp: microseconds(this.count), duration: microseconds(1) });
         this.encoder.encode(frame, { keyFrame: this.count++ % KEY_EVERY === 0 });
         frame.close();
         while (this.encoder.encodeQueueSize > MOST_WAITING && !this.error)

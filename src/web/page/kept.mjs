@@ -21,10 +21,14 @@ export class Keeper {
     keep(name, text) {
         const others = keptScripts().filter(({ when, text: same }) => when !== this.when && same !== text);
         this.when ??= Date.now();
-        try {
-            localStorage.setItem(PLACE, JSON.stringify([{ name, text, when: this.when }, ...others].slice(0, MOST)));
-        } catch {
-            // Private windows keep nothing.
-        }
+        const scripts = [{ name, text, when: this.when }, ...others];
+        // Browsers have room for some millions of letters: older scripts make way. Private windows keep nothing.
+        for (let count = Math.min(MOST, scripts.length); count > 0; count--)
+            try {
+                localStorage.setItem(PLACE, JSON.stringify(scripts.slice(0, count)));
+                return;
+            } catch {
+                // with one less, then
+            }
     }
 }

@@ -1,6 +1,6 @@
 // main.mjs: the page: an editor beside a dish, and what the buttons do.
 import { CONTROLS, Controls } from './controls.mjs';
-import { Dish, sayError } from './dish.mjs';
+import { Dish, sayError, sayLeft } from './dish.mjs';
 import { Editor } from './editor.mjs';
 import { Keeper, keptScripts } from './kept.mjs';
 import { packLink, readLink } from './link.mjs';
@@ -36,7 +36,7 @@ const host = {
         if (answer.picture)
             document.title = answer.picture.title ? `${answer.picture.title} · petri` : 'petri';
         if (left.length)
-            say(`Not drawn in the browser${answer.picture.screen ? '' : ', which has no WebGL 2'}: ${left.join(', ')}.`);
+            say(sayLeft(answer, left));
         document.body.dataset.frame = answer.frame;
         look();
     },
@@ -142,7 +142,8 @@ async function takeFiles(files) {
     await dish.giveFiles();
     const decoded = [...files].filter(file => file.name.endsWith('.fl'))
         .map(file => ({ called: file.name, text: new TextDecoder().decode(dish.files.get(file.name)) }));
-    const isNamed = called => [{ called: name, text: editor.text }, ...decoded].some(other => other.called !== called && other.text.includes(called));
+    const isNamed = called => [{ called: name, text: editor.text }, ...decoded]
+        .some(other => other.called !== called && other.text.includes(called));
     const script = decoded.find(({ called }) => !isNamed(called));
     if (script)
         await openText(script.text, script.called);
@@ -160,7 +161,8 @@ function fillMenu() {
     const menu = $('samples'), { value } = menu;
     menu.replaceChildren(new Option('choose …', ''),
         ...group('Samples', Object.keys(samples).map(sample => new Option(sample.replace(/\.fl$/, ''), sample))),
-        ...group('Written here', keptScripts().map(({ name: own, when }) => new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
+        ...group('Written here', keptScripts().map(({ name: own, when }) =>
+            new Option(`${own}, ${new Date(when).toLocaleString()}`, when))));
     menu.value = value;
 }
 

@@ -3,7 +3,8 @@
 const KEPT = 'petri';
 
 self.addEventListener('install', event => {
-    event.waitUntil(caches.open(KEPT).then(cache => cache.addAll(['./', 'style.css', 'start.js', 'page.js', 'worker.js', 'petri-dish.js', 'samples.json', 'petri/engine.wasm'])));
+    event.waitUntil(caches.open(KEPT).then(cache => cache.addAll(['./', 'style.css', 'start.js', 'page.js', 'worker.js',
+        'petri-dish.js', 'samples.json', 'petri/engine.wasm'])));
     self.skipWaiting();
 });
 self.addEventListener('activate', event => event.waitUntil(self.clients.claim()));

@@ -7,7 +7,9 @@ export const sizeOf = ({ image, numbers }) => image ?? pictureSize(numbers);
 export function paint(context, { image, numbers, undrawn }, images) {
     if (!image)
         return drawPicture(context, numbers, { image: name => imageOf(images, name) });
-    context.drawImage(image, 0, 0, context.canvas.width, context.canvas.height);
+    const { width, height } = context.canvas;
+    context.clearRect(0, 0, width, height); // nothing of the picture before is seen through it
+    context.drawImage(image, 0, 0, width, height);
     image.close();
     return undrawn;
 }

@@ -11,7 +11,8 @@ export class Parameters {
     // Rows are made anew when the script has other parameters; else only values that nobody is changing.
     show(parameters) {
         const settable = parameters.filter(parameter => parameter.settable);
-        const signature = JSON.stringify(settable.map(({ name, least, most, step, comment, fallback }) => [name, least, most, step, comment, fallback]));
+        const signature = JSON.stringify(settable.map(({ name, least, most, step, comment, fallback }) =>
+            [name, least, most, step, comment, fallback]));
         if (signature !== this.shown) {
             this.shown = signature;
             this.rows.clear();
@@ -40,7 +41,8 @@ export class Parameters {
         }
         const slider = document.createElement('input');
         const whole = [least, most, number, parameter.fallbackNumber].every(Number.isInteger);
-        Object.assign(slider, { type: 'range', min: least, max: most, step: parameter.step || (whole ? 1 : (most - least) / 200), title: comment });
+        const step = parameter.step || (whole ? 1 : (most - least) / 200);
+        Object.assign(slider, { type: 'range', min: least, max: most, step, title: comment });
         slider.setAttribute('aria-label', `${name}${comment ? `: ${comment}` : ''}`);
         slider.oninput = () => {
             field.value = slider.value;

@@ -15,7 +15,9 @@ function stepOf(range) {
 export class Plot {
     constructor(root, dish) {
         const $ = id => root.getElementById(id);
-        Object.assign(this, { dish, canvas: $('plot-picture'), list: $('watched'), said: $('plot-said'), texts: [], asking: false, seen: false });
+        Object.assign(this, {
+            dish, canvas: $('plot-picture'), list: $('watched'), said: $('plot-said'), texts: [], asking: false, seen: false,
+        });
         $('watch').onsubmit = event => {
             event.preventDefault();
             const text = $('watch-line').value.trim();
@@ -57,8 +59,9 @@ export class Plot {
 
     // For those who do not see the lines.
     tell(frame) {
-        this.said.textContent = this.series.map(({ text, error, lines }) => error
-            ?? `${text} = ${lines.map(line => frame in line && !Number.isNaN(line[frame]) ? short(line[frame]) : 'none').join(';')} in frame ${frame}`).join(', ');
+        const shown = line => frame in line && !Number.isNaN(line[frame]) ? short(line[frame]) : 'none';
+        this.said.textContent = this.series.map(({ text, error, lines }) =>
+            error ?? `${text} = ${lines.map(shown).join(';')} in frame ${frame}`).join(', ');
     }
 
     point(share) {
@@ -72,7 +75,8 @@ export class Plot {
         Object.assign(canvas, { width: width * dense, height: height * dense });
         const context = canvas.getContext('2d'), front = getComputedStyle(canvas).color;
         context.scale(dense, dense);
-        const lines = this.series.flatMap(({ lines: all }, i) => all.map((line, k) => ({ line, colour: COLOURS[i % COLOURS.length], dash: DASHES[k % DASHES.length] })));
+        const lines = this.series.flatMap(({ lines: all }, i) => all.map((line, k) =>
+            ({ line, colour: COLOURS[i % COLOURS.length], dash: DASHES[k % DASHES.length] })));
         let least = Infinity, most = -Infinity;
         for (const { line } of lines)
             for (const value of line)
@@ -83,7 +87,8 @@ export class Plot {
         if (least === most)
             [least, most] = [least - 1, most + 1];
         const end = Math.max(lines[0].line.length - 1, 1);
-        const x = at => LEFT + at / end * (width - LEFT - RIGHT), y = value => TOP + (most - value) / (most - least) * (height - TOP - BOTTOM);
+        const x = at => LEFT + at / end * (width - LEFT - RIGHT);
+        const y = value => TOP + (most - value) / (most - least) * (height - TOP - BOTTOM);
         this.axes(context, { x, y, least, most, end, width, height, front });
         for (const { line, colour, dash } of lines) {
             context.strokeStyle = colour;

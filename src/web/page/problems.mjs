@@ -23,7 +23,8 @@ export class Problems {
     item({ level, file, line, column, text, hint }) {
         const item = document.createElement('li'), button = document.createElement('button');
         button.className = level;
-        button.textContent = `${line ? `${file === this.name ? '' : `${file}:`}${line}:${column}: ` : ''}${level}: ${text}${hint ? `. ${hint}` : ''}`;
+        const place = line ? `${file === this.name ? '' : `${file}:`}${line}:${column}: ` : '';
+        button.textContent = `${place}${level}: ${text}${hint ? `. ${hint}` : ''}`;
         button.onclick = () => line && this.editor.goTo(line, column);
         item.append(button);
         return item;

@@ -5,7 +5,9 @@ const ROWS = 100;
 export class Table {
     constructor(root, dish) {
         const $ = id => root.getElementById(id);
-        Object.assign(this, { dish, body: $('state-rows'), count: $('state-count'), seen: false, asking: false, from: 0, by: null, down: false });
+        Object.assign(this, {
+            dish, body: $('state-rows'), count: $('state-count'), seen: false, asking: false, from: 0, by: null, down: false,
+        });
         this.filter = $('state-filter');
         this.filter.oninput = () => this.go(0);
         $('state-before').onclick = () => this.go(this.from - ROWS);
@@ -55,7 +57,8 @@ export class Table {
             return row;
         }));
         const to = this.from + rows.length;
-        this.count.textContent = (matching ? `${this.from + 1} to ${to} of ${matching}` : 'nothing') + (matching < total ? `, ${total} in all` : '');
+        this.count.textContent = (matching ? `${this.from + 1} to ${to} of ${matching}` : 'nothing')
+            + (matching < total ? `, ${total} in all` : '');
         this.moves[0].disabled = this.from === 0;
         this.moves[1].disabled = to >= matching;
     }

@@ -21,7 +21,8 @@ export class StateTable {
     }
 
     sort(filter, by, down) {
-        const wanted = filter.toLowerCase(), found = wanted ? this.made.all.filter(([key]) => key.toLowerCase().includes(wanted)) : [...this.made.all];
+        const wanted = filter.toLowerCase(), { all } = this.made;
+        const found = wanted ? all.filter(([key]) => key.toLowerCase().includes(wanted)) : [...all];
         const first = ([, value]) => Array.isArray(value) ? value[0] ?? NaN : NaN;
         if (by === 'value')
             found.sort((a, b) => first(a) - first(b) || 0);

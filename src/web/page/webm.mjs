@@ -61,7 +61,8 @@ export function packFilm({ codec, width, height, fps, chunks }) {
     }
     const clusters = groups.map(group => {
         const [{ time }] = group;
-        const blocks = group.map(chunk => element(0xA3, Uint8Array.of(0x81), whole(chunk.time - time, 2), Uint8Array.of(chunk.key ? 0x80 : 0), chunk.data));
+        const blocks = group.map(chunk =>
+            element(0xA3, Uint8Array.of(0x81), whole(chunk.time - time, 2), Uint8Array.of(chunk.key ? 0x80 : 0), chunk.data));
         return { time, bytes: element(0x1F43B675, element(0xE7, time), ...blocks) };
     });
     const begin = info.length + tracks.length, places = cues(clusters, begin + cues(clusters, 0).length);

@@ -22,7 +22,8 @@ function shown(extra = {}) {
     const { session } = player;
     return {
         type: 'frame', frame: player.frame, most: player.most, time: session.frame.time, fps: session.frame.fps,
-        picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters, told: take(), ...extra,
+        picture: picture(player.automatic), log: player.frame >= 0 ? session.log() : '', parameters: session.parameters,
+        told: take(), ...extra,
     };
 }
 
@@ -106,7 +107,8 @@ const acts = {
         const range = { from, to, wantsEnd, tell: (done, of) => postMessage({ type: 'progress', id, done, of }) };
         return {
             type: 'saved',
-            blob: await (kind === 'film' ? makeFilm(player, images, picture, range) : kind === 'particles' ? makeTable(player, range) : makeState(player)),
+            blob: await (kind === 'film' ? makeFilm(player, images, picture, range)
+                : kind === 'particles' ? makeTable(player, range) : makeState(player)),
         };
     },
     pointer({ inside, x, y, buttons }) {

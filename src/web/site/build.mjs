@@ -16,15 +16,23 @@ const output = join(folder, 'manual');
 rmSync(output, { recursive: true, force: true });
 mkdirSync(output, { recursive: true });
 const engine = await loadEngine(readFileSync(join(folder, 'petri/engine.wasm')));
-const site = { root, output, tables: JSON.parse(readFileSync(tables, 'utf8')), places: placesOf(root), examples: new Examples(engine, root) };
+const site = {
+    root, output, tables: JSON.parse(readFileSync(tables, 'utf8')), places: placesOf(root), examples: new Examples(engine, root, output),
+};
 site.text = new Text(site);
 
 // Modules that the scripts of a text import or include: fences with a name.
-const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flitter (\S+\.fl)\n(.*?)^```/gms)].map(([, name, text]) => [name, text])
+const modulesOf = markdown => Object.fromEntries([...markdown.matchAll(/^```flitter (\S+\.fl)\n(.*?)^```/gms)]
+    .map(([, name, text]) => [name, text])
     .filter(([name]) => markdown.includes(`"${name}"`)));
 
-const nav = current => GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n<ul>\n${pages.map(page =>
-    `<li><a href="${page.name}.html"${page.name === current ? ' aria-current="page"' : ''}>${escape(page.title)}</a></li>`).join('\n')}\n</ul>\n`).join('');
+const list = items => `<ul>\n${items.map(item => `<li>${item}</li>`).join('\n')}\n</ul>`;
+
+const nav = current => GROUPS.map(([title, pages]) => `<h2>${title}</h2>\n${list(pages.map(page =>
+    `<a href="${page.name}.html"${page.name === current ? ' aria-current="page"' : ''}>${escape(page.title)}</a>`))}\n`).join('');
+
+const contents = sections => sections.length > 1
+    ? `<h2>On this page</h2>\n${list(sections.map(one => `<a href="#${one.id}">${escape(one.title)}</a>`))}` : '';
 
 const html = (page, title, body, sections) => `<!doctype html>
 <html lang="en">
@@ -51,9 +59,10 @@ const html = (page, title, body, sections) => `<!doctype html>
 <nav aria-label="Pages"><details open><summary>Pages</summary>
 ${nav(page)}</details></nav>
 <main id="text">
-<p id="served" hidden>Opened from a file, this page cannot run its examples: browsers let no page do that. <code>./dev web --serve</code> shows it so that it can.</p>
+<p id="served" hidden>Opened from a file, this page cannot run its examples: browsers let no page do that.
+<code>./dev web --serve</code> shows it so that it can.</p>
 ${body}</main>
-<nav id="sections" aria-label="On this page">${sections.length > 1 ? `<h2>On this page</h2>\n<ul>\n${sections.map(one => `<li><a href="#${one.id}">${escape(one.title)}</a></li>`).join('\n')}\n</ul>` : ''}</nav>
+<nav id="sections" aria-label="On this page">${contents(sections)}</nav>
 </div>
 </body>
 </html>
@@ -61,12 +70,15 @@ ${body}</main>
 
 // What the search looks through: pages, and sections [page, title, id, text].
 const index = { pages: [], sections: [] };
-const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ').replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
+const words = text => text.replaceAll(/<\/?(span|code|a|em|strong)\b[^>]*>/g, '').replaceAll(/<[^>]*>/g, ' ')
+    .replaceAll('&lt;', '<').replaceAll('&gt;', '>').replaceAll('&quot;', '"').replaceAll('&amp;', '&').replaceAll(/\s+/g, ' ').trim();
 
-// Sections take the text up to the next heading.
+// Sections take the text up to the next heading; a page is found by its own title, too, whatever its headings are.
 function addToIndex(page, body, sections) {
     const number = index.pages.push([`${page.name}.html`, page.title]) - 1;
-    const pieces = new Map([...body.matchAll(/<h[1-4] id="([^"]*)">.*?<\/h[1-4]>(.*?)(?=<h[1-4] id=|$)/gs)].map(([, id, text]) => [id, text]));
+    index.sections.push([number, page.title, 'text', page.about]);
+    const pieces = new Map([...body.matchAll(/<h[1-4] id="([^"]*)">.*?<\/h[1-4]>(.*?)(?=<h[1-4] id=|$)/gs)]
+        .map(([, id, text]) => [id, text]));
     for (const { title, id, text } of sections)
         index.sections.push([number, title, id, words(text || pieces.get(id)?.replaceAll(/<petri-dish.*?<\/petri-dish>/gs, ' ') || '')]);
 }
@@ -98,6 +110,9 @@ writeFileSync(join(output, 'index.js'), `globalThis.PETRI_INDEX = ${JSON.stringi
 writeFileSync(join(output, 'examples.json'), JSON.stringify(site.examples.all));
 for (const name of ['site.css', 'site.js'])
     copyFileSync(join(here, name), join(output, name));
-await build({ entryPoints: [join(here, 'try.mjs')], outfile: join(output, 'try.js'), bundle: true, minify: true, format: 'esm', external: ['node:fs/promises'], logLevel: 'warning' });
+await build({
+    entryPoints: [join(here, 'try.mjs')], outfile: join(output, 'try.js'), bundle: true, minify: true, format: 'esm',
+    external: ['node:fs/promises'], logLevel: 'warning',
+});
 const count = kind => site.examples.all.filter(one => one.kind === kind || (kind === 'text' && one.kind !== 'dish')).length;
 console.log(`${PAGES.length + 1} pages, ${count('dish')} dishes, ${count('text')} other examples that run`);

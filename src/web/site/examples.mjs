@@ -1,7 +1,7 @@
 // examples.mjs: examples of the texts, which run on the pages: as <petri-dish> where they have a picture, else as text with
 // what comes of it (try.mjs). What comes of them is found out here, by the same engine.
-import { readFileSync, readdirSync } from 'node:fs';
-import { basename, join } from 'node:path';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
+import { basename, dirname, join } from 'node:path';
 import { drawPicture } from '../engine/drawing.mjs';
 import { escape } from './text.mjs';
 
@@ -14,8 +14,8 @@ for (const name of ['Path2D', 'OffscreenCanvas', 'DOMMatrix', 'ImageData'])
     globalThis[name] ??= nothing;
 
 export class Examples {
-    constructor(engine, root) {
-        Object.assign(this, { engine, root, all: [], files: {} });
+    constructor(engine, root, output) {
+        Object.assign(this, { engine, root, output, all: [], files: {} });
         const folder = join(root, 'src/web/site/examples');
         this.nodes = new Map(readdirSync(folder).filter(name => name.endsWith('.fl'))
             .map(name => [name.slice(0, -3), readFileSync(join(folder, name), 'utf8')]));
@@ -37,7 +37,7 @@ export class Examples {
                 return session.told?.some(({ level }) => level === 'error') ? 'none' : 'text';
             const picture = session.picture();
             // Nodes by their names are drawn by WebGL, which is not here; other things are drawn nowhere.
-            const left = picture ? drawPicture(nothing, picture.numbers) : [' '];
+            const left = picture ? drawPicture(nothing, picture.numbers, { image: name => name in files ? nothing : null }) : [' '];
             return left.every(what => /^\w+$/.test(what)) ? 'dish' : 'text';
         } catch {
             return 'none';
@@ -53,7 +53,8 @@ export class Examples {
             if (end === start)
                 continue;
             const piece = escape(bytes.subarray(start, end).toString());
-            html += escape(bytes.subarray(at, start).toString()) + (kind === 'name' || kind === 'operator' ? piece : `<span class="${kind}">${piece}</span>`);
+            html += escape(bytes.subarray(at, start).toString())
+                + (kind === 'name' || kind === 'operator' ? piece : `<span class="${kind}">${piece}</span>`);
             at = end;
         }
         session.close();
@@ -69,9 +70,11 @@ export class Examples {
     }
 
     // A dish with its text to be changed; without scripts of the browser's, the text.
-    dish(text, label, env) {
+    dish(text, label, env, files = []) {
         this.all.push({ page: env.page, kind: 'dish', text, files: {} });
-        return `<petri-dish controls editor label="${escape(label)}"><pre tabindex="0" class="script">${this.coloured(text)}</pre></petri-dish>\n`;
+        const given = files.length ? ` files="${escape(files.join(' '))}"` : '';
+        return `<petri-dish controls editor${given} label="${escape(label)}">`
+            + `<pre tabindex="0" class="script">${this.coloured(text)}</pre></petri-dish>\n`;
     }
 
     try(kind, frame, text, result, env) {
@@ -100,25 +103,40 @@ export class Examples {
             return this.code(content);
         if (told[0] === 'tree' || told[0] === 'state')
             return this.try(told[0], Number(told[1] ?? 0), content, next.content, env);
-        return this.kindOf(content) === 'dish' && !info.endsWith('warns') ? this.dish(content, label, env) : this.code(content);
+        return this.kindOf(content) === 'dish' ? this.dish(content, label, env) : this.code(content);
     }
 
     // Lines `EXPRESSION => RESULT`.
     evaluations(content, env) {
         const lines = content.trimEnd().split('\n').map(line => line.split(/ => (?!.* => )/));
-        return this.try('eval', 0, lines.map(([text]) => `${text.trimEnd()}\n`).join(''), lines.map(([, result = '']) => `${result}\n`).join(''), env);
+        const texts = lines.map(([text]) => `${text.trimEnd()}\n`), results = lines.map(([, result = '']) => `${result}\n`);
+        return this.try('eval', 0, texts.join(''), results.join(''), env);
+    }
+
+    // Images and models beside a script that it names.
+    beside(file, text) {
+        const folder = dirname(join(this.root, file));
+        const names = new Set([...text.matchAll(/(["'])(\w[\w/]*\.(?:png|jpg|obj|stl))\1/g)].map(([, , name]) => name));
+        return [...names].filter(name => existsSync(join(folder, name))).map(name => [name, join(folder, name)]);
     }
 
     // The script behind a picture, to be run below it.
     behind(file, env) {
-        const text = readFileSync(join(this.root, file), 'utf8');
-        return this.kindOf(text, {}) === 'dish'
-            ? `<details><summary>Run ${basename(file)}</summary>\n${this.dish(text, `The picture of ${basename(file)}`, env)}</details>\n` : '';
+        const text = readFileSync(join(this.root, file), 'utf8'), files = this.beside(file, text);
+        if (this.kindOf(text, Object.fromEntries(files.map(([name, from]) => [name, readFileSync(from)]))) !== 'dish')
+            return '';
+        for (const [name, from] of files) {
+            mkdirSync(join(this.output, dirname(name)), { recursive: true });
+            copyFileSync(from, join(this.output, name));
+        }
+        const dish = this.dish(text, `The picture of ${basename(file)}`, env, files.map(([name]) => name));
+        return `<details><summary>Run ${basename(file)}</summary>\n${dish}</details>\n`;
     }
 
     // What stands below the heading of a node of physics.
     under(title, env) {
         const name = title.match(/^!(\w+)$/)?.[1];
-        return env.page === 'physics' && this.nodes.has(name) ? this.dish(this.nodes.get(name), `!${name}, with what can be changed`, env) : '';
+        return env.page === 'physics' && this.nodes.has(name)
+            ? this.dish(this.nodes.get(name), `!${name}, with what can be changed`, env) : '';
     }
 }

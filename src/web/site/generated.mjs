@@ -1,5 +1,5 @@
 // generated.mjs: what is made of petri's tables (petri-manual tables.json), of its headers and of the samples.
-import { copyFileSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
+import { copyFileSync, existsSync, mkdirSync, readFileSync, readdirSync } from 'node:fs';
 import { join } from 'node:path';
 import { slug } from './pages.mjs';
 import { escape, freeName } from './text.mjs';
@@ -9,12 +9,17 @@ const section = (env, level, wanted, title, text = '') => {
     env.sections.push({ level, title, id, text });
     return `<h${level} id="${id}">${escape(title)} <a class="here" href="#${id}" aria-label="Link to ${escape(title)}">#</a></h${level}>\n`;
 };
-const table = (heads, rows) => `<div class="table" tabindex="0" role="region" aria-label="Table"><table>\n<tr>${heads.map(head => `<th>${head}</th>`).join('')}</tr>\n${
-    rows.map(row => `<tr>${row.map(cell => `<td>${cell}</td>`).join('')}</tr>\n`).join('')}</table></div>\n`;
+const cells = (kind, row) => `<tr>${row.map(cell => `<${kind}>${cell}</${kind}>`).join('')}</tr>\n`;
+const table = (heads, rows) => `<div class="table" tabindex="0" role="region" aria-label="Table"><table>\n${
+    cells('th', heads)}${rows.map(row => cells('td', row)).join('')}</table></div>\n`;
 const code = text => text ? `<code>${escape(text)}</code>` : '';
 
 // Paragraphs as `petri help` has them: words in quotes are typed.
-const paragraphs = text => text.trim().split('\n\n').map(part => `<p>${escape(part.replaceAll('\n', ' ')).replace(/(?<![\w])'([^']+)'/g, '<code>$1</code>')}</p>\n`).join('');
+const paragraphs = text => text.trim().split('\n\n').map(part =>
+    `<p>${escape(part.replaceAll('\n', ' ')).replace(/(?<![\w])'([^']+)'/g, '<code>$1</code>')}</p>\n`).join('');
+
+// An option as it is typed.
+const written = ({ letter, name, value }) => `${letter ? `-${letter}, ` : ''}--${name}${value ? ` ${value}` : ''}`;
 
 export const GENERATED = {
     functions({ tables: { functions, words } }, env) {
@@ -32,9 +37,11 @@ export const GENERATED = {
     nodes({ tables: { nodes, letters } }, env) {
         let area = '';
         return nodes.map(({ name, area: its, help, formula, attributes }) => {
-            const begin = its === area ? '' : section(env, 2, `area-${its}`, its) + (its === 'physics' ? `<p>${escape(letters)}</p>\n` : '');
+            const begin = its === area ? ''
+                : section(env, 2, `area-${its}`, its) + (its === 'physics' ? `<p>${escape(letters)}</p>\n` : '');
+            const about = `${help} ${attributes.map(one => `${one.name} ${one.help}`).join(' ')}`;
             area = its;
-            return begin + section(env, 3, `${its}-${name}`, `!${name}`, `${help} ${attributes.map(one => `${one.name} ${one.help}`).join(' ')}`)
+            return begin + section(env, 3, `${its}-${name}`, `!${name}`, about)
                 + `<p>${escape(help)}</p>\n` + (formula ? `<pre tabindex="0" class="formula"><code>${escape(formula)}</code></pre>\n` : '')
                 + (attributes.length ? table(['attribute', 'type', 'unit', 'default', ''], attributes.map(one =>
                     [code(one.name), escape(one.type), escape(one.unit), code(one.fallback), escape(one.help)])) : '');
@@ -44,16 +51,18 @@ export const GENERATED = {
     options({ tables: { commands, statuses, variables, beginning } }, env) {
         return paragraphs(beginning) + commands.map(({ name, operands, summary, details, examples, options }) =>
             section(env, 2, name, `petri ${name}`, `${summary} ${details} ${options.map(one => `--${one.name} ${one.help}`).join(' ')}`)
-            + `<p>${escape(summary)}: <code>petri ${name}${options.length ? ' [options]' : ''} ${escape(operands)}</code></p>\n${paragraphs(details)}`
-            + (options.length ? table(['option', ''], options.map(one =>
-                [`<code>${one.letter ? `-${one.letter}, ` : ''}--${one.name}${one.value ? ` ${escape(one.value)}` : ''}</code>`, escape(one.help)])) : '')
+            + `<p>${escape(summary)}: <code>petri ${name}${options.length ? ' [options]' : ''} ${escape(operands)}</code></p>\n`
+            + paragraphs(details)
+            + (options.length ? table(['option', ''], options.map(one => [code(written(one)), escape(one.help)])) : '')
             + (examples ? `<pre tabindex="0"><code>${escape(examples.replace(/^ {2}/gm, ''))}</code></pre>\n` : '')).join('')
             + section(env, 2, 'exit-status', 'Exit status') + table(['status', ''], statuses.map(row => [code(row.name), escape(row.help)]))
-            + section(env, 2, 'environment', 'Environment') + table(['variable', ''], variables.map(row => [code(row.name), escape(row.help)]));
+            + section(env, 2, 'environment', 'Environment')
+            + table(['variable', ''], variables.map(row => [code(row.name), escape(row.help)]));
     },
 
     prompt({ tables: { prompt } }, env) {
-        return section(env, 2, 'commands-of-the-prompt', 'Commands of the prompt', prompt.map(({ name, help }) => `${name} ${help}`).join(' '))
+        const about = prompt.map(({ name, help }) => `${name} ${help}`).join(' ');
+        return section(env, 2, 'commands-of-the-prompt', 'Commands of the prompt', about)
             + table(['command', ''], prompt.map(({ name, operands, help }) => [code(`${name} ${operands}`.trim()), escape(help)]));
     },
 
@@ -71,7 +80,8 @@ export const GENERATED = {
                     env.names.add(one);
                     env.sections.push({ level: 3, title: one, id: one, text: about });
                 }
-                html += shown.join('').trim() ? `${names.map(one => `<a id="${one}"></a>`).join('')}<pre tabindex="0"><code>${escape(shown.join('\n').trim())}</code></pre>\n` : '';
+                const anchors = names.map(one => `<a id="${one}"></a>`).join(''), declared = shown.join('\n').trim();
+                html += declared ? `${anchors}<pre tabindex="0"><code>${escape(declared)}</code></pre>\n` : '';
                 [text, shown] = [[], []];
             };
             for (const line of lines) {
@@ -92,7 +102,8 @@ export const GENERATED = {
 
     // The scenes of the tests, with what petri draws of them.
     scenes({ root, examples, text }, env) {
-        const folder = 'tests/pictures/scenes', names = readdirSync(join(root, folder)).filter(name => name.endsWith('.png')).map(name => name.slice(0, -4));
+        const folder = 'tests/pictures/scenes';
+        const names = readdirSync(join(root, folder)).filter(name => name.endsWith('.png')).map(name => name.slice(0, -4));
         return section(env, 2, 'scenes-to-run', 'Scenes to run') + names.map(name =>
             `${section(env, 3, `scene-${name}`, name)}<p>${text.image(`${name}.png`, `The scene ${name}`, { file: `${folder}/x` })}</p>\n${
                 examples.behind(`${folder}/${name}.fl`, env)}`).join('');
@@ -110,8 +121,10 @@ export const GENERATED = {
             copyFileSync(join(folder, name), join(output, name));
             const used = Object.keys(files).filter(file => script.includes(file));
             examples.all.push({ page: env.page, kind: 'dish', text: script, files });
-            const picture = [`pictures/${id}.png`, `${id}.png`].find(file => readdirSync(folder).includes(file) || (file.startsWith('pictures/') && readdirSync(join(folder, 'pictures')).includes(file.slice(9))));
-            return `${section(env, 3, id, name)}<petri-dish src="${name}"${used.length ? ` files="${used.join(' ')}"` : ''} controls frame="60" label="The sample ${name}">`
+            const picture = [`pictures/${id}.png`, `${id}.png`].find(file => existsSync(join(folder, file)));
+            const given = used.length ? ` files="${used.join(' ')}"` : '';
+            return section(env, 3, id, name)
+                + `<petri-dish src="${name}"${given} controls frame="60" label="The sample ${name}">`
                 + `${picture ? text.image(picture, `A frame of ${name}`, { file: 'samples/README.md' }) : ''}</petri-dish>\n`
                 + `<details><summary>${name}</summary>\n${examples.code(script)}</details>\n`;
         }).join('');

@@ -28,9 +28,11 @@
 
     // The text around the first of the words.
     function around(text, words) {
-        const at = Math.max(0, Math.min(...words.map(word => text.toLowerCase().indexOf(word)).filter(place => place >= 0), text.length) - 60);
+        const places = words.map(word => text.toLowerCase().indexOf(word)).filter(place => place >= 0);
+        const at = Math.max(0, Math.min(...places, text.length) - 60);
         const start = at && text.indexOf(' ', at) + 1;
-        return `${start ? '… ' : ''}${text.slice(start, start + 180)}`;
+        const end = text.length > start + 180 ? text.lastIndexOf(' ', start + 180) : text.length;
+        return `${start ? '… ' : ''}${text.slice(start, end)}${end < text.length ? ' …' : ''}`;
     }
 
     async function search() {
@@ -39,12 +41,13 @@
         if (found.hidden)
             return;
         const { pages, sections } = await index();
-        const best = sections.map(section => [worth(section, words), section]).filter(([sum]) => sum > 0).sort((a, b) => b[0] - a[0]).slice(0, 15);
+        const best = sections.map(section => [worth(section, words), section]).filter(([sum]) => sum > 0)
+            .sort((a, b) => b[0] - a[0]).slice(0, 15);
         const list = document.createElement('ul');
         list.append(...best.map(([, [page, title, id, text]]) => {
             const item = document.createElement('li'), link = document.createElement('a'), small = document.createElement('small');
             link.href = `${pages[page][0]}#${id}`;
-            link.textContent = `${pages[page][1]}: ${title}`;
+            link.textContent = title === pages[page][1] ? title : `${pages[page][1]}: ${title}`;
             link.onclick = () => (found.hidden = true);
             small.textContent = around(text, words);
             item.append(link, small);
@@ -81,7 +84,8 @@
     };
     document.documentElement.dataset.theme = kept() ?? '';
     $('theme').onclick = () => {
-        const dark = document.documentElement.dataset.theme ? document.documentElement.dataset.theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
+        const { theme } = document.documentElement.dataset;
+        const dark = theme ? theme === 'dark' : matchMedia('(prefers-color-scheme: dark)').matches;
         document.documentElement.dataset.theme = dark ? 'light' : 'dark';
         try {
             localStorage.setItem(THEME, dark ? 'light' : 'dark');
@@ -98,6 +102,7 @@
             await navigator.serviceWorker.ready;
             const cache = await caches.open('petri');
             const pages = [...document.querySelectorAll('nav[aria-label=Pages] a')].map(link => link.getAttribute('href'));
-            await cache.addAll(['index.html', 'index.js', 'site.css', 'site.js', 'try.js', ...pages].map(name => new URL(name, location.href).href));
+            await cache.addAll(['index.html', 'index.js', 'site.css', 'site.js', 'try.js', ...pages]
+                .map(name => new URL(name, location.href).href));
         }).catch(() => {});
 }

@@ -47,7 +47,8 @@ export class Text {
         };
         rules.heading_close = (tokens, i, _, env) => {
             const { id, title } = env.sections.at(-1);
-            return ` <a class="here" href="#${id}" aria-label="Link to ${escape(title)}">#</a></${tokens[i].tag}>\n${own.site.examples.under(title, env)}`;
+            return ` <a class="here" href="#${id}" aria-label="Link to ${escape(title)}">#</a></${tokens[i].tag}>\n`
+                + own.site.examples.under(title, env);
         };
         rules.image = (tokens, i, _, env) => own.image(tokens[i].attrGet('src'), own.plain(tokens[i]), env);
         rules.link_open = (tokens, i, _, env) => {

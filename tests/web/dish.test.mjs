@@ -1,0 +1,106 @@
+// dish.test.mjs: how fast a dish runs and where it goes, by a clock and an engine of the test's own: no time is measured.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { Dish } from '../../src/web/page/dish.mjs';
+
+const TICK = 15.625; // ms: 64 a second, and all sums of them are exact
+
+// A dish with a display that ticks, and an engine that answers, when the test says so.
+function made() {
+    const world = { now: 0, waiting: [], asked: [], held: [], holds: false, frame: -1 };
+    const globals = { requestAnimationFrame: callback => world.waiting.push(callback), performance: { now: () => world.now } };
+    const before = Object.fromEntries(Object.keys(globals).map(name => [name, Object.getOwnPropertyDescriptor(globalThis, name)]));
+    for (const [name, value] of Object.entries(globals))
+        Object.defineProperty(globalThis, name, { value, configurable: true, writable: true });
+    world.restore = () => Object.entries(before).forEach(([name, how]) =>
+        how ? Object.defineProperty(globalThis, name, how) : delete globalThis[name]);
+    const worker = {
+        broken: new Promise(() => {}),
+        postMessage({ act, id, count, frame }) {
+            world.frame = act === 'load' ? 0 : act === 'step' ? world.frame + count : act === 'seek' ? frame : world.frame;
+            world.asked.push(act === 'step' ? count : act === 'seek' ? `to ${frame}` : act);
+            const data = { type: 'frame', id, frame: world.frame, most: world.frame, fps: 60, parameters: [], told: [] };
+            const answer = () => worker.onmessage({ data });
+            world.holds ? world.held.push(answer) : queueMicrotask(answer);
+        },
+    };
+    const host = { shown() {}, failed(error) { throw error; }, changed() {} };
+    world.dish = new Dish(null, host, { source: 'engine.wasm', worker });
+    return world;
+}
+
+// All that waits for nothing but other promises has been done.
+const settled = () => new Promise(resolve => setImmediate(resolve));
+
+async function tick(world, ms = TICK) {
+    world.now += ms;
+    world.waiting.splice(0).forEach(callback => callback(world.now));
+    await settled();
+}
+
+async function running(t) {
+    const world = made();
+    t.after(world.restore);
+    await world.dish.load('!a\n', 'a.fl');
+    world.dish.run();
+    world.asked.length = 0;
+    return world;
+}
+
+test('a second has as many frames as the speed says, whatever the display does', async t => {
+    const world = await running(t), { dish } = world;
+    for (const [speed, ticks, ms] of [[1, 64, TICK], [0.25, 64, TICK], [0.5, 64, TICK], [2, 64, TICK], [4, 64, TICK], [1, 16, 4 * TICK]]) {
+        dish.speed = speed;
+        const before = dish.frame;
+        for (let i = 0; i < ticks; i++)
+            await tick(world, ms);
+        assert.equal(dish.frame - before, 60 * speed, `at ${speed}`);
+    }
+});
+
+test('a script that is too slow falls behind, and does not make up for it', async t => {
+    const world = await running(t), { dish } = world;
+    await tick(world, 5000);
+    assert.deepEqual(world.asked, [8]);
+    await tick(world);
+    assert.equal(dish.frame, 8);
+    await tick(world);
+    assert.equal(dish.frame, 9);
+});
+
+test('what is paused and run again while a frame is made runs once', async t => {
+    const world = await running(t), { dish } = world;
+    const heldTicks = async () => { // the questions of two ticks, the first of which is not answered before the second
+        world.holds = true;
+        world.asked.length = 0;
+        await tick(world, 4 * TICK);
+        await tick(world, 4 * TICK);
+        return world.asked.length;
+    };
+    const answered = async () => {
+        world.holds = false;
+        world.held.splice(0).forEach(answer => answer());
+        await settled();
+    };
+    assert.equal(await heldTicks(), 1);
+    dish.pause();
+    dish.run();
+    await answered();
+    await tick(world);
+    assert.equal(await heldTicks(), 1);
+    await answered();
+});
+
+test('while the time line is dragged, only where it has come to is asked for', async t => {
+    const world = await running(t), { dish } = world;
+    world.holds = true;
+    for (const frame of [5, 9, 30, 12])
+        dish.seek(frame);
+    while (dish.wanted !== null) {
+        await settled();
+        world.held.splice(0).forEach(answer => answer());
+    }
+    assert.deepEqual(world.asked, ['to 5', 'to 12']);
+    assert.equal(dish.frame, 12);
+    assert.equal(dish.running, false);
+});

@@ -1,0 +1,127 @@
+// script.test.mjs: what the page makes of a script: its colours, parameters, the automatic picture, the link that is copied,
+// and what is kept of it.
+import assert from 'node:assert/strict';
+import { test } from 'node:test';
+import { readLink } from '../../src/web/page/link.mjs';
+import { atFrame, frameOf, opened, options, pixels, seek, typed } from './browser.mjs';
+
+async function shown(page, text) {
+    await page.evaluate(() => delete document.body.dataset.frame);
+    await typed(page, text);
+    await page.click('#reset');
+    await atFrame(page, 0);
+}
+
+async function steps(page, end) {
+    for (let frame = await frameOf(page); frame++ < end;) {
+        await page.click('#step');
+        await atFrame(page, frame);
+    }
+}
+
+test('words of the language have colours by what they are', options, () => opened('', {
+    use: async page => {
+        await typed(page, '-- said\nlet n=12\n!canvas a=n b="word" c=:symbol\n');
+        const colours = await page.waitForFunction(() => {
+            const spans = [...document.querySelectorAll('.cm-line span')];
+            const of = text => spans.filter(span => span.textContent.trim() === text).map(span => getComputedStyle(span).color)[0];
+            const found = ['-- said', 'let', '12', '!canvas', '"word"', ':symbol'].map(of);
+            return found.every(Boolean) && { found, plain: getComputedStyle(document.querySelector('.cm-content')).color };
+        });
+        const { found, plain } = await colours.jsonValue();
+        assert.ok(!found.includes(plain), `${found}`);
+        assert.ok(new Set(found.slice(0, 4)).size === 4, `${found}`);
+    },
+}));
+
+test('a comment gives range and step, a value changes what comes after, and that before stays', options, () => opened('', {
+    use: async page => {
+        const script = 'let A=A or 20 -- 10..40|5 how wide\n    B=B or 3\n    C=C or "red"\n    D=5\n'
+            + '!window size=64;8\n    !canvas\n        !rect size=A;8 color=((1;0;0) if C=="red" else (0;0;1)) fill=true\n';
+        await shown(page, script);
+        const slider = page.locator('#parameters input[type=range]');
+        assert.equal(await slider.count(), 1); // those without a range are fields, and what is no parameter is nothing
+        assert.deepEqual(await slider.evaluate(({ min, max, step, value, title }) => [min, max, step, value, title]),
+            ['10', '40', '5', '20', 'how wide']);
+        assert.deepEqual(await page.locator('#parameters input:not([type=range])').evaluateAll(all =>
+            all.map(({ id, type, value }) => [id, type, value])),
+        [['parameter-A', 'number', '20'], ['parameter-B', 'number', '3'], ['parameter-C', 'text', "'red'"]]);
+        const at = x => page.locator('#picture').evaluate((canvas, place) =>
+            [...canvas.getContext('2d').getImageData(place, 4, 1, 1).data], x);
+        await steps(page, 5);
+        await seek(page, 3);
+        await slider.focus();
+        await page.keyboard.press('ArrowRight');
+        assert.equal(await page.inputValue('#parameter-A'), '25');
+        await page.fill('#parameter-C', "'blue'");
+        await page.press('#parameter-C', 'Enter');
+        await page.waitForFunction(() => document.getElementById('time').max === '3'); // what came after is forgotten
+        await page.click('#step');
+        await atFrame(page, 4);
+        assert.deepEqual([await at(23), await at(27)], [[0, 0, 255, 255], [0, 0, 0, 255]]);
+        await seek(page, 2);
+        assert.deepEqual([await at(18), await at(23)], [[255, 0, 0, 255], [0, 0, 0, 255]]);
+        await seek(page, 4);
+        assert.deepEqual(await at(23), [0, 0, 255, 255]);
+    },
+}));
+
+test('a script that draws nothing has the automatic picture of its particles', options, () => opened('', {
+    use: async page => {
+        const system = '!physics state=:world dimensions=2\n    !particle id=0 radius=9 position=0;0 velocity=90;0\n'
+            + '    !particle id=1 radius=9 position=60;40\n';
+        await shown(page, system);
+        await steps(page, 2);
+        const first = await pixels(page);
+        assert.ok(first.all > 3, JSON.stringify(first));
+        await steps(page, 9);
+        assert.notEqual((await pixels(page)).sum, first.sum);
+        await seek(page, 2);
+        assert.equal((await pixels(page)).sum, first.sum);
+    },
+}));
+
+test('the link that is copied has script, changes, frame and hash, and asks nobody for anything', options, () => {
+    const asked = [];
+    return opened('', {
+        settings: { permissions: ['clipboard-read', 'clipboard-write'] },
+        use: async page => {
+            await shown(page, 'let A=A or 1 -- 0..9\n!counter state=:c rate=A\n!window size=8;8\n    !canvas\n');
+            await page.fill('#parameter-A', '7');
+            await page.press('#parameter-A', 'Enter');
+            await page.click('#step');
+            await atFrame(page, 1);
+            page.on('request', request => asked.push(request.url()));
+            await page.click('#link');
+            await page.waitForFunction(() => /^The link is copied/.test(document.getElementById('message').textContent));
+            const copied = await page.evaluate(() => navigator.clipboard.readText());
+            assert.equal(copied, page.url());
+            const { text, frame, hash, changes } = await readLink(new URL(copied).hash);
+            assert.match(text, /^let A=A or 1/);
+            assert.equal(frame, 1);
+            assert.match(hash, /^[0-9a-f]{64}$/);
+            assert.deepEqual(changes, [[0, 'A', '7']]);
+            assert.deepEqual(asked, []);
+        },
+    });
+});
+
+test('what is written is kept where there is little room, and older scripts make it', options, () => opened('', {
+    use: async page => {
+        await page.evaluate(() => {
+            const old = Array.from({ length: 11 }, (_, i) => ({ name: 'old.fl', text: `-- ${i}${' '.repeat(200000)}`, when: i }));
+            localStorage.setItem('petri.scripts', JSON.stringify(old));
+            for (let size = 1 << 22; size >= 64; size /= 2)
+                try {
+                    localStorage.setItem(`rest${size}`, 'x'.repeat(size - 16));
+                } catch {
+                    // that much is not left
+                }
+        });
+        const text = `-- mine${'.'.repeat(3000)}\n!a\n`;
+        await typed(page, text);
+        const kept = await page.evaluate(() => JSON.parse(localStorage.getItem('petri.scripts')));
+        assert.equal(kept[0].text, text);
+        assert.ok(kept.length > 3 && kept.length < 12, `${kept.length}`);
+    },
+}));
