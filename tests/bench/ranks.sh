@@ -6,7 +6,7 @@
 #    of frames after the first three.
 # 2. What is sent: by soft discs of three sizes on four ranks, and of one size on up to 16 (they need not run at once).
 # 3. A model of both: a step on R ranks takes N c / R, twice log2 R latencies for each decision, a latency for each
-#    message, its halo's bytes over the bandwidth; a frame besides what each rank does for all N, and 32 N bytes.
+#    message, its halo's bytes over the bandwidth; a frame besides what each rank does for all N, and 36 N bytes.
 #    LATENCY (microseconds) and BANDWIDTH (GB/s) say for what networks (two of them, if not given), STEP_NS and FRAME_NS
 #    what a particle takes, if that is not to be measured.
 set -eu
@@ -99,7 +99,7 @@ awk -v c="$STEP_NS" -v f="${FRAME_NS:-0}" -v own="$own" -v bytes="$bytes" -v mes
         if (ranks == 1) return n * c + n * f / steps
         log2 = log(ranks) / log(2)
         return n * c / ranks + (messages + 2 * agreed * log2) * us * 1000 + sent * sqrt(n / ranks) / gb \
-            + (n * f + 32 * n / gb + 2 * log2 * us * 1000) / steps
+            + (n * f + 36 * n / gb + 2 * log2 * us * 1000) / steps
     }
     # The most ranks up to which each doubling makes a step 1.4 times as fast, and how fast it is then.
     function gain(n, steps, us, gb,   ranks) {
