@@ -128,6 +128,7 @@ bool h5md_add(H5md *file, PetriSession *session, Output *output) {
         send_system(output, &system, ids);
         ids += system.particle_count;
     }
+    output_flush(output); // so that petri-hdf5 has all whole frames if this process is killed
     return true;
 }
 

@@ -76,13 +76,18 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
         number=$((number == 129 ? 130 : 143))
     done
     mkfifo unread
-    exec 7<>unread
-    at_work 3 --print state >unread
-    before=0
-    until [ "$(wc -c <err)" -eq $before ]; do # nobody takes what is printed
-        before=$(wc -c <err)
-        sleep 0.1
-    done
+    # Starts it, until it waits because nobody takes what it prints.
+    stuck() {
+        exec 7<>unread
+        at_work 3 --print state >unread
+        before=0
+        until [ "$(wc -c <err)" -eq $before ]; do
+            before=$(wc -c <err)
+            sleep 0.1
+        done
+        least=$(grep -c 'petri: frame' err)
+    }
+    stuck
     kill -INT $job
     sleep 0.3
     kill -INT $job
@@ -91,10 +96,11 @@ if [ -x "$(dirname "$petri")/petri-hdf5" ] && $python -I -c 'import h5py' 2>err;
     exec 7>&-
     check "a second Ctrl-C ends a run at once" status_is 130
     check "… whose H5MD file has the frames that are whole" kept
-    at_work 20 >out
+    stuck
     kill -9 $job
     wait $job 2>/dev/null
     status=$?
+    exec 7>&-
     tries=0
     while [ ! -e way.h5 ] && [ $tries -lt 1000 ]; do
         tries=$((tries + 1))
