@@ -357,5 +357,10 @@ test('the prompt, samples, keyboard alone, dark and light, offline', options, ()
         await context.setOffline(true);
         await page.reload();
         await page.waitForFunction(() => document.body.dataset.ready);
+        const offline = Number(await page.evaluate(() => document.body.dataset.frame));
+        await page.focus('#run');
+        await page.keyboard.press('Space');
+        await page.waitForFunction(least => Number(document.body.dataset.frame) > least, offline + 4);
+        assert.ok((await pixels(page)).all > 3);
     },
 }));
