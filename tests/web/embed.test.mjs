@@ -163,6 +163,13 @@ for (const reducedMotion of ['no-preference', 'reduce'])
             await page.waitForFunction(() => document.querySelector('petri-dish').frame > 5);
         }, { settings: { reducedMotion } }));
 
+test('without autoplay it waits to be started', options, () => embedded(`<petri-dish><pre>${SQUARE}</pre></petri-dish>`, async page => {
+    await shown(page, 2);
+    await page.waitForTimeout(300);
+    assert.deepEqual(await page.evaluate(() => [document.querySelector('petri-dish').running, document.querySelector('petri-dish').frame]),
+        [false, 2]);
+}));
+
 test('the engine is fetched once, starts when an element comes into view, and rests when it is out of it', options, async () => {
     const asked = [];
     await embedded(`<petri-dish id="a"><pre>${SQUARE}</pre></petri-dish><div style="height: 5000px"></div>

@@ -123,13 +123,15 @@ test('the speed menu gives so many frames for the same ticks of the display', op
     },
 }));
 
+const withoutWebgl = page => page.route('**/worker.js', async route => {
+    const response = await route.fetch(), get = 'OffscreenCanvas.prototype.getContext';
+    const without = `const get = ${get};
+        ${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
+    route.fulfill({ response, body: without + await response.text() });
+});
+
 test('without WebGL 2 the page says so and draws the rest', options, () => opened('', {
-    prepare: page => page.route('**/worker.js', async route => {
-        const response = await route.fetch(), get = 'OffscreenCanvas.prototype.getContext';
-        const without = `const get = ${get};
-            ${get} = function (kind, ...more) { return kind === 'webgl2' ? null : get.call(this, kind, ...more); };`;
-        route.fulfill({ response, body: without + await response.text() });
-    }),
+    prepare: withoutWebgl,
     use: async page => {
         await typed(page, '!window size=64;32\n    !bloom radius=2\n        !canvas\n'
             + '            !rect size=64;32 color=1;0.5;0 fill=true\n');
@@ -138,6 +140,23 @@ test('without WebGL 2 the page says so and draws the rest', options, () => opene
         assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: bloom.');
         const at = await page.evaluate(() => [...document.getElementById('picture').getContext('2d').getImageData(30, 10, 1, 1).data]);
         assert.deepEqual(at, [255, 128, 0, 255]);
+    },
+}));
+
+test('without WebGL 2 particles are seen flat where a script draws them in three dimensions', options, () => opened('', {
+    prepare: withoutWebgl,
+    use: async page => {
+        await typed(page, '!physics state=:world dimensions=2\n    !particle id=0 radius=9 position=0;0 velocity=90;0\n'
+            + '!window size=64;32\n    !canvas3d\n        !sphere position=$(:world;0);0\n');
+        await page.keyboard.press('Control+Enter');
+        await page.waitForFunction(() => document.getElementById('message').textContent.includes('canvas3d'));
+        assert.equal(await page.textContent('#message'), 'Not drawn in the browser, which has no WebGL 2: canvas3d, sphere.');
+        await page.click('#step');
+        await page.waitForFunction(() => {
+            const { width, height } = document.getElementById('picture');
+            const { data } = document.getElementById('picture').getContext('2d').getImageData(0, 0, width, height);
+            return new Set(data).size > 3;
+        });
     },
 }));
 
