@@ -82,18 +82,48 @@ bool gl_context_has(const Gl *gl, const char *extension) {
     return (drawn && epoxy_gl_version() >= 32) || epoxy_has_gl_extension(extension);
 }
 
+// Mesa's llvmpipe sees without a lock that its threads have signalled a fence, and frees it when the next one comes,
+// while the last of them may still be at it: that thread then waits in memory that is another's, for ever, or writes to
+// it (Mesa 22.3: lp_fence_signalled and lp_fence_signal in lp_fence.c). What a GLsync holds is not freed. Threads
+// signal one fence after the other, so all but the newest can go when that was waited for; the newest ends with its
+// context. (What one drawing of more than 36 MB of triangles is split to has fences of its own, which are not held;
+// they are not freed soon, either.)
+static void give_up_fences(Gl *gl) {
+    for (int i = 0; i + 1 < gl->fence_count; i++)
+        glDeleteSync(gl->fences[i]);
+    if (gl->fence_count > 1)
+        gl->fences[0] = gl->fences[gl->fence_count - 1];
+    gl->fence_count = gl->fence_count > 0;
+}
+
+void gl_drawn(Gl *gl) {
+    if (!gl->keeps_fences)
+        return;
+    if (gl->fence_count == GL_KEPT_FENCES) {
+        glFinish();
+        give_up_fences(gl);
+    }
+    GLsync fence = glFenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0);
+    if (fence)
+        gl->fences[gl->fence_count++] = fence;
+}
+
 bool gl_enter(Gl *gl, const char **problem) {
     *problem = "OpenGL's context cannot be used";
     pthread_mutex_lock(&one_thread);
     if (gl->adopted ? eglGetCurrentContext() == gl->context
-                    : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context))
+                    : eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, gl->context)) {
+        gl_drawn(gl); // by the host
         return true;
+    }
     pthread_mutex_unlock(&one_thread);
     return false;
 }
 
 void gl_leave(Gl *gl) {
+    gl_drawn(gl);
     glFinish();
+    give_up_fences(gl);
     if (!gl->adopted)
         eglMakeCurrent(gl->display, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
     pthread_mutex_unlock(&one_thread);

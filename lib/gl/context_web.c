@@ -27,6 +27,10 @@ bool gl_context_has(const Gl *gl, const char *extension) {
     return gl_web_has(extension);
 }
 
+void gl_drawn(Gl *gl) {
+    (void)gl;
+}
+
 bool gl_enter(Gl *gl, const char **problem) {
     (void)gl;
     *problem = "the browser has taken WebGL away";

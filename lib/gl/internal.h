@@ -13,7 +13,7 @@
 typedef struct GlProgram GlProgram;
 typedef struct GlStore GlStore; // of scenes
 
-enum { GL_SPARE_IMAGES = 32 };
+enum { GL_SPARE_IMAGES = 32, GL_KEPT_FENCES = 16 };
 
 struct Gl {
     void *display; // EGLDisplay
@@ -30,7 +30,10 @@ struct Gl {
     GLuint nothing; // a texture of one transparent pixel
     GLuint curve;   // a texture of the table that windows' bytes are encoded by; 0: none yet
     uint64_t reads;
-    Meter *meter; // or NULL
+    bool keeps_fences; // see gl_drawn
+    int fence_count;
+    GLsync fences[GL_KEPT_FENCES]; // of what was drawn, the oldest first
+    Meter *meter;                  // or NULL
     GlImage spare[GL_SPARE_IMAGES];
     int spare_count;
     GlProgram *programs;
@@ -43,6 +46,8 @@ bool gl_context_open(Gl *gl, const char **problem);
 bool gl_context_adopt(Gl *gl, const char **problem);
 void gl_context_close(Gl *gl);
 bool gl_context_has(const Gl *gl, const char *extension);
+// To be called when something was drawn and another target, or nothing, comes next: context.c keeps its fence.
+void gl_drawn(Gl *gl);
 
 void gl_images_close(Gl *gl);
 // Bytes of a pixel.

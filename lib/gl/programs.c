@@ -123,4 +123,5 @@ void gl_draw_quad(Gl *gl, unsigned program) {
     glDisable(GL_BLEND);
     glDisable(GL_CULL_FACE);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    gl_drawn(gl);
 }

@@ -287,6 +287,7 @@ static bool draw_backs(Drawing *drawing, uint32_t first) {
     drawing->backs = extra ? gl_image_new(drawing->gl, width, height, format) : (GlImage){0};
     if (!drawing->backs.texture)
         return false;
+    gl_drawn(drawing->gl);
     glBindFramebuffer(GL_FRAMEBUFFER, extra->framebuffer);
     glFramebufferTexture2D(GL_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, drawing->backs.texture, 0);
     set_blending(&(Look3D){.depth_sort = true, .depth_test = true, .face_cull = true, .cull_face = FACE_FRONT}, false,
@@ -299,6 +300,7 @@ static bool draw_backs(Drawing *drawing, uint32_t first) {
         if (program)
             draw_shape(drawing, draw, program);
     }
+    gl_drawn(drawing->gl);
     glBindFramebuffer(GL_FRAMEBUFFER, drawing->target->framebuffer);
     return true;
 }
@@ -363,6 +365,7 @@ static bool draw_to(Drawing *drawing, GlImage image) {
     glViewport(0, 0, image.width, image.height);
     clear(camera);
     bool good = draw_all(drawing);
+    gl_drawn(gl);
     leave_state();
     gl_image_free(gl, drawing->backs);
     if (target->color) {
@@ -370,6 +373,7 @@ static bool draw_to(Drawing *drawing, GlImage image) {
         glBindFramebuffer(GL_READ_FRAMEBUFFER, target->framebuffer);
         glBlitFramebuffer(0, 0, image.width, image.height, 0, 0, image.width, image.height, GL_COLOR_BUFFER_BIT,
                           GL_NEAREST);
+        gl_drawn(gl);
         glBindFramebuffer(GL_FRAMEBUFFER, gl->framebuffer);
     }
     return good && glGetError() == GL_NO_ERROR;

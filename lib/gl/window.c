@@ -78,6 +78,7 @@ bool gl_show_pixels(Gl *gl, Arena *arena, const uint32_t *pixels, int x, int y, 
     glBlendFunc(GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
     glBindVertexArray(gl->strip);
     glDrawArrays(GL_TRIANGLE_STRIP, 0, 4);
+    gl_drawn(gl);
     glDisable(GL_BLEND);
     return glGetError() == GL_NO_ERROR;
 }
