@@ -82,6 +82,12 @@ bool gl_context_has(const Gl *gl, const char *extension) {
     return (drawn && epoxy_gl_version() >= 32) || epoxy_has_gl_extension(extension);
 }
 
+bool gl_context_is(const Gl *gl, const char *renderer) {
+    (void)gl;
+    const char *name = (const char *)glGetString(GL_RENDERER);
+    return name && strstr(name, renderer);
+}
+
 // Mesa's llvmpipe sees without a lock that its threads have signalled a fence, and frees it when the next one comes,
 // while the last of them may still be at it: that thread then waits in memory that is another's, for ever, or writes to
 // it (Mesa 22.3: lp_fence_signalled and lp_fence_signal in lp_fence.c). What a GLsync holds is not freed. Threads

@@ -27,6 +27,13 @@ bool gl_context_has(const Gl *gl, const char *extension) {
     return gl_web_has(extension);
 }
 
+// Browsers do not tell.
+bool gl_context_is(const Gl *gl, const char *renderer) {
+    (void)gl;
+    (void)renderer;
+    return false;
+}
+
 void gl_drawn(Gl *gl) {
     (void)gl;
 }

@@ -3,17 +3,14 @@
 
 #include "base/heap.h"
 
-#include <string.h>
-
 // Samplers are of low precision unless told otherwise, and then give halves.
 const char gl_header[] = "#version 300 es\nprecision highp float;\nprecision highp int;\nprecision highp sampler2D;\n";
 
 static void look_at_limits(Gl *gl) {
     GLint most = 0;
-    const char *renderer = (const char *)glGetString(GL_RENDERER);
     glGetIntegerv(GL_MAX_TEXTURE_SIZE, &most);
     gl->largest = most;
-    gl->keeps_fences = renderer && strstr(renderer, "llvmpipe");
+    gl->keeps_fences = gl_context_is(gl, "llvmpipe");
     gl->floats = gl_context_has(gl, "GL_EXT_color_buffer_float");
     gl->halves = gl->floats || gl_context_has(gl, "GL_EXT_color_buffer_half_float");
     gl->float_filter = gl_context_has(gl, "GL_OES_texture_float_linear");

@@ -46,6 +46,8 @@ bool gl_context_open(Gl *gl, const char **problem);
 bool gl_context_adopt(Gl *gl, const char **problem);
 void gl_context_close(Gl *gl);
 bool gl_context_has(const Gl *gl, const char *extension);
+// Whether what draws has this in its name.
+bool gl_context_is(const Gl *gl, const char *renderer);
 // To be called when something was drawn and another target, or nothing, comes next: context.c keeps its fence.
 void gl_drawn(Gl *gl);
 
