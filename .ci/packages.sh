@@ -104,7 +104,7 @@ STATIC_NEEDS='command -v musl-gcc: musl-tools'
 # Options of a build that takes the C library alone.
 WITHOUT='-Dcairo=disabled -Dgl=disabled -Dsdl=disabled -Dchafa=disabled -Dlibedit=disabled -Dyaml=disabled
     -Dhdf5=disabled -Djson=disabled -Dzlib=disabled -Dmpi=disabled -Dpython=disabled -Dtests=false -Ddefault_library=static'
-FRESH_NEEDS='command -v debootstrap: debootstrap'
+CLEAN_INSTALL_NEEDS='command -v debootstrap: debootstrap'
 # What meson looks for and can do without. A build folder is set up anew when another of these is there.
 OPTIONAL_LIBRARIES='cairo pangocairo libjpeg libpng chafa libedit sdl2 epoxy yaml-0.1 zlib hdf5 json-c cmocka x11 ompi-c mpfr python3'
 
@@ -117,28 +117,69 @@ missing() {
     done | xargs
 }
 
-by_hand() { echo "apt-get install --no-install-recommends $*"; }
+print_command() { echo "apt-get install --no-install-recommends $*"; }
 
-# agree PACKAGES: asks, once for all that will ever be needed, if there is someone to ask.
-agree() {
+# plan_sizes PLAN: prints the number of packages, megabytes to download and megabytes of disk space in what
+# `apt-get --print-uris install` has written. It is a line of three numbers, or nothing.
+plan_sizes() {
+    awk 'function megabytes(number, unit) {
+            sub(",", ".", number)
+            return number * (unit ~ /^G/ ? 1000 : unit ~ /^M/ ? 1 : unit ~ /^k/ ? 0.001 : 0.000001)
+        }
+        / newly installed/ { found = 1; count = $1; for (i = 2; i < NF; i++) if ($(i + 1) == "newly") count += $i }
+        /^Need to get / { download = megabytes($4, $5) }
+        /^After this operation, .* will be used/ { disk = megabytes($4, $5) }
+        END { if (found) printf "%d %.0f %.0f\n", count, download, disk }' "$1"
+}
+
+# sizes PACKAGES: prints the numbers of plan_sizes from the lists that the machine has, which takes no root, or after
+# "about", from figures of a bare Debian 12 in proportion, where the lists are empty or too old.
+sizes() {
+    # shellcheck disable=SC2086 # packages are words
+    LC_ALL=C apt-get -qy -o Debug::NoLocking=true --no-install-recommends --print-uris install $1 \
+        >"$root/build/packages-sizes.log" 2>&1 </dev/null && plan_sizes "$root/build/packages-sizes.log" | grep . && return
+    echo "$1" | awk -v run="$(named "$RUN_NEEDS")" -v all="$(named "$TEST_NEEDS")" '
+        function part(first, rest) { return NF <= run ? NF / run * first : first + (NF - run) / (all - run) * rest }
+        { printf "%.0f %.0f %.0f about\n", part(204, 327), part(155, 196), part(600, 720) }'
+}
+
+# named NEEDS: the number of packages in the list.
+named() { echo "$1" | sed -n 's/.*: *//p' | wc -w; }
+
+# packages_of N: "1 package" or "N packages".
+packages_of() { if [ "$1" -eq 1 ]; then echo "1 ${2:-}package"; else echo "$1 ${2:-}packages"; fi; }
+
+# confirm PACKAGES: asks, once for all packages that will ever be needed, if there is someone to ask.
+confirm() {
     agreed=$root/build/packages-agreed
     if [ ! -t 0 ] || [ "${CI:-}" = true ] || [ -e "$agreed" ]; then
         return 0
     fi
-    say "these Debian packages are missing, and what they need themselves:"
-    echo "  $1" | fold -s >&2
+    mkdir -p "$root/build"
     later=$(echo " $(missing "$TEST_NEEDS") " | tr ' ' '\n' | grep -vxF "$(echo "$1" | tr ' ' '\n')" | xargs)
-    if [ -n "$later" ]; then
-        echo "and, once you build all of it or run the tests:" >&2
-        echo "  $later" | fold -s >&2
-    fi
-    printf 'Install what is needed when it is needed? [Y/n] ' >&2
+    {
+        read -r count download disk about
+        read -r all_count all_download _ all_about
+    } <<END
+$(sizes "$1")
+$(sizes "$1 $later")
+END
+    # Debian's servers and an ordinary disk: 2 MB and 4 packages a second.
+    minutes=$(((download / 2 + count / 4) / 60 + 1))
+    number=$(echo "$1" | wc -w)
+    {
+        echo "petri needs $(packages_of "$number" "Debian ") (${about:+about }$count with dependencies, $download MB to download," \
+            "$disk MB of disk space, about $minutes minute$([ $minutes -eq 1 ] || echo s)): $1"
+        echo "Later commands install what they need without asking again$(
+            [ -z "$later" ] || echo "; the tests need $(echo "$later" | wc -w) more" \
+                "(${all_about:+about }$((all_count - count)) with dependencies, $((all_download - download)) MB to download)")."
+    } | fold -s -w "$((columns > 20 ? columns : 80))" >&2
+    printf 'Install %s now? [Y/n] ' "$(if [ "$number" -eq 1 ]; then echo it; else echo "the $number packages"; fi)" >&2
     read -r answer || answer=no
     case $answer in
     '' | y* | Y*) ;;
-    *) die "nothing was installed. By hand it is done by: $(by_hand "$1")" ;;
+    *) die "nothing was installed; to install them by hand, run: $(print_command "$1")" ;;
     esac
-    mkdir -p "$root/build"
     : >"$agreed"
 }
 
@@ -156,10 +197,10 @@ become_root() {
     fi
     die "installing packages needs root, and you are not: there is no sudo, or it does not let you.
 An administrator can do it for you, and then the same command works:
-  $(by_hand "$1")"
+  $(print_command "$1")"
 }
 
-get() {
+install_packages() {
     # shellcheck disable=SC2086 # $as_root may be no word
     $as_root env LC_ALL=C DEBIAN_FRONTEND=noninteractive apt-get -qy "$@"
 }
@@ -183,12 +224,13 @@ follow_installation() {
         Waiting) name="waiting for another installation to end" ;;
         *) continue ;;
         esac
-        counted packages $(((fetched + unpacked + ready) / 3)) "$count" "$name"
+        finished=$(((fetched + unpacked + ready) / 3)) # of more than was planned if the lists have changed
+        counted packages $((finished < count ? finished : count)) "$count" "$name"
     done
 }
 
-# give_up LOG PACKAGES: tells why an installation failed.
-give_up() {
+# explain_failure LOG PACKAGES: tells why an installation failed.
+explain_failure() {
     erase
     if grep -Eq 'Temporary failure resolving|Could not (resolve|connect)|Unable to connect|Connection (failed|timed out)|Network is unreachable' "$1"; then
         die "cannot fetch packages: no network? (What apt-get said is in $1.)"
@@ -202,28 +244,29 @@ need() {
     packages=$(missing "$1")
     [ -n "$packages" ] || return 0
     command -v apt-get >/dev/null || die "please install what Debian calls: $packages"
-    agree "$packages"
+    confirm "$packages"
     become_root "$packages"
     mkdir -p "$root/build"
     lists=$root/build/packages-lists.log
     plan=$root/build/packages-plan.log
     # The lists of a fresh machine are empty, those of an old one may name files that are gone: both need the update.
     say "packages: reading the lists"
-    get update >"$lists" 2>&1 </dev/null || true # with old lists it may do all the same
+    install_packages update >"$lists" 2>&1 </dev/null || true # with old lists it may do all the same
     # shellcheck disable=SC2086 # packages are words
-    get --no-install-recommends --print-uris install $packages >"$plan" 2>&1 </dev/null || {
+    install_packages --no-install-recommends --print-uris install $packages >"$plan" 2>&1 </dev/null || {
         cat "$plan" >>"$lists"
-        give_up "$lists" "$packages"
+        explain_failure "$lists" "$packages"
     }
-    count=$(sed -n 's/.* \([0-9]*\) newly installed.*/\1/p' "$plan")
-    size=$(sed -n 's/^Need to get \(.*B\) of archives.*/\1/p' "$plan")
-    say "packages: ${count:=1} to install, ${size:-nothing} to download"
+    read -r count download disk <<END
+$(plan_sizes "$plan")
+END
+    say "packages: ${count:=1} to install, ${download:-0} MB to download, ${disk:-0} MB of disk space"
     rm -f "$plan"
     # Nothing of the machine's is at stake when power fails in between: no need to wait for the disk after each file.
     # shellcheck disable=SC2086 # packages are words
-    following "$root/build/packages.log" follow_installation get --no-install-recommends \
+    following "$root/build/packages.log" follow_installation install_packages --no-install-recommends \
         -o Dpkg::Options::=--force-unsafe-io -o DPkg::Lock::Timeout=600 install $packages ||
-        give_up "$root/build/packages.log" "$packages"
+        explain_failure "$root/build/packages.log" "$packages"
     packages=$(missing "$1")
     [ -z "$packages" ] || die "still missing after the installation: $packages"
 }

@@ -2,7 +2,7 @@
 
 columns=0
 if [ -t 2 ] && [ "${TERM:-dumb}" != dumb ]; then
-    columns=$(stty size 2>/dev/null <&2 | cut -d ' ' -f 2)
+    columns=$(stty size <&2 2>/dev/null | cut -d ' ' -f 2)
     [ "${columns:-0}" -gt 0 ] || columns=80
 fi
 

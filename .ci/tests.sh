@@ -1,0 +1,98 @@
+# tests.sh: `./dev test`. Sourced by dev after progress.sh and packages.sh, with `root` set; `build` is in dev.
+
+# counts NAME LOG: the number that meson's summary gives for NAME.
+counts() { awk -F: -v name="$1" '$1 == name { n = $2 } END { print n + 0 }' "$2"; }
+
+# Tests start in the order of meson's list: the first that has not ended is the one that takes long.
+follow_tests() {
+    waiting=$chosen
+    counted tests 0 "$(echo "$waiting" | wc -l)" "$(echo "$waiting" | head -n 1)"
+    while read -r number _ rest; do
+        case $number in
+        [0-9]*/[0-9]*)
+            name=${rest#*/ }
+            waiting=$(echo "$waiting" | grep -vxF "${name%% *}") || true
+            counted tests "${number%/*}" "${number#*/}" "$(echo "$waiting" | head -n 1)"
+            ;;
+        esac
+    done
+}
+
+# choose_tests [NAME...]: sets `chosen` to the tests and `folders` to the folders of scripts with one of these names, or in one of these
+# suites; without names, to all of them.
+choose_tests() {
+    folders=
+    for folder in tests/golden tests/conformance samples; do
+        [ ! -d $folder ] || folders="$folders $folder"
+    done
+    list=$(meson test -C build --no-rebuild --no-suite scripts --list 2>/dev/null | sed -n 's|^\([^ ]*\) / |\1 |p')
+    chosen=$(echo "$list" | sed 's/.* //')
+    [ $# -gt 0 ] || return 0
+    present=$folders
+    chosen='' folders=''
+    for name; do
+        found=$(echo "$list" | awk -v name="$name" '$NF == name || (":" $1 "+") ~ ("[:+]" name "[+]") { print $NF }')
+        for folder in $present; do
+            [ "${folder##*/}" != "$name" ] || folders="$folders $folder" found="$found "
+        done
+        [ -n "$found" ] || die "no such test or suite: '$name'; for a list, run: meson test -C build --list"
+        chosen="$chosen $found"
+    done
+    chosen=$(echo "$chosen" | tr -s ' ' '\n' | awk 'NF && !seen[$0]++')
+}
+
+# Prints the tests that were skipped, each with its reason.
+skipped_tests() {
+    awk '/^=+ [0-9]+\/[0-9]+ =+$/ { name = "" }
+        /^test: / && name == "" { name = $NF; reason = 0 }
+        /^result: .*exit status 77$/ { all[name] = 1 }
+        sub(/^skipped: /, "") { print "skipped: " name ": " $0; delete all[name] }
+        END { for (name in all) print "skipped: " name ": it gives no reason" }' "$1"
+}
+
+# run_tests [NAME...]
+run_tests() {
+    build "$TEST_NEEDS" ''
+    cd "$root"
+    log=build/tests.log scripts=build/scripts.log
+    code=0 good=0 bad=0 failed=''
+    : >"$log"
+    choose_tests "$@"
+    if [ $# -eq 0 ] || [ -n "$chosen" ]; then
+        # Some tests mostly wait, so more run at a time than there are processors.
+        # shellcheck disable=SC2086 # names are words
+        following $log follow_tests meson test -C build --no-rebuild --no-suite scripts --print-errorlogs \
+            --num-processes "$(($(nproc) + 2))" ${1:+$chosen} || code=1
+        # Lines of tests that passed are dropped, also within a failed program; a case that began and did not end stays.
+        sed -e '/^\[ *RUN *\]/{' -e N -e '/\n\[ *OK *\]/d' -e '}' "$log" |
+            grep -v -e '^ninja: ' -e ' OK  ' -e '^Full log' -e '^$' -e ':  *0 *$' -e '^ok ' || true
+        [ ! -f build/meson-logs/testlog.txt ] || skipped_tests build/meson-logs/testlog.txt
+        good=$(counts Ok "$log")
+        bad=$(($(counts Fail "$log") + $(counts Timeout "$log") + $(counts 'Unexpected Pass' "$log")))
+        failed=$(sed -nE 's#^ *[0-9]+/[0-9]+ [^/]* / ([^ ]+) +(FAIL|TIMEOUT|ERROR|UNEXPECTEDPASS|INTERRUPT) .*#\1#p' "$log" | sort -u)
+        # Meson may fail without a failed test; that must not pass for success.
+        [ "$code" -eq 0 ] || [ "$bad" -gt 0 ] || bad=1
+    fi
+    for folder in $folders; do
+        code=0
+        .ci/clean-env build/petri test "$folder" >"$scripts" 2>&1 </dev/null || code=1
+        cat "$scripts" >>"$log"
+        grep -v "^ok " "$scripts" | sed '$d' || true
+        summary=$(tail -n 1 "$scripts")
+        echo "scripts in $folder: $summary"
+        case $summary in
+        *' passed, '*' failed')
+            good=$((good + ${summary%% passed*}))
+            summary=${summary#* passed, }
+            summary=${summary% failed}
+            ;;
+        *) summary=1 ;;
+        esac
+        [ "$code" -eq 0 ] || [ "$summary" -gt 0 ] || summary=1
+        bad=$((bad + summary))
+        [ "$summary" -eq 0 ] || failed="$failed ${folder##*/}"
+    done
+    [ "$bad" -eq 0 ] || echo "log: build/tests.log; to repeat: ./dev test$(printf ' %s' $failed)"
+    echo "$good passed, $bad failed"
+    [ "$bad" -eq 0 ]
+}
