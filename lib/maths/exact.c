@@ -7,11 +7,11 @@
 // arguments known (Lefèvre and Muller's tables and what was computed since) need fewer than 128 bits of relative
 // accuracy; the first two steps give more than 300.
 //
-// What wide.h promises for each function is 2^16 ulps; SLACK covers the few products, sums and constants around it.
-#include "maths/doubles.h"
+// What fixed.h promises for each function is 2^16 ulps; SLACK covers the few products, sums and constants around it.
+#include "maths/double_bits.h"
 #include "maths/fast.h"
+#include "maths/fixed.h"
 #include "maths/maths_tables.h"
-#include "maths/wide.h"
 
 #define SLACK 20
 #define FIRST_SIZE 3
@@ -22,15 +22,15 @@ typedef enum Trig { SINE, COSINE, TANGENT } Trig;
 
 // The tangent: the divisor is brought to [1/2, 1) first, then the quotient multiplied as much. No cosine of a double is
 // below 2^-62 (nor a sine, if it is not 0), so that 62 bits are lost.
-static Wide wide_quotient(Wide *sine, Wide *cosine) {
-    int shift = -double_exponent(wide_near(cosine)) - 1;
-    bool negative = wide_is_negative(cosine);
-    Wide divisor = negative ? wide_negate(cosine) : *cosine;
-    divisor = wide_scale(&divisor, shift);
-    divisor = wide_inverse(&divisor);
-    Wide q = wide_mul(sine, &divisor);
-    q = wide_scale(&q, shift);
-    return negative ? wide_negate(&q) : q;
+static Fixed fixed_quotient(Fixed *sine, Fixed *cosine) {
+    int shift = -double_exponent(fixed_to_double(cosine)) - 1;
+    bool negative = fixed_is_negative(cosine);
+    Fixed divisor = negative ? fixed_negate(cosine) : *cosine;
+    divisor = fixed_scale(&divisor, shift);
+    divisor = fixed_inverse(&divisor);
+    Fixed q = fixed_mul(sine, &divisor);
+    q = fixed_scale(&q, shift);
+    return negative ? fixed_negate(&q) : q;
 }
 
 static double exact_trig(double x, Trig trig) {
@@ -41,25 +41,25 @@ static double exact_trig(double x, Trig trig) {
         return trig == COSINE ? 1 : x;
     double result = 0;
     bool done = false;
-    for (int size = FIRST_SIZE; !done && size <= WIDE_MAX; size *= 2) {
+    for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
         int quadrant, slack = SLACK;
-        Wide r = wide_turn(x, size, &quadrant), s, c;
-        wide_sin_cos(&r, &s, &c);
+        Fixed r = fixed_reduce(x, size, &quadrant), s, c;
+        fixed_sin_cos(&r, &s, &c);
         if (trig == COSINE)
             quadrant++;
         if (quadrant & 1) {
-            Wide t = s;
+            Fixed t = s;
             s = c;
-            c = wide_negate(&t);
+            c = fixed_negate(&t);
         }
         if (trig == TANGENT) {
             // In a turn the signs of both cancel. What the shift of a large quotient adds to the error is its square.
-            int shift = double_exponent(wide_near(&c));
+            int shift = double_exponent(fixed_to_double(&c));
             slack += shift < 0 ? -2 * shift : 0;
-            s = wide_quotient(&s, &c);
+            s = fixed_quotient(&s, &c);
         } else if (quadrant & 2)
-            s = wide_negate(&s);
-        done = wide_decides(&s, slack, 0, &result);
+            s = fixed_negate(&s);
+        done = fixed_decides(&s, slack, 0, &result);
     }
     return result;
 }
@@ -77,20 +77,20 @@ EXACT(tan, exact_trig, TANGENT)
 // What is done with the angle of (a, b), 0 ≤ b ≤ a: the octant.
 typedef enum Octant { AS_IT_IS, FROM_QUARTER, PAST_QUARTER, FROM_HALF } Octant;
 
-static Wide in_octant(const Wide *angle, Octant octant) {
-    Wide constant = wide_constant(wide_half_pi, WIDE_MAX, angle->size);
+static Fixed in_octant(const Fixed *angle, Octant octant) {
+    Fixed constant = fixed_constant(fixed_half_pi, FIXED_MAX_LIMBS, angle->size);
     if (octant == FROM_HALF)
-        constant = wide_add(&constant, &constant);
+        constant = fixed_add(&constant, &constant);
     return octant == AS_IT_IS       ? *angle
-           : octant == PAST_QUARTER ? wide_add(&constant, angle)
-                                    : wide_sub(&constant, angle);
+           : octant == PAST_QUARTER ? fixed_add(&constant, angle)
+                                    : fixed_sub(&constant, angle);
 }
 
 // The angle at (a, b), both not negative and at most 1, a^2 + b^2 = 1.
-static Wide circle_angle(const Wide *b, const Wide *a, bool mirrored) {
-    Wide d = wide_sub(a, b);
-    bool swap = wide_is_negative(&d);
-    Wide angle = swap ? wide_atan(a, b) : wide_atan(b, a);
+static Fixed circle_angle(const Fixed *b, const Fixed *a, bool mirrored) {
+    Fixed d = fixed_sub(a, b);
+    bool swap = fixed_is_negative(&d);
+    Fixed angle = swap ? fixed_atan(a, b) : fixed_atan(b, a);
     return in_octant(&angle, mirrored ? (swap ? PAST_QUARTER : FROM_HALF) : (swap ? FROM_QUARTER : AS_IT_IS));
 }
 
@@ -99,15 +99,16 @@ static Wide circle_angle(const Wide *b, const Wide *a, bool mirrored) {
 static double exact_circle(double x, bool cosine) {
     double result = 0;
     bool done = false;
-    for (int size = FIRST_SIZE; !done && size <= WIDE_MAX; size *= 2) {
-        Wide a = wide_from_double(double_absolute(x), size), one = wide_from_int(1, size), square = wide_mul(&a, &a);
-        square = wide_sub(&one, &square);
-        int halves = -double_exponent(wide_near(&square)) / 2;
-        Wide scaled = wide_scale(&square, 2 * halves), inverse = wide_inverse_root(&scaled);
-        Wide root = wide_mul(&scaled, &inverse);
-        root = wide_scale(&root, -halves);
-        Wide angle = cosine ? circle_angle(&root, &a, x < 0) : circle_angle(&a, &root, false);
-        done = wide_decides(&angle, SLACK, 0, &result);
+    for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
+        Fixed a = fixed_from_double(double_absolute(x), size), one = fixed_from_int(1, size),
+              square = fixed_mul(&a, &a);
+        square = fixed_sub(&one, &square);
+        int halves = -double_exponent(fixed_to_double(&square)) / 2;
+        Fixed scaled = fixed_scale(&square, 2 * halves), inverse = fixed_inverse_root(&scaled);
+        Fixed root = fixed_mul(&scaled, &inverse);
+        root = fixed_scale(&root, -halves);
+        Fixed angle = cosine ? circle_angle(&root, &a, x < 0) : circle_angle(&a, &root, false);
+        done = fixed_decides(&angle, SLACK, 0, &result);
     }
     return !cosine && x < 0 ? -result : result;
 }
@@ -133,7 +134,7 @@ double exact_acos(double x) {
 // 2^-120 q, only matters there, and there it goes down. The bits are 2 q - 1 with q cut off, an odd number.
 static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     __extension__ typedef unsigned __int128 Long;
-    Wide q = wide_from_int(0, 2);
+    Fixed q = fixed_from_int(0, 2);
     Long high = (Long)b << 64;
     uint64_t rest = (uint64_t)(high % a);
     Long low = ((Long)rest << 64) / a;
@@ -141,11 +142,11 @@ static double tiny_ratio(uint64_t b, uint64_t a, int scale) {
     q.limb[1] = (uint64_t)(high / a);
     q.limb[0] = (uint64_t)low;
     bool exact = ((Long)rest << 64) % a == 0;
-    Wide least = {.size = 2, .limb = {1}};
+    Fixed ulp = {.size = 2, .limb = {1}};
     if (exact)
-        q = wide_sub(&q, &least);
+        q = fixed_sub(&q, &ulp);
     q.limb[0] |= 1; // it is not on the border
-    return wide_round(&q, scale);
+    return fixed_round(&q, scale);
 }
 
 static Octant octant_of(double b, double a, double x) {
@@ -164,14 +165,14 @@ static double exact_ratio(double b, double a, double x) {
         return tiny_ratio(bm, am, scale);
     double result = 0;
     bool done = false;
-    for (int size = FIRST_SIZE; !done && size <= WIDE_MAX; size *= 2) {
+    for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
         // A ratio below 2^-100 is nothing beside pi/2 and pi: their nearest border is 2^-56 away.
-        Wide a_wide = wide_from_double((double)am * 0x1p-53, size);
-        Wide b_wide = wide_from_double((double)bm * 0x1p-53, size);
-        b_wide = scale < -100 ? wide_from_int(0, size) : wide_scale(&b_wide, scale);
-        Wide angle = wide_atan(&b_wide, &a_wide);
+        Fixed a_fixed = fixed_from_double((double)am * 0x1p-53, size);
+        Fixed b_fixed = fixed_from_double((double)bm * 0x1p-53, size);
+        b_fixed = scale < -100 ? fixed_from_int(0, size) : fixed_scale(&b_fixed, scale);
+        Fixed angle = fixed_atan(&b_fixed, &a_fixed);
         angle = in_octant(&angle, octant);
-        done = wide_decides(&angle, scale < -100 ? 64 * size - 99 : SLACK, 0, &result);
+        done = fixed_decides(&angle, scale < -100 ? 64 * size - 99 : SLACK, 0, &result);
     }
     return result;
 }
@@ -196,13 +197,13 @@ double exact_atan2(double y, double x) {
 // --- exponential and logarithms
 
 // e^t with t of a size, wrong by 2^slack ulps: t = k ln2 + r, and e^r in [1/2, 2].
-static bool decide_exp(const Wide *t, int slack, double *result) {
-    int k = (int)(wide_near(t) * LOG_2E_HIGH);
-    Wide log_2 = wide_constant(wide_log_2, WIDE_MAX, t->size);
-    log_2 = wide_mul_small(&log_2, (uint64_t)(k < 0 ? -k : k));
-    Wide r = k < 0 ? wide_add(t, &log_2) : wide_sub(t, &log_2);
-    r = wide_exp(&r);
-    return wide_decides(&r, slack, k, result);
+static bool decide_exp(const Fixed *t, int slack, double *result) {
+    int k = (int)(fixed_to_double(t) * LOG_2E_HIGH);
+    Fixed log_2 = fixed_constant(fixed_log_2, FIXED_MAX_LIMBS, t->size);
+    log_2 = fixed_mul_small(&log_2, (uint64_t)(k < 0 ? -k : k));
+    Fixed r = k < 0 ? fixed_add(t, &log_2) : fixed_sub(t, &log_2);
+    r = fixed_exp(&r);
+    return fixed_decides(&r, slack, k, result);
 }
 
 double exact_exp(double x) {
@@ -214,19 +215,19 @@ double exact_exp(double x) {
         return 1;
     double result = 0;
     bool done = false;
-    for (int size = FIRST_SIZE; !done && size <= WIDE_MAX; size *= 2) {
-        Wide t = wide_from_double(x, size);
+    for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
+        Fixed t = fixed_from_double(x, size);
         done = decide_exp(&t, SLACK, &result);
     }
     return result;
 }
 
 // ln x of a positive finite number other than 1
-static Wide wide_log_of(double x, int size) {
+static Fixed fixed_log_of(double x, int size) {
     int exponent;
     double m = (double)double_split(x, &exponent) * 0x1p-52;
     // ln m must not take away most of the exponent's part: m is in [0.7, 1.4).
-    return m < 1.40625 ? wide_log(m, exponent + 52, size) : wide_log(m * 0.5, exponent + 53, size);
+    return m < 1.40625 ? fixed_log(m, exponent + 52, size) : fixed_log(m * 0.5, exponent + 53, size);
 }
 
 static double exact_logarithm(double x, const uint64_t *scale) {
@@ -234,20 +235,20 @@ static double exact_logarithm(double x, const uint64_t *scale) {
         return double_is_nan(x) ? x + x : x == 0 ? -DOUBLE_INFINITY : x < 0 ? DOUBLE_NAN : x == 1 ? 0 : x;
     double result = 0;
     bool done = false;
-    for (int size = FIRST_SIZE; !done && size <= WIDE_MAX; size *= 2) {
-        Wide log = wide_log_of(x, size);
+    for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
+        Fixed log = fixed_log_of(x, size);
         if (scale) {
-            Wide by = wide_constant(scale, WIDE_MAX, size);
-            log = wide_mul(&log, &by);
+            Fixed by = fixed_constant(scale, FIXED_MAX_LIMBS, size);
+            log = fixed_mul(&log, &by);
         }
-        done = wide_decides(&log, SLACK, 0, &result);
+        done = fixed_decides(&log, SLACK, 0, &result);
     }
     return result;
 }
 
 EXACT(log, exact_logarithm, NULL)
-EXACT(log2, exact_logarithm, wide_log2_e)
-EXACT(log10, exact_logarithm, wide_log10_e)
+EXACT(log2, exact_logarithm, fixed_log2_e)
+EXACT(log10, exact_logarithm, fixed_log10_e)
 
 // --- power
 
@@ -264,7 +265,7 @@ double exact_pow_sign(double x, double y) {
 }
 
 // x = *odd 2^*exponent with an odd whole number
-static void take_apart(double x, uint64_t *odd, int *exponent) {
+static void split_odd(double x, uint64_t *odd, int *exponent) {
     *odd = double_split(x, exponent);
     int zeros = __builtin_ctzll(*odd);
     *odd >>= zeros;
@@ -284,8 +285,8 @@ static uint64_t whole_root(uint64_t m) {
 static bool pow_is_exact(double x, double y, double *result) {
     uint64_t m, k, power = 1;
     int e, f;
-    take_apart(x, &m, &e);
-    take_apart(double_absolute(y), &k, &f);
+    split_odd(x, &m, &e);
+    split_odd(double_absolute(y), &k, &f);
     for (; f < 0; f++) {
         if (e % 2 || !(m = whole_root(m)))
             return false;
@@ -306,9 +307,9 @@ static bool pow_is_exact(double x, double y, double *result) {
         for (int i = 0; i < n; i++)
             if (__builtin_mul_overflow(power, m, &power))
                 return false;
-    Wide whole = wide_from_int(0, 1);
+    Fixed whole = fixed_from_int(0, 1);
     whole.limb[0] = power; // as a fraction
-    *result = wide_round(&whole, 64 + (y < 0 ? -e * n : e * n));
+    *result = fixed_round(&whole, 64 + (y < 0 ? -e * n : e * n));
     return true;
 }
 
@@ -321,24 +322,24 @@ static double exact_positive_pow(double x, double y) {
     uint64_t k = double_split(y, &exponent);
     int above = exponent + 53 > 0 ? exponent + 53 : 0; // |y| < 2^above
     bool done = false;
-    for (int size = FIRST_SIZE; !done && size <= WIDE_MAX; size *= 2) {
-        Wide t = wide_log_of(x, size);
-        double near = wide_near(&t) * y; // but for 2^-48 of it
+    for (int size = FIRST_SIZE; !done && size <= FIXED_MAX_LIMBS; size *= 2) {
+        Fixed t = fixed_log_of(x, size);
+        double near = fixed_to_double(&t) * y; // but for 2^-48 of it
         if (near > 720 || near < -760)
             return near < 0 ? 0 : DOUBLE_INFINITY;
         if (double_absolute(near) < 0x1p-55)
             return 1;
-        t = wide_mul_small(&t, k);
-        t = wide_scale(&t, exponent);
+        t = fixed_mul_small(&t, k);
+        t = fixed_scale(&t, exponent);
         if (y < 0)
-            t = wide_negate(&t);
+            t = fixed_negate(&t);
         done = decide_exp(&t, SLACK + above, &result);
     }
     return result;
 }
 
 // The cases of C17 F.10.4.4 where x is 0 or infinite: their result for |x|, before the sign.
-static double pow_at_end(double x, double y) {
+static double pow_of_zero_or_infinity(double x, double y) {
     return (x == 0) == (y < 0) ? DOUBLE_INFINITY : 0;
 }
 
@@ -352,7 +353,7 @@ double exact_pow(double x, double y) {
         return a == 1 ? 1 : (a > 1) == (y > 0) ? DOUBLE_INFINITY : 0;
     double sign = double_is_negative(x) ? is_odd(y) ? -1 : 1 : 1;
     if (a == 0 || (double_absolute(a) == DOUBLE_INFINITY))
-        return sign * pow_at_end(a, y);
+        return sign * pow_of_zero_or_infinity(a, y);
     if (x < 0 && !is_whole(y))
         return DOUBLE_NAN;
     return sign * (a == 1 ? 1 : exact_positive_pow(a, y));

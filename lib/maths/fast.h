@@ -1,4 +1,4 @@
-// fast.h: what the instances of the fast paths offer (instance.c, once per instruction set), and what stands behind
+// fast.h: what the instances of the fast paths offer (maths_isa.c, once per instruction set), and what stands behind
 // them.
 //
 // A fast path either returns the correctly rounded result or leaves the case to the exact_ function, which decides all.
@@ -42,6 +42,6 @@ double fast_log_near(double m);
 double fast_atan_near(double q);
 
 // x = (n pi/512 mod 2 pi) + high + low for any finite x of at least 1; |high| ≤ pi/1024, up to 2^-110.
-void exact_turn(double x, uint64_t *n, double *high, double *low);
+void exact_reduction(double x, uint64_t *n, double *high, double *low);
 
 #endif

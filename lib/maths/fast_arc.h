@@ -22,8 +22,8 @@
 #ifndef PETRI_MATHS_FAST_ARC_H
 #define PETRI_MATHS_FAST_ARC_H
 
-#include "maths/doubles.h"
-#include "maths/fast_turn.h"
+#include "maths/double_bits.h"
+#include "maths/fast_sincos.h"
 
 #define ARC_ERROR 0x1.2p-66
 #define ATAN_ERROR 0x1.4p-65
@@ -34,7 +34,7 @@
 // a + b for |a| ≥ |b| or a = 0, with what is lower, as high + low.
 KERNEL void arc_sum(double a, double b, double lower, double *high, double *low) {
     *high = a + b;
-    *low = real_add_low(a, b, *high) + lower;
+    *low = real_fast_two_sum_error(a, b, *high) + lower;
 }
 
 #define ARC_COLUMNS 11
@@ -53,7 +53,7 @@ KERNEL void arc_series(const double *row, double d, double *high, double *low) {
     double square = d * d, third = real_muladd(d, a[5], a[4]);
     double sum = real_muladd(square, real_muladd(d, a[3], a[2]), real_muladd(d, a[1], a[0]));
     sum = real_muladd(square * square, real_muladd(square, a[6], third), sum);
-    double p = row[2] * d, pl = real_mul_low(row[2], d, p);
+    double p = row[2] * d, pl = real_two_product_error(row[2], d, p);
     double small = real_muladd(square, sum, real_muladd(row[3], d, row[1]) + pl);
     arc_sum(row[0], p, small, high, low);
 }
@@ -73,7 +73,7 @@ KERNEL void acos_parts(double a, double *high, double *low) {
     double rest = real_residue(square, root, root) * (root * (0.5 / square));
     arc_series(row, d, &h, &l);
     *high = root * h;
-    *low = real_mul_low(root, h, *high) + real_muladd(root, l, rest * h);
+    *low = real_two_product_error(root, h, *high) + real_muladd(root, l, rest * h);
 }
 
 // asin(a) for a in [1/16, 15/16], in rows of 1/128 of 1 - a
@@ -83,7 +83,7 @@ KERNEL void steep_asin_parts(double a, double *high, double *low) {
     double third = real_muladd(d, t[5], t[4]), last = real_muladd(d, t[7], t[6]);
     double sum = real_muladd(square, real_muladd(d, t[3], t[2]), real_muladd(d, t[1], t[0]));
     sum = real_muladd(square * square, real_muladd(square, last, third), sum);
-    double p = row[3] * d, pl = real_mul_low(row[3], d, p);
+    double p = row[3] * d, pl = real_two_product_error(row[3], d, p);
     arc_sum(row[1], p, real_muladd(square, sum, real_muladd(row[4], d, row[2]) + pl), high, low);
 }
 
@@ -122,8 +122,8 @@ KERNEL bool acos_fast(double x, double *result) {
     if (a <= 0.9375) {
         asin_parts(a, &high, &low);
         double error = real_muladd(high, ARC_ERROR, HALF_PI_ERROR);
-        high = double_of(double_bits(high) ^ (~double_bits(x) & DOUBLE_SIGN));
-        low = double_of(double_bits(low) ^ (~double_bits(x) & DOUBLE_SIGN));
+        high = double_from_bits(double_bits(high) ^ (~double_bits(x) & DOUBLE_SIGN));
+        low = double_from_bits(double_bits(low) ^ (~double_bits(x) & DOUBLE_SIGN));
         return arc_decide(HALF_PI_HIGH, HALF_PI_LOW, high, low, error, result);
     }
     const double *constant = first[double_is_negative(x)];
@@ -157,12 +157,12 @@ KERNEL bool atan2_fast(double y, double x, double *result) {
     return good;
 }
 
-KERNEL bool tan_fast(const Turn *turn, double *result) {
-    Arc arc = turn_arc(turn);
-    Row row = turn_row(turn->n), next = turn_quarter(&row);
+KERNEL bool tan_fast(const ReducedArgument *turn, double *result) {
+    Arc arc = sincos_arc(turn);
+    Row row = sincos_row(turn->n), next = sincos_quarter(&row);
     double sh, sl, ch, cl;
-    turn_sine(&row, &arc, &sh, &sl);
-    turn_sine(&next, &arc, &ch, &cl);
+    sincos_sine(&row, &arc, &sh, &sl);
+    sincos_sine(&next, &arc, &ch, &cl);
     arc_sum(sh, sl, 0, &sh, &sl);
     arc_sum(ch, cl, 0, &ch, &cl);
     double inverse = 1 / ch, q = sh * inverse;

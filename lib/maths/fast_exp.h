@@ -19,23 +19,23 @@
 #include "maths/maths_tables.h"
 
 #define EXP_ERROR 0x1p-67
-#define EXP_LARGEST 708.0 // no overflow and no result below the normal range
+#define EXP_MAX 708.0 // no overflow and no result below the normal range
 
-// 2^(exponent / 2^52) (high + low) for |x| < EXP_LARGEST; high is in [0.99, 2), |low| < 2^-16.
+// 2^(exponent / 2^52) (high + low) for |x| < EXP_MAX; high is in [0.99, 2), |low| < 2^-16.
 KERNEL void exp_parts(Real x, Real tail, Bits *exponent, Real *high, Real *low) {
     Bits number;
     Real k = real_steps(x, EXP_STEPS_PER_ONE, &number);
     Real r = x - k * real_set(EXP_STEP_HIGH), rest = tail - k * real_set(EXP_STEP_LOW);
     Bits row = (number & bits_set(127)) << 1;
-    Real th = real_look_up(&exp_table[0][0], row), tl = real_look_up(&exp_table[0][1], row);
+    Real th = real_gather_table(&exp_table[0][0], row), tl = real_gather_table(&exp_table[0][1], row);
     Real s = r + rest, square = s * s;
     Real upper = real_muladd(s, real_set(1.0 / 120), real_set(1.0 / 24));
     Real lower = real_muladd(s, real_set(1.0 / 6), real_set(0.5));
     upper = real_muladd(square, real_set(1.0 / 720), upper);
     Real q = real_muladd(square, real_muladd(square, upper, lower), rest);
-    Real p = th * r, pl = real_mul_low(th, r, p);
+    Real p = th * r, pl = real_two_product_error(th, r, p);
     *high = th + p;
-    *low = real_add_low(th, p, *high) + (real_muladd(th, q, real_muladd(tl, r, tl)) + pl);
+    *low = real_fast_two_sum_error(th, p, *high) + (real_muladd(th, q, real_muladd(tl, r, tl)) + pl);
     *exponent = (number & bits_set(~UINT64_C(127))) << 45;
 }
 
@@ -44,7 +44,7 @@ KERNEL Lanes exp_lanes(Real x, Real *result) {
     Real high, low;
     exp_parts(x, real_set(0), &exponent, &high, &low);
     Lanes good = LANES_BOTH(lanes_decide(high, low, real_set(2 * EXP_ERROR), result),
-                            lanes_less(real_absolute(x), real_set(EXP_LARGEST)));
+                            lanes_less(real_absolute(x), real_set(EXP_MAX)));
     *result = real_of(bits_of(*result) + exponent);
     return good;
 }

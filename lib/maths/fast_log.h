@@ -34,7 +34,7 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
     Real m = real_of(bits_of(x) - (from & bits_set(UINT64_C(0xfff) << 52)));
     Real k = lanes_exponent(from);
     Real entry[4];
-    real_look_up_row(log_table, row, entry);
+    real_gather_table_row(log_table, row, entry);
     Real r = entry[0], lh = entry[1], ll = entry[2];
 #if HAS_FMA
     Real z = real_muladd(r, m, real_set(-1));
@@ -45,13 +45,13 @@ KERNEL void log_parts(Real x, Real *high, Real *low, Real *cube) {
 #endif
     Real a = k * real_set(LOG_2_HIGH) + lh, s = a + z;
     Real square = z * z, halved = z * real_set(0.5), half = z * halved, t = s - half;
-    Real rests = real_add_low(a, z, s) + ((s - t) - half);
+    Real rests = real_fast_two_sum_error(a, z, s) + ((s - t) - half);
     Real p1 = real_muladd(z, real_set(-1.0 / 4), real_set(1.0 / 3 + LOG_REACH * LOG_REACH * LOG_REACH / 288));
     Real p2 = real_muladd(z, real_set(-1.0 / 6), real_set(1.0 / 5 - LOG_REACH * LOG_REACH / 16));
     Real p3 = real_muladd(z, real_set(-1.0 / 8), real_set(1.0 / 7 + LOG_REACH / 6));
     p1 = real_muladd(square, real_muladd(square, p3, p2), p1);
     *cube = z * square * p1;
-    Real tiny = real_muladd(k, real_set(LOG_2_LOW), ll) - real_mul_low(z, halved, half);
+    Real tiny = real_muladd(k, real_set(LOG_2_LOW), ll) - real_two_product_error(z, halved, half);
     *high = t;
     *low = *cube + (rests + tiny);
 }
@@ -71,7 +71,7 @@ KERNEL Lanes log_lanes(Real x, Real *result) {
 KERNEL Lanes log_lanes_scaled(Real x, double scale_high, double scale_low, Real *result) {
     Real high, low, cube;
     log_parts(x, &high, &low, &cube);
-    Real product = high * real_set(scale_high), rest = real_mul_low(high, real_set(scale_high), product);
+    Real product = high * real_set(scale_high), rest = real_two_product_error(high, real_set(scale_high), product);
     rest = real_muladd(high, real_set(scale_low), real_muladd(low, real_set(scale_high), rest));
     Real error = real_absolute(product) * real_set(LOG_ERROR);
     return LANES_BOTH(lanes_decide(product, rest, error, result), lanes_positive_normal(x));
@@ -83,14 +83,14 @@ KERNEL Lanes pow_lanes(Real x, Real y, Real *result) {
     Real high, low, cube;
     log_parts(x, &high, &low, &cube);
     Real sum = high + low;
-    low = real_add_low(high, low, sum);
-    Real t = y * sum, tail = real_muladd(y, low, real_mul_low(y, sum, t));
+    low = real_fast_two_sum_error(high, low, sum);
+    Real t = y * sum, tail = real_muladd(y, low, real_two_product_error(y, sum, t));
     Real error = real_muladd(real_absolute(y * cube), real_set(2 * LOG_CUBE_ERROR), real_set(2 * EXP_ERROR));
     Bits exponent;
     Real mantissa, rest;
     exp_parts(t, tail, &exponent, &mantissa, &rest);
     Lanes good =
-        LANES_BOTH(lanes_decide(mantissa, rest, error, result), lanes_less(real_absolute(t), real_set(EXP_LARGEST)));
+        LANES_BOTH(lanes_decide(mantissa, rest, error, result), lanes_less(real_absolute(t), real_set(EXP_MAX)));
     good = LANES_BOTH(good, lanes_positive_normal(x));
     *result = real_of(bits_of(*result) + exponent);
     return good;

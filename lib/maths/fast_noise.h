@@ -1,10 +1,10 @@
-// fast_noise.h: noise of the plane in lanes (many.h); the operations and their order are those of one point
+// fast_noise.h: noise of the plane in lanes (arrays.h); the operations and their order are those of one point
 // (lib/builtin/noise_point.c), with choices instead of branches.
 #ifndef PETRI_MATHS_FAST_NOISE_H
 #define PETRI_MATHS_FAST_NOISE_H
 
+#include "maths/arrays.h"
 #include "maths/lanes.h"
-#include "maths/many.h"
 
 // Where a comparison holds: all bits.
 #if LANES == 1
@@ -40,9 +40,9 @@ typedef struct NoiseLanes {
 KERNEL Real noise_vertex(const NoiseLanes *p, Real value, Real a, Real b, Bits whole_a, Bits whole_b, Real squish) {
     const Bits byte = bits_set(255);
     Real dx = (p->x - a) - squish, dy = (p->y - b) - squish, reach = (real_set(2) - dx * dx) - dy * dy;
-    Bits at = bits_of(real_look_up(p->permutation, (p->base_x + whole_a) & byte));
-    at = bits_of(real_look_up(p->permutation, (at + p->base_y + whole_b) & byte)) & bits_set(7);
-    Real slope = real_look_up(p->noise->gradient_x, at) * dx + real_look_up(p->noise->gradient_y, at) * dy;
+    Bits at = bits_of(real_gather_table(p->permutation, (p->base_x + whole_a) & byte));
+    at = bits_of(real_gather_table(p->permutation, (at + p->base_y + whole_b) & byte)) & bits_set(7);
+    Real slope = real_gather_table(p->noise->gradient_x, at) * dx + real_gather_table(p->noise->gradient_y, at) * dy;
     Real squared = reach * reach, sum = value + (squared * squared) * slope;
     return real_of(bits_choose(LANES_MASK(reach > real_set(0)), bits_of(sum), bits_of(value)));
 }

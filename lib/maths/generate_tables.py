@@ -113,15 +113,15 @@ def show_number(name, values):
     print(f'#define {name} {text}' if len(values) == 1 else f'#define {name} {{{text}}}')
 
 
-def show_wide(name, value, limbs, comment):
+def show_fixed_point(name, value, limbs, comment):
     """The fraction bits of a number below 1, or below 2^64 with its whole part last, lowest limb first."""
     words = value >> (BITS - 64 * limbs)
     rows = [f'UINT64_C(0x{words >> 64 * i & (2**64 - 1):016x})' for i in range(limbs + 1)]
     show('uint64_t', name, f'[{limbs + 1}]', [', '.join(rows[i:i + 4]) for i in range(0, limbs + 1, 4)], comment)
 
 
-WIDE = 12  # WIDE_MAX of wide.h
-FACTORIALS = 80  # more than the series of wide_functions.c need: wide_series asserts it
+WIDE = 12  # FIXED_MAX_LIMBS of fixed.h
+FACTORIALS = 80  # more than the series of fixed_functions.c need: fixed_series asserts it
 print('// maths_tables.h: the constants of lib/maths. Written by generate_tables.py; not for the hand.')
 print('//')
 print('// clang-format off')
@@ -144,10 +144,10 @@ second = nearest(PI // 512 - fixed(first), 65)
 third = nearest(PI // 512 - fixed(first) - fixed(second))
 for part, unit in ((first, 36), (second, 65)):
     assert abs(part * 2**unit).numerator.bit_length() <= 29
-show_number('TURN_STEPS_PER_ONE', [nearest(512 * ONE * ONE // PI)])
-show_number('TURN_STEP_1', [first])
-show_number('TURN_STEP_2', [second])
-show_number('TURN_STEP_3', [third])
+show_number('SINCOS_STEPS_PER_ONE', [nearest(512 * ONE * ONE // PI)])
+show_number('SINCOS_STEP_1', [first])
+show_number('SINCOS_STEP_2', [second])
+show_number('SINCOS_STEP_3', [third])
 for name, value in (('PI', PI), ('HALF_PI', PI // 2)):
     show_number(name + '_HIGH', [parts(value)[0]])
     show_number(name + '_LOW', [parts(value)[1]])
@@ -180,7 +180,7 @@ show('double', 'log_table', '[256][4]', rows, 'r, -ln r as high + low; r m - 1 i
 
 sines = [parts(sine_cosine(PI * i // 512)[0] if i % 256 else ONE * (i // 256)) for i in range(257)]
 rows = [sines[i] + sines[256 - i] for i in range(257)]
-show('double', 'turn_table', '[257][4]', rows, 'sine and cosine of i pi/512, each as high + low')
+show('double', 'sincos_table', '[257][4]', rows, 'sine and cosine of i pi/512, each as high + low')
 
 
 def taylor_atan(c, degree):
@@ -267,15 +267,15 @@ for i in range(120, 129):
     rows.append(parts(row[0]) + parts(row[1]) + [nearest(v) for v in row[2:]])
 show('double', 'acos_table', '[9][11]', rows, 'Taylor coefficients of acos x / sqrt(1 - x) at i/128, from 15/16 on')
 
-show_wide('wide_half_pi', PI // 2, WIDE, 'pi/2, lowest limb first; the last is the whole part')
-show_wide('wide_log_2', LN2, WIDE, 'ln 2')
-show_wide('wide_log2_e', ONE * ONE // LN2, WIDE, '1 / ln 2')
-show_wide('wide_log10_e', ONE * ONE // LN10, WIDE, '1 / ln 10')
+show_fixed_point('fixed_half_pi', PI // 2, WIDE, 'pi/2, lowest limb first; the last is the whole part')
+show_fixed_point('fixed_log_2', LN2, WIDE, 'ln 2')
+show_fixed_point('fixed_log2_e', ONE * ONE // LN2, WIDE, '1 / ln 2')
+show_fixed_point('fixed_log10_e', ONE * ONE // LN10, WIDE, '1 / ln 10')
 rows, factorial = [], ONE
 for n in range(FACTORIALS):
     words = factorial >> (BITS - 64 * WIDE)
     rows.append('{' + ', '.join(f'UINT64_C(0x{words >> 64 * i & (2**64 - 1):x})' for i in range(WIDE + 1)) + '}')
     factorial //= n + 1
-show('uint64_t', 'wide_inverse_factorial', f'[{FACTORIALS}][{WIDE + 1}]', rows, '1 / n!')
-show_wide('wide_two_over_pi', 2 * ONE * ONE // PI, 1024 // 64 + WIDE + 2, '2/pi')
+show('uint64_t', 'fixed_inverse_factorial', f'[{FACTORIALS}][{WIDE + 1}]', rows, '1 / n!')
+show_fixed_point('fixed_two_over_pi', 2 * ONE * ONE // PI, 1024 // 64 + WIDE + 2, '2/pi')
 print('\n// clang-format on\n#endif')

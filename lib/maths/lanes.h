@@ -107,18 +107,18 @@ KERNEL Real real_muladd(Real a, Real b, Real c) {
 
 #if !HAS_FMA
 // Veltkamp: a is the sum of the result and a rest, 26 bits each. |a| < 2^996.
-KERNEL Real real_upper(Real a) {
+KERNEL Real real_split_high(Real a) {
     Real c = a * real_set(134217729.0);
     return c - (c - a);
 }
 #endif
 
 // a b - p, exactly, for p = a b rounded: by a fused operation or as Dekker (1971) does it. No exponent below -1022.
-KERNEL Real real_mul_low(Real a, Real b, Real p) {
+KERNEL Real real_two_product_error(Real a, Real b, Real p) {
 #if HAS_FMA
     return real_muladd(a, b, -p);
 #else
-    Real ah = real_upper(a), bh = real_upper(b), al = a - ah, bl = b - bh;
+    Real ah = real_split_high(a), bh = real_split_high(b), al = a - ah, bl = b - bh;
     return ((ah * bh - p) + ah * bl + al * bh) + al * bl;
 #endif
 }
@@ -129,23 +129,23 @@ KERNEL Real real_residue(Real c, Real a, Real b) {
     return real_muladd(-a, b, c);
 #else
     Real p = a * b;
-    return (c - p) - real_mul_low(a, b, p);
+    return (c - p) - real_two_product_error(a, b, p);
 #endif
 }
 
 // The rounding error of s = a + b, exactly, where |a| ≥ |b| or a = 0 (Dekker).
-KERNEL Real real_add_low(Real a, Real b, Real s) {
+KERNEL Real real_fast_two_sum_error(Real a, Real b, Real s) {
     return b - (s - a);
 }
 
 // The same for any a and b (Knuth).
-KERNEL Real real_add_rest(Real a, Real b, Real s) {
+KERNEL Real real_two_sum_error(Real a, Real b, Real s) {
     Real t = s - a;
     return (a - (s - t)) + (b - t);
 }
 
 // table[index] per lane.
-KERNEL Real real_look_up(const double *table, Bits index) {
+KERNEL Real real_gather_table(const double *table, Bits index) {
 #if LANES == 1
     return table[index];
 #elif LANES == 4 && defined(__AVX2__)
@@ -218,7 +218,7 @@ KERNEL void real_load_rows(const double *const *rows, Real *columns) {
 }
 
 // Row `index` of a table of four columns: its columns per lane.
-KERNEL void real_look_up_row(const double (*table)[4], Bits index, Real *columns) {
+KERNEL void real_gather_table_row(const double (*table)[4], Bits index, Real *columns) {
 #if LANES == 1
     const double *rows[] = {table[index]};
 #else

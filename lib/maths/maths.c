@@ -2,11 +2,11 @@
 #include "maths/maths.h"
 
 #include "base/cpu.h"
-#include "maths/doubles.h"
+#include "maths/double_bits.h"
 #include "maths/fast.h"
 
 #if defined(__x86_64__) && !defined(__FMA__)
-#define PICK(name) (cpu_here.fma ? maths_##name##_fma : maths_##name##_plain)
+#define PICK(name) (cpu_detected.fma ? maths_##name##_fma : maths_##name##_plain)
 #else
 #define PICK(name) maths_##name##_plain
 #endif

@@ -4,7 +4,7 @@
 // processor and instruction set. Special cases are those of C17 Annex F. What is not a number comes out as a nan; no
 // exception flag and no errno means anything. The processor must round to nearest.
 //
-// How it is done: fast.h (Ziv's two steps), fast_exp.h, fast_log.h, fast_turn.h, fast_arc.h, wide.h.
+// How it is done: fast.h (Ziv's two steps), fast_exp.h, fast_log.h, fast_sincos.h, fast_arc.h, fixed.h.
 #ifndef PETRI_MATHS_H
 #define PETRI_MATHS_H
 

@@ -15,10 +15,10 @@
 #define LOG_2E_LOW 0x1.777d0ffda0d24p-56
 #define LOG_10E_HIGH 0x1.bcb7b1526e50ep-2
 #define LOG_10E_LOW 0x1.95355baaafad3p-57
-#define TURN_STEPS_PER_ONE 0x1.45f306dc9c883p+7
-#define TURN_STEP_1 0x1.921fb54000000p-8
-#define TURN_STEP_2 0x1.10b4612000000p-38
-#define TURN_STEP_3 -0x1.676733ae8fe48p-68
+#define SINCOS_STEPS_PER_ONE 0x1.45f306dc9c883p+7
+#define SINCOS_STEP_1 0x1.921fb54000000p-8
+#define SINCOS_STEP_2 0x1.10b4612000000p-38
+#define SINCOS_STEP_3 -0x1.676733ae8fe48p-68
 #define PI_HIGH 0x1.921fb54442d18p+1
 #define PI_LOW 0x1.1a62633145c07p-53
 #define HALF_PI_HIGH 0x1.921fb54442d18p+0
@@ -417,7 +417,7 @@ static const double log_table[256][4] = {
 };
 
 // sine and cosine of i pi/512, each as high + low
-static const double turn_table[257][4] = {
+static const double sincos_table[257][4] = {
     {0x0.0p+0, 0x0.0p+0, 0x1.0000000000000p+0, 0x0.0p+0},
     {0x1.921f0fe670071p-8, 0x1.ab967fe6b7a9bp-64, 0x1.fffd8858e8a92p-1, 0x1.359c71883bcf7p-55},
     {0x1.921d1fcdec784p-7, 0x1.9878ebe836d9dp-61, 0x1.fff62169b92dbp-1, 0x1.5dda3c81fbd0dp-55},
@@ -1097,7 +1097,7 @@ static const double acos_table[9][11] = {
 };
 
 // pi/2, lowest limb first; the last is the whole part
-static const uint64_t wide_half_pi[13] = {
+static const uint64_t fixed_half_pi[13] = {
     UINT64_C(0xdc70d7f6b5133f4b), UINT64_C(0x17feb96de80d6fdb), UINT64_C(0xe89885d34c6fdad6), UINT64_C(0xc90b6aecc4bcfd8d),
     UINT64_C(0x9fc26adadaa3848b), UINT64_C(0x605614dbe4be286e), UINT64_C(0xdf2a33679a748636), UINT64_C(0xa29410f31c6809bb),
     UINT64_C(0x04177d4c76273644), UINT64_C(0x52049c1114cf98e8), UINT64_C(0x898cc51701b839a2), UINT64_C(0x921fb54442d18469),
@@ -1105,7 +1105,7 @@ static const uint64_t wide_half_pi[13] = {
 };
 
 // ln 2
-static const uint64_t wide_log_2[13] = {
+static const uint64_t fixed_log_2[13] = {
     UINT64_C(0x256fa0ec7657f74b), UINT64_C(0xb9ea9bc3b136603b), UINT64_C(0x1acbda11317c387e), UINT64_C(0x3e96ca16224ae8c5),
     UINT64_C(0x27573b291169b825), UINT64_C(0xed2eae35c1382144), UINT64_C(0x559552fb4afa1b10), UINT64_C(0xe7b876206debac98),
     UINT64_C(0x8a0d175b8baafa2b), UINT64_C(0x40f343267298b62d), UINT64_C(0xc9e3b39803f2f6af), UINT64_C(0xb17217f7d1cf79ab),
@@ -1113,7 +1113,7 @@ static const uint64_t wide_log_2[13] = {
 };
 
 // 1 / ln 2
-static const uint64_t wide_log2_e[13] = {
+static const uint64_t fixed_log2_e[13] = {
     UINT64_C(0x1a39e8af56c64a78), UINT64_C(0x16bd777e75050a8d), UINT64_C(0x643687aaf3ab440c), UINT64_C(0x5fc529264c2fb3ab),
     UINT64_C(0x897f5e06a7be7366), UINT64_C(0xd52173cc1895213f), UINT64_C(0x49b25eeb82d7c167), UINT64_C(0xbc3887eeaa2ed9ac),
     UINT64_C(0x164a2cd9a342648f), UINT64_C(0xd6aef551bad2b4b1), UINT64_C(0x7d0ffda0d23a7d11), UINT64_C(0x71547652b82fe177),
@@ -1121,7 +1121,7 @@ static const uint64_t wide_log2_e[13] = {
 };
 
 // 1 / ln 10
-static const uint64_t wide_log10_e[13] = {
+static const uint64_t fixed_log10_e[13] = {
     UINT64_C(0x2859b6f6979b9cea), UINT64_C(0x32c5b0f5216426b5), UINT64_C(0xa0039002c60ee26d), UINT64_C(0xa1ab5e8ca46837fc),
     UINT64_C(0x37d15c696466d3d9), UINT64_C(0x8c671decfe9c6e5e), UINT64_C(0x4911aac96323250a), UINT64_C(0x3aa1277d0a0179f9),
     UINT64_C(0x1d1f96a27bc7529e), UINT64_C(0x1f71a30122e4d101), UINT64_C(0x9aadd557d699ee19), UINT64_C(0x6f2dec549b9438ca),
@@ -1129,7 +1129,7 @@ static const uint64_t wide_log10_e[13] = {
 };
 
 // 1 / n!
-static const uint64_t wide_inverse_factorial[80][13] = {
+static const uint64_t fixed_inverse_factorial[80][13] = {
     {UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x1)},
     {UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x1)},
     {UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x0), UINT64_C(0x8000000000000000), UINT64_C(0x0)},
@@ -1213,7 +1213,7 @@ static const uint64_t wide_inverse_factorial[80][13] = {
 };
 
 // 2/pi
-static const uint64_t wide_two_over_pi[31] = {
+static const uint64_t fixed_two_over_pi[31] = {
     UINT64_C(0x32c2de4f98327dbb), UINT64_C(0xa5ff07053f7e33e8), UINT64_C(0xddaf44d15719053e), UINT64_C(0x8359c4768b961ca6),
     UINT64_C(0x19c367cddce8092a), UINT64_C(0x60e27bc08c6b47c4), UINT64_C(0x06061556ca73a8c9), UINT64_C(0x8dffd8804d732731),
     UINT64_C(0x6599855f14a06840), UINT64_C(0xa9e391615ee61b08), UINT64_C(0xf0cfbc209af4361d), UINT64_C(0x56033046fc7b6bab),

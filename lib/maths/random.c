@@ -2,8 +2,8 @@
 #include "maths/random.h"
 
 #include "base/number.h"
+#include "maths/arrays.h"
 #include "maths/fast_random.h"
-#include "maths/many.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -85,7 +85,7 @@ enum { PAIRS_AT_ONCE = 64 };
 // The pairs with items 2 `pair` and 2 `pair` + 1 and so on.
 static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t count, double *to) {
     double radius[PAIRS_AT_ONCE], turns[2 * PAIRS_AT_ONCE];
-    maths_uniform_many(level, key, 2 * pair, 2 * count, turns);
+    maths_uniform_array(level, key, 2 * pair, 2 * count, turns);
     for (size_t i = 0; i < count; i++) {
         double u1 = turns[2 * i], u2 = turns[2 * i + 1];
         radius[i] = u1 == 0 ? u2 : u1;
@@ -93,8 +93,8 @@ static void normal_pairs(CpuLevel level, uint64_t key, uint64_t pair, size_t cou
         turns[2 * i] = u2 + 0.25;
         turns[2 * i + 1] = u2;
     }
-    maths_log_many(level, radius, count, radius);
-    maths_turns_sin_many(level, turns, 2 * count, turns);
+    maths_log_array(level, radius, count, radius);
+    maths_turns_sin_array(level, turns, 2 * count, turns);
     for (size_t i = 0; i < count; i++) {
         double r = sqrt(-2 * radius[i]);
         to[2 * i] = r * turns[2 * i];

@@ -31,7 +31,7 @@ uint64_t random_raw(uint64_t key, uint64_t i);
 double random_uniform(uint64_t key, uint64_t i);
 double random_beta(uint64_t key, uint64_t i);
 double random_normal(uint64_t key, uint64_t i);
-// Normals first … first + count - 1, at a fraction of the price; `level` as in many.h.
+// Normals first … first + count - 1, at a fraction of the price; `level` as in arrays.h.
 void random_normals(CpuLevel level, uint64_t key, uint64_t first, size_t count, double *to);
 
 #endif

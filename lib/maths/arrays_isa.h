@@ -1,13 +1,13 @@
-// many_instance.h: what many_instance.c offers for each instruction set.
-#ifndef PETRI_MATHS_MANY_INSTANCE_H
-#define PETRI_MATHS_MANY_INSTANCE_H
+// arrays_isa.h: what arrays_isa.c offers for each instruction set.
+#ifndef PETRI_MATHS_ARRAYS_ISA_H
+#define PETRI_MATHS_ARRAYS_ISA_H
 
-#include "maths/many.h"
+#include "maths/arrays.h"
 
 #include <stddef.h>
 #include <stdint.h>
 
-typedef struct ManyInstance {
+typedef struct ArraysIsa {
     void (*exp)(const double *x, size_t count, double *to);
     void (*log)(const double *x, size_t count, double *to);
     void (*sin_cos)(const double *x, size_t count, double *sines, double *cosines);
@@ -16,8 +16,8 @@ typedef struct ManyInstance {
     void (*uniform)(uint64_t key, uint64_t first, size_t count, double *to); // items of a stream: random_uniform
     void (*plane_noise)(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,
                         size_t count, double *to);
-} ManyInstance;
+} ArraysIsa;
 
-extern const ManyInstance maths_many_plain, maths_many_pair, maths_many_avx2, maths_many_avx512;
+extern const ArraysIsa maths_arrays_plain, maths_arrays_pair, maths_arrays_avx2, maths_arrays_avx512;
 
 #endif

@@ -1,4 +1,4 @@
-// fast_turn.h: sine and cosine in lanes.
+// fast_sincos.h: sine and cosine in lanes.
 //
 // Cody and Waite's reduction (1980) with three parts of pi/512: x = n pi/512 + r, and the addition theorems with sine
 // and cosine of n pi/512 from a table (Tang, 1991):
@@ -14,29 +14,29 @@
 //   C r, S       exact but for 2^-104
 // together below 3.5 · 2^-70 S + 2^-76 |sin x| + 2^-95. S is at most 2 |sin x| (n = 1, r = -pi/1024), and less from n =
 // 2 on: 2^-67.1 |sin x| + 2^-95.
-#ifndef PETRI_MATHS_FAST_TURN_H
-#define PETRI_MATHS_FAST_TURN_H
+#ifndef PETRI_MATHS_FAST_SINCOS_H
+#define PETRI_MATHS_FAST_SINCOS_H
 
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
 
-#define TURN_ERROR 0x1.2p-67
-#define TURN_REDUCTION_ERROR 0x1p-94
-#define TURN_LARGEST 65536.0 // |n| < 2^24
+#define SINCOS_ERROR 0x1.2p-67
+#define SINCOS_REDUCTION_ERROR 0x1p-94
+#define SINCOS_MAX 65536.0 // |n| < 2^24
 
-// x = n pi/512 + high + low for |x| < TURN_LARGEST
-typedef struct Turn {
+// x = n pi/512 + high + low for |x| < SINCOS_MAX
+typedef struct ReducedArgument {
     Bits n;
     Real high, low;
-} Turn;
+} ReducedArgument;
 
-KERNEL Turn turn_reduce(Real x) {
-    Turn turn;
-    Real n = real_steps(x, TURN_STEPS_PER_ONE, &turn.n);
-    Real a = x - n * real_set(TURN_STEP_1), b = -n * real_set(TURN_STEP_2), s = a + b;
-    Real rest = real_add_rest(a, b, s) - n * real_set(TURN_STEP_3);
+KERNEL ReducedArgument sincos_reduce(Real x) {
+    ReducedArgument turn;
+    Real n = real_steps(x, SINCOS_STEPS_PER_ONE, &turn.n);
+    Real a = x - n * real_set(SINCOS_STEP_1), b = -n * real_set(SINCOS_STEP_2), s = a + b;
+    Real rest = real_two_sum_error(a, b, s) - n * real_set(SINCOS_STEP_3);
     turn.high = s + rest;
-    turn.low = real_add_rest(s, rest, turn.high);
+    turn.low = real_two_sum_error(s, rest, turn.high);
     return turn;
 }
 
@@ -45,7 +45,7 @@ typedef struct Arc {
     Real high, versed, bent;
 } Arc;
 
-KERNEL Arc turn_arc(const Turn *turn) {
+KERNEL Arc sincos_arc(const ReducedArgument *turn) {
     Real r = turn->high, square = r * r;
     Real versed = real_muladd(square, real_set(-1.0 / 720), real_set(1.0 / 24));
     versed = real_muladd(square, versed, real_set(-0.5));
@@ -66,55 +66,55 @@ KERNEL Real real_flip(Real a, Bits sign) {
 }
 
 // In the odd quadrants the table is read backwards: place becomes 256 - place.
-KERNEL Row turn_row(Bits n) {
-    Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), place = n & bits_set(255);
-    place = (place ^ backwards) + (backwards & bits_set(257));
+KERNEL Row sincos_row(Bits n) {
+    Bits backwards = bits_set(0) - (n >> 8 & bits_set(1)), index = n & bits_set(255);
+    index = (index ^ backwards) + (backwards & bits_set(257));
     Bits sine_sign = (n & bits_set(512)) << 54, cosine_sign = ((n + bits_set(256)) & bits_set(512)) << 54;
     Real row[4];
-    real_look_up_row(turn_table, place, row);
+    real_gather_table_row(sincos_table, index, row);
     return (Row){real_flip(row[0], sine_sign), real_flip(row[1], sine_sign), real_flip(row[2], cosine_sign),
                  real_flip(row[3], cosine_sign)};
 }
 
 // The same a quarter turn further.
-KERNEL Row turn_quarter(const Row *row) {
+KERNEL Row sincos_quarter(const Row *row) {
     return (Row){row->ch, row->cl, -row->sh, -row->sl};
 }
 
-KERNEL void turn_sine(const Row *row, const Arc *arc, Real *high, Real *low) {
-    Real p = row->ch * arc->high, pl = real_mul_low(row->ch, arc->high, p);
+KERNEL void sincos_sine(const Row *row, const Arc *arc, Real *high, Real *low) {
+    Real p = row->ch * arc->high, pl = real_two_product_error(row->ch, arc->high, p);
     Real small = real_muladd(row->cl, arc->high, row->sl) + pl;
     small = real_muladd(row->ch, arc->bent, small);
     *high = row->sh + p;
     small = real_muladd(row->sh, arc->versed, small);
-    *low = real_add_low(row->sh, p, *high) + small;
+    *low = real_fast_two_sum_error(row->sh, p, *high) + small;
 }
 
-KERNEL Lanes turn_decide(Real high, Real low, Real *result) {
-    Real error = real_muladd(real_absolute(high), real_set(TURN_ERROR), real_set(TURN_REDUCTION_ERROR));
+KERNEL Lanes sincos_decide(Real high, Real low, Real *result) {
+    Real error = real_muladd(real_absolute(high), real_set(SINCOS_ERROR), real_set(SINCOS_REDUCTION_ERROR));
     return lanes_decide(high, low, error, result);
 }
 
 // The sine of x plus so many right angles
 KERNEL Lanes sin_lanes(Real x, Bits quarters, Real *result) {
-    Turn turn = turn_reduce(x);
-    Arc arc = turn_arc(&turn);
-    Row row = turn_row(turn.n + (quarters << 8));
+    ReducedArgument turn = sincos_reduce(x);
+    Arc arc = sincos_arc(&turn);
+    Row row = sincos_row(turn.n + (quarters << 8));
     Real high, low;
-    turn_sine(&row, &arc, &high, &low);
-    return LANES_BOTH(turn_decide(high, low, result), lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
+    sincos_sine(&row, &arc, &high, &low);
+    return LANES_BOTH(sincos_decide(high, low, result), lanes_less(real_absolute(x), real_set(SINCOS_MAX)));
 }
 
 KERNEL Lanes sin_cos_lanes(Real x, Real *sine, Real *cosine) {
-    Turn turn = turn_reduce(x);
-    Arc arc = turn_arc(&turn);
-    Row row = turn_row(turn.n), next = turn_quarter(&row);
+    ReducedArgument turn = sincos_reduce(x);
+    Arc arc = sincos_arc(&turn);
+    Row row = sincos_row(turn.n), next = sincos_quarter(&row);
     Real high, low;
-    turn_sine(&row, &arc, &high, &low);
-    Lanes good = turn_decide(high, low, sine);
-    turn_sine(&next, &arc, &high, &low);
-    good &= turn_decide(high, low, cosine);
-    return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(TURN_LARGEST)));
+    sincos_sine(&row, &arc, &high, &low);
+    Lanes good = sincos_decide(high, low, sine);
+    sincos_sine(&next, &arc, &high, &low);
+    good &= sincos_decide(high, low, cosine);
+    return LANES_BOTH(good, lanes_less(real_absolute(x), real_set(SINCOS_MAX)));
 }
 
 #endif

@@ -1,4 +1,4 @@
-// instance.c: the scalar functions for one instruction set, named by INSTANCE: maths_sin_plain and so on.
+// maths_isa.c: the scalar functions for one instruction set, named by MATHS_ISA: maths_sin_plain and so on.
 //
 // Each asks its fast path first. What that cannot decide (once in some thousand arguments), and all that is special, is
 // left to exact_….
@@ -8,14 +8,14 @@
 #include "maths/fast_arc.h"
 #include "maths/fast_exp.h"
 #include "maths/fast_log.h"
-#include "maths/fast_turn.h"
+#include "maths/fast_sincos.h"
 
-#ifndef INSTANCE
-#define INSTANCE plain
+#ifndef MATHS_ISA
+#define MATHS_ISA plain
 #endif
 #define JOIN(name, instance) maths_##name##_##instance
 #define NAMED(name, instance) JOIN(name, instance)
-#define FUNCTION(name) NAMED(name, INSTANCE)
+#define FUNCTION(name) NAMED(name, MATHS_ISA)
 
 #define FAST(name, fast)                                                                                               \
     double FUNCTION(name)(double x) {                                                                                  \
@@ -46,41 +46,41 @@ double FUNCTION(pow)(double x, double y) {
     return pow_lanes(x, y, &result) ? result : exact_pow(x, y);
 }
 
-static Turn large_turn(double x) {
-    Turn turn;
-    exact_turn(x, &turn.n, &turn.high, &turn.low);
+static ReducedArgument reduce_large(double x) {
+    ReducedArgument turn;
+    exact_reduction(x, &turn.n, &turn.high, &turn.low);
     return turn;
 }
 
 static inline bool is_large(double x) {
     double a = real_absolute(x);
-    return a >= TURN_LARGEST && a < DOUBLE_INFINITY;
+    return a >= SINCOS_MAX && a < DOUBLE_INFINITY;
 }
 
-static bool large_sine(double x, unsigned quarter, double *result) {
-    Turn turn = large_turn(x);
-    Arc arc = turn_arc(&turn);
-    Row row = turn_row(turn.n + 256 * quarter);
+static bool sine_of_large(double x, unsigned quarter, double *result) {
+    ReducedArgument turn = reduce_large(x);
+    Arc arc = sincos_arc(&turn);
+    Row row = sincos_row(turn.n + 256 * quarter);
     double high, low;
-    turn_sine(&row, &arc, &high, &low);
-    return turn_decide(high, low, result);
+    sincos_sine(&row, &arc, &high, &low);
+    return sincos_decide(high, low, result);
 }
 
 double FUNCTION(sin)(double x) {
     double result;
-    return sin_lanes(x, 0, &result) || (is_large(x) && large_sine(x, 0, &result)) ? result : exact_sin(x);
+    return sin_lanes(x, 0, &result) || (is_large(x) && sine_of_large(x, 0, &result)) ? result : exact_sin(x);
 }
 
 double FUNCTION(cos)(double x) {
     double result;
-    return sin_lanes(x, 1, &result) || (is_large(x) && large_sine(x, 1, &result)) ? result : exact_cos(x);
+    return sin_lanes(x, 1, &result) || (is_large(x) && sine_of_large(x, 1, &result)) ? result : exact_cos(x);
 }
 
 double FUNCTION(tan)(double x) {
     double result;
     if (!(real_absolute(x) < DOUBLE_INFINITY))
         return exact_tan(x);
-    Turn turn = is_large(x) ? large_turn(x) : turn_reduce(x);
+    ReducedArgument turn = is_large(x) ? reduce_large(x) : sincos_reduce(x);
     return tan_fast(&turn, &result) ? result : exact_tan(x);
 }
 
@@ -89,7 +89,7 @@ double FUNCTION(atan2)(double y, double x) {
     return atan2_fast(y, x, &result) ? result : exact_atan2(y, x);
 }
 
-#ifdef INSTANCE_NEAR
+#ifdef MATHS_ISA_NEAR
 double fast_log_near(double m) {
     double high, low, cube;
     log_parts(m, &high, &low, &cube);

@@ -1,6 +1,6 @@
-// doubles.h: doubles taken apart and put together, without the C library.
-#ifndef PETRI_MATHS_DOUBLES_H
-#define PETRI_MATHS_DOUBLES_H
+// double_bits.h: doubles taken apart and put together, without the C library.
+#ifndef PETRI_MATHS_DOUBLE_BITS_H
+#define PETRI_MATHS_DOUBLE_BITS_H
 
 #include <stdbool.h>
 #include <stdint.h>
@@ -17,7 +17,7 @@ static inline uint64_t double_bits(double x) {
     return bits;
 }
 
-static inline double double_of(uint64_t bits) {
+static inline double double_from_bits(uint64_t bits) {
     double x;
     memcpy(&x, &bits, sizeof x);
     return x;
@@ -28,11 +28,11 @@ static inline bool double_is_negative(double x) {
 }
 
 static inline double double_absolute(double x) {
-    return double_of(double_bits(x) & ~DOUBLE_SIGN);
+    return double_from_bits(double_bits(x) & ~DOUBLE_SIGN);
 }
 
 static inline double double_with_sign(double x, double sign) {
-    return double_of((double_bits(x) & ~DOUBLE_SIGN) | (double_bits(sign) & DOUBLE_SIGN));
+    return double_from_bits((double_bits(x) & ~DOUBLE_SIGN) | (double_bits(sign) & DOUBLE_SIGN));
 }
 
 static inline bool double_is_nan(double x) {

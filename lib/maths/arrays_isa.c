@@ -1,16 +1,15 @@
-// many_instance.c: the functions of many.h for one instruction set: LANES numbers at a time, named by INSTANCE.
+// arrays_isa.c: the functions of arrays.h for one instruction set: LANES numbers at a time, named by MATHS_ISA.
 //
 // Lanes that the fast path cannot decide are asked for once more, by the scalar function.
-#include "maths/many_instance.h"
-
-#include "maths/maths.h"
-#include "maths/random.h"
+#include "maths/arrays_isa.h"
 
 #include "maths/fast_exp.h"
 #include "maths/fast_log.h"
 #include "maths/fast_noise.h"
 #include "maths/fast_random.h"
-#include "maths/fast_turn.h"
+#include "maths/fast_sincos.h"
+#include "maths/maths.h"
+#include "maths/random.h"
 
 #define JOIN(name, instance) name##instance
 #define NAMED(name, instance) JOIN(name, instance)
@@ -50,8 +49,8 @@ KERNEL Lanes turns_sin_lanes(Real t, Real *result) {
     return sin_lanes(angle, quadrant, result) & lanes_less(real_absolute(quarters), real_set(0x1p50));
 }
 
-#define MANY(name, fast, function)                                                                                     \
-    static void name##_many(const double *x, size_t count, double *to) {                                               \
+#define ARRAY_FUNCTION(name, fast, function)                                                                           \
+    static void name##_array(const double *x, size_t count, double *to) {                                              \
         for (size_t i = 0; i < count; i += LANES) {                                                                    \
             Real in = load(x + i, count - i), out;                                                                     \
             Lanes left = lanes_left(fast(in, &out), count - i);                                                        \
@@ -60,11 +59,11 @@ KERNEL Lanes turns_sin_lanes(Real t, Real *result) {
                 again(function, left, in, to + i);                                                                     \
         }                                                                                                              \
     }
-MANY(exp, exp_lanes, maths_exp)
-MANY(log, log_lanes, maths_log)
-MANY(turns_sin, turns_sin_lanes, turns_sin)
+ARRAY_FUNCTION(exp, exp_lanes, maths_exp)
+ARRAY_FUNCTION(log, log_lanes, maths_log)
+ARRAY_FUNCTION(turns_sin, turns_sin_lanes, turns_sin)
 
-static void sin_cos_many(const double *x, size_t count, double *sines, double *cosines) {
+static void sin_cos_array(const double *x, size_t count, double *sines, double *cosines) {
     for (size_t i = 0; i < count; i += LANES) {
         Real in = load(x + i, count - i), sine, cosine;
         Lanes left = lanes_left(sin_cos_lanes(in, &sine, &cosine), count - i);
@@ -77,7 +76,7 @@ static void sin_cos_many(const double *x, size_t count, double *sines, double *c
     }
 }
 
-static void pow_many(const double *x, const double *y, size_t step, size_t count, double *to) {
+static void pow_array(const double *x, const double *y, size_t step, size_t count, double *to) {
     for (size_t i = 0; i < count; i += LANES) {
         Real base = load(x + i, count - i), power = step ? load(y + i, count - i) : real_set(*y), out;
         Lanes left = lanes_left(pow_lanes(base, power, &out), count - i);
@@ -100,7 +99,7 @@ KERNEL Real lanes_to_real(Bits x) {
     return upper + real_of((x & bits_set(UINT32_MAX)) | bits_of(real_set(0x1p52)));
 }
 
-static void uniform_many(uint64_t key, uint64_t first, size_t count, double *to) {
+static void uniform_array(uint64_t key, uint64_t first, size_t count, double *to) {
     static const uint64_t numbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     Bits item;
     memcpy(&item, numbers, sizeof item);
@@ -109,17 +108,17 @@ static void uniform_many(uint64_t key, uint64_t first, size_t count, double *to)
         store(to + i, count - i, lanes_to_real(raw_lanes(bits_set(key), item)) * real_set(0x1p-64));
 }
 
-static void plane_noise_many(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,
-                             size_t count, double *to) {
+static void plane_noise_array(const PlaneNoise *noise, const uint8_t *permutation, const double *x, const double *y,
+                              size_t count, double *to) {
     union {
         uint64_t bits[256];
         double numbers[256]; // as they are looked up
-    } wide;
+    } widened;
     for (int i = 0; i < 256; i++)
-        wide.bits[i] = permutation[i];
+        widened.bits[i] = permutation[i];
     for (size_t i = 0; i < count; i += LANES)
-        store(to + i, count - i, noise_lanes(noise, wide.numbers, load(x + i, count - i), load(y + i, count - i)));
+        store(to + i, count - i, noise_lanes(noise, widened.numbers, load(x + i, count - i), load(y + i, count - i)));
 }
 
-const ManyInstance NAMED(maths_many_, INSTANCE) = {exp_many,       log_many,     sin_cos_many,    pow_many,
-                                                   turns_sin_many, uniform_many, plane_noise_many};
+const ArraysIsa NAMED(maths_arrays_, MATHS_ISA) = {exp_array,       log_array,     sin_cos_array,    pow_array,
+                                                   turns_sin_array, uniform_array, plane_noise_array};

@@ -1,23 +1,23 @@
-// exact_turn.c: the reduction of large arguments of sine, cosine and tangent for the fast paths.
+// exact_reduction.c: the reduction of large arguments of sine, cosine and tangent for the fast paths.
 //
-// Payne and Hanek (1983) in whole numbers: see wide_turn. Here 256 bits of m 2/pi 2^exponent are kept, the upper 64 of
-// them above the binary point, and of the fraction the upper 128 are used: the next limb is cut off and the lowest is
-// wrong by less than m (2^53), so that the angle is within 2^-127 quarters; as two doubles it is within 2^-116.
-#include "maths/doubles.h"
+// Payne and Hanek (1983) in whole numbers: see fixed_reduce. Here 256 bits of m 2/pi 2^exponent are kept, the upper 64
+// of them above the binary point, and of the fraction the upper 128 are used: the next limb is cut off and the lowest
+// is wrong by less than m (2^53), so that the angle is within 2^-127 quarters; as two doubles it is within 2^-116.
+#include "maths/double_bits.h"
 #include "maths/fast.h"
+#include "maths/fixed.h"
 #include "maths/lanes.h"
 #include "maths/maths_tables.h"
-#include "maths/wide.h"
 
 __extension__ typedef unsigned __int128 Product;
 
-void exact_turn(double x, uint64_t *n, double *high, double *low) {
-    enum { LIMBS = 1024 / 64 + WIDE_MAX + 2, FRACTION = 3 };
+void exact_reduction(double x, uint64_t *n, double *high, double *low) {
+    enum { LIMBS = 1024 / 64 + FIXED_MAX_LIMBS + 2, FRACTION = 3 };
     int exponent;
     uint64_t m = double_split(x, &exponent);
     int from = 64 * (LIMBS - FRACTION) - exponent;
     uint64_t product[FRACTION + 1], carry = 0;
-    const uint64_t *table = wide_two_over_pi + from / 64;
+    const uint64_t *table = fixed_two_over_pi + from / 64;
     int shift = from % 64;
     for (int i = 0; i <= FRACTION; i++) {
         uint64_t above = from / 64 + i < LIMBS ? table[i + 1] : 0; // nothing above the whole part
@@ -38,9 +38,9 @@ void exact_turn(double x, uint64_t *n, double *high, double *low) {
         second = -second;
     }
     // times pi/512 2^-64, once more as two doubles
-    double a = first * HALF_PI_HIGH, b = real_mul_low(first, HALF_PI_HIGH, a);
+    double a = first * HALF_PI_HIGH, b = real_two_product_error(first, HALF_PI_HIGH, a);
     b += first * HALF_PI_LOW + second * HALF_PI_HIGH;
     double sum = a + b;
-    *low = real_add_rest(a, b, sum) * 0x1p-72;
+    *low = real_two_sum_error(a, b, sum) * 0x1p-72;
     *high = sum * 0x1p-72;
 }
