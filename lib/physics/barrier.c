@@ -24,7 +24,7 @@ static void put_on_surface(const Columns *columns, size_t i, const PhysForce *ba
 }
 
 // p_k = p_k − τ · v_k;  v_k = (v_k − τ · a_k) · restitution
-static void back_to_contact(const Columns *columns, size_t i, double tau, double restitution) {
+static void move_back_to_contact(const Columns *columns, size_t i, double tau, double restitution) {
     size_t n = columns->dimensions, stride = columns->stride;
     const double *acceleration = phys_acceleration(columns);
     for (size_t k = 0; k < n; k++) {
@@ -56,10 +56,10 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
     Block block = block_at(columns, i);
     double *acceleration = phys_acceleration(columns), *before = acceleration + n;
     for (size_t k = 0; k < n; k++)
-        before[k] = velocity_part(&block, k);
-    move(n, &block, delta, speed_of_light);
+        before[k] = velocity_component(&block, k);
+    move_particles(n, &block, delta, speed_of_light);
     for (size_t k = 0; k < n; k++)
-        acceleration[k] = (velocity_part(&block, k) - before[k]) / delta;
+        acceleration[k] = (velocity_component(&block, k) - before[k]) / delta;
 }
 
 //   x = Σ (p_k − position_k)·normal_k accumulated from −r;   w = Σ v_k·normal_k;   b = Σ a_k·normal_k
@@ -72,7 +72,7 @@ static void move_again(const Columns *columns, size_t i, double delta, double sp
 //   if w' < 0: reflect
 //   if b < 0 and w'/b < τ: τ = max(w'/b, 0)                    not beyond the top of the bounce
 //   if τ > 0: motion again with τ for delta and the same force; else a = 0
-void phys_bounce(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
+void phys_reflect(const Columns *columns, size_t i, const Force *force, double delta, double speed_of_light) {
     const PhysForce *barrier = &force->given;
     double radius = columns->radius[phys_numbers_at(columns, i)], x = particle_height(columns, i, barrier, -radius);
     if (x >= 0)
@@ -86,7 +86,7 @@ void phys_bounce(const Columns *columns, size_t i, const Force *force, double de
     bool outside = tau > delta;
     if (outside)
         tau = delta;
-    back_to_contact(columns, i, tau, barrier->restitution);
+    move_back_to_contact(columns, i, tau, barrier->restitution);
     w = velocity_along(columns, i, barrier);
     if (outside) {
         x = particle_height(columns, i, barrier, -radius);

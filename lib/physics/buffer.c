@@ -3,9 +3,9 @@
 
 #include <string.h>
 
-enum { ROOM_FOR = 16 }; // one more byte for so many
+enum { GROWTH_DIVISOR = 16 }; // one more byte for so many
 
-bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size) {
+bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size) {
     if (system->failed)
         return false;
     uint64_t needed;
@@ -18,15 +18,15 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
     }
     // Twice as much as before keeps the cost of growing by single elements linear. What is filled anew grows by little,
     // if at all, but perhaps often.
-    uint64_t more = kept ? buffer->capacity : buffer->capacity / ROOM_FOR;
+    uint64_t more = retained ? buffer->capacity : buffer->capacity / GROWTH_DIVISOR;
     uint64_t capacity = buffer->capacity + more > needed ? buffer->capacity + more : needed;
-    if (!kept) // the old block first, so that both need not fit into memory
+    if (!retained) // the old block first, so that both need not fit into memory
         phys_buffer_free(buffer);
     if (capacity > PHYS_MAX_BYTES - others)
         capacity = needed;
     Buffer larger = {.capacity = capacity, .shown = buffer->shown};
     arena_init(&larger.arena, "physics", SIZE_MAX);
-    larger.arena.meter = system->options.meter;
+    larger.arena.budget = system->options.meter;
     // Its only block: without it there is nothing to free.
     larger.bytes = arena_try_alloc(&larger.arena, (size_t)capacity);
     if (!larger.bytes) {
@@ -34,8 +34,8 @@ bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint
         system->failed = true;
         return false;
     }
-    if (kept)
-        memcpy(larger.bytes, buffer->bytes, (size_t)kept);
+    if (retained)
+        memcpy(larger.bytes, buffer->bytes, (size_t)retained);
     phys_buffer_free(buffer);
     *buffer = larger;
     system->bytes = others + capacity;

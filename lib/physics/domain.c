@@ -4,12 +4,12 @@
 #include <time.h>
 
 enum {
-    WORTH_PARTICLES = 8000, // for fewer it is not worth it
-    PATIENCE_FIRST = 32,    // steps before plots are dealt out again, at first; doubled each time
+    MIN_PARTICLES = 8000, // for fewer it is not worth it
+    FIRST_INTERVAL = 32,  // steps before plots are dealt out again, at first; doubled each time
 };
-#define UNEVEN 1.15 // the longest work of a rank, divided by the mean, that lets plots be dealt out again
+#define MAX_IMBALANCE 1.15 // the longest work of a rank, divided by the mean, that lets plots be dealt out again
 
-static bool any_far(const PhysSystem *system, Domain *reach) {
+static bool has_unbounded_force(const PhysSystem *system, Domain *reach) {
     const Force *forces = system->forces.bytes;
     bool any = false;
     reach->contact = false;
@@ -31,14 +31,14 @@ static bool any_far(const PhysSystem *system, Domain *reach) {
 }
 
 // Making particles whole at the end of a frame takes about as long as one step.
-static bool worth(const PhysSystem *system, const PhysTime *time) {
+static bool pays_off(const PhysSystem *system, const PhysTime *time) {
     const PhysOptions *options = &system->options;
-    bool many = system->particle_count >= WORTH_PARTICLES && time->now - time->last > 1.5 * time->resolution;
-    return options->ranks.count > 1 && options->neighbours != PHYS_NEIGHBOURS_NEVER &&
-           system->dimensions <= PHYS_VECTOR_DIMENSIONS && system->particle_count && (options->ranks.least || many);
+    bool many = system->particle_count >= MIN_PARTICLES && time->now - time->last > 1.5 * time->resolution;
+    return options->ranks.rank_count > 1 && options->neighbours != PHYS_NEIGHBOURS_NEVER &&
+           system->dimensions <= PHYS_VECTOR_DIMENSIONS && system->particle_count && (options->ranks.min_pairs || many);
 }
 
-static Domain *domain_of(PhysSystem *system) {
+static Domain *get_domain(PhysSystem *system) {
     if (!system->domain.bytes) {
         if (!phys_buffer_reserve(system, &system->domain, 0, 1, sizeof(Domain)))
             return NULL;
@@ -53,7 +53,7 @@ static Domain *domain_of(PhysSystem *system) {
     options.neighbours = PHYS_NEIGHBOURS_ALWAYS;
     options.pool = system->threads;
     options.meter = NULL; // all ranks charge the same, whatever their part
-    options.ranks = (PhysRanks){.count = 0};
+    options.ranks = (PhysRanks){.rank_count = 0};
     if (!system->threads)
         options.threads = 1;
     phys_set_options(domain->local, &options);
@@ -65,23 +65,25 @@ void phys_domain_free(PhysSystem *system) {
     if (!domain)
         return;
     Buffer *buffers[] = {
-        &domain->plot_owners, &domain->inland,     &domain->owners,  &domain->counts,        &domain->foreign,
-        &domain->built,       &domain->movers,     &domain->draws,   &domain->to.starts,     &domain->to.items,
-        &domain->from.starts, &domain->from.items, &domain->parcels, &domain->table,         &domain->numbers,
-        &domain->whole,       &domain->starts,     &domain->loads,   &domain->shore.columns, &domain->fresh.columns,
-        &domain->sources,     &domain->spare,      &domain->orders,  &domain->last_orders,   &domain->places};
+        &domain->patch_owners, &domain->interior,        &domain->owners,           &domain->counts,
+        &domain->remote,       &domain->built,           &domain->movers,           &domain->random_offset,
+        &domain->to.starts,    &domain->to.items,        &domain->from.starts,      &domain->from.items,
+        &domain->transfers,    &domain->transfer_counts, &domain->message,          &domain->gathered,
+        &domain->starts,       &domain->rank_seconds,    &domain->boundary.columns, &domain->arrivals.columns,
+        &domain->sources,      &domain->spare,           &domain->orders,           &domain->last_orders,
+        &domain->column_of};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
-    phys_neighbours_free(&domain->survey);
+    phys_neighbour_list_free(&domain->survey);
     phys_free(domain->local);
     phys_buffer_free(&system->domain);
 }
 
 // Some particle sees farther than the halo was made for.
-static bool grown(const PhysSystem *system, const Domain *domain) {
+static bool sees_farther(const PhysSystem *system, const Domain *domain) {
     const double *radius = system->columns.radius;
     for (uint32_t i = 0; i < system->particle_count; i++) {
-        if (!(radius[i] > domain->widest))
+        if (!(radius[i] > domain->max_radius))
             continue;
         bool large = false;
         for (uint32_t l = 0; l < domain->large_count; l++)
@@ -93,49 +95,50 @@ static bool grown(const PhysSystem *system, const Domain *domain) {
 }
 
 // Has the work turned out uneven? All ranks know the same.
-static bool uneven(const PhysSystem *system, const Domain *domain) {
-    const double *loads = domain->loads.bytes;
-    double longest = 0, sum = 0;
-    for (int r = 0; r < system->options.ranks.count; r++) {
-        longest = fmax(longest, loads[r]);
-        sum += loads[r];
+static bool is_unbalanced(const PhysSystem *system, const Domain *domain) {
+    const double *rank_seconds = domain->rank_seconds.bytes;
+    double max_seconds = 0, sum = 0;
+    for (int r = 0; r < system->options.ranks.rank_count; r++) {
+        max_seconds = fmax(max_seconds, rank_seconds[r]);
+        sum += rank_seconds[r];
     }
-    return domain->steps >= domain->patience && longest * system->options.ranks.count > UNEVEN * sum;
+    return domain->steps >= domain->rebalance_interval &&
+           max_seconds * system->options.ranks.rank_count > MAX_IMBALANCE * sum;
 }
 
-static bool deal(PhysSystem *system, Domain *domain) {
-    if (system->behind)
-        phys_load_motion(system);
-    if (!phys_domain_deal(system, domain) || !phys_domain_find_halo(system, domain))
+static bool rebalance(PhysSystem *system, Domain *domain) {
+    if (system->columns_stale)
+        phys_fill_motion(system);
+    if (!phys_domain_balance(system, domain) || !phys_domain_find_halo(system, domain))
         return false;
-    domain->made = false; // for what is there is not to be taken along
-    domain->made = phys_domain_gather(system, domain);
-    domain->arrangement = system->arrangement;
-    return domain->made;
+    domain->is_valid = false; // for what is there is not to be taken along
+    domain->is_valid = phys_domain_build_local(system, domain);
+    domain->columns_version = system->columns_version;
+    return domain->is_valid;
 }
 
-static bool begin(PhysSystem *system, const Domain *reach) {
-    Domain *domain = domain_of(system);
+static bool begin_frame(PhysSystem *system, const Domain *reach) {
+    Domain *domain = get_domain(system);
     if (!domain)
         return false;
-    bool same = domain->made && domain->arrangement == system->arrangement;
+    bool same = domain->is_valid && domain->columns_version == system->columns_version;
     if (!same) {
         domain->steps = 0;
-        domain->patience = PATIENCE_FIRST;
+        domain->rebalance_interval = FIRST_INTERVAL;
     }
-    bool again = same && uneven(system, domain);
-    if (again)
-        domain->patience *= 2;
-    again |= !same || domain->contact != reach->contact || domain->bound != reach->bound ||
-             (system->touched && (!domain->age || grown(system, domain)));
-    bool may_settle = phys_can_settle(system);
-    again |= domain->may_settle && !may_settle;
+    bool must_rebalance = same && is_unbalanced(system, domain);
+    if (must_rebalance)
+        domain->rebalance_interval *= 2;
+    must_rebalance |= !same || domain->contact != reach->contact || domain->bound != reach->bound ||
+                      (system->edited && (!domain->age || sees_farther(system, domain)));
+    bool can_reorder = phys_can_reorder(system);
+    must_rebalance |= domain->can_reorder && !can_reorder;
     domain->contact = reach->contact;
     domain->bound = reach->bound;
-    domain->may_settle = may_settle;
-    if (again ? !deal(system, domain) : !phys_domain_take_forces(system, domain))
+    domain->can_reorder = can_reorder;
+    if (must_rebalance ? !rebalance(system, domain) : !phys_domain_update_forces(system, domain))
         return false;
-    if (!again && system->touched)
+    if (!must_rebalance && system->edited)
         phys_domain_reload(system, domain);
     domain->local->frame = system->frame;
     return true;
@@ -143,22 +146,22 @@ static bool begin(PhysSystem *system, const Domain *reach) {
 
 bool phys_domain_begin(PhysSystem *system, const PhysTime *time) {
     Domain reach, *domain = system->domain.bytes;
-    bool shared = worth(system, time) && !any_far(system, &reach) && begin(system, &reach);
+    bool shared = pays_off(system, time) && !has_unbounded_force(system, &reach) && begin_frame(system, &reach);
     if (!shared && domain)
-        domain->made = false; // it does not know of what happens in this frame
-    if (!shared && system->behind && !system->failed)
-        phys_load_motion(system);
-    system->touched = false;
-    system->traffic.sharing = shared ? PHYS_BY_REGION : PHYS_ALONE;
+        domain->is_valid = false; // it does not know of what happens in this frame
+    if (!shared && system->columns_stale && !system->failed)
+        phys_fill_motion(system);
+    system->edited = false;
+    system->rank_stats.decomposition = shared ? PHYS_DOMAIN_DECOMPOSED : PHYS_REPLICATED;
     return shared;
 }
 
 // Has an own particle left its skin, or grown? For forces that have no lists, which would tell.
-static bool stirred(const PhysSystem *system, const Domain *domain) {
+static bool left_skin(const PhysSystem *system, const Domain *domain) {
     const Columns *columns = &domain->local->columns;
     const double *built = domain->built.bytes;
-    double most = phys_skin_square(domain->survey.skin);
-    bool still = domain->noted;
+    double max_square = phys_skin_square(domain->survey.skin);
+    bool still = domain->built_valid;
     for (uint32_t c = 0; c < system->particle_count && still; c++) {
         if (phys_owners(domain)[c] != (uint32_t)system->options.ranks.rank)
             continue;
@@ -170,37 +173,37 @@ static bool stirred(const PhysSystem *system, const Domain *domain) {
             finite &= isfinite(x) || !isfinite(*built);
             square += d * d;
         }
-        still = finite && !(square > most) && !(columns->radius[at] > *built++);
+        still = finite && !(square > max_square) && !(columns->radius[at] > *built++);
     }
     return !still;
 }
 
-static bool move_on(PhysSystem *system, Domain *domain) {
+static bool rebuild_local(PhysSystem *system, Domain *domain) {
     phys_adapt_skin(&domain->survey, domain->age);
-    phys_domain_give_back_items(system, domain->local);
+    phys_domain_return_items(system, domain->local);
     return phys_domain_move(system, domain) && phys_domain_find_halo(system, domain) &&
-           phys_domain_gather(system, domain);
+           phys_domain_build_local(system, domain);
 }
 
 // Brings the halo up to date, with a new one if some rank needs it.
-static bool prepare(PhysSystem *system, Domain *domain) {
+static bool update_halo(PhysSystem *system, Domain *domain) {
     const PhysRanks *ranks = &system->options.ranks;
     if (!domain->age)
         return true;
     if (!phys_domain_exchange(system, domain))
         return false;
     PhysSystem *local = domain->local;
-    double news[2] = {!phys_lists_hold(local, domain->age) || (local->unlisted && stirred(system, domain)), 0};
-    for (int i = 0; i < PHYS_MOST_LISTS; i++)
-        news[1] += local->lists[i].built ? (double)local->lists[i].padded : 0;
-    ranks->most(ranks->host, news, 2);
-    system->traffic.reductions++;
-    system->traffic.step_bytes += sizeof news;
-    domain->padded = (uint64_t)news[1] * (uint64_t)ranks->count;
-    return !(news[0] > 0) || move_on(system, domain);
+    double votes[2] = {!phys_lists_valid(local, domain->age) || (local->unlisted && left_skin(system, domain)), 0};
+    for (int i = 0; i < PHYS_MAX_LISTS; i++)
+        votes[1] += local->lists[i].built ? (double)local->lists[i].padded : 0;
+    ranks->allreduce_max(ranks->user_data, votes, 2);
+    system->rank_stats.reductions++;
+    system->rank_stats.step_bytes += sizeof votes;
+    domain->padded = (uint64_t)votes[1] * (uint64_t)ranks->rank_count;
+    return !(votes[0] > 0) || rebuild_local(system, domain);
 }
 
-static double seconds(void) {
+static double cpu_seconds(void) {
     struct timespec now;
     clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
     return (double)now.tv_sec + 1e-9 * (double)now.tv_nsec;
@@ -211,19 +214,19 @@ bool phys_domain_step(PhysSystem *system, double clock, double delta, double spe
     Domain *domain = system->domain.bytes;
     uint64_t work = STEP_WORK + (uint64_t)GROUP_WORK * system->group_count + system->force_count;
     work += system->particle_count * (2 + system->dimensions / NUMBERS_A_UNIT) + domain->padded / ENTRIES_A_UNIT;
-    if (!phys_charge(system, work) || !prepare(system, domain)) {
-        domain->made = false;
+    if (!phys_charge(system, work) || !update_halo(system, domain)) {
+        domain->is_valid = false;
         return false;
     }
-    double start = seconds();
+    double start = cpu_seconds();
     phys_step(domain->local, clock, delta, speed_of_light);
-    domain->seconds += seconds() - start;
+    domain->seconds += cpu_seconds() - start;
     domain->age++;
     domain->steps++;
     uint32_t own = phys_own_count(system, domain);
-    system->traffic.own += own;
-    system->traffic.halo += domain->local->particle_count - own;
-    domain->local->stepped = true;
+    system->rank_stats.own += own;
+    system->rank_stats.halo += domain->local->particle_count - own;
+    domain->local->has_forces = true;
     if (domain->local->failed)
         system->failed = true;
     return !system->failed;

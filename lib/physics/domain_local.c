@@ -1,7 +1,7 @@
 // domain_local.c: the system that one process simulates: its own particles and its halo.
 //
 // Its handles are the columns of the whole system, so they are in the order of all, with gaps. Its columns are in that
-// order, too, or else in that of a list (settle.c): then own particles stay where they are when a new halo comes, and
+// order, too, or else in that of a list (reorder.c): then own particles stay where they are when a new halo comes, and
 // fresh ones take the places of those that have gone.
 #include "physics/domain.h"
 #include "physics/threads.h"
@@ -11,60 +11,61 @@
 
 enum { LINE = 8 }; // particles, by which the room for columns is rounded up
 
-static int by_number(const void *left, const void *right) {
+static int compare_columns(const void *left, const void *right) {
     uint32_t a = *(const uint32_t *)left, b = *(const uint32_t *)right;
     return (a > b) - (a < b);
 }
 
-static void put(const Domain *domain, uint32_t here, uint32_t column, uint32_t source) {
+static void set_column(const Domain *domain, uint32_t here, uint32_t column, uint32_t source) {
     domain->local->order[here] = column;
-    domain->local->place[column] = here;
+    domain->local->column_of[column] = here;
     ((uint32_t *)domain->sources.bytes)[here] = source;
 }
 
 // Room for columns in order, and for more than there are now.
-static bool reserve(PhysSystem *system, Domain *domain, uint64_t count) {
+static bool reserve_orders(PhysSystem *system, Domain *domain, uint64_t count) {
     Buffer orders = domain->last_orders;
     domain->last_orders = domain->orders;
     domain->orders = orders;
     if (!phys_buffer_reserve(system, &domain->orders, 0, count, sizeof(uint32_t)) ||
         !phys_buffer_reserve(system, &domain->sources, 0, count, sizeof(uint32_t)) ||
-        !phys_buffer_reserve(system, &domain->places, 0, system->particle_count, sizeof(uint32_t)))
+        !phys_buffer_reserve(system, &domain->column_of, 0, system->particle_count, sizeof(uint32_t)))
         return false;
     domain->local->order = domain->orders.bytes;
-    domain->local->place = domain->places.bytes;
-    domain->local->places = system->particle_count;
+    domain->local->column_of = domain->column_of.bytes;
+    domain->local->handle_count = system->particle_count;
     return true;
 }
 
 // Orders all columns anew. Without a local system before, own particles come from the system's columns.
 static bool order_columns(PhysSystem *system, Domain *domain, uint32_t spare) {
     PhysSystem *local = domain->local;
-    uint32_t self = (uint32_t)system->options.ranks.rank, fresh = domain->fresh.count, next = 0, here = 0;
-    const uint32_t *last_order = local->order, *owners = phys_owners(domain), *come = domain->fresh.columns.bytes;
-    const bool *foreign = local->foreign;
-    uint64_t last = domain->made ? local->particle_count : phys_own_count(system, domain);
-    if (!reserve(system, domain, last + fresh + spare + LINE))
+    uint32_t self = (uint32_t)system->options.ranks.rank, arrivals = domain->arrivals.count, next = 0, here = 0;
+    const uint32_t *last_order = local->order, *owners = phys_owners(domain),
+                   *arriving = domain->arrivals.columns.bytes;
+    const bool *remote = local->remote;
+    uint64_t last = domain->is_valid ? local->particle_count : phys_own_count(system, domain);
+    if (!reserve_orders(system, domain, last + arrivals + spare + LINE))
         return false;
-    if (!domain->made) {
-        memset(local->place, 0xff, system->particle_count * sizeof *local->place); // NO_PLACE
+    if (!domain->is_valid) {
+        memset(local->column_of, 0xff, system->particle_count * sizeof *local->column_of); // NO_COLUMN
         phys_forget_order(local);
     }
-    for (uint32_t i = 0, end = domain->made ? local->particle_count : system->particle_count; i < end; i++) {
-        uint32_t column = domain->made ? last_order[i] : i;
-        if (domain->made ? foreign[i] : owners[i] != self)
+    for (uint32_t i = 0, end = domain->is_valid ? local->particle_count : system->particle_count; i < end; i++) {
+        uint32_t column = domain->is_valid ? last_order[i] : i;
+        if (domain->is_valid ? remote[i] : owners[i] != self)
             continue;
-        for (; !local->settled && next < fresh && come[next] < column; next++)
-            put(domain, here++, come[next], 0);
-        put(domain, here++, column, i);
+        for (; !local->in_cell_order && next < arrivals && arriving[next] < column; next++)
+            set_column(domain, here++, arriving[next], 0);
+        set_column(domain, here++, column, i);
     }
-    for (; next < fresh; next++)
-        put(domain, here++, come[next], 0);
+    for (; next < arrivals; next++)
+        set_column(domain, here++, arriving[next], 0);
     local->particle_count = here;
     return true;
 }
 
-static bool take_groups(const PhysSystem *system, const Domain *domain) {
+static bool build_groups(const PhysSystem *system, const Domain *domain) {
     PhysSystem *local = domain->local;
     const Group *groups = system->groups.bytes;
     local->group_count = system->group_count;
@@ -110,198 +111,199 @@ static bool is_needed(const PhysSystem *system, ForceNeed need) {
     return false;
 }
 
-static bool take_draws(PhysSystem *system, Domain *domain) {
+static bool build_random_offsets(PhysSystem *system, Domain *domain) {
     Columns *own = &domain->local->columns;
-    own->draws = NULL;
+    own->random_offset = NULL;
     if (!is_needed(system, NEED_STREAM))
         return true;
-    if (!phys_buffer_reserve(system, &domain->draws, 0, own->count, sizeof(uint32_t)) || !count_movers(system, domain))
+    if (!phys_buffer_reserve(system, &domain->random_offset, 0, own->count, sizeof(uint32_t)) ||
+        !count_movers(system, domain))
         return false;
-    uint32_t *draws = domain->draws.bytes;
+    uint32_t *offsets = domain->random_offset.bytes;
     for (uint32_t i = 0; i < own->count; i++)
-        draws[i] = ((const uint32_t *)domain->movers.bytes)[domain->local->order[i]];
+        offsets[i] = ((const uint32_t *)domain->movers.bytes)[domain->local->order[i]];
     Group *groups = domain->local->groups.bytes;
     for (uint32_t g = 0; g < system->group_count; g++)
         groups[g].movers = ((const Group *)system->groups.bytes)[g].movers;
-    own->draws = draws;
+    own->random_offset = offsets;
     return true;
 }
 
-static void fill(size_t first, size_t end, double number, double *to) {
+static void fill_range(size_t first, size_t end, double number, double *to) {
     for (size_t i = first; i < end; i++)
         to[i] = number;
 }
 
-static void take(const uint32_t *column, size_t first, size_t end, const double *from, double *to) {
+static void gather_column(const uint32_t *column, size_t first, size_t end, const double *from, double *to) {
     for (size_t i = first; i < end; i++)
         to[i] = from[column[i]];
 }
 
-typedef struct Taking {
+typedef struct ColumnCopy {
     const PhysSystem *system;
     const Domain *domain;
     Columns from;
     const uint32_t *sources; // columns of `from` by column
-} Taking;
+} ColumnCopy;
 
-static void take_attributes(const Taking *taking, size_t first, size_t end) {
-    const PhysSystem *system = taking->system;
-    const Columns *from = &taking->from, *to = &taking->domain->local->columns;
-    const uint32_t *sources = taking->sources;
+static void copy_attributes(const ColumnCopy *copy, size_t first, size_t end) {
+    const PhysSystem *system = copy->system;
+    const Columns *from = &copy->from, *to = &copy->domain->local->columns;
+    const uint32_t *sources = copy->sources;
     double *numbers[][2] = {{from->radius, to->radius}, {from->mass, to->mass}, {from->charge, to->charge}};
     for (int i = 0; i < 3; i++)
         if (system->record_stride)
-            take(sources, first, end, numbers[i][0], numbers[i][1]);
+            gather_column(sources, first, end, numbers[i][0], numbers[i][1]);
         else // all have the same
-            fill(first, end, numbers[i][0][sources[first]], numbers[i][1]);
+            fill_range(first, end, numbers[i][0][sources[first]], numbers[i][1]);
     if (is_needed(system, NEED_SECTION))
-        take(sources, first, end, from->section, to->section);
+        gather_column(sources, first, end, from->section, to->section);
     if (is_needed(system, NEED_VOLUME))
-        take(sources, first, end, from->volume, to->volume);
+        gather_column(sources, first, end, from->volume, to->volume);
     if (system->has_eased_forces)
-        take(sources, first, end, from->ease, to->ease);
+        gather_column(sources, first, end, from->ease, to->ease);
     for (size_t k = 0; k < to->dimensions && system->has_own_forces; k++)
-        take(sources, first, end, from->own_force + k * from->stride, to->own_force + k * to->stride);
+        gather_column(sources, first, end, from->own_force + k * from->stride, to->own_force + k * to->stride);
 }
 
-static void take_range(const Taking *taking, size_t first, size_t end) {
-    const Columns *from = &taking->from, *to = &taking->domain->local->columns;
+static void copy_range(const ColumnCopy *copy, size_t first, size_t end) {
+    const Columns *from = &copy->from, *to = &copy->domain->local->columns;
     if (first == end)
         return; // a rank without particles has no columns
     for (size_t k = 0; k < to->dimensions; k++) {
-        take(taking->sources, first, end, from->position + k * from->stride, to->position + k * to->stride);
-        take(taking->sources, first, end, from->velocity + k * from->stride, to->velocity + k * to->stride);
+        gather_column(copy->sources, first, end, from->position + k * from->stride, to->position + k * to->stride);
+        gather_column(copy->sources, first, end, from->velocity + k * from->stride, to->velocity + k * to->stride);
     }
     for (size_t i = first; i < end; i++)
-        to->anchor[i] = from->anchor[taking->sources[i]];
-    take_attributes(taking, first, end);
+        to->anchor[i] = from->anchor[copy->sources[i]];
+    copy_attributes(copy, first, end);
 }
 
-static void take_share(void *context, int share, int shares) {
-    const Taking *taking = context;
-    uint32_t count = taking->domain->local->columns.count;
-    take_range(taking, phys_share(count, share, shares), phys_share(count, share + 1, shares));
+static void copy_chunk(void *context, int chunk, int chunks) {
+    const ColumnCopy *copy = context;
+    uint32_t count = copy->domain->local->columns.count;
+    copy_range(copy, phys_chunk_begin(count, chunk, chunks), phys_chunk_begin(count, chunk + 1, chunks));
 }
 
 // Attributes are in the system's columns, the rest is in the rows.
-static void reload_share(void *context, int share, int shares) {
-    const Taking *taking = context;
-    const PhysSystem *system = taking->system;
-    const Columns *to = &taking->domain->local->columns;
-    size_t n = to->dimensions, first = phys_share(to->count, share, shares);
-    size_t end = phys_share(to->count, share + 1, shares);
+static void reload_chunk(void *context, int chunk, int chunks) {
+    const ColumnCopy *copy = context;
+    const PhysSystem *system = copy->system;
+    const Columns *to = &copy->domain->local->columns;
+    size_t n = to->dimensions, first = phys_chunk_begin(to->count, chunk, chunks);
+    size_t end = phys_chunk_begin(to->count, chunk + 1, chunks);
     for (size_t i = first; i < end; i++) {
-        const double *row = phys_row(system, system->order[taking->sources[i]]);
+        const double *row = phys_row(system, system->order[copy->sources[i]]);
         for (size_t k = 0; k < n; k++) {
             to->position[k * to->stride + i] = row[k];
             to->velocity[k * to->stride + i] = row[n + k];
         }
     }
     if (first < end)
-        take_attributes(taking, first, end);
+        copy_attributes(copy, first, end);
 }
 
-static int shares_for(const PhysSystem *local) {
-    return phys_shares(local, local->particle_count, PHYS_MIN_FOR_THREADS);
+static int chunk_count_for(const PhysSystem *local) {
+    return phys_chunk_count(local, local->particle_count, PHYS_MIN_FOR_THREADS);
 }
 
 void phys_domain_reload(const PhysSystem *system, Domain *domain) {
-    Taking taking = {system, domain, system->columns, domain->local->order};
-    domain->local->radii++;
-    domain->local->motion++;
-    phys_parallel(domain->local, shares_for(domain->local), reload_share, &taking);
+    ColumnCopy copy = {system, domain, system->columns, domain->local->order};
+    domain->local->radius_version++;
+    domain->local->motion_version++;
+    phys_parallel(domain->local, chunk_count_for(domain->local), reload_chunk, &copy);
 }
 
-static void take_fresh(const PhysSystem *system, const Domain *domain) {
+static void copy_arrivals(const PhysSystem *system, const Domain *domain) {
     const Columns *to = &domain->local->columns;
-    const uint32_t *fresh = domain->fresh.columns.bytes, *owners = phys_owners(domain);
+    const uint32_t *arrivals = domain->arrivals.columns.bytes, *owners = phys_owners(domain);
     uint32_t *sources = domain->sources.bytes;
-    Taking taking = {system, domain, system->columns, sources};
-    for (uint32_t f = 0; f < domain->fresh.count; f++) {
-        uint32_t here = phys_local_column(domain, fresh[f]);
-        sources[here] = fresh[f];
-        take_range(&taking, here, here + 1);
+    ColumnCopy copy = {system, domain, system->columns, sources};
+    for (uint32_t f = 0; f < domain->arrivals.count; f++) {
+        uint32_t here = phys_local_column(domain, arrivals[f]);
+        sources[here] = arrivals[f];
+        copy_range(&copy, here, here + 1);
         for (size_t k = 0; k < to->dimensions; k++)
             to->force[k * to->stride + here] = 0;
-        domain->local->foreign[here] = owners[fresh[f]] != (uint32_t)system->options.ranks.rank;
-        to->anchor[here] |= domain->local->foreign[here];
+        domain->local->remote[here] = owners[arrivals[f]] != (uint32_t)system->options.ranks.rank;
+        to->anchor[here] |= domain->local->remote[here];
     }
 }
 
 // The numbers of all into new columns, with some room behind them.
-static bool take_all(PhysSystem *system, Domain *domain) {
+static bool copy_all(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     uint32_t spare = phys_own_count(system, domain) / 32 + 256;
     const Columns last = local->columns;
     if (!order_columns(system, domain, spare))
         return false;
-    Taking taking = {system, domain, domain->made ? last : system->columns, domain->sources.bytes};
+    ColumnCopy copy = {system, domain, domain->is_valid ? last : system->columns, domain->sources.bytes};
     Buffer memory = domain->spare;
     domain->spare = local->column_data;
     local->column_data = memory;
     local->dimensions = system->dimensions;
     local->has_own_forces = system->has_own_forces;
     local->has_eased_forces = system->has_eased_forces;
-    if (!phys_buffer_reserve(system, &domain->foreign, 0, (uint64_t)local->particle_count + spare + LINE,
+    if (!phys_buffer_reserve(system, &domain->remote, 0, (uint64_t)local->particle_count + spare + LINE,
                              sizeof(bool)) ||
         !phys_reserve_columns(local, spare))
         return false;
-    local->foreign = domain->foreign.bytes;
-    memset(local->foreign, false, local->columns.stride);
-    if (taking.from.count)
-        phys_parallel(local, shares_for(local), take_share, &taking);
+    local->remote = domain->remote.bytes;
+    memset(local->remote, false, local->columns.stride);
+    if (copy.from.count)
+        phys_parallel(local, chunk_count_for(local), copy_chunk, &copy);
     return true;
 }
 
 // Those that have gone leave their columns to fresh ones, or to the last.
 static void fill_gaps(const PhysSystem *system, const Domain *domain) {
     PhysSystem *local = domain->local;
-    const uint32_t *come = domain->fresh.columns.bytes;
+    const uint32_t *arriving = domain->arrivals.columns.bytes;
     uint32_t count = local->particle_count, next = 0;
-    Taking taking = {system, domain, local->columns, domain->sources.bytes};
-    for (uint32_t i = phys_next_foreign(local, 0); i < count; i = phys_next_foreign(local, i + 1)) {
-        if (next < domain->fresh.count) {
-            put(domain, i, come[next], 0);
+    ColumnCopy copy = {system, domain, local->columns, domain->sources.bytes};
+    for (uint32_t i = phys_next_remote(local, 0); i < count; i = phys_next_remote(local, i + 1)) {
+        if (next < domain->arrivals.count) {
+            set_column(domain, i, arriving[next], 0);
             next++;
             continue;
         }
-        while (--count > i && local->foreign[count])
+        while (--count > i && local->remote[count])
             ;
         if (count == i)
             break;
-        put(domain, i, local->order[count], count);
-        take_range(&taking, i, (size_t)i + 1);
-        local->foreign[i] = false;
+        set_column(domain, i, local->order[count], count);
+        copy_range(&copy, i, (size_t)i + 1);
+        local->remote[i] = false;
     }
-    for (; next < domain->fresh.count; next++)
-        put(domain, count++, come[next], 0);
+    for (; next < domain->arrivals.count; next++)
+        set_column(domain, count++, arriving[next], 0);
     local->particle_count = local->columns.count = count;
 }
 
 // The particles whom the rank knows from now on.
-static bool take_particles(PhysSystem *system, Domain *domain) {
+static bool build_particles(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    uint32_t fresh = domain->fresh.count;
-    if (fresh)
-        qsort(domain->fresh.columns.bytes, fresh, sizeof(uint32_t), by_number);
-    uint32_t i = domain->made ? phys_next_foreign(local, 0) : local->particle_count;
-    for (; i < local->particle_count; i = phys_next_foreign(local, i + 1))
-        local->place[local->order[i]] = NO_PLACE;
-    if (domain->made && local->settled && (uint64_t)local->particle_count + fresh <= local->columns.stride)
+    uint32_t arrivals = domain->arrivals.count;
+    if (arrivals)
+        qsort(domain->arrivals.columns.bytes, arrivals, sizeof(uint32_t), compare_columns);
+    uint32_t i = domain->is_valid ? phys_next_remote(local, 0) : local->particle_count;
+    for (; i < local->particle_count; i = phys_next_remote(local, i + 1))
+        local->column_of[local->order[i]] = NO_COLUMN;
+    if (domain->is_valid && local->in_cell_order && (uint64_t)local->particle_count + arrivals <= local->columns.stride)
         fill_gaps(system, domain);
-    else if (!take_all(system, domain))
+    else if (!copy_all(system, domain))
         return false;
-    local->radii++;
-    take_fresh(system, domain);
+    local->radius_version++;
+    copy_arrivals(system, domain);
     return true;
 }
 
 // Where own particles were when the halo was made, and how large, if some pass had no list so far.
-static bool note_places(PhysSystem *system, Domain *domain) {
+static bool record_built(PhysSystem *system, Domain *domain) {
     const Columns *columns = &domain->local->columns;
     size_t n = columns->dimensions;
-    domain->noted = domain->local->unlisted;
-    if (!domain->noted)
+    domain->built_valid = domain->local->unlisted;
+    if (!domain->built_valid)
         return true;
     if (!phys_buffer_reserve(system, &domain->built, 0, (n + 1) * (uint64_t)phys_own_count(system, domain),
                              sizeof(double)))
@@ -318,10 +320,10 @@ static bool note_places(PhysSystem *system, Domain *domain) {
     return true;
 }
 
-bool phys_domain_gather(PhysSystem *system, Domain *domain) {
+bool phys_domain_build_local(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
-    if (!take_particles(system, domain) || !take_groups(system, domain) || !phys_domain_take_forces(system, domain) ||
-        !note_places(system, domain)) {
+    if (!build_particles(system, domain) || !build_groups(system, domain) ||
+        !phys_domain_update_forces(system, domain) || !record_built(system, domain)) {
         system->failed = true;
         return false;
     }
@@ -332,7 +334,7 @@ bool phys_domain_gather(PhysSystem *system, Domain *domain) {
 }
 
 // A link that acts on own particles has both ends here; others are left out.
-static bool take_force(const PhysSystem *system, const Domain *domain, Force *force) {
+static bool localise_force(const PhysSystem *system, const Domain *domain, Force *force) {
     if (phys_force_row(force->given.kind).stage != STAGE_LINK)
         return true;
     uint32_t self = (uint32_t)system->options.ranks.rank, from = force->given.from, to = force->given.to;
@@ -342,7 +344,7 @@ static bool take_force(const PhysSystem *system, const Domain *domain, Force *fo
     return (owners[from] == self || owners[to] == self) && from != to;
 }
 
-bool phys_domain_take_forces(PhysSystem *system, Domain *domain) {
+bool phys_domain_update_forces(PhysSystem *system, Domain *domain) {
     PhysSystem *local = domain->local;
     uint64_t slots = (uint64_t)system->group_count * STAGE_COUNT;
     if (!phys_buffer_reserve(local, &local->indices, 0, slots + 1, sizeof(uint32_t)) ||
@@ -358,17 +360,17 @@ bool phys_domain_take_forces(PhysSystem *system, Domain *domain) {
         local->starts[s] = count;
         for (uint32_t f = system->starts[s]; f < system->starts[s + 1]; f++) {
             forces[count] = all[f];
-            count += take_force(system, domain, &forces[count]);
+            count += localise_force(system, domain, &forces[count]);
         }
     }
     local->starts[slots] = local->force_count = count;
     phys_link_groups(local);
     local->record_stride = system->record_stride;
-    local->may_settle = domain->may_settle;
-    return take_draws(system, domain);
+    local->can_reorder = domain->can_reorder;
+    return build_random_offsets(system, domain);
 }
 
-void phys_domain_give_back_items(PhysSystem *system, const PhysSystem *local) {
+void phys_domain_return_items(PhysSystem *system, const PhysSystem *local) {
     Force *to = system->forces.bytes;
     const Force *from = local->forces.bytes;
     for (uint64_t s = STAGE_SINGLE; s < (uint64_t)system->group_count * STAGE_COUNT; s += STAGE_COUNT)

@@ -1,8 +1,8 @@
 // force_pair.c: forces between all pairs of particles (4.1), by passes. The formulas are in pair_formulas.h.
+#include "physics/integrate.h"
 #include "physics/internal.h"
-#include "physics/neighbours.h"
-#include "physics/pair_wave.h"
-#include "physics/sweep.h"
+#include "physics/neighbour_list.h"
+#include "physics/pair_wavefront.h"
 
 // One pass on its way through the groups.
 typedef struct Pass {
@@ -45,8 +45,8 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
     pass.pairs.term_count = (size_t)(forces.end - forces.begin);
     pass.pairs.terms = system->terms.bytes;
     // What one process leaves out, others would wait for.
-    pass.pairs.stop = system->options.ranks.count > 1 ? NULL : phys_stop(system);
-    if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MOST_TERMS &&
+    pass.pairs.stop = system->options.ranks.rank_count > 1 ? NULL : phys_stop(system);
+    if (columns->dimensions <= PHYS_VECTOR_DIMENSIONS && pass.pairs.term_count <= PHYS_MAX_TERMS &&
         columns->count >= MIN_FOR_LANES) {
         pass.kernels = phys_kernels(system);
         pass.kernel = pass.kernels->pair(&pass.pairs);
@@ -55,33 +55,33 @@ static Pass prepare_pass(PhysSystem *system, ForceRange forces) {
 }
 
 static void move_rows(const void *context, size_t first, size_t end) {
-    phys_sweep_rows(context, first, end);
+    phys_integrate_rows(context, first, end);
 }
 
 // On several threads, with the motion if nothing comes between.
-static void run_wave(const Pass *pass, const PairWave *wave, int threads) {
-    Sweep sweep;
-    Move *move = wave->triangle ? pass->move : NULL;
-    if (!move || !phys_sweep_begin(pass->system, 0, move->delta, move->speed_of_light, &sweep)) {
-        phys_pair_wave(pass->system, wave, threads, NULL);
+static void run_wavefront(const Pass *pass, const PairRegion *region, int threads) {
+    Integrator integrator;
+    Move *move = region->triangle ? pass->move : NULL;
+    if (!move || !phys_integrate_begin(pass->system, 0, move->delta, move->speed_of_light, &integrator)) {
+        phys_pair_wavefront(pass->system, region, threads, NULL);
         return;
     }
-    phys_pair_wave(pass->system, wave, threads, &(PairMotion){move_rows, &sweep});
-    phys_sweep_end(&sweep);
+    phys_pair_wavefront(pass->system, region, threads, &(PairMotion){move_rows, &integrator});
+    phys_integrate_end(&integrator);
     move->done = true;
 }
 
 // All pairs inside one range.
 static void pass_triangle(const Pass *pass, size_t first, size_t end) {
     size_t count = end - first;
-    if (pass->kernel && phys_ranks_share(pass->system, count * count / 2)) {
-        PairWave wave = {pass->kernel, &pass->pairs, true, first, end, first, end};
-        phys_pair_ranks(pass->system, &wave);
+    if (pass->kernel && phys_ranks_should_split(pass->system, count * count / 2)) {
+        PairRegion region = {pass->kernel, &pass->pairs, true, first, end, first, end};
+        phys_pair_ranks(pass->system, &region);
         return;
     }
-    int threads = pass->kernel ? phys_wave_threads(pass->system, count * count / 2) : 0;
+    int threads = pass->kernel ? phys_wavefront_threads(pass->system, count * count / 2) : 0;
     if (threads) {
-        run_wave(pass, &(PairWave){pass->kernel, &pass->pairs, true, first, end, first, end}, threads);
+        run_wavefront(pass, &(PairRegion){pass->kernel, &pass->pairs, true, first, end, first, end}, threads);
         return;
     }
     if (pass->kernel && count > 2) {
@@ -93,7 +93,7 @@ static void pass_triangle(const Pass *pass, size_t first, size_t end) {
 }
 
 // Vectors that a rectangle with so many rows and columns takes.
-static size_t vectors(const Pass *pass, size_t rows, size_t columns) {
+static size_t vector_count(const Pass *pass, size_t rows, size_t columns) {
     size_t lanes = pass->kernels->lanes;
     return (rows + lanes - 1) / lanes * columns;
 }
@@ -106,18 +106,18 @@ static void pass_rectangle(const Pass *pass, size_t first, size_t end, size_t ot
             phys_pair_row(&pass->pairs, i, other, other_end);
         return;
     }
-    PairWave wave = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
-    if (vectors(pass, rows, columns) > vectors(pass, columns, rows))
-        wave = (PairWave){pass->kernel, &pass->pairs, false, other, other_end, first, end};
-    if (phys_ranks_share(pass->system, rows * columns)) {
-        phys_pair_ranks(pass->system, &wave);
+    PairRegion region = {pass->kernel, &pass->pairs, false, first, end, other, other_end};
+    if (vector_count(pass, rows, columns) > vector_count(pass, columns, rows))
+        region = (PairRegion){pass->kernel, &pass->pairs, false, other, other_end, first, end};
+    if (phys_ranks_should_split(pass->system, rows * columns)) {
+        phys_pair_ranks(pass->system, &region);
         return;
     }
-    int threads = phys_wave_threads(pass->system, rows * columns);
+    int threads = phys_wavefront_threads(pass->system, rows * columns);
     if (threads)
-        run_wave(pass, &wave, threads);
+        run_wavefront(pass, &region, threads);
     else
-        pass->kernel->tiles(&pass->pairs, wave.row, wave.row_end, wave.column, wave.column_end);
+        pass->kernel->tiles(&pass->pairs, region.row, region.row_end, region.column, region.column_end);
 }
 
 // Charges for all of so many pairs; false if they are not to be computed. A single force has a kernel of its own, which
@@ -138,10 +138,10 @@ static void pair_pass(PhysSystem *system, const Group *group, uint32_t level, Mo
     uint32_t number = (uint32_t)(group - groups);
     Pass pass = prepare_pass(system, phys_forces(system, level, STAGE_PAIR));
     pass.move = move;
-    if (pass.kernels && phys_neighbour_pass(system, pass.kernels, &pass.pairs, number, level, move))
+    if (pass.kernels && phys_neighbour_list_pass(system, pass.kernels, &pass.pairs, number, level, move))
         return;
-    if (system->settled)
-        phys_unsettle(system);
+    if (system->in_cell_order)
+        phys_restore_order(system);
     system->unlisted = true;
     size_t first = group->first, end = first + group->count;
     if (!charge_pairs(&pass, (uint64_t)group->count * group->count / 2))

@@ -2,11 +2,11 @@
 #ifndef PETRI_PHYSICS_GRID_H
 #define PETRI_PHYSICS_GRID_H
 
-#include "physics/neighbours.h"
+#include "physics/neighbour_list.h"
 
 enum {
-    PHYS_MOST_LANES = 8,   // of any kernel
-    PHYS_MOST_NEAR = 1024, // entries of the longest list
+    PHYS_MAX_LANES = 8,         // of any kernel
+    PHYS_MAX_NEIGHBOURS = 1024, // entries of the longest list
 };
 
 typedef struct Grid {
@@ -37,28 +37,29 @@ static inline uint32_t phys_cell_of(const Grid *grid, const double *position, si
 
 // Lists of all regular places, made by kernels in parts.
 typedef struct ListSearch {
-    const Neighbours *list;
+    const NeighbourList *list;
     const Grid *grid;
-    const bool *foreign; // by column: needs no list; NULL: none
+    const bool *remote;  // by column: needs no list; NULL: none
     uint32_t own;        // places with a key below are of the pass's own group
     uint32_t dummy;      // listed by lanes that are free
     uint64_t scan_limit; // candidates of a part
 } ListSearch;
 
-typedef struct ListPart {
+typedef struct ListChunk {
     uint32_t block, block_end;
     uint64_t begin, used, end; // of its entries
     uint64_t scanned;          // candidates that it looked at
     bool crowded, full;        // ended early: too many neighbours for lists; no more room
-} ListPart;
+} ListChunk;
 
 // grid.c: only where the cells are, `most` of them, and what list->base, list->skin and the largest radius in a cell
 // are. list->cell tells of each particle whether it has a cell. False if the particles do not lie in a way that a grid
 // can sort.
-bool phys_grid_lay(const PairPass *pass, Neighbours *list, double most, Grid *grid, double *widest);
+bool phys_grid_layout(const PairPass *pass, NeighbourList *list, double max, Grid *grid, double *max_radius);
 
 // grid_search.c: makes the lists of all regular places. Free lanes list the place `dummy`. False if they would cost
 // more than they are worth, or there is no memory.
-bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy, Neighbours *list);
+bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,
+                      NeighbourList *list);
 
 #endif

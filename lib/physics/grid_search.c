@@ -3,74 +3,75 @@
 #include "physics/threads.h"
 
 enum {
-    ENTRIES_FIRST = 12, // room in the lists for so many entries a particle, at first
-    ENTRIES_MOST = 160, // and at most
-    ENTRIES_SPARE = PHYS_MOST_NEAR * PHYS_MOST_LANES,
+    FIRST_ENTRIES = 12, // room in the lists for so many entries a particle, at first
+    MAX_ENTRIES = 160,  // and at most
+    ENTRIES_SPARE = PHYS_MAX_NEIGHBOURS * PHYS_MAX_LANES,
 };
 
 // The lists of all blocks, made by several workers, each with a part of the blocks and of the memory.
-typedef struct Shares {
+typedef struct SearchJob {
     const Kernels *kernels;
     const ListSearch *search;
     uint64_t capacity; // entries in all
-    ListPart parts[PHYS_MOST_SHARES];
-} Shares;
+    ListChunk chunks[PHYS_MAX_CHUNKS];
+} SearchJob;
 
-static void search_share(void *context, int worker, int workers) {
-    Shares *shares = context;
-    size_t lanes = shares->kernels->lanes, capacity = (size_t)shares->capacity,
-           blocks = (shares->search->list->view.regular + lanes - 1) / lanes;
-    ListPart *part = &shares->parts[worker];
-    *part = (ListPart){.block = (uint32_t)phys_share(blocks, worker, workers),
-                       .block_end = (uint32_t)phys_share(blocks, worker + 1, workers),
-                       .begin = phys_share(capacity, worker, workers),
-                       .end = phys_share(capacity, worker + 1, workers)};
-    part->used = part->begin;
-    shares->kernels->list_search(shares->search, part);
+static void search_chunk(void *context, int chunk, int chunks) {
+    SearchJob *job = context;
+    size_t lanes = job->kernels->lanes, capacity = (size_t)job->capacity,
+           blocks = (job->search->list->view.regular + lanes - 1) / lanes;
+    ListChunk *list_chunk = &job->chunks[chunk];
+    *list_chunk = (ListChunk){.block = (uint32_t)phys_chunk_begin(blocks, chunk, chunks),
+                              .block_end = (uint32_t)phys_chunk_begin(blocks, chunk + 1, chunks),
+                              .begin = phys_chunk_begin(capacity, chunk, chunks),
+                              .end = phys_chunk_begin(capacity, chunk + 1, chunks)};
+    list_chunk->used = list_chunk->begin;
+    job->kernels->list_search(job->search, list_chunk);
 }
 
 // Runs the search, with more memory if there was too little.
-static bool find_all(PhysSystem *system, Shares *shares, Neighbours *list) {
-    uint64_t first = (uint64_t)ENTRIES_FIRST * list->total + ENTRIES_SPARE;
-    uint64_t most = (uint64_t)ENTRIES_MOST * list->total + ENTRIES_SPARE;
-    if (system->options.neighbours == PHYS_NEIGHBOURS_AUTO && most > phys_max_useful_entries(list))
-        most = phys_max_useful_entries(list);
-    uint64_t room = list->entries.capacity / sizeof(uint32_t);
-    shares->capacity = room > first ? room : first;
-    shares->capacity = shares->capacity < most ? shares->capacity : most;
+static bool search_all(PhysSystem *system, SearchJob *job, NeighbourList *list) {
+    uint64_t first = (uint64_t)FIRST_ENTRIES * list->total + ENTRIES_SPARE;
+    uint64_t max_entries = (uint64_t)MAX_ENTRIES * list->total + ENTRIES_SPARE;
+    if (system->options.neighbours == PHYS_NEIGHBOURS_AUTO && max_entries > phys_max_useful_entries(list))
+        max_entries = phys_max_useful_entries(list);
+    uint64_t capacity = list->entries.capacity / sizeof(uint32_t);
+    job->capacity = capacity > first ? capacity : first;
+    job->capacity = job->capacity < max_entries ? job->capacity : max_entries;
     for (;;) {
-        if (!phys_buffer_reserve(system, &list->entries, 0, shares->capacity, sizeof(uint32_t)))
+        if (!phys_buffer_reserve(system, &list->entries, 0, job->capacity, sizeof(uint32_t)))
             return false;
         list->view.entries = list->entries.bytes;
-        int workers = phys_shares(system, list->total, PHYS_MIN_FOR_THREADS);
-        phys_parallel(system, workers, search_share, shares);
+        int chunks = phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
+        phys_parallel(system, chunks, search_chunk, job);
         bool full = false;
         list->scanned = list->padded = 0;
-        for (int w = 0; w < workers; w++) {
-            const ListPart *part = &shares->parts[w];
-            if (part->crowded)
+        for (int w = 0; w < chunks; w++) {
+            const ListChunk *list_chunk = &job->chunks[w];
+            if (list_chunk->crowded)
                 return false;
-            full |= part->full;
-            list->scanned += part->scanned;
-            list->padded += part->used - part->begin;
+            full |= list_chunk->full;
+            list->scanned += list_chunk->scanned;
+            list->padded += list_chunk->used - list_chunk->begin;
         }
         if (!full)
             return true;
-        if (shares->capacity >= most)
+        if (job->capacity >= max_entries)
             return false;
-        shares->capacity += shares->capacity / 2;
-        shares->capacity = shares->capacity < most ? shares->capacity : most;
+        job->capacity += job->capacity / 2;
+        job->capacity = job->capacity < max_entries ? job->capacity : max_entries;
     }
 }
 
-bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy, Neighbours *list) {
+bool phys_grid_search(PhysSystem *system, const Kernels *kernels, const Grid *grid, uint32_t dummy,
+                      NeighbourList *list) {
     uint64_t own = list->ranges.at[0].count, total = list->total;
     ListSearch search = {
-        .list = list, .grid = grid, .foreign = system->foreign, .own = phys_own_keys(list), .dummy = dummy};
+        .list = list, .grid = grid, .remote = system->remote, .own = phys_own_keys(list), .dummy = dummy};
     // Where nearly everybody is a candidate of everybody, a grid does not help.
     search.scan_limit = own * total / 4 + 64 * total;
     if (search.scan_limit > 4000 * total)
         search.scan_limit = 4000 * total;
-    Shares shares = {.kernels = kernels, .search = &search};
-    return find_all(system, &shares, list);
+    SearchJob job = {.kernels = kernels, .search = &search};
+    return search_all(system, &job, list);
 }

@@ -13,8 +13,8 @@ static void arrange_particles(PhysSystem *system) {
     if (system->group_count == 1) { // in order already, or in that of a list
         groups[0].first = 0;
         groups[0].count = system->particle_count;
-        for (uint32_t i = 0; i < system->particle_count && !system->settled; i++)
-            system->order[i] = system->place[i] = i;
+        for (uint32_t i = 0; i < system->particle_count && !system->in_cell_order; i++)
+            system->order[i] = system->column_of[i] = i;
         return;
     }
     for (uint32_t g = 0; g < system->group_count; g++)
@@ -27,7 +27,7 @@ static void arrange_particles(PhysSystem *system) {
     for (uint32_t i = system->particle_count; i-- > 0;) {
         uint32_t column = --groups[phys_record(system, i)->group].first;
         system->order[column] = i;
-        system->place[i] = column;
+        system->column_of[i] = column;
     }
 }
 
@@ -40,8 +40,8 @@ static Force arranged_force(const PhysSystem *system, const ForceRecord *record)
         return force;
     bool valid = force.given.from < system->particle_count && force.given.to < system->particle_count;
     // A particle linked with itself has the distance 0: the kernel skips it without a look at the columns.
-    force.given.from = valid ? system->place[force.given.from] : 0;
-    force.given.to = valid ? system->place[force.given.to] : 0;
+    force.given.from = valid ? system->column_of[force.given.from] : 0;
+    force.given.to = valid ? system->column_of[force.given.to] : 0;
     return force;
 }
 
@@ -77,15 +77,15 @@ void phys_link_groups(PhysSystem *system) {
 
 bool phys_arrange(PhysSystem *system) {
     uint64_t particles = system->particle_count, slots = (uint64_t)system->group_count * STAGE_COUNT;
-    if (system->settled && (system->group_count > 1 || system->particle_count != system->columns.count))
+    if (system->in_cell_order && (system->group_count > 1 || system->particle_count != system->columns.count))
         phys_forget_order(system);
-    uint64_t kept = system->settled ? 2 * particles * sizeof(uint32_t) : 0;
-    if (!phys_buffer_reserve(system, &system->indices, kept, 2 * particles + slots + 1, sizeof(uint32_t)))
+    uint64_t retained = system->in_cell_order ? 2 * particles * sizeof(uint32_t) : 0;
+    if (!phys_buffer_reserve(system, &system->indices, retained, 2 * particles + slots + 1, sizeof(uint32_t)))
         return false;
     system->order = system->indices.bytes;
-    system->place = system->order + particles;
-    system->starts = system->place + particles;
-    system->places = system->particle_count;
+    system->column_of = system->order + particles;
+    system->starts = system->column_of + particles;
+    system->handle_count = system->particle_count;
     arrange_particles(system);
     return true;
 }

@@ -28,11 +28,11 @@ typedef struct Buffer {
 } Buffer;
 
 #define NO_GROUP UINT32_MAX
-#define NO_PLACE UINT32_MAX
+#define NO_COLUMN UINT32_MAX
 
 enum {
-    PHYS_MOST_LISTS = 8,         // passes that have neighbour lists
-    PHYS_MOST_RANGES = 8,        // groups whose particles take part in such a pass
+    PHYS_MAX_LISTS = 8,          // passes that have neighbour lists
+    PHYS_MAX_RANGES = 8,         // groups whose particles take part in such a pass
     PHYS_MIN_FOR_THREADS = 1500, // particles, where the work for each is small (threads.h)
 };
 
@@ -82,13 +82,14 @@ typedef struct Columns {
     double *ease;
     double *radius;
     double *mass;
-    bool alike;    // the sweep may take the first of both for all
-    bool all_move; // likewise: none is an anchor
+    bool uniform_mass; // the sweep may take the first of both for all
+    bool no_anchors;   // likewise: none is an anchor
     double *charge;
-    double *section;       // radius^(n-1), valid if some force needs it
-    double *volume;        // radius^n, likewise
-    const uint32_t *draws; // those before it in its group that take random numbers; NULL: as counted in the columns
-    double *scratch;       // 3 n doubles for the kernel that is running
+    double *section; // radius^(n-1), valid if some force needs it
+    double *volume;  // radius^n, likewise
+    const uint32_t
+        *random_offset; // those before it in its group that take random numbers; NULL: as counted in the columns
+    double *scratch;    // 3 n doubles for the kernel that is running
     bool *anchor;
 } Columns;
 
@@ -98,9 +99,9 @@ struct PhysSystem {
     bool failed;    // memory was used up since phys_begin
     bool arranged;  // particles and forces are arranged as described
     bool forces_arranged;
-    bool radii_raised;       // radius powers are those of the columns' radii and of the forces
-    bool any_not_finite;     // `not_finite` has a mark
-    bool any_from_attribute; // some particle's position or velocity is
+    bool radius_powers_valid; // radius powers are those of the columns' radii and of the forces
+    bool any_not_finite;      // `not_finite` has a mark
+    bool any_from_attribute;  // some particle's position or velocity is
     PhysOptions options;
     PhysThreads *threads; // those of the options, or its own; NULL: none
     bool owns_threads;
@@ -109,9 +110,9 @@ struct PhysSystem {
     uint32_t group_count;
     uint32_t particle_count;
     uint32_t force_count;
-    bool stepped;            // simulated since phys_begin or phys_rest: the force columns hold the last step's sums
-    bool has_own_forces;     // some particle has a force of its own
-    bool has_eased_forces;   // … or one that is eased in; then `has_own_forces` is set too
+    bool has_forces;       // simulated since phys_begin or phys_skip_frame: the force columns hold the last step's sums
+    bool has_own_forces;   // some particle has a force of its own
+    bool has_eased_forces; // … or one that is eased in; then `has_own_forces` is set too
     uint64_t vector_doubles; // doubles in use in `vectors`
     Buffer groups;           // Group
     uint32_t record_stride;  // 0: all particles have the first record; else 1
@@ -125,31 +126,31 @@ struct PhysSystem {
     Buffer force_records; // ForceRecord in order of the calls
     Buffer vectors;       // double
     // arranged for simulation
-    Buffer indices;     // uint32_t: `order`, `place`, `starts`
-    Buffer forces;      // Force, by group, then stage, then declaration
-    Buffer terms;       // PairTerm: those of the pass that is running
-    Buffer chain;       // Force *: those that act on the group whose turn it is
-    Buffer column_data; // what `columns` points to
-    uint32_t *order;    // column -> handle
-    uint32_t *place;    // handle -> column
-    uint32_t places;    // how many; that of a handle which the system lacks is NO_PLACE
-    uint32_t *starts;   // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
+    Buffer indices;        // uint32_t: `order`, `place`, `starts`
+    Buffer forces;         // Force, by group, then stage, then declaration
+    Buffer terms;          // PairTerm: those of the pass that is running
+    Buffer chain;          // Force *: those that act on the group whose turn it is
+    Buffer column_data;    // what `columns` points to
+    uint32_t *order;       // column -> handle
+    uint32_t *column_of;   // handle -> column
+    uint32_t handle_count; // how many; that of a handle which the system lacks is NO_COLUMN
+    uint32_t *starts;      // forces of group g at stage s: starts[g * STAGE_COUNT + s] up to the next element
     Columns columns;
     // kept from step to step and from frame to frame
     uint64_t frame; // number of this frame
     struct Neighbours *lists;
-    // in the order of a list (settle.c)
-    bool may_settle; // one group has all particles, and nothing but its one pass over pairs asks for their order
-    bool settled;    // columns are in the order of the places of the list of that pass
+    // in the order of a list (reorder.c)
+    bool can_reorder;   // one group has all particles, and nothing but its one pass over pairs asks for their order
+    bool in_cell_order; // columns are in the order of the places of the list of that pass
     // on several processes (domain.h)
-    uint64_t arrangement; // counts how often the columns have been filled
-    uint64_t radii;       // another number whenever a radius has changed
-    uint64_t motion;      // another number whenever a position may have changed
-    bool touched;         // particles were given new numbers since the last frame
-    bool behind;          // positions and velocities are in the rows only, not in the columns
-    Buffer domain;        // Domain
-    PhysTraffic traffic;
-    bool *foreign; // of the part of a system that is one process's: by column, of the halo; else NULL
+    uint64_t columns_version; // counts how often the columns have been filled
+    uint64_t radius_version;  // another number whenever a radius has changed
+    uint64_t motion_version;  // another number whenever a position may have changed
+    bool edited;              // particles were given new numbers since the last frame
+    bool columns_stale;       // positions and velocities are in the rows only, not in the columns
+    Buffer domain;            // Domain
+    PhysRankStats rank_stats;
+    bool *remote;  // of the part of a system that is one process's: by column, of the halo; else NULL
     double skin;   // likewise, that of all lists
     bool unlisted; // likewise: a pass went without a list
 };
@@ -170,12 +171,12 @@ static inline double *phys_row(const PhysSystem *system, uint32_t particle) {
 
 // Charges work to the system's meter; false if the step is to be given up, by the main thread only.
 static inline bool phys_charge(const PhysSystem *system, uint64_t units) {
-    return meter_charge(system->options.meter, units) == METER_GOES_ON;
+    return budget_charge(system->options.meter, units) == BUDGET_OK;
 }
 
 // Whether all that was charged so far could be, and nobody wants an end.
-static inline bool phys_goes_on(const PhysSystem *system) {
-    return !system->options.meter || meter_look(system->options.meter) == METER_GOES_ON;
+static inline bool phys_may_continue(const PhysSystem *system) {
+    return !system->options.meter || budget_check(system->options.meter) == BUDGET_OK;
 }
 
 // What the threads look at meanwhile: the wish for an end.
@@ -185,7 +186,7 @@ static inline const atomic_bool *phys_stop(const PhysSystem *system) {
 
 // buffer.c: makes room for `count` elements of `size` bytes and keeps the first `kept` bytes. False, with
 // `system->failed` set, if memory is used up.
-bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t kept, uint64_t count, uint64_t size);
+bool phys_buffer_reserve(PhysSystem *system, Buffer *buffer, uint64_t retained, uint64_t count, uint64_t size);
 void phys_buffer_free(Buffer *buffer);
 
 // groups.c: sorts particles, or forces, by group. False if memory is used up. Particles come first.
@@ -196,18 +197,18 @@ static inline const ParticleRecord *phys_record(const PhysSystem *system, uint32
     return (const ParticleRecord *)system->particles.bytes + (size_t)particle * system->record_stride;
 }
 
-// particles.c: rows into columns and back. phys_load and phys_clear_not_finite are false if memory is used up.
+// particles.c: rows into columns and back. phys_fill_columns and phys_clear_not_finite are false if memory is used up.
 enum { PHYS_POSITION = 1, PHYS_VELOCITY = 2 }; // marks of `not_finite` and `from_attribute`
 bool phys_clear_not_finite(PhysSystem *system);
-bool phys_load(PhysSystem *system);
+bool phys_fill_columns(PhysSystem *system);
 // Positions and velocities alone.
-void phys_load_motion(PhysSystem *system);
-void phys_raise_radii(PhysSystem *system);
-void phys_store(PhysSystem *system, bool keep_last_finite);
+void phys_fill_motion(PhysSystem *system);
+void phys_update_radius_powers(PhysSystem *system);
+void phys_write_rows(PhysSystem *system, bool keep_last_finite);
 // Those of some particles from other columns, without anchors perhaps. What PhysTime.keep_last_finite puts back goes to
 // `home`, a system whose handles are the columns of this one, unless it is this one itself or NULL.
-void phys_store_columns(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
-                        const PhysSystem *home);
+void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep_last_finite,
+                            const PhysSystem *home);
 
 // particles.c: points the columns into their memory, which has room for `spare` more.
 bool phys_reserve_columns(PhysSystem *system, uint64_t spare);
@@ -217,12 +218,12 @@ void phys_link_groups(PhysSystem *system);
 // step.c: one step of `delta` at `clock`; false if it was given up half-way.
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light);
 
-// settle.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says
-// whether the system is one that can; phys_unsettle puts the columns back into the order of the description, and drops
-// the list; phys_forget_order does so for columns that are made anew.
-bool phys_can_settle(const PhysSystem *system);
-void phys_settle(PhysSystem *system, struct Neighbours *list);
-void phys_unsettle(PhysSystem *system);
+// reorder.c: columns in the order of a list, which spares its kernels to look for each particle. `may_settle` says
+// whether the system is one that can; phys_restore_order puts the columns back into the order of the description, and
+// drops the list; phys_forget_order does so for columns that are made anew.
+bool phys_can_reorder(const PhysSystem *system);
+void phys_reorder(PhysSystem *system, struct Neighbours *list);
+void phys_restore_order(PhysSystem *system);
 void phys_forget_order(PhysSystem *system);
 
 // Kernels. They apply forces to the particles of one group (for links: to any two).
@@ -236,7 +237,7 @@ typedef struct Move {
 } Move;
 void phys_apply_pairs(PhysSystem *system, const Group *group, Move *move);
 // barrier.c: after a move of `delta`, lets particle i bounce off one barrier (4.4).
-void phys_bounce(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
+void phys_reflect(const Columns *columns, size_t i, const Force *barrier, double delta, double speed_of_light);
 
 static inline double *phys_acceleration(const Columns *columns) {
     return columns->scratch;
@@ -244,7 +245,7 @@ static inline double *phys_acceleration(const Columns *columns) {
 
 // Where radius and mass of particle i are found.
 static inline size_t phys_numbers_at(const Columns *columns, size_t i) {
-    return columns->alike ? 0 : i;
+    return columns->uniform_mass ? 0 : i;
 }
 
 static inline double phys_at(PhysVector vector, size_t k) {

@@ -3,33 +3,33 @@
 #include "physics/pair_sum.h"
 
 // The radius is the last element of a quad that is in use: x y r, or x y z r.
-KERNEL size_t radius_part(size_t dimensions) {
+KERNEL size_t radius_component(size_t dimensions) {
     return dimensions < 3 ? 2 : 3;
 }
 
 // Without a radius for each, the places of two dimensions take pairs.
-KERNEL bool pairs_do(size_t dimensions, bool one_size) {
+KERNEL bool uses_pairs(size_t dimensions, bool one_size) {
     return dimensions == 2 && one_size;
 }
 
-KERNEL PairEnd quad_end(PairShape shape, const ListView *view, const uint32_t *places) {
+KERNEL PairEnd packed_end(PairShape shape, const ListView *view, const uint32_t *offsets) {
     Real parts[4];
     const double *rows[LANES];
     for (int lane = 0; lane < LANES; lane++)
-        rows[lane] = view->quads + places[lane];
+        rows[lane] = view->packed + offsets[lane];
     PairEnd end = {.radius = real_set(view->one_radius), .mass = real_zero(), .charge = real_zero()};
-    if (pairs_do(shape.dimensions, shape.one_size))
+    if (uses_pairs(shape.dimensions, shape.one_size))
         real_load_pairs(rows, parts);
     else
         real_load_rows(rows, parts);
     for (size_t k = 0; k < shape.dimensions; k++)
-        end.place[k] = parts[k];
+        end.position[k] = parts[k];
     if (!shape.one_size)
-        end.radius = parts[radius_part(shape.dimensions)];
+        end.radius = parts[radius_component(shape.dimensions)];
     if (shape.rest == REST_ANY) {
         uint32_t index[LANES];
         for (int lane = 0; lane < LANES; lane++)
-            index[lane] = places[lane] / PHYS_QUAD * 2;
+            index[lane] = offsets[lane] / PHYS_QUAD * 2;
         end.mass = real_gather(view->sources, index);
         end.charge = real_gather(view->sources + 1, index);
     }
@@ -37,26 +37,26 @@ KERNEL PairEnd quad_end(PairShape shape, const ListView *view, const uint32_t *p
 }
 
 // What a column has for LANES places from one on.
-KERNEL Real load_at(const double *column, const ListView *view, size_t place) {
-    return view->direct ? real_load(column + place) : real_gather(column, view->column + place);
+KERNEL Real load_sorted(const double *column, const ListView *view, size_t index) {
+    return view->direct ? real_load(column + index) : real_gather(column, view->column + index);
 }
 
 KERNEL void block_forces(const PairPass *pass, PairShape shape, const ListView *view, size_t block) {
     const uint32_t *entries = view->entries + view->at[block], *column = view->column + block * LANES;
-    size_t most = view->most[block], left = view->regular - block * LANES;
-    if (!most)
+    size_t length = view->max_length[block], left = view->regular - block * LANES;
+    if (!length)
         return;
     Mask live = mask_first(left);
     uint32_t self[LANES];
     for (uint32_t lane = 0; lane < LANES; lane++)
         self[lane] =
-            ((uint32_t)(block * LANES) + lane) * (pairs_do(shape.dimensions, shape.one_size) ? PHYS_PAIR : PHYS_QUAD);
-    PairEnd target = quad_end(shape, view, self);
+            ((uint32_t)(block * LANES) + lane) * (uses_pairs(shape.dimensions, shape.one_size) ? PHYS_PAIR : PHYS_QUAD);
+    PairEnd target = packed_end(shape, view, self);
     Real sum[PHYS_VECTOR_DIMENSIONS];
     for (size_t m = 0; m < shape.dimensions; m++)
-        sum[m] = load_at(pass->force + m * pass->stride, view, block * LANES);
-    for (size_t k = 0; k < most; k++) {
-        PairEnd partner = quad_end(shape, view, entries + k * LANES);
+        sum[m] = load_sorted(pass->force + m * pass->stride, view, block * LANES);
+    for (size_t k = 0; k < length; k++) {
+        PairEnd partner = packed_end(shape, view, entries + k * LANES);
         PairGeometry pair;
         if (!pair_geometry(shape, &target, &partner, live, &pair))
             continue;
@@ -79,10 +79,10 @@ KERNEL void blocks(const PairPass *pass, PairShape shape, const ListView *view, 
         block_forces(pass, shape, view, block);
 }
 
-static bool all_plain(const PairPass *pass) {
+static bool all_powers_plain(const PairPass *pass) {
     bool plain = true;
     for (size_t t = 0; t < pass->term_count; t++)
-        plain &= power_is_plain(pass->terms[t].power);
+        plain &= pow_is_plain(pass->terms[t].power);
     return plain;
 }
 
@@ -96,10 +96,10 @@ static bool is_spring(const PairPass *pass, const ListView *view) {
     do {                                                                                                               \
         if (is_spring(pass, view))                                                                                     \
             blocks(pass, (PairShape){n, LEAD_NONE, REST_SPRING, one_size}, view, first, end);                          \
-        else if (all_plain(pass))                                                                                      \
+        else if (all_powers_plain(pass))                                                                               \
             blocks(pass, (PairShape){n, LEAD_NONE, REST_PLAIN, one_size}, view, first, end);                           \
         else                                                                                                           \
-            blocks(pass, (PairShape){n, LEAD_NONE, REST_TOUCH, one_size}, view, first, end);                           \
+            blocks(pass, (PairShape){n, LEAD_NONE, REST_CONTACT, one_size}, view, first, end);                         \
     } while (0)
 
 #define LIST_KERNEL(n)                                                                                                 \
@@ -124,13 +124,14 @@ void PER_ISA(list_forces)(const PairPass *pass, const ListView *view, size_t fir
         forces_3(pass, view, first, end);
 }
 
-KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimensions, size_t first, size_t end) {
-    bool one_size = view->one_radius > 0, hold = !one_size || view->same_radii, pairs = pairs_do(dimensions, one_size);
+KERNEL bool refresh_range(const PairPass *pass, const ListView *view, size_t dimensions, size_t first, size_t end) {
+    bool one_size = view->one_radius > 0, hold = !one_size || view->same_radii,
+         pairs = uses_pairs(dimensions, one_size);
     for (size_t s = first; s < end; s += LANES) {
         Mask live = mask_first(end - s);
         Real parts[4] = {real_zero(), real_zero(), real_zero(), real_zero()}, square = real_zero();
         for (size_t k = 0; k < dimensions; k++) {
-            parts[k] = load_at(pass->position + k * pass->stride, view, s);
+            parts[k] = load_sorted(pass->position + k * pass->stride, view, s);
             Real d = parts[k] - real_load(view->built[k] + s);
             square += d * d;
         }
@@ -138,14 +139,14 @@ KERNEL bool refresh(const PairPass *pass, const ListView *view, size_t dimension
         if (!pairs || !view->same_radii)
             radius = built = real_load(view->radius + s);
         if (!view->same_radii)
-            radius = load_at(pass->radius, view, s);
-        parts[radius_part(dimensions)] = radius;
+            radius = load_sorted(pass->radius, view, s);
+        parts[radius_component(dimensions)] = radius;
         if (pairs)
-            real_store_pairs(view->quads + PHYS_PAIR * s, parts);
+            real_store_pairs(view->packed + PHYS_PAIR * s, parts);
         else
-            real_store_quads(view->quads + PHYS_QUAD * s, parts);
+            real_store_quads(view->packed + PHYS_QUAD * s, parts);
         // Written so that a NaN counts as a move.
-        Mask still = real_at_most_where(live, square, real_set(view->moved));
+        Mask still = real_at_most_where(live, square, real_set(view->max_move_squared));
         still = real_at_most_where(still, radius, built);
         hold &= mask_bits(still) == mask_bits(live);
     }
@@ -164,17 +165,17 @@ bool PER_ISA(list_refresh)(const PairPass *pass, const ListView *view, size_t fi
     if (view->sources)
         refresh_sources(pass, view, first, end);
     if (pass->dimensions == 1)
-        return refresh(pass, view, 1, first, end);
-    return pass->dimensions == 2 ? refresh(pass, view, 2, first, end) : refresh(pass, view, 3, first, end);
+        return refresh_range(pass, view, 1, first, end);
+    return pass->dimensions == 2 ? refresh_range(pass, view, 2, first, end) : refresh_range(pass, view, 3, first, end);
 }
 
-KERNEL void crowd(const PairPass *pass, PairShape shape, const uint32_t *targets, size_t count, size_t first,
-                  size_t end) {
+KERNEL void apply_range(const PairPass *pass, PairShape shape, const uint32_t *targets, size_t count, size_t first,
+                        size_t end) {
     Mask live = mask_first(count);
     PairEnd target;
     Real sum[PHYS_VECTOR_DIMENSIONS];
     for (size_t m = 0; m < shape.dimensions; m++) {
-        target.place[m] = real_gather(pass->position + m * pass->stride, targets);
+        target.position[m] = real_gather(pass->position + m * pass->stride, targets);
         sum[m] = real_gather(pass->force + m * pass->stride, targets);
     }
     target.radius = real_gather(pass->radius, targets);
@@ -191,11 +192,11 @@ KERNEL void crowd(const PairPass *pass, PairShape shape, const uint32_t *targets
         real_scatter_where(live, pass->force + m * pass->stride, targets, sum[m]);
 }
 
-void PER_ISA(list_crowd)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end) {
+void PER_ISA(range_forces)(const PairPass *pass, const uint32_t *targets, size_t count, size_t first, size_t end) {
     if (pass->dimensions == 1)
-        crowd(pass, (PairShape){1, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
+        apply_range(pass, (PairShape){1, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
     else if (pass->dimensions == 2)
-        crowd(pass, (PairShape){2, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
+        apply_range(pass, (PairShape){2, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
     else
-        crowd(pass, (PairShape){3, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
+        apply_range(pass, (PairShape){3, LEAD_NONE, REST_ANY, false}, targets, count, first, end);
 }

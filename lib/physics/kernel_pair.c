@@ -15,8 +15,8 @@ typedef struct Rows {
 } Rows;
 
 // All forces between the rows that are `live` and one column. `whole`: the leading force acts on the column.
-KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool whole, Tile *tile,
-                       size_t k) {
+KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask live, size_t j, bool lead_applies,
+                       Tile *tile, size_t k) {
     const PairEnd *target = &rows->target;
     PairEnd partner = pair_partner(pass, shape, j);
     PairGeometry pair;
@@ -25,7 +25,7 @@ KERNEL void add_column(const PairPass *pass, PairShape shape, Rows *rows, Mask l
     if (shape.lead != LEAD_NONE) {
         Pairs pairs = {&pass->terms[0], &pair, target, &partner, pair.valid, false, false};
         Mask applies = mask_and(pair.valid, rows->lead);
-        if (!whole)
+        if (!lead_applies)
             applies = real_differs_where(applies, pair_source(lead_need(shape), &partner), real_zero());
         Real coefficient = lead_coefficient(shape, &pairs);
         add_term(shape, &pair, applies, coefficient, rows->sum, tile ? tile->lead : NULL, k);
@@ -73,7 +73,7 @@ KERNEL void finish_tile(const PairPass *pass, PairShape shape, Tile *tile, size_
 }
 
 // Does the leading force act on all of LANES columns?
-KERNEL bool all_led(const PairPass *pass, PairShape shape, size_t j) {
+KERNEL bool lead_acts_on_all(const PairPass *pass, PairShape shape, size_t j) {
     ForceNeed need = lead_need(shape);
     if (need == NEED_NOTHING)
         return true;
@@ -120,12 +120,11 @@ KERNEL void tile_row(const PairPass *pass, PairShape shape, size_t i, size_t cou
     if (triangle)
         diagonal_tile(pass, shape, &rows, i, count);
     size_t j = triangle ? i + count : column;
-    for (; j < column_end; j += LANES) {
-        if (j + LANES <= column_end && all_led(pass, shape, j))
+    for (; j < column_end; j += LANES)
+        if (j + LANES <= column_end && lead_acts_on_all(pass, shape, j))
             full_tile(pass, shape, &rows, j);
         else
             partial_tile(pass, shape, &rows, j, column_end - j < LANES ? column_end - j : LANES);
-    }
     for (size_t m = 0; m < shape.dimensions; m++)
         real_store_where(rows.live, pass->force + m * pass->stride + i, rows.sum[m]);
 }
@@ -151,17 +150,17 @@ KERNEL void tile_rows(const PairPass *pass, PairShape shape, size_t row, size_t 
 #define LEAD_CONTACT(MAKE, KIND)
 #define LEAD_FAR(MAKE, KIND)                                                                                           \
     MAKE(1, KIND, PHYS_##KIND, REST_NONE)                                                                              \
-    MAKE(1, KIND, PHYS_##KIND, REST_TOUCH)                                                                             \
+    MAKE(1, KIND, PHYS_##KIND, REST_CONTACT)                                                                           \
     MAKE(2, KIND, PHYS_##KIND, REST_NONE)                                                                              \
-    MAKE(2, KIND, PHYS_##KIND, REST_TOUCH)                                                                             \
+    MAKE(2, KIND, PHYS_##KIND, REST_CONTACT)                                                                           \
     MAKE(3, KIND, PHYS_##KIND, REST_NONE)                                                                              \
-    MAKE(3, KIND, PHYS_##KIND, REST_TOUCH)
+    MAKE(3, KIND, PHYS_##KIND, REST_CONTACT)
 #define LEADERLESS(MAKE)                                                                                               \
-    MAKE(1, NONE, LEAD_NONE, REST_TOUCH)                                                                               \
+    MAKE(1, NONE, LEAD_NONE, REST_CONTACT)                                                                             \
     MAKE(1, NONE, LEAD_NONE, REST_ANY)                                                                                 \
-    MAKE(2, NONE, LEAD_NONE, REST_TOUCH)                                                                               \
+    MAKE(2, NONE, LEAD_NONE, REST_CONTACT)                                                                             \
     MAKE(2, NONE, LEAD_NONE, REST_ANY)                                                                                 \
-    MAKE(3, NONE, LEAD_NONE, REST_TOUCH)                                                                               \
+    MAKE(3, NONE, LEAD_NONE, REST_CONTACT)                                                                             \
     MAKE(3, NONE, LEAD_NONE, REST_ANY)
 
 #define PAIR(KIND, name, SIGN, SOURCE, REACH) LEAD_##REACH(PAIR_KERNEL, KIND)
@@ -182,7 +181,7 @@ static const PairKernel *pair_kernel(const PairPass *pass) {
     const PairTerm *first = pass->terms;
     int lead = needs_contact(first) || first->bound < INFINITY ? (int)LEAD_NONE : (int)first->kind;
     size_t others = lead != LEAD_NONE;
-    PairRest rest = pass->term_count == others ? REST_NONE : REST_TOUCH;
+    PairRest rest = pass->term_count == others ? REST_NONE : REST_CONTACT;
     for (size_t t = others; t < pass->term_count; t++)
         if (!needs_contact(&pass->terms[t]))
             return &pair_kernels[pass->dimensions - 1][LEAD_NONE][REST_ANY];
@@ -194,8 +193,8 @@ const Kernels PER_ISA(phys_kernels) = {
     .pair = pair_kernel,
     .list_refresh = PER_ISA(list_refresh),
     .list_search = PER_ISA(list_search),
-    .store = PER_ISA(store_rows),
+    .write_rows = PER_ISA(write_rows),
     .list_forces = PER_ISA(list_forces),
-    .list_crowd = PER_ISA(list_crowd),
-    .sweep = PER_ISA(sweep_all),
+    .range_forces = PER_ISA(range_forces),
+    .integrate = PER_ISA(integrate_all),
 };

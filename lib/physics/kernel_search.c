@@ -7,11 +7,11 @@
 #include "physics/lanes.h"
 
 enum {
-    ROWS_MOST = 9 + 1, // of cells around one, and the large particles
+    MAX_ROWS = 9 + 1, // of cells around one, and the large particles
     WORDS = LANES < 4 ? 4 : 2 * LANES,
-    BATCH = 8,        // places
-    BATCH_MOST = 128, // candidates of a batch; each counts half, as it has been fetched before
-    SPARE = 16,       // dummies behind the list of a place
+    BATCH = 8,       // places
+    MAX_BATCH = 128, // candidates of a batch; each counts half, as it has been fetched before
+    SPARE = 16,      // dummies behind the list of a place
 };
 
 typedef int32_t Words __attribute__((vector_size(4 * WORDS)));
@@ -21,8 +21,8 @@ typedef struct Batch {
     uint32_t end;   // first place behind it
     bool ordered;   // else each place is on its own
     uint32_t count; // candidates
-    double built[PHYS_VECTOR_DIMENSIONS][BATCH_MOST + LANES], radius[BATCH_MOST + LANES];
-    uint32_t entry[BATCH_MOST + LANES];
+    double built[PHYS_VECTOR_DIMENSIONS][MAX_BATCH + LANES], radius[MAX_BATCH + LANES];
+    uint32_t entry[MAX_BATCH + LANES];
 } Batch;
 
 // The candidates for some places, and those of them that are near one of these places.
@@ -31,12 +31,12 @@ typedef struct Finder {
     uint32_t low, high; // cells of one row that rows are for
     uint32_t rows;
     uint32_t candidates; // in all rows
-    uint32_t first[ROWS_MOST], end[ROWS_MOST];
-    uint32_t near[PHYS_MOST_NEAR + LANES];
-    Words keys[PHYS_MOST_NEAR / WORDS + 2];  // where they stand in the order of the pass
-    Words ranks[PHYS_MOST_NEAR / WORDS + 2]; // and among each other
+    uint32_t first[MAX_ROWS], end[MAX_ROWS];
+    uint32_t near[PHYS_MAX_NEIGHBOURS + LANES];
+    Words keys[PHYS_MAX_NEIGHBOURS / WORDS + 2];  // where they stand in the order of the pass
+    Words ranks[PHYS_MAX_NEIGHBOURS / WORDS + 2]; // and among each other
     uint32_t dummies[SPARE];
-    uint32_t lists[LANES][PHYS_MOST_NEAR + LANES + SPARE];
+    uint32_t lists[LANES][PHYS_MAX_NEIGHBOURS + LANES + SPARE];
     Batch batch;
 } Finder;
 
@@ -48,7 +48,7 @@ static void add_row(Finder *finder, uint32_t first, uint32_t end) {
 }
 
 // Neighbours are in the cells around the own one, or large.
-static void look_around(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
+static void find_rows(const ListSearch *search, Finder *finder, uint32_t low_cell, uint32_t high_cell) {
     const Grid *grid = search->grid;
     uint32_t low[PHYS_VECTOR_DIMENSIONS], high[PHYS_VECTOR_DIMENSIONS], rest = low_cell;
     for (size_t k = 0; k < PHYS_VECTOR_DIMENSIONS; k++) {
@@ -81,55 +81,56 @@ typedef struct Measure {
 } Measure;
 
 // A place, and how far its neighbours reach.
-typedef struct Place {
-    Real here[PHYS_VECTOR_DIMENSIONS], radius, bound, skin;
+typedef struct SearchTarget {
+    Real position[PHYS_VECTOR_DIMENSIONS], radius, bound, skin;
     Real square; // of the reach, if it is the same for all
-} Place;
+} SearchTarget;
 
-KERNEL Real square_of_reach(const Place *place, Real radius) {
-    Real reach = real_larger(radius + place->radius, place->bound) + place->skin;
+KERNEL Real square_of_reach(const SearchTarget *place, Real radius) {
+    Real reach = real_max(radius + place->radius, place->bound) + place->skin;
     return reach * reach;
 }
 
-KERNEL Place place_of(const ListSearch *search, Measure measure, uint32_t number) {
+KERNEL SearchTarget search_target_of(const ListSearch *search, Measure shape, uint32_t number) {
     const ListView *view = &search->list->view;
-    Place place = {.radius = real_set(view->radius[number]),
-                   .bound = real_set(search->list->bound),
-                   .skin = real_set(search->list->skin)};
-    for (size_t k = 0; k < measure.dimensions; k++)
-        place.here[k] = real_set(view->built[k][number]);
+    SearchTarget place = {.radius = real_set(view->radius[number]),
+                          .bound = real_set(search->list->bound),
+                          .skin = real_set(search->list->skin)};
+    for (size_t k = 0; k < shape.dimensions; k++)
+        place.position[k] = real_set(view->built[k][number]);
     place.square = square_of_reach(&place, place.radius);
     return place;
 }
 
 // Who of LANES candidates is nearer than max(radius + radius, bound) + skin?
-KERNEL Mask near_to(const Place *place, Measure measure, const double *const *built, const double *radius, size_t s,
-                    Mask mask) {
+KERNEL Mask is_near(const SearchTarget *place, Measure shape, const double *const *built, const double *radius,
+                    size_t s, Mask mask) {
     Real square = real_zero();
-    for (size_t k = 0; k < measure.dimensions; k++) {
-        Real d = real_load(built[k] + s) - place->here[k];
+    for (size_t k = 0; k < shape.dimensions; k++) {
+        Real d = real_load(built[k] + s) - place->position[k];
         square += d * d;
     }
     // Both may overflow; the pair is listed then.
     return real_at_most_where(mask, square,
-                              measure.one_size ? place->square : square_of_reach(place, real_load(radius + s)));
+                              shape.one_size ? place->square : square_of_reach(place, real_load(radius + s)));
 }
 
-// Collects who is near to a place; stops beyond PHYS_MOST_NEAR.
-KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure measure, uint32_t place) {
+// Collects who is near to a place; stops beyond PHYS_MAX_NEIGHBOURS.
+KERNEL size_t find_near(const ListSearch *search, Finder *finder, Measure shape, uint32_t place) {
     const ListView *view = &search->list->view;
     const double *built[] = {view->built[0], view->built[1], view->built[2]};
-    Place target = place_of(search, measure, place);
+    SearchTarget target = search_target_of(search, shape, place);
     size_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++)
-        for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= PHYS_MOST_NEAR; s += LANES)
-            count += mask_numbers(near_to(&target, measure, built, view->radius, s, mask_first(end - s)), s,
+        for (uint32_t s = finder->first[row], end = finder->end[row]; s < end && count <= PHYS_MAX_NEIGHBOURS;
+             s += LANES)
+            count += mask_indices(is_near(&target, shape, built, view->radius, s, mask_first(end - s)), s,
                                   finder->near + count);
     return count;
 }
 
 // Without the place itself, and without pairs of two particles of enclosing groups, which are none.
-KERNEL size_t leave_out(const ListSearch *search, Finder *finder, uint32_t place, size_t found) {
+KERNEL size_t exclude_self(const ListSearch *search, Finder *finder, uint32_t place, size_t found) {
     const uint32_t *key = search->list->key;
     uint32_t limit = key[place] < search->own ? UINT32_MAX : search->own;
     int32_t *keys = (int32_t *)finder->keys;
@@ -169,7 +170,7 @@ KERNEL void rank_keys(Finder *finder, size_t count) {
 }
 
 // Numbers and keys of all candidates: how many.
-KERNEL uint32_t collect(const ListSearch *search, Finder *finder) {
+KERNEL uint32_t collect_candidates(const ListSearch *search, Finder *finder) {
     uint32_t count = 0;
     for (uint32_t row = 0; row < finder->rows; row++) {
         uint32_t *near = finder->near + count, first = finder->first[row], length = finder->end[row] - first;
@@ -185,30 +186,30 @@ KERNEL uint32_t collect(const ListSearch *search, Finder *finder) {
     return count;
 }
 
-KERNEL void order_batch(const ListSearch *search, Finder *finder, Measure measure) {
+KERNEL void order_batch(const ListSearch *search, Finder *finder, Measure shape) {
     const ListView *view = &search->list->view;
     Batch *batch = &finder->batch;
-    uint32_t count = batch->count = collect(search, finder);
+    uint32_t count = batch->count = collect_candidates(search, finder);
     rank_keys(finder, count);
     const uint32_t *ranks = (const uint32_t *)finder->ranks;
     for (uint32_t c = 0; c < count; c++) {
         uint32_t rank = ranks[c], place = finder->near[c];
         batch->entry[rank] = place * (uint32_t)view->width;
-        for (size_t k = 0; k < measure.dimensions; k++)
+        for (size_t k = 0; k < shape.dimensions; k++)
             batch->built[k][rank] = view->built[k][place];
-        if (!measure.one_size)
+        if (!shape.one_size)
             batch->radius[rank] = view->radius[place];
     }
     for (uint32_t c = count; c < count + LANES; c++) {
         batch->entry[c] = 0;
         batch->radius[c] = 0;
-        for (size_t k = 0; k < measure.dimensions; k++)
+        for (size_t k = 0; k < shape.dimensions; k++)
             batch->built[k][c] = NAN;
     }
 }
 
 // Makes a batch of the places from one on.
-KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure measure, uint32_t first) {
+KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure shape, uint32_t first) {
     const Grid *grid = search->grid;
     Batch *batch = &finder->batch;
     batch->end = (first / BATCH + 1) * BATCH;
@@ -218,34 +219,34 @@ KERNEL void next_batch(const ListSearch *search, Finder *finder, Measure measure
     batch->ordered = search->own == UINT32_MAX && finder->cell / grid->cells[0] == high / grid->cells[0];
     if (!batch->ordered)
         return;
-    look_around(search, finder, finder->cell, high);
-    batch->ordered = finder->candidates <= BATCH_MOST;
+    find_rows(search, finder, finder->cell, high);
+    batch->ordered = finder->candidates <= MAX_BATCH;
     if (batch->ordered)
-        order_batch(search, finder, measure);
+        order_batch(search, finder, shape);
 }
 
 // The list of a place of an ordered batch: how many.
-KERNEL size_t list_of_batch(const ListSearch *search, const Batch *batch, Measure measure, uint32_t place,
-                            uint32_t *list) {
+KERNEL size_t list_from_batch(const ListSearch *search, const Batch *batch, Measure shape, uint32_t place,
+                              uint32_t *list) {
     const double *built[] = {batch->built[0], batch->built[1], batch->built[2]};
-    Place target = place_of(search, measure, place);
+    SearchTarget target = search_target_of(search, shape, place);
     uint32_t self = place * (uint32_t)search->list->view.width;
     size_t count = 0;
     for (uint32_t s = 0; s < batch->count; s += LANES)
-        count += mask_pick(near_to(&target, measure, built, batch->radius, s, mask_first(LANES)), batch->entry + s,
-                           self, list + count);
+        count += mask_compress(is_near(&target, shape, built, batch->radius, s, mask_first(LANES)), batch->entry + s,
+                               self, list + count);
     return count;
 }
 
-// The list of a place that is on its own; beyond PHYS_MOST_NEAR there is none.
-KERNEL size_t list_alone(const ListSearch *search, Finder *finder, Measure measure, uint32_t place, uint32_t *list) {
+// The list of a place that is on its own; beyond PHYS_MAX_NEIGHBOURS there is none.
+KERNEL size_t list_single(const ListSearch *search, Finder *finder, Measure shape, uint32_t place, uint32_t *list) {
     finder->cell = cell_from(search->grid, finder->cell, place);
     if (finder->low != finder->cell || finder->high != finder->cell)
-        look_around(search, finder, finder->cell, finder->cell);
-    size_t count = find_near(search, finder, measure, place);
-    if (count > PHYS_MOST_NEAR)
+        find_rows(search, finder, finder->cell, finder->cell);
+    size_t count = find_near(search, finder, shape, place);
+    if (count > PHYS_MAX_NEIGHBOURS)
         return count;
-    count = leave_out(search, finder, place, count);
+    count = exclude_self(search, finder, place, count);
     rank_keys(finder, count);
     for (size_t k = 0; k < count; k++)
         list[((const int32_t *)finder->ranks)[k]] = finder->near[k] * search->list->view.width;
@@ -253,55 +254,55 @@ KERNEL size_t list_alone(const ListSearch *search, Finder *finder, Measure measu
 }
 
 // The lists of one block side by side; false if there is no room for them.
-KERNEL bool search_block(const ListSearch *search, ListPart *part, Finder *finder, Measure measure, uint32_t block) {
+KERNEL bool search_block(const ListSearch *search, ListChunk *chunk, Finder *finder, Measure shape, uint32_t block) {
     const ListView *view = &search->list->view;
     uint32_t first = block * LANES, dummy = search->dummy * view->width;
-    size_t counts[LANES] = {0}, most = 0;
+    size_t counts[LANES] = {0}, max_length = 0;
     if (first >= finder->batch.end)
-        next_batch(search, finder, measure, first);
+        next_batch(search, finder, shape, first);
     for (uint32_t lane = 0; lane < LANES; lane++) {
         uint32_t place = first + lane, *list = finder->lists[lane];
         size_t count = 0;
-        if (place < view->regular && !(search->foreign && search->foreign[view->column[place]])) {
+        if (place < view->regular && !(search->remote && search->remote[view->column[place]])) {
             if (finder->batch.ordered)
-                count = list_of_batch(search, &finder->batch, measure, place, list);
+                count = list_from_batch(search, &finder->batch, shape, place, list);
             else
-                count = list_alone(search, finder, measure, place, list);
-            part->scanned += finder->batch.ordered ? finder->candidates / 2 : finder->candidates;
-            if (count > PHYS_MOST_NEAR || part->scanned > search->scan_limit) {
-                part->crowded = true;
+                count = list_single(search, finder, shape, place, list);
+            chunk->scanned += finder->batch.ordered ? finder->candidates / 2 : finder->candidates;
+            if (count > PHYS_MAX_NEIGHBOURS || chunk->scanned > search->scan_limit) {
+                chunk->crowded = true;
                 return false;
             }
         }
         memcpy(list + count, finder->dummies, sizeof finder->dummies);
         counts[lane] = count;
-        most = count > most ? count : most;
+        max_length = count > max_length ? count : max_length;
     }
-    if (part->used + (uint64_t)most * LANES > part->end) {
-        part->full = true;
+    if (chunk->used + (uint64_t)max_length * LANES > chunk->end) {
+        chunk->full = true;
         return false;
     }
     for (uint32_t lane = 0; lane < LANES; lane++)
-        for (size_t k = counts[lane] + SPARE; k < most; k++)
+        for (size_t k = counts[lane] + SPARE; k < max_length; k++)
             finder->lists[lane][k] = dummy;
-    uint32_t *entries = view->entries + part->used;
-    for (size_t k = 0; k < most; k++)
+    uint32_t *entries = view->entries + chunk->used;
+    for (size_t k = 0; k < max_length; k++)
         for (uint32_t lane = 0; lane < LANES; lane++)
             entries[k * LANES + lane] = finder->lists[lane][k];
-    view->at[block] = part->used;
-    view->most[block] = (uint32_t)most;
-    part->used += (uint64_t)most * LANES;
+    view->at[block] = chunk->used;
+    view->max_length[block] = (uint32_t)max_length;
+    chunk->used += (uint64_t)max_length * LANES;
     return true;
 }
 
-KERNEL void search_blocks(const ListSearch *search, ListPart *part, Finder *finder, Measure measure) {
-    for (uint32_t block = part->block; block < part->block_end; block++)
-        if (!search_block(search, part, finder, measure, block))
+KERNEL void search_blocks(const ListSearch *search, ListChunk *chunk, Finder *finder, Measure shape) {
+    for (uint32_t block = chunk->block; block < chunk->block_end; block++)
+        if (!search_block(search, chunk, finder, shape, block))
             return;
 }
 
 #define SEARCH(n)                                                                                                      \
-    static void search_##n(const ListSearch *search, ListPart *part, Finder *finder) {                                 \
+    static void search_##n(const ListSearch *search, ListChunk *part, Finder *finder) {                                \
         if (search->list->view.one_radius > 0)                                                                         \
             search_blocks(search, part, finder, (Measure){n, true});                                                   \
         else                                                                                                           \
@@ -311,23 +312,23 @@ SEARCH(1)
 SEARCH(2)
 SEARCH(3)
 
-void PER_ISA(list_search)(const ListSearch *search, ListPart *part) {
+void PER_ISA(list_search)(const ListSearch *search, ListChunk *chunk) {
     const Grid *grid = search->grid;
-    if (part->block == part->block_end)
+    if (chunk->block == chunk->block_end)
         return;
     Finder finder;
     double place[PHYS_VECTOR_DIMENSIONS] = {0};
     for (size_t k = 0; k < grid->dimensions; k++)
-        place[k] = search->list->view.built[k][part->block * LANES];
+        place[k] = search->list->view.built[k][chunk->block * LANES];
     finder.cell = phys_cell_of(grid, place, 1);
     finder.low = UINT32_MAX;
     finder.batch.end = 0;
     for (size_t k = 0; k < SPARE; k++)
         finder.dummies[k] = search->dummy * (uint32_t)search->list->view.width;
     if (grid->dimensions == 1)
-        search_1(search, part, &finder);
+        search_1(search, chunk, &finder);
     else if (grid->dimensions == 2)
-        search_2(search, part, &finder);
+        search_2(search, chunk, &finder);
     else
-        search_3(search, part, &finder);
+        search_3(search, chunk, &finder);
 }

@@ -128,7 +128,7 @@ KERNEL Real real_select(Mask mask, Real a, Real b) {
 }
 
 // mask ? a : +0.0
-KERNEL Real real_keep(Mask mask, Real a) {
+KERNEL Real real_or_zero(Mask mask, Real a) {
 #if LANES == 1
     return mask ? a : 0;
 #elif LANES == 8
@@ -156,7 +156,7 @@ KERNEL Real real_sub_where(Mask mask, Real sum, Real a) {
 #elif LANES == 8
     return _mm512_mask_sub_pd(sum, mask, sum, a);
 #else
-    return sum - real_keep(mask, a);
+    return sum - real_or_zero(mask, a);
 #endif
 }
 
@@ -180,7 +180,7 @@ KERNEL Real real_sqrt(Real a) {
 }
 
 // a > b ? a : b
-KERNEL Real real_larger(Real a, Real b) {
+KERNEL Real real_max(Real a, Real b) {
 #if LANES == 8
     return _mm512_max_pd(a, b);
 #elif LANES == 4
@@ -333,7 +333,7 @@ KERNEL void real_store_quads(double *quads, const Real *parts) {
 }
 
 // Writes base + lane for the lanes of a mask side by side and returns how many. `to` has room for LANES.
-KERNEL size_t mask_numbers(Mask mask, uint32_t base, uint32_t *to) {
+KERNEL size_t mask_indices(Mask mask, uint32_t base, uint32_t *to) {
     Lanes bits = mask_bits(mask);
 #if LANES == 8
     __m256i numbers = _mm256_add_epi32(_mm256_set1_epi32((int)base), _mm256_set_epi32(7, 6, 5, 4, 3, 2, 1, 0));
@@ -349,17 +349,17 @@ KERNEL size_t mask_numbers(Mask mask, uint32_t base, uint32_t *to) {
 
 // Writes those of `from` that are in the mask and are not `but` side by side and returns how many. Both have room for
 // LANES.
-KERNEL size_t mask_pick(Mask mask, const uint32_t *from, uint32_t but, uint32_t *to) {
+KERNEL size_t mask_compress(Mask mask, const uint32_t *from, uint32_t except, uint32_t *to) {
 #if LANES == 8
     __m256i numbers = _mm256_loadu_si256((const __m256i *)from);
-    mask = _mm256_mask_cmpneq_epu32_mask(mask, numbers, _mm256_set1_epi32((int)but));
+    mask = _mm256_mask_cmpneq_epu32_mask(mask, numbers, _mm256_set1_epi32((int)except));
     _mm256_storeu_si256((__m256i *)to, _mm256_maskz_compress_epi32(mask, numbers));
     return (size_t)__builtin_popcount(mask);
 #else
     size_t count = 0;
     for (Lanes bits = mask_bits(mask); bits; bits &= bits - 1) {
         to[count] = from[__builtin_ctz(bits)];
-        count += to[count] != but;
+        count += to[count] != except;
     }
     return count;
 #endif

@@ -10,11 +10,11 @@
 
 #include "physics/forces.h"
 #include "physics/kernels.h"
-#include "physics/power.h"
+#include "physics/pow_lanes.h"
 
 // One end of LANES pairs.
 typedef struct PairEnd {
-    Real place[PHYS_VECTOR_DIMENSIONS];
+    Real position[PHYS_VECTOR_DIMENSIONS];
     Real radius;
     Real mass;
     Real charge;
@@ -34,14 +34,14 @@ typedef struct Pairs {
     const PairGeometry *geometry;
     const PairEnd *target;
     const PairEnd *partner;
-    Mask touch;  // lanes with l < r₁+r₂ where neither radius is 0
-    bool plain;  // no exponent of the pass needs a function (power.h)
-    bool linear; // all are 1
+    Mask contact; // lanes with l < r₁+r₂ where neither radius is 0
+    bool plain;   // no exponent of the pass needs a function (pow_lanes.h)
+    bool linear;  // all are 1
 } Pairs;
 
 // S · (a · b) / (D · D),  D = max(r₁+r₂, l)
 KERNEL Real inverse_square(const Pairs *pairs, Real a, Real b) {
-    Real distance = real_larger(pairs->geometry->reach, pairs->geometry->length);
+    Real distance = real_max(pairs->geometry->reach, pairs->geometry->length);
     return real_set(pairs->term->strength) * (a * b) / (distance * distance);
 }
 
@@ -58,7 +58,7 @@ KERNEL Real pair_electrostatic(const Pairs *pairs) {
 // K = (r₁+r₂ − l)^power · S
 KERNEL Real pair_collision(const Pairs *pairs) {
     Real depth = pairs->geometry->reach - pairs->geometry->length;
-    Real power = pairs->linear ? depth : real_power(pairs->plain, pairs->touch, depth, pairs->term->power);
+    Real power = pairs->linear ? depth : real_pow(pairs->plain, pairs->contact, depth, pairs->term->power);
     return power * real_set(pairs->term->strength);
 }
 
@@ -80,7 +80,7 @@ KERNEL bool link_distance(const PhysForce *link, double strength, Real length, R
     if (!near && !(link->has_maximum && mask_any(real_less(real_set(link->maximum), length))))
         return false;
     Real beyond = near ? real_set(link->minimum) - length : length - real_set(link->maximum);
-    *k = real_power(false, mask_first(LANES), beyond, link->power) * real_set(near ? -strength : strength);
+    *k = real_pow(false, mask_first(LANES), beyond, link->power) * real_set(near ? -strength : strength);
     return true;
 }
 
@@ -92,14 +92,14 @@ KERNEL Real pair_source(ForceNeed need, const PairEnd *end) {
 }
 
 // Lanes in which neither of two quantities is 0.
-KERNEL Mask both_there(Mask mask, Real a, Real b) {
+KERNEL Mask both_nonzero(Mask mask, Real a, Real b) {
     return real_differs_where(real_differs_where(mask, a, real_zero()), b, real_zero());
 }
 
 KERNEL Mask pair_where(PairReach reach, ForceNeed need, const Pairs *pairs) {
     if (reach == REACH_CONTACT)
-        return pairs->touch;
-    return both_there(pairs->geometry->valid, pair_source(need, pairs->target), pair_source(need, pairs->partner));
+        return pairs->contact;
+    return both_nonzero(pairs->geometry->valid, pair_source(need, pairs->target), pair_source(need, pairs->partner));
 }
 
 // K of one force, and where it applies. `contact_only`: no force of the pass reaches farther.

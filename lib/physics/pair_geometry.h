@@ -9,9 +9,9 @@
 enum { LEAD_NONE = PHYS_FORCE_KINDS }; // else the lead is the PhysForceKind
 typedef enum PairRest {
     REST_NONE,
-    REST_SPRING, // one collision with a power of 1; no radius is 0
-    REST_PLAIN,  // forces of contact only, no exponent needs a function (power.h)
-    REST_TOUCH,  // forces of contact only
+    REST_SPRING,  // one collision with a power of 1; no radius is 0
+    REST_PLAIN,   // forces of contact only, no exponent needs a function (pow_lanes.h)
+    REST_CONTACT, // forces of contact only
     REST_ANY,
 } PairRest;
 
@@ -22,8 +22,8 @@ typedef struct PairShape {
     bool one_size; // all have the same radius
 } PairShape;
 
-KERNEL bool rest_touches(PairShape shape) {
-    return shape.rest == REST_SPRING || shape.rest == REST_PLAIN || shape.rest == REST_TOUCH;
+KERNEL bool rest_needs_contact(PairShape shape) {
+    return shape.rest == REST_SPRING || shape.rest == REST_PLAIN || shape.rest == REST_CONTACT;
 }
 
 // What the leading force needs of both ends.
@@ -58,7 +58,7 @@ KERNEL Real lead_coefficient(PairShape shape, const Pairs *pairs) {
 KERNEL PairEnd pair_targets(const PairPass *pass, PairShape shape, size_t i) {
     PairEnd end;
     for (size_t k = 0; k < shape.dimensions; k++)
-        end.place[k] = real_load(pass->position + k * pass->stride + i);
+        end.position[k] = real_load(pass->position + k * pass->stride + i);
     end.radius = real_load(pass->radius + i);
     end.mass = needs_mass(shape) ? real_load(pass->mass + i) : real_zero();
     end.charge = needs_charge(shape) ? real_load(pass->charge + i) : real_zero();
@@ -69,7 +69,7 @@ KERNEL PairEnd pair_targets(const PairPass *pass, PairShape shape, size_t i) {
 KERNEL PairEnd pair_partner(const PairPass *pass, PairShape shape, size_t j) {
     PairEnd end;
     for (size_t k = 0; k < shape.dimensions; k++)
-        end.place[k] = real_set(pass->position[k * pass->stride + j]);
+        end.position[k] = real_set(pass->position[k * pass->stride + j]);
     end.radius = real_set(pass->radius[j]);
     end.mass = needs_mass(shape) ? real_set(pass->mass[j]) : real_zero();
     end.charge = needs_charge(shape) ? real_set(pass->charge[j]) : real_zero();
@@ -88,20 +88,20 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
                           PairGeometry *pair) {
     Real square = real_zero();
     for (size_t k = 0; k < shape.dimensions; k++) {
-        pair->unit[k] = partner->place[k] - target->place[k];
+        pair->unit[k] = partner->position[k] - target->position[k];
         Real part = pair->unit[k] * pair->unit[k];
         square = k ? square + part : part; // 0 + part is part: a square is never -0
     }
     pair->reach = target->radius + partner->radius;
-    bool touches = shape.lead == LEAD_NONE && rest_touches(shape);
-    if (touches) {
+    bool contact_only = shape.lead == LEAD_NONE && rest_needs_contact(shape);
+    if (contact_only) {
         live = pair_near(live, square, pair->reach);
         if (!mask_any(live))
             return false;
     }
     pair->length = real_sqrt(square);
     pair->valid = real_less_where(live, real_zero(), square);
-    if (!touches) // what is near is finite
+    if (!contact_only) // what is near is finite
         pair->valid = real_at_most_where(pair->valid, square, real_set(DBL_MAX));
     Real inverse = real_set(1) / pair->length;
     for (size_t k = 0; k < shape.dimensions; k++)
@@ -109,8 +109,8 @@ KERNEL bool pair_geometry(PairShape shape, const PairEnd *target, const PairEnd 
     return true;
 }
 
-// Lanes with contact. Radii of 0 are left to both_there: few pairs get so far.
-KERNEL Mask pair_touch(const PairGeometry *pair) {
+// Lanes with contact. Radii of 0 are left to both_nonzero: few pairs get so far.
+KERNEL Mask pair_in_contact(const PairGeometry *pair) {
     return real_less_where(pair->valid, pair->length, pair->reach);
 }
 

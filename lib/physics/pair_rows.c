@@ -2,7 +2,7 @@
 // of forces.
 #define LANES 1
 #include "physics/pair_formulas.h"
-#include "physics/pair_wave.h"
+#include "physics/pair_wavefront.h"
 
 // Adds K along the line between particles i and j.
 KERNEL void add_pair(const PairPass *pass, size_t n, size_t i, size_t j, double inverse, double coefficient) {
@@ -19,7 +19,7 @@ KERNEL PairEnd end_at(const PairPass *pass, size_t i) {
 }
 
 // Pairs of particle i with the particles of one range, in ascending order.
-KERNEL void row(const PairPass *pass, size_t n, size_t i, size_t first, size_t end) {
+KERNEL void row_forces(const PairPass *pass, size_t n, size_t i, size_t first, size_t end) {
     const PairEnd target = end_at(pass, i);
     for (size_t j = first; j < end; j++) {
         double square = 0;
@@ -34,7 +34,7 @@ KERNEL void row(const PairPass *pass, size_t n, size_t i, size_t first, size_t e
         const PairEnd partner = end_at(pass, j);
         geometry.reach = target.radius + partner.radius;
         Pairs pairs = {.geometry = &geometry, .target = &target, .partner = &partner};
-        pairs.touch = both_there(geometry.length < geometry.reach, target.radius, partner.radius);
+        pairs.contact = both_nonzero(geometry.length < geometry.reach, target.radius, partner.radius);
         double coefficient, inverse = 1 / geometry.length;
         for (size_t t = 0; t < pass->term_count; t++) {
             pairs.term = &pass->terms[t];
@@ -47,15 +47,15 @@ KERNEL void row(const PairPass *pass, size_t n, size_t i, size_t first, size_t e
 void phys_pair_row(const PairPass *pass, size_t i, size_t first, size_t end) {
     switch (pass->dimensions) {
     case 1:
-        row(pass, 1, i, first, end);
+        row_forces(pass, 1, i, first, end);
         break;
     case 2:
-        row(pass, 2, i, first, end);
+        row_forces(pass, 2, i, first, end);
         break;
     case 3:
-        row(pass, 3, i, first, end);
+        row_forces(pass, 3, i, first, end);
         break;
     default:
-        row(pass, pass->dimensions, i, first, end);
+        row_forces(pass, pass->dimensions, i, first, end);
     }
 }

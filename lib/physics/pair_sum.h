@@ -7,7 +7,7 @@
 // Terms of one tile on their way to its columns, by component and column.
 typedef struct Tile {
     Real lead[PHYS_VECTOR_DIMENSIONS][LANES];
-    Real rest[PHYS_MOST_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
+    Real rest[PHYS_MAX_TERMS][PHYS_VECTOR_DIMENSIONS][LANES];
     unsigned hits; // forces that have written to `rest`
 } Tile;
 
@@ -18,7 +18,7 @@ KERNEL void add_term(PairShape shape, const PairGeometry *pair, Mask applies, Re
         Real f = pair->unit[m] * coefficient;
         sum[m] = real_add_where(applies, sum[m], f);
         if (column)
-            column[m][k] = real_keep(applies, f);
+            column[m][k] = real_or_zero(applies, f);
     }
 }
 
@@ -31,21 +31,21 @@ static void clear_terms(Real (*column)[LANES]) {
 // The one force of REST_SPRING.
 KERNEL void add_spring(const PairPass *pass, PairShape shape, const PairGeometry *pair, Real *sum) {
     Pairs pairs = {.term = pass->terms, .geometry = pair, .linear = true};
-    add_term(shape, pair, pair_touch(pair), pair_collision(&pairs), sum, NULL, 0);
+    add_term(shape, pair, pair_in_contact(pair), pair_collision(&pairs), sum, NULL, 0);
 }
 
 // The forces after the leading one.
 KERNEL void add_rest(const PairPass *pass, PairShape shape, const PairGeometry *pair, const PairEnd *target,
                      const PairEnd *partner, Real *sum, Tile *tile, size_t k) {
-    Mask touch = pair_touch(pair);
-    if (mask_any(touch))
-        touch = both_there(touch, target->radius, partner->radius);
-    else if (rest_touches(shape))
+    Mask contact = pair_in_contact(pair);
+    if (mask_any(contact))
+        contact = both_nonzero(contact, target->radius, partner->radius);
+    else if (rest_needs_contact(shape))
         return;
     for (size_t t = shape.lead != LEAD_NONE; t < pass->term_count; t++) {
         Real coefficient;
-        Pairs pairs = {&pass->terms[t], pair, target, partner, touch, shape.rest == REST_PLAIN, false};
-        Mask applies = pair_apply(&pairs, rest_touches(shape), &coefficient);
+        Pairs pairs = {&pass->terms[t], pair, target, partner, contact, shape.rest == REST_PLAIN, false};
+        Mask applies = pair_apply(&pairs, rest_needs_contact(shape), &coefficient);
         if (!mask_any(applies))
             continue;
         if (tile && !(tile->hits >> t & 1)) {

@@ -1,6 +1,6 @@
 // particles.c: the columns that are simulated, filled from the description and written back to it.
 #include "base/number.h"
-#include "maths/many.h"
+#include "maths/arrays.h"
 #include "physics/internal.h"
 #include "physics/kernels.h"
 #include "physics/threads.h"
@@ -48,12 +48,12 @@ bool phys_reserve_columns(PhysSystem *system, uint64_t spare) {
     return true;
 }
 
-static void raise_radii(const PhysSystem *system, double power, double *to) {
-    maths_power_many(system->options.cpu, system->columns.radius, power, system->columns.count, to);
+static void power_radii(const PhysSystem *system, double power, double *to) {
+    maths_power_array(system->options.cpu, system->columns.radius, power, system->columns.count, to);
 }
 
 // radius^(n-1) and radius^n are wanted at every step.
-void phys_raise_radii(PhysSystem *system) {
+void phys_update_radius_powers(PhysSystem *system) {
     const Columns *columns = &system->columns;
     const Force *forces = system->forces.bytes;
     bool section = false, volume = false;
@@ -64,14 +64,14 @@ void phys_raise_radii(PhysSystem *system) {
     }
     double n = (double)columns->dimensions;
     if (section)
-        raise_radii(system, n - 1, columns->section);
+        power_radii(system, n - 1, columns->section);
     if (volume)
-        raise_radii(system, n, columns->volume);
-    system->radii_raised = true;
-    system->touched |= section || volume;
+        power_radii(system, n, columns->volume);
+    system->radius_powers_valid = true;
+    system->edited |= section || volume;
 }
 
-static void load_motion_of(const PhysSystem *system, size_t i) {
+static void fill_motion(const PhysSystem *system, size_t i) {
     const Columns *columns = &system->columns;
     const double *row = phys_row(system, system->order[i]);
     for (size_t k = 0, n = columns->dimensions; k < n; k++) {
@@ -80,25 +80,25 @@ static void load_motion_of(const PhysSystem *system, size_t i) {
     }
 }
 
-static void load_motion_share(void *context, int worker, int workers) {
+static void fill_motion_chunk(void *context, int chunk, int chunks) {
     const PhysSystem *system = context;
-    size_t end = phys_share(system->columns.count, worker + 1, workers);
-    for (size_t i = phys_share(system->columns.count, worker, workers); i < end; i++)
-        load_motion_of(system, i);
+    size_t end = phys_chunk_begin(system->columns.count, chunk + 1, chunks);
+    for (size_t i = phys_chunk_begin(system->columns.count, chunk, chunks); i < end; i++)
+        fill_motion(system, i);
 }
 
-static void load_share(void *context, int worker, int workers) {
+static void fill_chunk(void *context, int chunk, int chunks) {
     PhysSystem *system = context;
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, stride = columns->stride, end = phys_share(columns->count, worker + 1, workers);
-    for (size_t i = phys_share(columns->count, worker, workers); i < end; i++) {
+    size_t n = columns->dimensions, stride = columns->stride, end = phys_chunk_begin(columns->count, chunk + 1, chunks);
+    for (size_t i = phys_chunk_begin(columns->count, chunk, chunks); i < end; i++) {
         uint32_t handle = system->order[i];
         const ParticleRecord *particle = phys_record(system, handle);
         columns->radius[i] = particle->radius;
         columns->mass[i] = particle->mass;
         columns->charge[i] = particle->charge;
         columns->anchor[i] = particle->anchor;
-        load_motion_of(system, i);
+        fill_motion(system, i);
         if (!system->has_own_forces)
             continue;
         const double *own_force = (const double *)system->own_forces.bytes + n * handle;
@@ -108,14 +108,14 @@ static void load_share(void *context, int worker, int workers) {
     }
 }
 
-typedef struct Storing {
+typedef struct RowWriter {
     PhysSystem *system;
     const Columns *columns;
     const uint32_t *order; // handles by column
     bool keep_last_finite;
-    const PhysSystem *home;                // whose columns get what the rows do not take; NULL: none
-    bool any_not_finite[PHYS_MOST_SHARES]; // something was not finite
-} Storing;
+    const PhysSystem *home;               // whose columns get what the rows do not take; NULL: none
+    bool any_not_finite[PHYS_MAX_CHUNKS]; // something was not finite
+} RowWriter;
 
 // PhysTime.keep_last_finite for one vector: the column's replaces the row's, or the row's is put back `home`. False if
 // the column's was not finite. No other function keeps inf and nan of `!physics` out of the state: its entries borrow
@@ -135,14 +135,14 @@ static inline bool keep_last_finite(const Columns *columns, const double *column
 }
 
 // For one particle. False if something was not finite, which it marks.
-static bool keep_row(const Storing *storing, size_t i) {
-    const PhysSystem *system = storing->system, *home = storing->home;
-    const Columns *columns = storing->columns;
-    uint32_t handle = storing->order[i];
+static bool write_finite_row(const RowWriter *writer, size_t i) {
+    const PhysSystem *system = writer->system, *home = writer->home;
+    const Columns *columns = writer->columns;
+    uint32_t handle = writer->order[i];
     double *row = phys_row(system, handle), *position = NULL, *velocity = NULL;
     size_t n = columns->dimensions, stride = home ? home->columns.stride : 0;
     if (home) {
-        size_t at = home == system ? i : home->place[system->place[handle]];
+        size_t at = home == system ? i : home->column_of[system->column_of[handle]];
         position = home->columns.position + at;
         velocity = home->columns.velocity + at;
     }
@@ -158,35 +158,35 @@ static bool keep_row(const Storing *storing, size_t i) {
     return !marks;
 }
 
-static inline void copy_to_row(const Storing *storing, size_t n, size_t i) {
-    const Columns *columns = storing->columns;
-    double *row = phys_row(storing->system, storing->order[i]);
+static inline void copy_to_row(const RowWriter *writer, size_t n, size_t i) {
+    const Columns *columns = writer->columns;
+    double *row = phys_row(writer->system, writer->order[i]);
     for (size_t k = 0; k < n; k++) {
         row[k] = columns->position[k * columns->stride + i];
         row[n + k] = columns->velocity[k * columns->stride + i];
     }
 }
 
-static void store_share(void *context, int worker, int workers) {
-    Storing *storing = context;
-    const PhysSystem *system = storing->system;
-    const Columns *columns = storing->columns;
-    size_t n = columns->dimensions, end = phys_share(columns->count, worker + 1, workers);
-    size_t first = phys_share(columns->count, worker, workers);
-    if (storing->keep_last_finite) {
+static void write_chunk(void *context, int chunk, int chunks) {
+    RowWriter *writer = context;
+    const PhysSystem *system = writer->system;
+    const Columns *columns = writer->columns;
+    size_t n = columns->dimensions, end = phys_chunk_begin(columns->count, chunk + 1, chunks);
+    size_t first = phys_chunk_begin(columns->count, chunk, chunks);
+    if (writer->keep_last_finite) {
         // What the kernel does not take is gone through particle by particle, as many as it takes at once.
         const Kernels *kernels = phys_kernels(system);
         while (first < end) {
             if (n <= PHYS_VECTOR_DIMENSIONS && !system->any_from_attribute)
-                first = kernels->store(columns, storing->order, system->rows.bytes, first, end);
+                first = kernels->write_rows(columns, writer->order, system->rows.bytes, first, end);
             size_t stop = end - first < kernels->lanes ? end : first + kernels->lanes;
             for (; first < stop; first++)
-                storing->any_not_finite[worker] |= !keep_row(storing, first);
+                writer->any_not_finite[chunk] |= !write_finite_row(writer, first);
         }
         return;
     }
     for (size_t i = first; i < end; i++)
-        copy_to_row(storing, n, i);
+        copy_to_row(writer, n, i);
 }
 
 bool phys_clear_not_finite(PhysSystem *system) {
@@ -200,7 +200,7 @@ bool phys_clear_not_finite(PhysSystem *system) {
 }
 
 // The forces by handle, for those who look.
-static void store_forces(PhysSystem *system, const Columns *columns, const uint32_t *order) {
+static void write_forces(PhysSystem *system, const Columns *columns, const uint32_t *order) {
     size_t n = columns->dimensions;
     for (size_t i = 0; i < columns->count; i++) {
         double *row = (double *)system->force_rows.bytes + n * order[i];
@@ -209,39 +209,39 @@ static void store_forces(PhysSystem *system, const Columns *columns, const uint3
     }
 }
 
-static int shares_for(const PhysSystem *system, uint32_t particles) {
+static int chunk_count_for(const PhysSystem *system, uint32_t particles) {
     enum { MIN_FOR_THREADS = 10000 };
-    return phys_shares(system, particles, MIN_FOR_THREADS);
+    return phys_chunk_count(system, particles, MIN_FOR_THREADS);
 }
 
-bool phys_load(PhysSystem *system) {
+bool phys_fill_columns(PhysSystem *system) {
     if (!phys_reserve_columns(system, 0))
         return false;
-    phys_parallel(system, shares_for(system, system->particle_count), load_share, system);
-    system->arrangement++;
-    system->radii++;
-    system->motion++;
-    system->behind = false;
+    phys_parallel(system, chunk_count_for(system, system->particle_count), fill_chunk, system);
+    system->columns_version++;
+    system->radius_version++;
+    system->motion_version++;
+    system->columns_stale = false;
     return true;
 }
 
-void phys_load_motion(PhysSystem *system) {
-    phys_parallel(system, shares_for(system, system->particle_count), load_motion_share, system);
-    system->motion++;
-    system->behind = false;
+void phys_fill_motion(PhysSystem *system) {
+    phys_parallel(system, chunk_count_for(system, system->particle_count), fill_motion_chunk, system);
+    system->motion_version++;
+    system->columns_stale = false;
 }
 
-void phys_store_columns(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep,
-                        const PhysSystem *home) {
-    Storing storing = {.system = system, .columns = columns, .order = order, .keep_last_finite = keep, .home = home};
-    phys_parallel(system, shares_for(system, columns->count), store_share, &storing);
-    for (int w = 0; w < PHYS_MOST_SHARES; w++)
-        system->any_not_finite |= storing.any_not_finite[w];
-    if (system->options.keep_forces && system->stepped)
-        store_forces(system, columns, order);
+void phys_write_column_rows(PhysSystem *system, const Columns *columns, const uint32_t *order, bool keep,
+                            const PhysSystem *home) {
+    RowWriter writer = {.system = system, .columns = columns, .order = order, .keep_last_finite = keep, .home = home};
+    phys_parallel(system, chunk_count_for(system, columns->count), write_chunk, &writer);
+    for (int w = 0; w < PHYS_MAX_CHUNKS; w++)
+        system->any_not_finite |= writer.any_not_finite[w];
+    if (system->options.keep_forces && system->has_forces)
+        write_forces(system, columns, order);
 }
 
-void phys_store(PhysSystem *system, bool keep) {
-    phys_store_columns(system, &system->columns, system->order, keep, system);
+void phys_write_rows(PhysSystem *system, bool keep) {
+    phys_write_column_rows(system, &system->columns, system->order, keep, system);
     system->any_from_attribute &= !keep || system->any_not_finite;
 }

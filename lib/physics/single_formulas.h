@@ -4,9 +4,9 @@
 #define PETRI_PHYSICS_SINGLE_FORMULAS_H
 
 #include "maths/random.h"
+#include "physics/integrate.h"
 #include "physics/kernels.h"
-#include "physics/power.h"
-#include "physics/sweep.h"
+#include "physics/pow_lanes.h"
 
 // LANES particles on their way through a step. Component k of a vector is at [k · step]: with several lanes the vectors
 // are copies in registers (step 1), with one lane they are where the particle lies (step is the columns' stride).
@@ -15,7 +15,7 @@ typedef struct Block {
     size_t active; // lanes that are not anchors
     size_t step;
     Mask live; // the lanes that are not anchors
-    Real *place;
+    Real *position;
     Real *velocity;
     Real *force;
     Real mass;
@@ -28,7 +28,7 @@ KERNEL Block block_at(const Columns *columns, size_t i) {
                    .active = 1,
                    .step = columns->stride,
                    .live = true,
-                   .place = columns->position + i,
+                   .position = columns->position + i,
                    .velocity = columns->velocity + i,
                    .force = columns->force + i,
                    .mass = columns->mass[phys_numbers_at(columns, i)]};
@@ -37,27 +37,27 @@ KERNEL Block block_at(const Columns *columns, size_t i) {
 
 // What a formula may use.
 typedef struct Singles {
-    const SweepPass *pass;
+    const IntegratePass *pass;
     const Columns *columns;
     const Force *force;
     size_t n; // dimensions
     Block *block;
 } Singles;
 
-KERNEL Real vector_part(PhysVector vector, size_t k) {
+KERNEL Real vector_component(PhysVector vector, size_t k) {
     return real_set(phys_at(vector, k));
 }
 
-KERNEL Real place_part(const Block *block, size_t k) {
-    return block->place[k * block->step];
+KERNEL Real position_component(const Block *block, size_t k) {
+    return block->position[k * block->step];
 }
 
-KERNEL Real velocity_part(const Block *block, size_t k) {
+KERNEL Real velocity_component(const Block *block, size_t k) {
     return block->velocity[k * block->step];
 }
 
 // Adds component k of a force where it applies.
-KERNEL void push(Block *block, size_t k, Mask applies, Real f) {
+KERNEL void add_force_component(Block *block, size_t k, Mask applies, Real f) {
     Real *sum = &block->force[k * block->step];
     *sum = real_add_where(applies, *sum, f);
 }
@@ -70,9 +70,9 @@ KERNEL Mask where_not_zero(Mask mask, Real x) {
 KERNEL void single_constant(const Singles *s) {
     const PhysForce *given = &s->force->given;
     for (size_t k = 0; k < s->n; k++) {
-        Real acceleration = vector_part(given->vector2, k) * s->block->mass;
-        Real sum = vector_part(given->vector, k) + acceleration;
-        push(s->block, k, s->block->live, sum * real_set(s->force->strength));
+        Real acceleration = vector_component(given->vector2, k) * s->block->mass;
+        Real sum = vector_component(given->vector, k) + acceleration;
+        add_force_component(s->block, k, s->block->live, sum * real_set(s->force->strength));
     }
 }
 
@@ -80,8 +80,8 @@ KERNEL void single_constant(const Singles *s) {
 KERNEL void single_field(const Singles *s) {
     Real charge = real_load(s->columns->charge + s->block->first);
     for (size_t k = 0; k < s->n; k++) {
-        Real along = real_set(s->force->strength) * vector_part(s->force->given.vector, k);
-        push(s->block, k, s->block->live, along * charge);
+        Real along = real_set(s->force->strength) * vector_component(s->force->given.vector, k);
+        add_force_component(s->block, k, s->block->live, along * charge);
     }
 }
 
@@ -90,7 +90,7 @@ KERNEL void single_drag(const Singles *s) {
     PhysVector flow = s->force->given.vector;
     Real square = real_zero();
     for (size_t k = 0; k < s->n; k++) {
-        Real relative = velocity_part(s->block, k) - vector_part(flow, k);
+        Real relative = velocity_component(s->block, k) - vector_component(flow, k);
         square += relative * relative;
     }
     Real c = real_set(s->force->strength) * real_sqrt(square);
@@ -100,7 +100,7 @@ KERNEL void single_drag(const Singles *s) {
     c = real_select(real_less(limit, c), limit, c);
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     for (size_t k = 0; k < s->n; k++) {
-        Real relative = velocity_part(s->block, k) - vector_part(flow, k);
+        Real relative = velocity_component(s->block, k) - vector_component(flow, k);
         Real *sum = &s->block->force[k * s->block->step];
         *sum = real_sub_where(applies, *sum, relative * c);
     }
@@ -114,13 +114,13 @@ KERNEL void single_buoyancy(const Singles *s) {
     Mask applies = where_not_zero(s->block->live, real_load(s->columns->radius + s->block->first));
     applies = where_not_zero(applies, s->block->mass);
     for (size_t k = 0; k < s->n; k++)
-        push(s->block, k, applies, vector_part(given->vector, k) * weight);
+        add_force_component(s->block, k, applies, vector_component(given->vector, k) * weight);
 }
 
 // Items of the stream that particles before this one have taken in this frame.
 KERNEL uint64_t items_before(const Singles *s, size_t lane) {
-    const uint32_t *draws = s->columns->draws;
-    return s->force->item + (draws ? s->n * draws[s->block->first + lane] : s->pass->taken);
+    const uint32_t *draws = s->columns->random_offset;
+    return s->force->item + (draws ? s->n * draws[s->block->first + lane] : s->pass->draw_count);
 }
 
 #if LANES == 1
@@ -129,14 +129,15 @@ KERNEL uint64_t items_before(const Singles *s, size_t lane) {
 KERNEL void single_random(const Singles *s) {
     uint64_t item = items_before(s, 0);
     for (size_t k = 0; k < s->n; k++)
-        push(s->block, k, s->block->live, s->force->strength * random_normal(s->force->given.key, item + k));
+        add_force_component(s->block, k, s->block->live,
+                            s->force->strength * random_normal(s->force->given.key, item + k));
 }
 
 #else
 
 // How many of the live lanes from one on take items that follow each other.
-KERNEL size_t run_of_draws(const Singles *s, size_t lane, unsigned bits, size_t active) {
-    const uint32_t *draws = s->columns->draws;
+KERNEL size_t consecutive_draws(const Singles *s, size_t lane, unsigned bits, size_t active) {
+    const uint32_t *draws = s->columns->random_offset;
     if (!draws)
         return active;
     size_t count = 1;
@@ -150,12 +151,12 @@ KERNEL size_t run_of_draws(const Singles *s, size_t lane, unsigned bits, size_t 
 KERNEL void single_random(const Singles *s) {
     double normals[PHYS_VECTOR_DIMENSIONS * LANES], lanes[PHYS_VECTOR_DIMENSIONS][LANES] = {{0}};
     unsigned bits = mask_bits(s->block->live);
-    for (size_t had = 0, lane = 0; had < s->block->active; lane++) {
+    for (size_t drawn = 0, lane = 0; drawn < s->block->active; lane++) {
         if (!(bits >> lane & 1))
             continue;
-        size_t count = run_of_draws(s, lane, bits, s->block->active - had);
-        random_normals(LANES_LEVEL, s->force->given.key, items_before(s, lane), s->n * count, normals + s->n * had);
-        had += count;
+        size_t count = consecutive_draws(s, lane, bits, s->block->active - drawn);
+        random_normals(LANES_LEVEL, s->force->given.key, items_before(s, lane), s->n * count, normals + s->n * drawn);
+        drawn += count;
         lane += count - 1; // without `draws` it was the last
     }
     const double *next = normals;
@@ -163,7 +164,7 @@ KERNEL void single_random(const Singles *s) {
         for (size_t k = 0; k < s->n && bits >> lane & 1; k++)
             lanes[k][lane] = *next++;
     for (size_t k = 0; k < s->n; k++)
-        push(s->block, k, s->block->live, real_set(s->force->strength) * real_load(lanes[k]));
+        add_force_component(s->block, k, s->block->live, real_set(s->force->strength) * real_load(lanes[k]));
 }
 
 #endif
@@ -172,8 +173,8 @@ KERNEL void single_random(const Singles *s) {
 KERNEL Real height_above(const PhysForce *barrier, size_t n, const Block *block, Real start) {
     Real sum = start;
     for (size_t k = 0; k < n; k++) {
-        Real along = place_part(block, k) - vector_part(barrier->vector, k);
-        sum += along * vector_part(barrier->vector2, k);
+        Real along = position_component(block, k) - vector_component(barrier->vector, k);
+        sum += along * vector_component(barrier->vector2, k);
     }
     return sum;
 }
@@ -196,9 +197,9 @@ KERNEL void single_barrier(const Singles *s) {
     if (!mask_any(below) && !mask_any(above))
         return;
     Real depth = real_select(below, minimum - height, height - maximum);
-    Real size = real_power(false, mask_or(below, above), depth, barrier->power) * real_set(s->force->strength);
+    Real size = real_pow(false, mask_or(below, above), depth, barrier->power) * real_set(s->force->strength);
     for (size_t k = 0; k < s->n; k++) {
-        Real f = vector_part(barrier->vector2, k) * size, *sum = &block->force[k * block->step];
+        Real f = vector_component(barrier->vector2, k) * size, *sum = &block->force[k * block->step];
         *sum = real_sub_where(above, real_add_where(below, *sum, f), f);
     }
 }
@@ -221,21 +222,21 @@ KERNEL void single_apply(const Singles *s) {
 }
 
 // v_k + F_k · c
-KERNEL Real pushed_part(const Block *block, size_t k, Real c) {
-    return velocity_part(block, k) + block->force[k * block->step] * c;
+KERNEL Real accelerated_component(const Block *block, size_t k, Real c) {
+    return velocity_component(block, k) + block->force[k * block->step] * c;
 }
 
 // m ≠ 0 and every component of the force is finite:
 //     c = delta / m;  v_k = v_k + F_k · c
 //     if speed_of_light > 0 and Σ v_k² > speed_of_light²:  v_k = v_k · (speed_of_light / sqrt(Σ v_k²))
 // p_k = p_k + v_k · delta
-KERNEL void move(size_t n, Block *block, double delta, double speed_of_light) {
+KERNEL void move_particles(size_t n, Block *block, double delta, double speed_of_light) {
     Mask pushed = where_not_zero(block->live, block->mass);
     for (size_t k = 0; k < n; k++)
         pushed = real_at_most_where(pushed, real_absolute(block->force[k * block->step]), real_set(DBL_MAX));
     Real c = real_set(delta) / block->mass, square = real_zero();
     for (size_t k = 0; k < n; k++) {
-        Real v = pushed_part(block, k, c);
+        Real v = accelerated_component(block, k, c);
         square += v * v;
     }
     Mask fast = mask_first(0);
@@ -245,11 +246,11 @@ KERNEL void move(size_t n, Block *block, double delta, double speed_of_light) {
     if (mask_any(fast))
         factor = real_set(speed_of_light) / real_sqrt(square);
     for (size_t k = 0; k < n; k++) {
-        Real v = pushed_part(block, k, c), *velocity = &block->velocity[k * block->step];
+        Real v = accelerated_component(block, k, c), *velocity = &block->velocity[k * block->step];
         if (mask_any(fast))
             v = real_select(fast, v * factor, v);
         *velocity = real_select(pushed, v, *velocity);
-        block->place[k * block->step] = place_part(block, k) + *velocity * real_set(delta);
+        block->position[k * block->step] = position_component(block, k) + *velocity * real_set(delta);
     }
 }
 

@@ -1,5 +1,5 @@
 // step.c: one step as the ordered list of stages of section 4.
-#include "physics/sweep.h"
+#include "physics/integrate.h"
 #include "physics/threads.h"
 
 #include <string.h>
@@ -12,18 +12,18 @@ static void ease_strengths(const PhysSystem *system, double clock) {
 }
 
 // The force on a particle at the start of the step is its own, eased in likewise. (A factor of 1 changes no bit.)
-typedef struct Start {
+typedef struct StartForces {
     const PhysSystem *system;
     double clock;
-} Start;
+} StartForces;
 
-static void start_share(void *context, int share, int shares) {
-    const Start *start = context;
+static void start_chunk(void *context, int chunk, int chunks) {
+    const StartForces *start = context;
     const PhysSystem *system = start->system;
     const Columns *columns = &system->columns;
     size_t n = columns->dimensions, stride = columns->stride;
-    size_t first = phys_share(columns->count, share, shares);
-    size_t count = phys_share(columns->count, share + 1, shares) - first;
+    size_t first = phys_chunk_begin(columns->count, chunk, chunks);
+    size_t count = phys_chunk_begin(columns->count, chunk + 1, chunks) - first;
     for (size_t k = 0; k < n; k++) {
         double *force = columns->force + k * stride + first;
         if (!system->has_own_forces) { // nor a column of them
@@ -41,11 +41,11 @@ static void start_share(void *context, int share, int shares) {
 
 static void start_forces(PhysSystem *system, double clock) {
     enum { MIN_FOR_THREADS = 50000 }; // particles
-    Start start = {system, clock};
+    StartForces start = {system, clock};
     bool ready = system->columns.forces_clear && !system->has_own_forces;
     system->columns.forces_clear = false;
     if (system->columns.count && !ready)
-        phys_parallel(system, phys_shares(system, system->columns.count, MIN_FOR_THREADS), start_share, &start);
+        phys_parallel(system, phys_chunk_count(system, system->columns.count, MIN_FOR_THREADS), start_chunk, &start);
 }
 
 bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_light) {
@@ -65,14 +65,14 @@ bool phys_step(PhysSystem *system, double clock, double delta, double speed_of_l
         if (groups[g].count)
             phys_apply_pairs(system, &groups[g], system->group_count == 1 ? &move : NULL);
     }
-    if (!phys_goes_on(system))
+    if (!phys_may_continue(system))
         return false;
     // 2. What happens to each particle alone.
     for (uint32_t g = 0; g < system->group_count && !move.done; g++)
         if (groups[g].count)
-            phys_sweep(system, g, delta, speed_of_light);
-    system->motion++;
-    bool whole = phys_goes_on(system);
-    system->columns.forces_clear = whole && !system->options.keep_forces;
-    return whole;
+            phys_integrate(system, g, delta, speed_of_light);
+    system->motion_version++;
+    bool completed = phys_may_continue(system);
+    system->columns.forces_clear = completed && !system->options.keep_forces;
+    return completed;
 }

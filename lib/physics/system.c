@@ -17,18 +17,18 @@ PhysSystem *phys_new(void) {
     Arena home;
     struct {
         PhysSystem system;
-        Neighbours lists[PHYS_MOST_LISTS];
+        NeighbourList lists[PHYS_MAX_LISTS];
     } * memory;
     arena_init(&home, "physics", SIZE_MAX);
     memory = arena_try_alloc(&home, sizeof *memory); // one block, so that nothing is left if there is none
     if (!memory)
         return NULL;
     PhysSystem *system = &memory->system;
-    Neighbours *lists = memory->lists;
+    NeighbourList *lists = memory->lists;
     *system = (PhysSystem){.home = home, .lists = lists};
     system->particles.shown = system->rows.shown = system->last_rows.shown = system->force_rows.shown = true;
-    memset(lists, 0, PHYS_MOST_LISTS * sizeof *lists);
-    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_here.level});
+    memset(lists, 0, PHYS_MAX_LISTS * sizeof *lists);
+    phys_set_options(system, &(PhysOptions){.threads = 1, .cpu = cpu_detected.level});
     phys_begin(system, 1);
     return system;
 }
@@ -42,8 +42,8 @@ void phys_free(PhysSystem *system) {
                          &system->force_rows, &system->terms,      &system->chain};
     for (size_t i = 0; i < sizeof buffers / sizeof *buffers; i++)
         phys_buffer_free(buffers[i]);
-    for (int i = 0; i < PHYS_MOST_LISTS; i++)
-        phys_neighbours_free(&system->lists[i]);
+    for (int i = 0; i < PHYS_MAX_LISTS; i++)
+        phys_neighbour_list_free(&system->lists[i]);
     phys_domain_free(system);
     if (system->owns_threads)
         phys_threads_free(system->threads);
@@ -52,12 +52,12 @@ void phys_free(PhysSystem *system) {
 }
 
 void phys_set_options(PhysSystem *system, const PhysOptions *options) {
-    CpuLevel best = cpu_here.level;
+    CpuLevel best = cpu_detected.level;
     system->options = *options;
     if (options->threads <= 0)
         system->options.threads = cpu_count();
-    if (system->options.threads > PHYS_MOST_THREADS)
-        system->options.threads = PHYS_MOST_THREADS;
+    if (system->options.threads > PHYS_MAX_THREADS)
+        system->options.threads = PHYS_MAX_THREADS;
     if (options->cpu > best)
         system->options.cpu = best;
     if (system->owns_threads)
@@ -88,7 +88,7 @@ void phys_begin(PhysSystem *system, uint32_t dimensions) {
     system->record_stride = 0;
     system->force_count = 0;
     system->has_eased_forces = system->has_own_forces = system->any_from_attribute = false;
-    system->stepped = false;
+    system->has_forces = false;
     system->vector_doubles = 0;
     phys_add_group(system, 0);
 }
@@ -149,8 +149,8 @@ static bool set_record(PhysSystem *system, uint32_t handle, uint32_t count, cons
     bool single = !system->record_stride && count > 1;
     if (single && memcmp(phys_record(system, 0), record, sizeof *record) == 0)
         return true;
-    uint64_t kept = (single ? 1 : handle) * sizeof *record;
-    if (!phys_buffer_reserve(system, &system->particles, kept, count, sizeof *record))
+    uint64_t retained = (single ? 1 : handle) * sizeof *record;
+    if (!phys_buffer_reserve(system, &system->particles, retained, count, sizeof *record))
         return false;
     ParticleRecord *records = system->particles.bytes;
     for (uint32_t i = 1; single && i < count; i++)
@@ -198,13 +198,13 @@ uint32_t phys_add_particle(PhysSystem *system, uint32_t group, const PhysParticl
 static void update_columns(PhysSystem *system, uint32_t handle, const ParticleRecord *record, const double *row) {
     if (!system->arranged)
         return;
-    system->touched = true;
-    system->motion++;
+    system->edited = true;
+    system->motion_version++;
     const Columns *columns = &system->columns;
-    size_t n = columns->dimensions, stride = columns->stride, i = system->place[handle];
+    size_t n = columns->dimensions, stride = columns->stride, i = system->column_of[handle];
     if (columns->radius[i] != record->radius) {
-        system->radii_raised = false;
-        system->radii++;
+        system->radius_powers_valid = false;
+        system->radius_version++;
     }
     columns->radius[i] = record->radius;
     columns->mass[i] = record->mass;
@@ -240,7 +240,7 @@ void phys_update_particle(PhysSystem *system, uint32_t particle, const PhysParti
 }
 
 // Copies a vector of a force; returns where it begins plus 1, or 0 for all zeros (or no memory).
-static uint64_t keep_vector(PhysSystem *system, PhysVector vector) {
+static uint64_t store_vector(PhysSystem *system, PhysVector vector) {
     uint64_t n = system->dimensions, begin = system->vector_doubles;
     if (!vector || !phys_buffer_reserve(system, &system->vectors, begin * sizeof(double), begin + n, sizeof(double)))
         return 0;
@@ -255,8 +255,8 @@ uint32_t phys_add_force(PhysSystem *system, uint32_t group, const PhysForce *for
     assert(group < system->group_count);
     int vectors = phys_force_row(force->kind).vectors; // the others may be garbage
     ForceRecord record = {.given = *force, .group = group};
-    record.vector = vectors > 0 ? keep_vector(system, force->vector) : 0;
-    record.vector2 = vectors > 1 ? keep_vector(system, force->vector2) : 0;
+    record.vector = vectors > 0 ? store_vector(system, force->vector) : 0;
+    record.vector2 = vectors > 1 ? store_vector(system, force->vector2) : 0;
     if (system->failed)
         return 0;
     ((ForceRecord *)system->force_records.bytes)[system->force_count] = record;
@@ -294,8 +294,8 @@ uint32_t phys_group_parent(const PhysSystem *system, uint32_t group) {
     return ((const Group *)system->groups.bytes)[group].parent;
 }
 
-bool phys_rest(PhysSystem *system) {
-    system->stepped = false;
+bool phys_skip_frame(PhysSystem *system) {
+    system->has_forces = false;
     return !system->failed;
 }
 
@@ -333,7 +333,7 @@ PhysColumns phys_columns(const PhysSystem *system) {
         return (PhysColumns){.anchor = NULL};
     const ParticleRecord *records = system->particles.bytes;
     size_t n = system->dimensions, bytes = sizeof *records * system->record_stride, stride = bytes / sizeof(double);
-    bool forces = system->stepped && system->options.keep_forces;
+    bool forces = system->has_forces && system->options.keep_forces;
     return (PhysColumns){
         .position = {system->rows.bytes, ROW_VECTORS * n},
         .velocity = {(const double *)system->rows.bytes + n, ROW_VECTORS * n},
@@ -346,8 +346,8 @@ PhysColumns phys_columns(const PhysSystem *system) {
     };
 }
 
-PhysTraffic phys_traffic(const PhysSystem *system) {
-    return system->traffic;
+PhysRankStats phys_rank_stats(const PhysSystem *system) {
+    return system->rank_stats;
 }
 
 uint32_t phys_force_count(const PhysSystem *system) {

@@ -8,8 +8,8 @@
 #ifndef PETRI_PHYSICS_SYSTEM_H
 #define PETRI_PHYSICS_SYSTEM_H
 
+#include "base/budget.h"
 #include "base/cpu.h"
-#include "base/meter.h"
 #include "physics/force_list.h"
 
 #include <stdbool.h>
@@ -81,31 +81,32 @@ void phys_threads_free(PhysThreads *threads);
 // a part, and numbers go between them: `runs` runs of `length` doubles, `stride` doubles from one to the next.
 typedef struct PhysRanks {
     int rank; // of this process, from 0
-    int count;
-    uint64_t least; // pairs of a pass that are worth it; 0: as many as are found to be
-    void *host;
-    void (*send)(void *host, int to, const double *numbers, size_t runs, size_t length, size_t stride); // never waits
-    void (*receive)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    int rank_count;
+    uint64_t min_pairs; // pairs of a pass that are worth it; 0: as many as are found to be
+    void *user_data;
+    void (*send)(void *host, int to, const double *numbers, size_t count, size_t block_length,
+                 size_t stride); // never waits
+    void (*receive)(void *host, int from, double *numbers, size_t count, size_t block_length, size_t stride);
     // Those of one rank become those of all.
-    void (*spread)(void *host, int from, double *numbers, size_t runs, size_t length, size_t stride);
+    void (*broadcast)(void *host, int from, double *numbers, size_t count, size_t block_length, size_t stride);
     // Those of each rank r, at starts[r] up to starts[r + 1], become those of all.
-    void (*gather)(void *host, double *numbers, const size_t *starts);
+    void (*allgatherv)(void *host, double *numbers, const size_t *starts);
     // Each becomes the largest that a rank has; there is no NaN among them.
-    void (*most)(void *host, double *numbers, size_t count);
+    void (*allreduce_max)(void *host, double *numbers, size_t count);
     // Memory for so many doubles that all ranks have in common, until the next call; NULL if they have none, on all of
     // them. The function may be NULL, too.
-    double *(*share)(void *host, size_t count);
+    double *(*alloc_shared)(void *host, size_t count);
     // A wish for an end, which the meter has, too, lets all these return without the others: what comes is zeros then.
 } PhysRanks;
 
 // How the ranks have shared a system, and what this one has sent for it.
-typedef enum PhysSharing {
-    PHYS_ALONE,     // each does all of it
-    PHYS_BY_PAIRS,  // blocks of pairs are dealt out
-    PHYS_BY_REGION, // each has the particles of a region
-} PhysSharing;
-typedef struct PhysTraffic {
-    PhysSharing sharing; // in the last frame
+typedef enum PhysDecomposition {
+    PHYS_REPLICATED,        // each does all of it
+    PHYS_FORCE_DECOMPOSED,  // blocks of pairs are dealt out
+    PHYS_DOMAIN_DECOMPOSED, // each has the particles of a region
+} PhysDecomposition;
+typedef struct PhysRankStats {
+    PhysDecomposition decomposition; // in the last frame
     uint64_t frames;
     uint64_t steps;
     uint64_t step_bytes; // halos, particles that move to another rank, sums of pairs
@@ -114,15 +115,15 @@ typedef struct PhysTraffic {
     uint64_t frame_bytes; // to make everything whole at the end of frames
     uint64_t own;         // particles of its region, summed over steps
     uint64_t halo;        // those of other regions that it was told of, likewise
-} PhysTraffic;
+} PhysRankStats;
 
 // How a system is computed. Nothing of it changes a bit of the results.
 typedef struct PhysOptions {
     int threads;  // at most so many; 0: as many as processors
-    CpuLevel cpu; // at most cpu_here.level
+    CpuLevel cpu; // at most cpu_detected.level
     PhysNeighbours neighbours;
     PhysThreads *pool; // threads to work with, which outlive the system; NULL: it has its own
-    Meter *meter;      // that work and memory are charged to, which outlives the system; NULL: none
+    Budget *meter;     // that work and memory are charged to, which outlives the system; NULL: none
     bool keep_forces;  // for PhysColumns.force; costs one store per particle and step
     PhysRanks ranks;   // none if its count is 0
 } PhysOptions;
@@ -195,7 +196,7 @@ typedef struct PhysResult {
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time);
 
 // A frame in which nothing is simulated. False if memory was used up since phys_begin.
-bool phys_rest(PhysSystem *system);
+bool phys_skip_frame(PhysSystem *system);
 
 uint32_t phys_particle_count(const PhysSystem *system);
 // The n doubles of a particle, by handle; the velocity follows the position. They stay where they are until phys_begin,
@@ -217,7 +218,7 @@ typedef struct PhysColumns {
     PhysColumn position; // as simulated, n doubles
     PhysColumn velocity;
     PhysColumn force; // n doubles: the sum of the forces on it in the last step, zeros for an anchor. `numbers` is NULL
-                      // if nothing was simulated since phys_begin or phys_rest, or the forces were not kept
+                      // if nothing was simulated since phys_begin or phys_skip_frame, or the forces were not kept
     PhysColumn radius;
     PhysColumn mass;
     PhysColumn charge;
@@ -228,7 +229,7 @@ PhysColumns phys_columns(const PhysSystem *system);
 static inline const double *phys_at_particle(PhysColumn column, uint32_t particle) {
     return column.numbers + particle * column.stride;
 }
-PhysTraffic phys_traffic(const PhysSystem *system);
+PhysRankStats phys_rank_stats(const PhysSystem *system);
 uint32_t phys_force_count(const PhysSystem *system);
 // Force appliers and barriers, by number from 0 in the order of the calls; false beyond the last.
 bool phys_get_force(const PhysSystem *system, uint32_t number, PhysForce *force);

@@ -2,7 +2,7 @@
 #include "physics/threads.h"
 
 #include "base/heap.h"
-#include "physics/help.h"
+#include "physics/backoff.h"
 #include "physics/internal.h"
 
 #include <pthread.h>
@@ -16,41 +16,41 @@
 // What there is to claim, in one word: number of the job, its shares, and those claimed already from its front and from
 // its back. Every other thread takes from the back, so that a thread meets much
 // the same particles in each job and finds them in its cache.
-enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, SHARES_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
-_Static_assert(PHYS_MOST_SHARES < 1 << COUNT_BITS, "the number of claimed shares must fit");
+enum { COUNT_BITS = 8, BACK_SHIFT = COUNT_BITS, CHUNKS_SHIFT = 2 * COUNT_BITS, JOB_SHIFT = 3 * COUNT_BITS };
+_Static_assert(PHYS_MAX_CHUNKS < 1 << COUNT_BITS, "the number of claimed shares must fit");
 
 enum {
-    TRIALS = 3,
-    TRIAL_LEAST = 13,   // the first is of jobs below twice 2^13 units, the last of all that are larger
-    LINE_BYTES = 64,    // of the cache
-    LOOKS = 64,         // for work or at others, between two looks at the clock
-    ALERT_NS = 50000,   // a thread looks for new work before it goes to sleep: as long as it takes to be awake again
-    PATIENCE_NS = 50000 // and at others before it leaves the processor
+    TUNERS = 3,
+    MIN_TUNER_BITS = 13,  // the first is of jobs below twice 2^13 units, the last of all that are larger
+    LINE_BYTES = 64,      // of the cache
+    POLLS_PER_CHECK = 64, // for work or at others, between two looks at the clock
+    SPIN_NS = 50000,      // a thread looks for new work before it goes to sleep: as long as it takes to be awake again
+    YIELD_NS = 50000      // and at others before it leaves the processor
 };
 
 struct PhysThreads {
     int count; // that are running, without the caller
     atomic_int serving;
-    pthread_t threads[PHYS_MOST_THREADS];
+    pthread_t threads[PHYS_MAX_THREADS];
     pid_t process; // which they are of: a child that was forked off has none of them
     bool started;
     void *block; // that this lies in
     int wanted;
     // of the caller
-    PhysHelp help;
-    PhysTrial trials[TRIALS]; // by the size of a brief job
-    uint64_t asked;           // when phys_help_at_hand found nobody awake
+    PhysBackoff backoff;
+    PhysTuner tuners[TUNERS]; // by the size of a brief job
+    uint64_t last_request;    // when phys_help_at_hand found nobody awake
     uint64_t waited;          // nanoseconds in this job
     bool helped;              // the last job was
     // the job, in one line: what others must fetch first
     _Alignas(LINE_BYTES) atomic_uint_fast64_t ticket;
-    PhysWork *work;
+    PhysTask *work;
     void *context;
     _Alignas(LINE_BYTES) atomic_uint done; // shares that others have done, of all jobs
     // sleep
     _Alignas(LINE_BYTES) atomic_int sleeping;
-    atomic_uint calls;    // to wake up
-    atomic_uint answered; // the last of them that somebody has followed
+    atomic_uint wakeups;          // to wake up
+    atomic_uint answered_wakeups; // the last of them that somebody has followed
     bool stop;
     pthread_mutex_t mutex;
     pthread_cond_t wake;
@@ -67,18 +67,18 @@ static int count_at(uint64_t ticket, int shift) {
 }
 
 static bool any_left(uint64_t ticket) {
-    return count_at(ticket, 0) + count_at(ticket, BACK_SHIFT) < count_at(ticket, SHARES_SHIFT);
+    return count_at(ticket, 0) + count_at(ticket, BACK_SHIFT) < count_at(ticket, CHUNKS_SHIFT);
 }
 
 // Claims a share; false if there is none. A claim keeps the job alive, so its fields may be read afterwards.
-static bool claim(PhysThreads *threads, bool from_back, int *share, int *shares) {
+static bool claim_chunk(PhysThreads *threads, bool from_back, int *chunk, int *chunks) {
     uint64_t ticket = atomic_load_explicit(&threads->ticket, memory_order_acquire);
     while (any_left(ticket)) {
         uint64_t next = ticket + (from_back ? UINT64_C(1) << BACK_SHIFT : 1);
         if (atomic_compare_exchange_weak_explicit(&threads->ticket, &ticket, next, memory_order_acq_rel,
                                                   memory_order_acquire)) {
-            *shares = count_at(ticket, SHARES_SHIFT);
-            *share = from_back ? *shares - 1 - count_at(ticket, BACK_SHIFT) : count_at(ticket, 0);
+            *chunks = count_at(ticket, CHUNKS_SHIFT);
+            *chunk = from_back ? *chunks - 1 - count_at(ticket, BACK_SHIFT) : count_at(ticket, 0);
             return true;
         }
     }
@@ -86,17 +86,17 @@ static bool claim(PhysThreads *threads, bool from_back, int *share, int *shares)
 }
 
 // Returns how many shares it has done.
-static int work_some(PhysThreads *threads, bool helping, bool from_back) {
-    int share, shares, count = 0;
-    for (; claim(threads, from_back, &share, &shares); count++) {
-        threads->work(threads->context, share, shares);
+static int run_chunks(PhysThreads *threads, bool helping, bool from_back) {
+    int chunk, chunks, count = 0;
+    for (; claim_chunk(threads, from_back, &chunk, &chunks); count++) {
+        threads->work(threads->context, chunk, chunks);
         if (helping)
             atomic_fetch_add_explicit(&threads->done, 1, memory_order_release);
     }
     return count;
 }
 
-static inline void pause_a_little(void) {
+static inline void cpu_relax(void) {
 #if defined(__x86_64__) || defined(__i386__)
     __builtin_ia32_pause();
 #endif
@@ -107,63 +107,63 @@ static bool has_work(PhysThreads *threads) {
 }
 
 // False if the threads are to end.
-static bool sleep_until_called(PhysThreads *threads) {
+static bool sleep_until_woken(PhysThreads *threads) {
     pthread_mutex_lock(&threads->mutex);
-    unsigned calls = atomic_load(&threads->calls);
-    atomic_store(&threads->answered, calls);
+    unsigned calls = atomic_load(&threads->wakeups);
+    atomic_store(&threads->answered_wakeups, calls);
     atomic_fetch_add(&threads->sleeping, 1);
-    while (!threads->stop && !has_work(threads) && atomic_load(&threads->calls) == calls)
+    while (!threads->stop && !has_work(threads) && atomic_load(&threads->wakeups) == calls)
         pthread_cond_wait(&threads->wake, &threads->mutex);
     atomic_fetch_sub(&threads->sleeping, 1);
-    atomic_store(&threads->answered, atomic_load(&threads->calls));
-    bool go_on = !threads->stop;
+    atomic_store(&threads->answered_wakeups, atomic_load(&threads->wakeups));
+    bool keep_running = !threads->stop;
     pthread_mutex_unlock(&threads->mutex);
-    return go_on;
+    return keep_running;
 }
 
-static void serve_while_alert(PhysThreads *threads, bool from_back) {
+static void poll_for_work(PhysThreads *threads, bool from_back) {
     uint64_t last = nanoseconds(), now = last;
-    while (now - last < ALERT_NS) {
+    while (now - last < SPIN_NS) {
         bool any = false;
-        for (int looks = 0; looks < LOOKS; looks++) {
-            any |= work_some(threads, true, from_back) > 0;
-            pause_a_little();
+        for (int polls = 0; polls < POLLS_PER_CHECK; polls++) {
+            any |= run_chunks(threads, true, from_back) > 0;
+            cpu_relax();
         }
         now = nanoseconds();
         last = any ? now : last;
     }
 }
 
-static void *serve(void *argument) {
+static void *worker_main(void *argument) {
     PhysThreads *threads = argument;
     bool from_back = atomic_fetch_add(&threads->serving, 1) % 2 == 0;
     do
-        serve_while_alert(threads, from_back);
-    while (sleep_until_called(threads));
+        poll_for_work(threads, from_back);
+    while (sleep_until_woken(threads));
     return NULL;
 }
 
 PhysThreads *phys_threads_new(int count) {
-    unsigned char *block = heap_take(sizeof(PhysThreads) + LINE_BYTES);
+    unsigned char *block = heap_alloc(sizeof(PhysThreads) + LINE_BYTES);
     if (!block)
         return NULL;
     PhysThreads *threads = (PhysThreads *)(block + LINE_BYTES - (uintptr_t)block % LINE_BYTES);
     *threads = (PhysThreads){.block = block, .process = getpid(), .wanted = count <= 0 ? cpu_count() : count};
-    if (threads->wanted > PHYS_MOST_THREADS)
-        threads->wanted = PHYS_MOST_THREADS;
+    if (threads->wanted > PHYS_MAX_THREADS)
+        threads->wanted = PHYS_MAX_THREADS;
     pthread_mutex_init(&threads->mutex, NULL);
     pthread_cond_init(&threads->wake, NULL);
     return threads;
 }
 
 // Threads that cannot be had are done without. They take no signals: those are for the host's threads.
-static void start(PhysThreads *threads) {
+static void start_threads(PhysThreads *threads) {
     sigset_t all, before;
     sigfillset(&all);
     pthread_sigmask(SIG_SETMASK, &all, &before);
     threads->started = true;
     while (threads->count + 1 < threads->wanted &&
-           pthread_create(&threads->threads[threads->count], NULL, serve, threads) == 0)
+           pthread_create(&threads->threads[threads->count], NULL, worker_main, threads) == 0)
         threads->count++;
     pthread_sigmask(SIG_SETMASK, &before, NULL);
 }
@@ -172,7 +172,7 @@ void phys_threads_free(PhysThreads *threads) {
     if (!threads)
         return;
     if (threads->process != getpid()) {
-        heap_give(threads->block);
+        heap_free(threads->block);
         return;
     }
     pthread_mutex_lock(&threads->mutex);
@@ -183,120 +183,121 @@ void phys_threads_free(PhysThreads *threads) {
         pthread_join(threads->threads[i], NULL);
     pthread_cond_destroy(&threads->wake);
     pthread_mutex_destroy(&threads->mutex);
-    heap_give(threads->block);
+    heap_free(threads->block);
 }
 
 // Wakes those who sleep, unless they are on their way already.
-static void call(PhysThreads *threads) {
-    if (atomic_load(&threads->sleeping) == 0 || atomic_load(&threads->answered) != atomic_load(&threads->calls))
+static void wake_threads(PhysThreads *threads) {
+    if (atomic_load(&threads->sleeping) == 0 ||
+        atomic_load(&threads->answered_wakeups) != atomic_load(&threads->wakeups))
         return;
     pthread_mutex_lock(&threads->mutex);
-    atomic_fetch_add(&threads->calls, 1);
+    atomic_fetch_add(&threads->wakeups, 1);
     pthread_cond_broadcast(&threads->wake);
     pthread_mutex_unlock(&threads->mutex);
 }
 
 // The first share is the caller's.
-static void publish(PhysThreads *threads, int shares, PhysWork *work, void *context) {
+static void publish_job(PhysThreads *threads, int chunks, PhysTask *work, void *context) {
     threads->work = work;
     threads->context = context;
     uint64_t job = (atomic_load_explicit(&threads->ticket, memory_order_relaxed) >> JOB_SHIFT) + 1;
-    atomic_store(&threads->ticket, job << JOB_SHIFT | (uint64_t)shares << SHARES_SHIFT | 1);
-    call(threads);
+    atomic_store(&threads->ticket, job << JOB_SHIFT | (uint64_t)chunks << CHUNKS_SHIFT | 1);
+    wake_threads(threads);
 }
 
-void phys_wait(PhysWait *wait) {
-    pause_a_little();
-    if (++wait->looks % LOOKS)
+void phys_spin_wait(PhysSpinWait *wait) {
+    cpu_relax();
+    if (++wait->spins % POLLS_PER_CHECK)
         return;
     uint64_t now = nanoseconds();
     if (!wait->since)
         wait->since = now;
-    else if (now - wait->since > PATIENCE_NS)
+    else if (now - wait->since > YIELD_NS)
         sched_yield();
 }
 
-void phys_wait_end(PhysThreads *threads, const PhysWait *wait) {
+void phys_spin_wait_end(PhysThreads *threads, const PhysSpinWait *wait) {
     if (wait->since)
         threads->waited += nanoseconds() - wait->since;
 }
 
-static void help_each_other(PhysThreads *threads, int shares, PhysWork *work, void *context) {
+static void run_in_parallel(PhysThreads *threads, int chunks, PhysTask *work, void *context) {
     PhysJobTimes job = {.begin = nanoseconds()};
     unsigned before = atomic_load_explicit(&threads->done, memory_order_relaxed);
     threads->waited = 0;
-    publish(threads, shares, work, context);
-    work(context, 0, shares);
-    unsigned others = (unsigned)(shares - 1 - work_some(threads, false, false));
-    PhysWait wait = {0};
+    publish_job(threads, chunks, work, context);
+    work(context, 0, chunks);
+    unsigned others = (unsigned)(chunks - 1 - run_chunks(threads, false, false));
+    PhysSpinWait wait = {0};
     while (atomic_load_explicit(&threads->done, memory_order_acquire) - before < others)
-        phys_wait(&wait);
-    phys_wait_end(threads, &wait);
+        phys_spin_wait(&wait);
+    phys_spin_wait_end(threads, &wait);
     job.end = nanoseconds();
     job.waited = threads->waited;
     job.answered = threads->helped = others > 0;
-    phys_help_learn(&threads->help, &job);
+    phys_backoff_learn(&threads->backoff, &job);
 }
 
-static bool any_helpers(PhysThreads *threads) {
+static bool has_helpers(PhysThreads *threads) {
     if (threads && !threads->started)
-        start(threads);
-    return threads && threads->count > 0 && !phys_help_pauses(&threads->help, nanoseconds());
+        start_threads(threads);
+    return threads && threads->count > 0 && !phys_backoff_pauses(&threads->backoff, nanoseconds());
 }
 
 // Somebody is awake, or will be for one of the next jobs if they come quickly.
-static bool is_at_hand(PhysThreads *threads) {
+static bool has_awake_helper(PhysThreads *threads) {
     uint64_t now = nanoseconds();
-    if (phys_help_pauses(&threads->help, now))
+    if (phys_backoff_pauses(&threads->backoff, now))
         return false;
     if (threads->count > 0 && atomic_load(&threads->sleeping) < threads->count)
         return true;
-    bool soon = now - threads->asked < ALERT_NS;
-    threads->asked = now;
-    if (soon && any_helpers(threads))
-        call(threads);
+    bool soon = now - threads->last_request < SPIN_NS;
+    threads->last_request = now;
+    if (soon && has_helpers(threads))
+        wake_threads(threads);
     return false;
 }
 
-static PhysTrial *trial_of(PhysThreads *threads, uint64_t units) {
+static PhysTuner *tuner_of(PhysThreads *threads, uint64_t units) {
     int number = 0;
-    while (number + 1 < TRIALS && units >> (TRIAL_LEAST + 1 + number))
+    while (number + 1 < TUNERS && units >> (MIN_TUNER_BITS + 1 + number))
         number++;
-    return &threads->trials[number];
+    return &threads->tuners[number];
 }
 
-int phys_brief_threads(const PhysSystem *system, uint64_t units) {
+int phys_short_job_threads(const PhysSystem *system, uint64_t units) {
     PhysThreads *threads = system->threads;
     if (!threads || (threads->started && threads->count == 0))
         return 0;
-    PhysTrial *trial = trial_of(threads, units);
-    if (phys_trial_asks(trial))
-        return is_at_hand(threads) ? threads->wanted : 0;
-    return phys_trial_skips(trial) ? 0 : 1;
+    PhysTuner *tuner = tuner_of(threads, units);
+    if (phys_tuner_should_help(tuner))
+        return has_awake_helper(threads) ? threads->wanted : 0;
+    return phys_tuner_skip(tuner) ? 0 : 1;
 }
 
-void phys_parallel_brief(const PhysSystem *system, int shares, uint64_t units, PhysWork *work, void *context) {
-    PhysTrial *trial = trial_of(system->threads, units);
+void phys_parallel_short(const PhysSystem *system, int chunks, uint64_t units, PhysTask *work, void *context) {
+    PhysTuner *tuner = tuner_of(system->threads, units);
     system->threads->helped = false;
     uint64_t begin = nanoseconds();
-    phys_parallel(system, shares, work, context);
-    if (shares == 1 || system->threads->helped)
-        phys_trial_learn(trial, shares > 1, (double)(nanoseconds() - begin) / (double)units);
+    phys_parallel(system, chunks, work, context);
+    if (chunks == 1 || system->threads->helped)
+        phys_tuner_learn(tuner, chunks > 1, (double)(nanoseconds() - begin) / (double)units);
 }
 
-void phys_parallel(const PhysSystem *system, int shares, PhysWork *work, void *context) {
-    if (shares > 1 && any_helpers(system->threads)) {
-        help_each_other(system->threads, shares, work, context);
+void phys_parallel(const PhysSystem *system, int chunks, PhysTask *work, void *context) {
+    if (chunks > 1 && has_helpers(system->threads)) {
+        run_in_parallel(system->threads, chunks, work, context);
         return;
     }
-    for (int share = 0; share < shares; share++)
-        work(context, share, shares);
+    for (int chunk = 0; chunk < chunks; chunk++)
+        work(context, chunk, chunks);
 }
 
-int phys_shares(const PhysSystem *system, size_t count, size_t least) {
+int phys_chunk_count(const PhysSystem *system, size_t count, size_t min_count) {
     int threads = system->options.threads;
-    if (threads < 2 || count < least)
+    if (threads < 2 || count < min_count)
         return 1;
-    int shares = threads * PHYS_SHARES_EACH;
-    return shares < PHYS_MOST_SHARES ? shares : PHYS_MOST_SHARES;
+    int chunks = threads * PHYS_CHUNKS_PER_THREAD;
+    return chunks < PHYS_MAX_CHUNKS ? chunks : PHYS_MAX_CHUNKS;
 }

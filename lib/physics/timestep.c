@@ -13,41 +13,41 @@
 #include <math.h>
 
 // Brings into simulation order what has changed since the last frame. False if memory is used up.
-static bool arrange(PhysSystem *system) {
+static bool arrange_system(PhysSystem *system) {
     if (system->failed)
         return false;
     if (!system->arranged) {
-        system->forces_arranged = system->radii_raised = false;
-        system->arranged = phys_arrange(system) && phys_load(system);
+        system->forces_arranged = system->radius_powers_valid = false;
+        system->arranged = phys_arrange(system) && phys_fill_columns(system);
         if (!system->arranged)
             return false;
     }
     if (!system->forces_arranged) {
-        system->radii_raised = false; // perhaps nobody wanted them so far
+        system->radius_powers_valid = false; // perhaps nobody wanted them so far
         system->forces_arranged = phys_arrange_forces(system);
         if (!system->forces_arranged)
             return false;
     }
-    system->may_settle = system->options.ranks.count <= 1 && phys_can_settle(system);
-    if (system->settled && !system->may_settle) {
-        phys_unsettle(system);
+    system->can_reorder = system->options.ranks.rank_count <= 1 && phys_can_reorder(system);
+    if (system->in_cell_order && !system->can_reorder) {
+        phys_restore_order(system);
         if (!phys_arrange_forces(system)) // links name columns
             return false;
     }
-    if (!system->radii_raised)
-        phys_raise_radii(system);
+    if (!system->radius_powers_valid)
+        phys_update_radius_powers(system);
     Force *forces = system->forces.bytes;
     for (uint32_t i = 0; i < system->force_count; i++)
         forces[i].item = 0;
     return true;
 }
 
-static bool step(PhysSystem *system, bool shared, double clock, double delta, double speed_of_light) {
+static bool run_step(PhysSystem *system, bool shared, double clock, double delta, double speed_of_light) {
     return shared ? phys_domain_step(system, clock, delta, speed_of_light)
                   : phys_step(system, clock, delta, speed_of_light);
 }
 
-static PhysResult give_up(PhysSystem *system, const PhysTime *time) {
+static PhysResult abort_frame(PhysSystem *system, const PhysTime *time) {
     system->arranged = false; // rows are as they were, columns are not
     return (PhysResult){.status = system->failed ? PHYS_NO_MEMORY : PHYS_STOPPED, .clock = time->clock};
 }
@@ -55,8 +55,8 @@ static PhysResult give_up(PhysSystem *system, const PhysTime *time) {
 PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
     PhysResult result = {.status = PHYS_OK, .clock = time->clock};
     system->frame++;
-    system->traffic.frames++;
-    if (!arrange(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
+    system->rank_stats.frames++;
+    if (!arrange_system(system) || (time->keep_last_finite && !phys_clear_not_finite(system))) {
         result.status = PHYS_NO_MEMORY;
         return result;
     }
@@ -73,20 +73,20 @@ PhysResult phys_simulate(PhysSystem *system, const PhysTime *time) {
             result.status = PHYS_DROPPED_TIME;
             break;
         }
-        if (!step(system, shared, result.clock, delta, time->speed_of_light))
-            return give_up(system, time);
+        if (!run_step(system, shared, result.clock, delta, time->speed_of_light))
+            return abort_frame(system, time);
         result.clock += delta;
         result.steps++;
-        system->traffic.steps++;
-        system->stepped = true;
+        system->rank_stats.steps++;
+        system->has_forces = true;
         last += delta;
         remaining = time->now - last;
         more =
             remaining > 1e-9 * time->resolution && (time->lockstep || (result.steps == 1 && time->performance > 1.5));
     }
     if (!shared)
-        phys_store(system, time->keep_last_finite);
-    else if (!phys_domain_store(system, time->keep_last_finite))
-        return give_up(system, time);
+        phys_write_rows(system, time->keep_last_finite);
+    else if (!phys_domain_collect(system, time->keep_last_finite))
+        return abort_frame(system, time);
     return result;
 }

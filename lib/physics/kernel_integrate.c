@@ -1,11 +1,11 @@
-// kernel_sweep.c: what happens to each particle alone, LANES particles at once: forces on single particles, barriers,
-// motion, bounces. With one lane it takes any number of dimensions.
+// kernel_integrate.c: what happens to each particle alone, LANES particles at once: forces on single particles,
+// barriers, motion, bounces. With one lane it takes any number of dimensions.
 #include "physics/kernels.h"
 #include "physics/single_formulas.h"
 
 #include <string.h>
 
-KERNEL void apply_forces(const SweepPass *pass, size_t n, Block *block) {
+KERNEL void apply_forces(const IntegratePass *pass, size_t n, Block *block) {
     Singles singles = {.pass = pass, .columns = pass->columns, .n = n, .block = block};
     for (uint32_t f = 0; f < pass->force_count; f++) {
         singles.force = pass->forces[f];
@@ -16,25 +16,25 @@ KERNEL void apply_forces(const SweepPass *pass, size_t n, Block *block) {
 #if LANES == 1
 
 // One particle, where it lies.
-static void sweep_particle(SweepPass *pass, size_t i) {
+static void integrate_particle(IntegratePass *pass, size_t i) {
     const Columns *columns = pass->columns;
     size_t n = columns->dimensions;
     Block block = block_at(columns, i);
     double *before = phys_acceleration(columns) + n;
     for (size_t k = 0; k < n && pass->barrier_count; k++)
-        before[k] = velocity_part(&block, k);
+        before[k] = velocity_component(&block, k);
     apply_forces(pass, n, &block);
-    pass->taken += n;
-    move(n, &block, pass->delta, pass->speed_of_light);
+    pass->draw_count += n;
+    move_particles(n, &block, pass->delta, pass->speed_of_light);
     if (pass->barrier_count)
-        phys_sweep_bounce(pass, i, before);
+        phys_integrate_reflect(pass, i, before);
 }
 
-void sweep_all_one(SweepPass *pass, size_t first, size_t end) {
+void integrate_all_one(IntegratePass *pass, size_t first, size_t end) {
     const Columns *columns = pass->columns;
     for (size_t i = first; i < end; i++) {
         if (!columns->anchor[i])
-            sweep_particle(pass, i);
+            integrate_particle(pass, i);
         for (size_t k = 0; k < columns->dimensions && !pass->keep_force; k++)
             columns->force[k * columns->stride + i] = 0;
     }
@@ -43,20 +43,20 @@ void sweep_all_one(SweepPass *pass, size_t first, size_t end) {
 #else
 
 // Lanes that some barrier has to turn back: not x ≥ 0.
-KERNEL Mask hits(const SweepPass *pass, size_t n, const Block *block) {
+KERNEL Mask lanes_behind_barrier(const IntegratePass *pass, size_t n, const Block *block) {
     Mask clear = block->live;
     const Force *const *barriers = phys_barriers(pass);
     const Columns *columns = pass->columns;
     const double *radius = columns->radius;
-    Real start = real_set(-0.0) - (columns->alike ? real_set(radius[0]) : real_load(radius + block->first));
+    Real start = real_set(-0.0) - (columns->uniform_mass ? real_set(radius[0]) : real_load(radius + block->first));
     for (uint32_t b = 0; b < pass->barrier_count; b++)
         clear = real_at_most_where(clear, real_zero(), height_above(&barriers[b]->given, n, block, start));
     return mask_and(block->live, mask_not(clear));
 }
 
-KERNEL void bounce(const SweepPass *pass, size_t n, const Block *block, const Real *before) {
+KERNEL void reflect_lanes(const IntegratePass *pass, size_t n, const Block *block, const Real *before) {
     const Columns *columns = pass->columns;
-    unsigned bits = mask_bits(hits(pass, n, block));
+    unsigned bits = mask_bits(lanes_behind_barrier(pass, n, block));
     if (!bits)
         return;
     double lanes[PHYS_VECTOR_DIMENSIONS][LANES];
@@ -67,10 +67,10 @@ KERNEL void bounce(const SweepPass *pass, size_t n, const Block *block, const Re
     }
     for (; bits; bits &= bits - 1) {
         size_t lane = (size_t)__builtin_ctz(bits);
-        double had[PHYS_VECTOR_DIMENSIONS];
+        double velocity_before[PHYS_VECTOR_DIMENSIONS];
         for (size_t k = 0; k < n; k++)
-            had[k] = lanes[k][lane];
-        phys_sweep_bounce(pass, block->first + lane, had);
+            velocity_before[k] = lanes[k][lane];
+        phys_integrate_reflect(pass, block->first + lane, velocity_before);
     }
 }
 
@@ -88,58 +88,58 @@ KERNEL Mask live_lanes(const Columns *columns, size_t i, size_t count) {
     return real_differs_where(live, real_load(moving), real_zero());
 }
 
-KERNEL void sweep_block(SweepPass *pass, size_t n, size_t i, size_t count) {
+KERNEL void integrate_block(IntegratePass *pass, size_t n, size_t i, size_t count) {
     const Columns *columns = pass->columns;
-    Real place[PHYS_VECTOR_DIMENSIONS], velocity[PHYS_VECTOR_DIMENSIONS], force[PHYS_VECTOR_DIMENSIONS];
+    Real position[PHYS_VECTOR_DIMENSIONS], velocity[PHYS_VECTOR_DIMENSIONS], force[PHYS_VECTOR_DIMENSIONS];
     Real before[PHYS_VECTOR_DIMENSIONS];
-    Mask live = columns->all_move ? mask_first(count) : live_lanes(columns, i, count);
-    Real mass = columns->alike ? real_set(columns->mass[0]) : real_load(columns->mass + i);
-    Block block = {i, 0, 1, live, place, velocity, force, mass};
+    Mask live = columns->no_anchors ? mask_first(count) : live_lanes(columns, i, count);
+    Real mass = columns->uniform_mass ? real_set(columns->mass[0]) : real_load(columns->mass + i);
+    Block block = {i, 0, 1, live, position, velocity, force, mass};
     block.active = (size_t)__builtin_popcount(mask_bits(block.live));
     for (size_t k = 0; k < n; k++) {
-        place[k] = real_load(columns->position + k * columns->stride + i);
+        position[k] = real_load(columns->position + k * columns->stride + i);
         velocity[k] = before[k] = real_load(columns->velocity + k * columns->stride + i);
         force[k] = real_load(columns->force + k * columns->stride + i);
     }
     apply_forces(pass, n, &block);
-    pass->taken += n * block.active;
-    move(n, &block, pass->delta, pass->speed_of_light);
+    pass->draw_count += n * block.active;
+    move_particles(n, &block, pass->delta, pass->speed_of_light);
     for (size_t k = 0; k < n; k++) {
-        real_store_where(block.live, columns->position + k * columns->stride + i, place[k]);
+        real_store_where(block.live, columns->position + k * columns->stride + i, position[k]);
         real_store_where(block.live, columns->velocity + k * columns->stride + i, velocity[k]);
         if (pass->keep_force)
             real_store_where(block.live, columns->force + k * columns->stride + i, force[k]);
     }
     if (pass->barrier_count)
-        bounce(pass, n, &block, before);
+        reflect_lanes(pass, n, &block, before);
     for (size_t k = 0; k < n && !pass->keep_force; k++)
         real_store_where(mask_first(count), columns->force + k * columns->stride + i, real_zero());
 }
 
-KERNEL void sweep(SweepPass *pass, size_t n, size_t first, size_t end) {
-    for (size_t i = first; i < end && !phys_sweep_stopped(pass); i += LANES)
-        sweep_block(pass, n, i, end - i);
+KERNEL void integrate_range(IntegratePass *pass, size_t n, size_t first, size_t end) {
+    for (size_t i = first; i < end && !phys_integrate_stopped(pass); i += LANES)
+        integrate_block(pass, n, i, end - i);
 }
 
-static void sweep_1(SweepPass *pass, size_t first, size_t end) {
-    sweep(pass, 1, first, end);
+static void integrate_1(IntegratePass *pass, size_t first, size_t end) {
+    integrate_range(pass, 1, first, end);
 }
 
-static void sweep_2(SweepPass *pass, size_t first, size_t end) {
-    sweep(pass, 2, first, end);
+static void integrate_2(IntegratePass *pass, size_t first, size_t end) {
+    integrate_range(pass, 2, first, end);
 }
 
-static void sweep_3(SweepPass *pass, size_t first, size_t end) {
-    sweep(pass, 3, first, end);
+static void integrate_3(IntegratePass *pass, size_t first, size_t end) {
+    integrate_range(pass, 3, first, end);
 }
 
-void PER_ISA(sweep_all)(SweepPass *pass, size_t first, size_t end) {
+void PER_ISA(integrate_all)(IntegratePass *pass, size_t first, size_t end) {
     if (pass->columns->dimensions == 1)
-        sweep_1(pass, first, end);
+        integrate_1(pass, first, end);
     else if (pass->columns->dimensions == 2)
-        sweep_2(pass, first, end);
+        integrate_2(pass, first, end);
     else
-        sweep_3(pass, first, end);
+        integrate_3(pass, first, end);
 }
 
 // All lanes are finite? If so, `zeros` are those where one of the parts is 0.
@@ -153,7 +153,7 @@ KERNEL bool all_finite(const Real *parts, size_t count, Lanes *zeros) {
     return mask_bits(finite) == ALL_LANES;
 }
 
-KERNEL bool other_zero(const double *row, const Real *parts, size_t count, size_t lane) {
+KERNEL bool has_other_zero(const double *row, const Real *parts, size_t count, size_t lane) {
     for (size_t k = 0; k < count; k++)
         if (row[k] == 0 && parts[k][lane] == 0 && signbit(row[k]) != signbit(parts[k][lane]))
             return true;
@@ -161,7 +161,7 @@ KERNEL bool other_zero(const double *row, const Real *parts, size_t count, size_
 }
 
 // The rows of LANES particles, each of 2 n numbers.
-KERNEL void store_parts(size_t n, const uint32_t *order, double *rows, const Real *parts) {
+KERNEL void write_lane_rows(size_t n, const uint32_t *order, double *rows, const Real *parts) {
     double *row[LANES];
     for (size_t lane = 0; lane < LANES; lane++)
         row[lane] = rows + 2 * n * order[lane];
@@ -180,7 +180,8 @@ KERNEL void store_parts(size_t n, const uint32_t *order, double *rows, const Rea
 
 // Where all numbers are finite, keeping the last finite ones (particles.c) is to copy: numbers that are equal to those
 // in the rows have the same bits, but for zeros.
-KERNEL size_t store(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first, size_t end) {
+KERNEL size_t write_range(const Columns *columns, size_t n, const uint32_t *order, double *rows, size_t first,
+                          size_t end) {
     enum { AHEAD = 64, MANY = 30000 }; // rows that are fetched before they are needed, where caches do not hold all
     bool many = columns->count > MANY;
     for (; first + LANES <= end; first += LANES) {
@@ -197,20 +198,20 @@ KERNEL size_t store(const Columns *columns, size_t n, const uint32_t *order, dou
             return first;
         for (; zeros; zeros &= zeros - 1) {
             size_t lane = (size_t)__builtin_ctz(zeros);
-            if (other_zero(rows + 2 * n * order[first + lane], parts, 2 * n, lane))
+            if (has_other_zero(rows + 2 * n * order[first + lane], parts, 2 * n, lane))
                 return first;
         }
-        store_parts(n, order + first, rows, parts);
+        write_lane_rows(n, order + first, rows, parts);
     }
     return first;
 }
 
-size_t PER_ISA(store_rows)(const Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end) {
+size_t PER_ISA(write_rows)(const Columns *columns, const uint32_t *order, double *rows, size_t first, size_t end) {
     if (columns->dimensions == 1)
-        return store(columns, 1, order, rows, first, end);
+        return write_range(columns, 1, order, rows, first, end);
     if (columns->dimensions == 2)
-        return store(columns, 2, order, rows, first, end);
-    return store(columns, 3, order, rows, first, end);
+        return write_range(columns, 2, order, rows, first, end);
+    return write_range(columns, 3, order, rows, first, end);
 }
 
 #endif

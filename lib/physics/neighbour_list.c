@@ -1,0 +1,383 @@
+// neighbour_list.c: when to use neighbour lists, and how (see neighbour_list.h).
+#include "physics/neighbour_list.h"
+
+#include "physics/integrate.h"
+#include "physics/threads.h"
+
+#include <string.h>
+
+enum {
+    MIN_FOR_LISTS = 160, // particles of a pass
+    FIRST_COOLDOWN = 64, // steps without lists after they did not pay; doubled each time
+    MAX_COOLDOWN = 1024,
+    ENTRIES_A_UNIT = 4,
+    FIRST_LIFETIME = 8, // steps that a list is expected to serve at first
+    MIN_LIFETIME = 8,   // and that it should serve
+    MANY = 250000,      // particles that no cache holds
+};
+
+void phys_neighbour_list_free(NeighbourList *list) {
+    phys_buffer_free(&list->arrays);
+    phys_buffer_free(&list->cells);
+    phys_buffer_free(&list->entries);
+}
+
+// The reach of a pass; false if one of its forces has none.
+static bool is_bounded(const PairPass *pass, double *bound, bool *contact_only) {
+    *bound = 0;
+    *contact_only = true;
+    for (size_t t = 0; t < pass->term_count; t++) {
+        const PairTerm *term = &pass->terms[t];
+        if (phys_force_row(term->kind).reach == REACH_CONTACT)
+            continue;
+        *contact_only = false;
+        *bound = fmax(*bound, term->bound);
+    }
+    return *bound < INFINITY;
+}
+
+// The particles of a pass; false if there are too many ranges.
+static bool find_ranges(const PhysSystem *system, uint32_t group, uint32_t level, PassRanges *ranges) {
+    const Group *groups = system->groups.bytes;
+    memset(ranges, 0, sizeof *ranges);
+    for (uint32_t g = group; g != NO_GROUP && g >= level; g = g ? groups[groups[g].parent].populated : NO_GROUP) {
+        if (ranges->count == PHYS_MAX_RANGES)
+            return false;
+        ranges->at[ranges->count++] = (ColumnRange){groups[g].first, groups[g].count};
+    }
+    return true;
+}
+
+// The list that was made for this pass, or one that is not used in this frame.
+static NeighbourList *find_list(PhysSystem *system, uint32_t group, uint32_t level) {
+    NeighbourList *spare = NULL;
+    for (int i = 0; i < PHYS_MAX_LISTS; i++) {
+        NeighbourList *list = &system->lists[i];
+        if (list->frame && list->group == group && list->level == level)
+            return list;
+        if (list->frame < system->frame && (!spare || list->frame < spare->frame))
+            spare = list;
+    }
+    if (spare)
+        spare->built = false;
+    return spare;
+}
+
+static bool still_idle(const PairPass *pass, const NeighbourList *list) {
+    for (uint32_t index = list->view.listed; index < list->total; index++) {
+        size_t column = list->view.direct ? index : list->view.column[index];
+        bool idle = list->contact_only && pass->radius[column] == 0;
+        for (size_t k = 0; k < pass->dimensions; k++)
+            idle |= !isfinite(pass->position[k * pass->stride + column]);
+        if (!idle)
+            return false;
+    }
+    return true;
+}
+
+// A pass with a list, as the threads see it.
+typedef struct ListPass {
+    const Kernels *kernels;
+    const PairPass *pass;
+    NeighbourList *list;
+    const Integrator *sweep;     // of step_share
+    bool reuse;                  // likewise: chunks of a share take turns with one piece of the column of forces
+    bool valid[PHYS_MAX_CHUNKS]; // by share: nothing has left its skin
+} ListPass;
+
+// Whole blocks for each worker.
+static size_t chunk_first_block(const ListPass *work, size_t count, int chunk, int chunks) {
+    size_t lanes = work->list->lanes, blocks = (count + lanes - 1) / lanes;
+    return phys_chunk_begin(blocks, chunk, chunks);
+}
+
+static void refresh_chunk(void *context, int chunk, int chunks) {
+    ListPass *work = context;
+    const ListView *view = &work->list->view;
+    size_t lanes = work->list->lanes, first = chunk_first_block(work, view->listed, chunk, chunks) * lanes;
+    size_t end = chunk_first_block(work, view->listed, chunk + 1, chunks) * lanes;
+    end = end < view->listed ? end : view->listed;
+    work->valid[chunk] = work->kernels->list_refresh(work->pass, view, first, end);
+}
+
+static void force_chunk(void *context, int chunk, int chunks) {
+    ListPass *work = context;
+    const ListView *view = &work->list->view;
+    size_t first = chunk_first_block(work, view->regular, chunk, chunks);
+    work->kernels->list_forces(work->pass, view, first, chunk_first_block(work, view->regular, chunk + 1, chunks));
+}
+
+// Forces, motion and the quads of the next step in one go, by chunks that stay in the cache. What moves is the columns,
+// and the kernels for forces read the quads alone.
+static void step_chunk(void *context, int chunk, int chunks) {
+    enum { CHUNK = 16384 }; // places
+    ListPass *work = context;
+    const ListView *view = &work->list->view;
+    ListView next = *view;
+    next.packed = work->list->next_packed;
+    size_t lanes = work->list->lanes, start = chunk_first_block(work, view->regular, chunk, chunks) * lanes;
+    size_t stop = chunk_first_block(work, view->regular, chunk + 1, chunks) * lanes;
+    stop = stop < view->regular ? stop : view->regular;
+    for (size_t first = start, end; first < stop; first = end) {
+        end = stop - first > CHUNK ? first + CHUNK : stop;
+        PairPass pass = *work->pass;
+        Columns columns = *work->sweep->pass.columns;
+        Integrator integrator = *work->sweep;
+        columns.force = pass.force -= work->reuse ? first - start : 0;
+        integrator.pass.columns = &columns;
+        work->kernels->list_forces(&pass, view, first / lanes, (end + lanes - 1) / lanes);
+        phys_integrate_rows(&integrator, first, end);
+        work->valid[chunk] &= work->kernels->list_refresh(&pass, &next, first, end);
+    }
+}
+
+static int chunk_count_for(const PhysSystem *system, const NeighbourList *list) {
+    return phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
+}
+
+// Runs `share`; false if something has left its skin.
+static bool run_chunks(const PhysSystem *system, ListPass *work, PhysTask *task) {
+    bool held = true;
+    memset(work->valid, true, sizeof work->valid);
+    phys_parallel(system, chunk_count_for(system, work->list), task, work);
+    for (int w = 0; w < PHYS_MAX_CHUNKS; w++)
+        held &= work->valid[w];
+    return held;
+}
+
+// The halo is where others say.
+static bool refresh_remote(const PhysSystem *system, const ListPass *work) {
+    const ListView *view = &work->list->view;
+    uint32_t lanes = (uint32_t)work->list->lanes, count = system->remote ? work->list->total : 0, i = 0;
+    bool held = true;
+    for (; i < count && (i = phys_next_remote(system, i)) < count; i = i / lanes * lanes + lanes) {
+        uint32_t first = i / lanes * lanes, end = first + lanes < view->listed ? first + lanes : view->listed;
+        held &= work->kernels->list_refresh(work->pass, view, first, end);
+    }
+    return held;
+}
+
+// Brings the list's copy of the particles up to date. False if something has left its skin.
+static bool refresh_list(const PhysSystem *system, ListPass *work) {
+    NeighbourList *list = work->list;
+    if (list->next_motion_version && list->next_motion_version == system->motion_version) {
+        double *quads = list->view.packed;
+        list->view.packed = list->next_packed;
+        list->next_packed = quads;
+        list->next_motion_version = 0;
+        return refresh_remote(system, work) && list->next_valid;
+    }
+    list->view.same_radii = list->radius_version == system->radius_version;
+    return run_chunks(system, work, refresh_chunk) && still_idle(work->pass, list);
+}
+
+// The whole step, if all that it has is this pass, the motion and what is in the columns. Where caches hold all of it,
+// this gains nothing.
+static bool step_with_list(PhysSystem *system, ListPass *work, Move *move) {
+    NeighbourList *list = work->list;
+    bool many = list->total >= MANY || system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
+    if (!move || !many || !list->next_packed || !list->view.direct || list->view.regular < list->total)
+        return false;
+    Integrator integrator;
+    work->sweep = &integrator;
+    work->reuse = !system->has_own_forces && !system->options.keep_forces;
+    move->done = true;
+    if (!phys_integrate_begin(system, 0, move->delta, move->speed_of_light, &integrator))
+        return true; // the meter gives the step up
+    list->next_valid = run_chunks(system, work, step_chunk);
+    list->next_motion_version = system->motion_version + 1; // as it is after the step
+    phys_integrate_end(&integrator);
+    return true;
+}
+
+// The few large particles: each takes everyone.
+static void large_forces(const ListPass *work) {
+    const NeighbourList *list = work->list;
+    const PassRanges *ranges = &list->ranges;
+    uint32_t end = list->view.listed, own = phys_own_keys(list);
+    for (uint32_t index = list->view.regular; index < end && !phys_pass_stopped(work->pass);) {
+        uint32_t targets[8] = {0}, count = 0;
+        bool inner = list->key[index] < own;
+        // Those of enclosing groups meet only the particles of the group itself.
+        for (; index < end && count < list->lanes && (list->key[index] < own) == inner; index++)
+            targets[count++] = list->view.column[index];
+        for (uint32_t r = 0; r < (inner ? ranges->count : 1); r++)
+            work->kernels->range_forces(work->pass, targets, count, ranges->at[r].first,
+                                        (size_t)ranges->at[r].first + ranges->at[r].count);
+    }
+}
+
+// Costs relative to that of a list entry, with eight lanes; only ratios count, so the unit is left open. Where a force
+// needs contact, few pairs get as far as a square root. Wrong costs cost time and change no result.
+#define PAIR_COST(touch_only) ((touch_only) ? 1.0 / 6 : 1.0)
+#define SCAN_COST (1.0 / 3)  // of a candidate, when a list is built
+#define LARGE_COST (1.0 / 3) // of a pair with a large particle
+#define BUILD_COST 44.0      // of a particle, when a list is built
+#define REFRESH_COST 5.5     // of a particle, in every step
+
+static double all_pairs_cost(const NeighbourList *list) {
+    double n = (double)phys_ranges_total(&list->ranges), own = list->ranges.at[0].count;
+    return (own * (own - 1) / 2 + own * (n - own)) * PAIR_COST(list->contact_only);
+}
+
+uint64_t phys_max_useful_entries(const NeighbourList *list) {
+    return (uint64_t)all_pairs_cost(list) + 1;
+}
+
+// Is a step with lists cheaper than one with all pairs?
+static bool pays_off(const NeighbourList *list) {
+    double lifetime = list->lifetime ? list->lifetime : FIRST_LIFETIME, n = list->total,
+           width = (double)list->lanes / 8;
+    double each = n * (BUILD_COST / lifetime + REFRESH_COST), scan = (double)list->scanned * SCAN_COST / lifetime;
+    double large = (double)(list->view.listed - list->view.regular) * n * LARGE_COST;
+    return each + (scan + large + (double)list->padded) / width < all_pairs_cost(list) / width;
+}
+
+// Of a step with lists, but for what does not depend on the skin. Counted, not timed: which way is taken shows in the
+// work that is charged.
+static double cost_of_step(const NeighbourList *list) {
+    double build = (double)list->total * BUILD_COST, width = (double)list->lanes / 8;
+    return build / list->lifetime + ((double)list->scanned * SCAN_COST / list->lifetime + (double)list->padded) / width;
+}
+
+// A longer skin makes longer lists that serve more steps. Each life tries another one, in the same direction until it
+// costs more than the last; but motion changes costs, too, and must not lead to lists that serve hardly any step.
+static void tune_skin(NeighbourList *list) {
+    double cost = cost_of_step(list);
+    bool worse = list->cost > 0 && cost > list->cost;
+    list->shrinking = list->lifetime >= MIN_LIFETIME && list->shrinking != worse;
+    list->cost = cost;
+    list->skin *= list->shrinking ? 1 / 1.2 : 1.2;
+    list->skin = fmax(MIN_SKIN * list->contact_distance, fmin(list->skin, MAX_SKIN * list->contact_distance));
+}
+
+// Neither many steps nor few are best.
+void phys_adapt_skin(NeighbourList *list, uint32_t lifetime) {
+    if (lifetime < MIN_LIFETIME)
+        list->skin = fmin(list->skin * 1.25, MAX_SKIN * list->contact_distance);
+    else if (lifetime > 24)
+        list->skin = fmax(list->skin / 1.15, MIN_SKIN * list->contact_distance);
+}
+
+// Large particles meet all others in the order of the columns, and so do all where there is no list.
+static bool sort_particles(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
+    bool sorted = phys_grid_build(system, kernels, pass, list);
+    if (!system->in_cell_order || (sorted && list->view.listed == list->view.regular))
+        return sorted;
+    phys_restore_order(system);
+    return sorted && phys_grid_build(system, kernels, pass, list);
+}
+
+static bool build_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, NeighbourList *list) {
+    list->next_motion_version = 0;
+    list->built = sort_particles(system, kernels, pass, list);
+    list->radius_version = system->radius_version;
+    system->failed = false; // lists may fail, the frame need not
+    list->age = 0;
+    if (list->built && (system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS || pays_off(list))) {
+        list->backoff = 0;
+        if (system->can_reorder)
+            phys_reorder(system, list);
+        return true;
+    }
+    list->built = false;
+    if (system->remote) { // until the next halo
+        list->cooldown = UINT32_MAX;
+        return false;
+    }
+    list->backoff = list->backoff ? list->backoff * 2 : FIRST_COOLDOWN;
+    list->backoff = list->backoff < MAX_COOLDOWN ? list->backoff : MAX_COOLDOWN;
+    list->cooldown = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS ? 0 : list->backoff;
+    return false;
+}
+
+// A list for this pass as it is described now, valid or not; NULL if there is none to be had.
+static NeighbourList *prepare_list(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
+                                   uint32_t level) {
+    double bound;
+    bool contact_only;
+    PassRanges ranges;
+    if (!is_bounded(pass, &bound, &contact_only) || !find_ranges(system, group, level, &ranges))
+        return NULL;
+    uint64_t total = phys_ranges_total(&ranges);
+    bool always = system->options.neighbours == PHYS_NEIGHBOURS_ALWAYS;
+    if (system->options.neighbours == PHYS_NEIGHBOURS_NEVER ||
+        (!always && (total < MIN_FOR_LISTS || ranges.at[0].count < MIN_FOR_LISTS / 4)))
+        return NULL;
+    NeighbourList *list = find_list(system, group, level);
+    if (!list)
+        return NULL;
+    bool same = list->group == group && list->level == level && list->dimensions == pass->dimensions &&
+                list->lanes == kernels->lanes && list->contact_only == contact_only && list->bound == bound &&
+                !memcmp(&list->ranges, &ranges, sizeof ranges);
+    list->frame = system->frame;
+    if (!same) {
+        list->group = group;
+        list->level = level;
+        list->dimensions = pass->dimensions;
+        list->lanes = kernels->lanes;
+        list->contact_only = contact_only;
+        list->bound = bound;
+        list->ranges = ranges;
+        list->built = false;
+        list->cooldown = list->backoff = list->lifetime = 0;
+        list->cost = 0;
+        list->shrinking = false;
+        list->skin = system->skin;
+        list->skin_is_fixed = system->remote;
+    }
+    return list;
+}
+
+bool phys_lists_valid(PhysSystem *system, uint32_t age) {
+    const Kernels *kernels = phys_kernels(system);
+    PairPass pass = phys_columns_pass(&system->columns);
+    bool hold = true;
+    for (int i = 0; i < PHYS_MAX_LISTS; i++) {
+        ListPass work = {.kernels = kernels, .pass = &pass, .list = &system->lists[i]};
+        if (work.list->built)
+            hold = refresh_list(system, &work) && hold && work.list->age == age;
+    }
+    return hold;
+}
+
+void phys_lists_drop(PhysSystem *system, double skin) {
+    system->skin = skin;
+    for (int i = 0; i < PHYS_MAX_LISTS; i++) {
+        NeighbourList *list = &system->lists[i];
+        list->built = false;
+        list->cooldown = 0;
+        list->skin = skin;
+    }
+}
+
+bool phys_neighbour_list_pass(PhysSystem *system, const Kernels *kernels, const PairPass *pass, uint32_t group,
+                              uint32_t level, Move *move) {
+    NeighbourList *list = prepare_list(system, kernels, pass, group, level);
+    if (!list)
+        return false;
+    if (list->cooldown) {
+        list->cooldown--;
+        return false;
+    }
+    ListPass work = {.kernels = kernels, .pass = pass, .list = list};
+    if (list->built && !system->remote && !refresh_list(system, &work)) {
+        list->built = false;
+        list->lifetime = list->age;
+        tune_skin(list);
+    }
+    if (!list->built) {
+        if (!build_list(system, kernels, pass, list))
+            return false;
+        refresh_list(system, &work);
+    }
+    list->age++;
+    uint64_t large = (uint64_t)(list->view.listed - list->view.regular) * list->total;
+    if (!phys_charge(system, (list->padded + large) * pass->term_count / ENTRIES_A_UNIT + list->total))
+        return true;
+    if (step_with_list(system, &work, move))
+        return true;
+    phys_parallel(system, chunk_count_for(system, list), force_chunk, &work);
+    large_forces(&work);
+    return true;
+}

@@ -1,0 +1,153 @@
+// pair_wavefront.c: all pairs of a pass on several threads.
+//
+// The pairs form a triangle or a rectangle, cut into blocks. A block may be computed when the one to its left and the
+// one above it are done: then the sums of its rows and of its columns have received everything that comes before, in
+// order. Threads take rows of blocks in turns and follow each other through them like the steps of a staircase, so the
+// order of all sums is that of one thread. When a row of a triangle is done, nobody asks any more where its particles
+// are: they may be moved, which is what threads do that have to wait.
+//
+// A thread hears of another's work after some 300 nanoseconds, in which it would do six tiles of pairs: so blocks are
+// small, and what two threads write to lies in different lines of the cache.
+#include "physics/pair_wavefront.h"
+
+#include "physics/threads.h"
+
+#include <stdatomic.h>
+
+enum {
+    PAIRS_FOR_THREADS = 60000, // fewer are done before another thread is awake
+    PAIRS_FOR_AWAKE = 10000,   // which helps with fewer if it is
+    MIN_BLOCK = 24,            // rows of a block
+    BLOCKS_PER_COLUMN = 24,    // and so many blocks in a column, if they are not smaller than that
+    MAX_BLOCKS = BLOCKS_PER_COLUMN + 1,
+    BLOCK_ALIGN = 8, // rows, a multiple of all lanes
+    LINE_BYTES = 64, // of the cache
+};
+
+// A row of blocks.
+typedef struct Row {
+    _Alignas(LINE_BYTES) atomic_bool claimed;
+    atomic_size_t done; // the column up to which it is
+} Row;
+
+typedef struct Wavefront {
+    // what a thread must fetch before it can begin, side by side
+    _Alignas(LINE_BYTES) PairBlocks blocks;
+    PairRegion pairs;
+    PairPass pass;
+    PhysThreads *threads;
+    const PairMotion *motion;                 // or NULL
+    _Alignas(LINE_BYTES) atomic_size_t moved; // rows whose particles are, or somebody is about to
+    Row rows[MAX_BLOCKS];
+} Wavefront;
+
+static size_t min_size(size_t a, size_t b) {
+    return a < b ? a : b;
+}
+
+PairBlocks phys_pair_blocks(const PairRegion *pairs, size_t blocks_per_column, size_t min_rows) {
+    size_t rows = pairs->row_end - pairs->row, columns = pairs->column_end - pairs->column;
+    size_t block = (rows / blocks_per_column + BLOCK_ALIGN - 1) / BLOCK_ALIGN * BLOCK_ALIGN;
+    block = block < min_rows ? min_rows : block;
+    return (PairBlocks){pairs, block, (rows + block - 1) / block, (columns + block - 1) / block};
+}
+
+void phys_pair_block(const PairBlocks *blocks, size_t row, size_t column) {
+    const PairRegion *pairs = blocks->pairs;
+    size_t first = pairs->row + row * blocks->block, end = min_size(first + blocks->block, pairs->row_end);
+    size_t other = pairs->column + column * blocks->block,
+           other_end = min_size(other + blocks->block, pairs->column_end);
+    if (pairs->triangle && row == column)
+        pairs->kernel->triangle(pairs->pass, first, end);
+    else
+        pairs->kernel->tiles(pairs->pass, first, end, other, other_end);
+}
+
+static bool claim_row(Row *row) {
+    return !atomic_load_explicit(&row->claimed, memory_order_relaxed) &&
+           !atomic_exchange_explicit(&row->claimed, true, memory_order_relaxed);
+}
+
+static bool is_done_to(const Row *row, size_t column) {
+    return atomic_load_explicit(&row->done, memory_order_acquire) >= column;
+}
+
+// Moves the particles of the next row that is done; false if there is none.
+static bool move_next_row(Wavefront *wavefront) {
+    size_t row = atomic_load_explicit(&wavefront->moved, memory_order_relaxed);
+    if (!wavefront->motion || row >= wavefront->blocks.rows ||
+        !is_done_to(&wavefront->rows[row], wavefront->blocks.columns) ||
+        !atomic_compare_exchange_strong_explicit(&wavefront->moved, &row, row + 1, memory_order_relaxed,
+                                                 memory_order_relaxed))
+        return false;
+    const PairRegion *pairs = wavefront->blocks.pairs;
+    size_t first = pairs->row + row * wavefront->blocks.block;
+    wavefront->motion->move(wavefront->motion->context, first,
+                            min_size(first + wavefront->blocks.block, pairs->row_end));
+    return true;
+}
+
+static void wait_for_row(Wavefront *wavefront, const Row *row, size_t column, bool caller) {
+    PhysSpinWait wait = {0};
+    while (!is_done_to(row, column))
+        if (!move_next_row(wavefront))
+            phys_spin_wait(&wait);
+    if (caller)
+        phys_spin_wait_end(wavefront->threads, &wait);
+}
+
+static void compute_row(Wavefront *wavefront, size_t row, bool caller) {
+    for (size_t column = wavefront->blocks.pairs->triangle ? row : 0; column < wavefront->blocks.columns; column++) {
+        if (row)
+            wait_for_row(wavefront, &wavefront->rows[row - 1], column + 1, caller);
+        phys_pair_block(&wavefront->blocks, row, column);
+        atomic_store_explicit(&wavefront->rows[row].done, column + 1, memory_order_release);
+    }
+}
+
+// Every thread has rows of its own, and takes those before them that nobody has begun.
+static void run_rows(void *context, int chunk, int chunks) {
+    Wavefront *wavefront = context;
+    for (size_t byte = 0; byte < offsetof(Wavefront, moved); byte += LINE_BYTES)
+        __builtin_prefetch((const char *)wavefront + byte);
+    size_t rows = wavefront->blocks.rows;
+    for (size_t row = (size_t)chunk; row < rows + (size_t)chunks; row += (size_t)chunks) {
+        size_t end = min_size(row + 1, rows), first = end;
+        while (first > 0 && claim_row(&wavefront->rows[first - 1]))
+            first--;
+        for (; first < end; first++)
+            compute_row(wavefront, first, chunk == 0);
+    }
+    if (!wavefront->motion)
+        return;
+    wait_for_row(wavefront, &wavefront->rows[rows - 1], wavefront->blocks.columns, chunk == 0);
+    while (move_next_row(wavefront))
+        continue;
+}
+
+int phys_wavefront_threads(const PhysSystem *system, uint64_t pairs) {
+    if (system->options.threads < 2 || pairs < PAIRS_FOR_AWAKE)
+        return 0;
+    return pairs >= PAIRS_FOR_THREADS ? system->options.threads : phys_short_job_threads(system, pairs);
+}
+
+void phys_pair_wavefront(const PhysSystem *system, const PairRegion *pairs, int threads, const PairMotion *motion) {
+    Wavefront wavefront;
+    wavefront.pass = *pairs->pass;
+    wavefront.pairs = *pairs;
+    wavefront.pairs.pass = &wavefront.pass;
+    wavefront.blocks = phys_pair_blocks(&wavefront.pairs, BLOCKS_PER_COLUMN, MIN_BLOCK);
+    wavefront.threads = system->threads;
+    wavefront.motion = motion;
+    atomic_init(&wavefront.moved, 0);
+    for (size_t row = 0; row < wavefront.blocks.rows; row++) {
+        atomic_init(&wavefront.rows[row].claimed, false);
+        atomic_init(&wavefront.rows[row].done, 0);
+    }
+    int chunks = (int)min_size((size_t)threads, wavefront.blocks.rows);
+    uint64_t count = (pairs->row_end - pairs->row) * (pairs->column_end - pairs->column) / (pairs->triangle ? 2 : 1);
+    if (count < PAIRS_FOR_THREADS)
+        phys_parallel_short(system, chunks, count, run_rows, &wavefront);
+    else
+        phys_parallel(system, chunks, run_rows, &wavefront);
+}

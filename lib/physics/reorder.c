@@ -1,0 +1,183 @@
+// reorder.c: columns in the order of the places of a neighbour list.
+//
+// A list sorts particles by the cells of a grid, so that neighbours lie near each other. As long as its system is one
+// of those that can, the columns are brought into the same order whenever a list has been made: then the kernels need
+// not look for the column of each place, and partners are near in memory. Which particle is in a column says
+// system->order. As all particles are of one group, their handles count up in the order of the description, which is
+// that of sums.
+#include "physics/neighbour_list.h"
+#include "physics/threads.h"
+
+#include <string.h>
+
+enum { MAX_ARRAYS = 4 * PHYS_VECTOR_DIMENSIONS + 6 }; // arrays
+
+typedef struct Reordering {
+    PhysSystem *system;
+    const NeighbourList *list;
+    double *arrays[MAX_ARRAYS]; // but for positions, which the list has in its order
+    size_t count;
+    size_t next; // those that are on their way
+} Reordering;
+
+static void add_vector(Reordering *reordering, double *vector, size_t parts) {
+    for (size_t k = 0; k < parts; k++)
+        reordering->arrays[reordering->count++] = vector + k * reordering->system->columns.stride;
+}
+
+// What the particles of a system with one record share need not be moved.
+static void add_arrays(Reordering *reordering, bool positions) {
+    const PhysSystem *system = reordering->system;
+    const Columns *columns = &system->columns;
+    if (positions)
+        add_vector(reordering, columns->position, columns->dimensions);
+    add_vector(reordering, columns->velocity, columns->dimensions);
+    if (system->has_own_forces) {
+        add_vector(reordering, columns->own_force, columns->dimensions);
+        add_vector(reordering, columns->ease, 1);
+    }
+    if (system->has_own_forces || positions)
+        add_vector(reordering, columns->force, columns->dimensions); // else they are 0 before the pairs
+    if (!system->record_stride)
+        return;
+    double *numbers[] = {columns->radius, columns->mass, columns->charge, columns->section, columns->volume};
+    for (size_t i = 0; i < sizeof numbers / sizeof *numbers; i++)
+        add_vector(reordering, numbers[i], 1);
+}
+
+// Until a list is brought up to date its quads serve no purpose, but for the dummy behind them.
+static size_t arrays_at_once(const Reordering *reordering) {
+    size_t left = reordering->count - reordering->next, room = reordering->list->view.width;
+    return left < room ? left : room;
+}
+
+static void gather_chunk(void *context, int chunk, int chunks) {
+    const Reordering *reordering = context;
+    const NeighbourList *list = reordering->list;
+    const uint32_t *column = list->view.column;
+    size_t first = phys_chunk_begin(list->total, chunk, chunks), end = phys_chunk_begin(list->total, chunk + 1, chunks);
+    for (size_t a = 0; a < arrays_at_once(reordering); a++) {
+        const double *from = reordering->arrays[reordering->next + a];
+        double *to = list->view.packed + a * list->total;
+        for (size_t i = first; i < end; i++)
+            to[i] = from[column[i]];
+    }
+}
+
+static void copy_chunk(void *context, int chunk, int chunks) {
+    const Reordering *reordering = context;
+    const NeighbourList *list = reordering->list;
+    size_t first = phys_chunk_begin(list->total, chunk, chunks),
+           count = phys_chunk_begin(list->total, chunk + 1, chunks) - first;
+    for (size_t a = 0; a < arrays_at_once(reordering) && count; a++)
+        memcpy(reordering->arrays[reordering->next + a] + first, list->view.packed + a * list->total + first,
+               count * sizeof(double));
+}
+
+static void move_arrays(Reordering *reordering, int chunks) {
+    for (reordering->next = 0; reordering->next < reordering->count; reordering->next += arrays_at_once(reordering)) {
+        phys_parallel(reordering->system, chunks, gather_chunk, reordering);
+        phys_parallel(reordering->system, chunks, copy_chunk, reordering);
+    }
+}
+
+static void move_marks(const Reordering *reordering, bool *marks) {
+    const NeighbourList *list = reordering->list;
+    bool *moved = (bool *)list->view.packed;
+    for (uint32_t i = 0; i < list->total; i++)
+        moved[i] = marks[list->view.column[i]];
+    memcpy(marks, moved, list->total);
+}
+
+static void swap_marks(bool *marks, uint32_t i, uint32_t j) {
+    bool mark = marks[i];
+    marks[i] = marks[j];
+    marks[j] = mark;
+}
+
+// Positions, and who is where, the list knows.
+static void set_order_chunk(void *context, int chunk, int chunks) {
+    const Reordering *reordering = context;
+    const NeighbourList *list = reordering->list;
+    PhysSystem *system = reordering->system;
+    size_t first = phys_chunk_begin(list->total, chunk, chunks), end = phys_chunk_begin(list->total, chunk + 1, chunks);
+    for (size_t k = 0; k < list->dimensions && first < end; k++)
+        memcpy(system->columns.position + k * system->columns.stride + first, list->view.built[k] + first,
+               (end - first) * sizeof(double));
+    for (size_t i = first; i < end; i++) {
+        system->order[i] = list->key[i];
+        system->column_of[list->key[i]] = (uint32_t)i;
+    }
+}
+
+bool phys_can_reorder(const PhysSystem *system) {
+    const Group *groups = system->groups.bytes;
+    const Force *forces = system->forces.bytes;
+    for (uint32_t f = 0; f < system->force_count; f++) {
+        ForceRow row = phys_force_row(forces[f].given.kind);
+        if (row.stage == STAGE_LINK || row.need == NEED_STREAM)
+            return false;
+    }
+    for (uint32_t g = 0; g < system->group_count; g++)
+        if (groups[g].count) {
+            uint32_t level = groups[g].nearest[STAGE_PAIR];
+            return groups[g].count == system->particle_count && level != NO_GROUP &&
+                   system->dimensions <= PHYS_VECTOR_DIMENSIONS &&
+                   phys_next_above(groups, level, STAGE_PAIR) == NO_GROUP;
+        }
+    return false;
+}
+
+void phys_reorder(PhysSystem *system, NeighbourList *list) {
+    if (list->view.listed > list->view.regular) // large ones meet all others in the order of the columns
+        return;
+    Reordering reordering = {.system = system, .list = list};
+    int chunks = phys_chunk_count(system, list->total, PHYS_MIN_FOR_THREADS);
+    add_arrays(&reordering, false);
+    move_arrays(&reordering, chunks);
+    if (system->record_stride || system->remote)
+        move_marks(&reordering, system->columns.anchor);
+    if (system->remote)
+        move_marks(&reordering, system->remote);
+    phys_parallel(system, chunks, set_order_chunk, &reordering);
+    for (int i = 0; i < PHYS_MAX_LISTS; i++)
+        system->lists[i].built &= &system->lists[i] == list;
+    list->view.direct = system->in_cell_order = true;
+}
+
+void phys_forget_order(PhysSystem *system) {
+    for (int i = 0; i < PHYS_MAX_LISTS; i++)
+        system->lists[i].built = false;
+    system->in_cell_order = false;
+}
+
+// In place, as there may be no memory: a particle that is not where it belongs changes places with the one that is
+// there.
+void phys_restore_order(PhysSystem *system) {
+    Reordering reordering = {.system = system};
+    uint32_t *order = system->order, *column_of = system->column_of, next = 0;
+    add_arrays(&reordering, true);
+    for (uint32_t handle = 0; handle < system->handle_count; handle++) // what is to be in which column
+        if (column_of[handle] != NO_COLUMN)
+            order[column_of[handle]] = next++;
+    for (uint32_t i = 0; i < system->columns.count; i++)
+        for (uint32_t home = order[i]; home != i; home = order[i]) {
+            for (size_t a = 0; a < reordering.count; a++) {
+                double number = reordering.arrays[a][i];
+                reordering.arrays[a][i] = reordering.arrays[a][home];
+                reordering.arrays[a][home] = number;
+            }
+            swap_marks(system->columns.anchor, i, home);
+            if (system->remote)
+                swap_marks(system->remote, i, home);
+            order[i] = order[home];
+            order[home] = home;
+        }
+    next = 0;
+    for (uint32_t handle = 0; handle < system->handle_count; handle++)
+        if (column_of[handle] != NO_COLUMN) {
+            order[next] = handle;
+            column_of[handle] = next++;
+        }
+    phys_forget_order(system);
+}
