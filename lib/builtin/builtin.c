@@ -15,7 +15,7 @@ const Builtin builtin_table[] = {
 const uint32_t builtin_table_count = sizeof builtin_table / sizeof builtin_table[0];
 
 // No row has more parameters before "...", which a test checks.
-enum { MOST_FIXED = 8 };
+enum { MAX_FIXED = 8 };
 
 const Builtin *builtin_find(Str name) {
     uint32_t low = 0, high = builtin_table_count;
@@ -32,18 +32,18 @@ const Builtin *builtin_find(Str name) {
     return NULL;
 }
 
-Value builtin_fault(BuiltinContext *context, const char *name, const char *format, ...) {
-    enum { FAULT_WORK = 50 }; // each is written, if only to see that it is known
-    if (!context->fault)
+Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...) {
+    enum { ERROR_WORK = 50 }; // each is written, if only to see that it is known
+    if (!context->report_error)
         return VALUE_NULL;
-    arena_charge(context->arena, FAULT_WORK);
+    arena_charge(context->arena, ERROR_WORK);
     Text text = text_new(context->arena);
     text_add_format(&text, "%s: ", name);
     va_list args;
     va_start(args, format);
     text_add_va(&text, format, args);
     va_end(args);
-    context->fault(context->host, text_str(&text));
+    context->report_error(context->user_data, text_str(&text));
     return VALUE_NULL;
 }
 
@@ -64,19 +64,19 @@ static uint32_t parameter_find(const Builtin *builtin, Str name) {
 }
 
 static Value bad_count(BuiltinContext *context, const Builtin *builtin, uint32_t count) {
-    return builtin_fault(context, builtin->name, "%s arguments: %u given to %s(%s)",
+    return builtin_error(context, builtin->name, "%s arguments: %u given to %s(%s)",
                          count < builtin->required ? "too few" : "too many", count, builtin->name, builtin->parameters);
 }
 
 static Value bad_name(BuiltinContext *context, const Builtin *builtin, const char *what, Str name) {
-    return builtin_fault(context, builtin->name, "%s '%.*s' for %s(%s)", what, name.len < 100 ? (int)name.len : 100,
+    return builtin_error(context, builtin->name, "%s '%.*s' for %s(%s)", what, name.len < 100 ? (int)name.len : 100,
                          name.bytes, builtin->name, builtin->parameters);
 }
 
 // The call when not every parameter has its argument by position.
 static Value call_matched(BuiltinContext *context, const Builtin *builtin, const Value *args, uint32_t count,
                           const Symbol *const *names, const Value *named, uint32_t named_count) {
-    Value all[MOST_FIXED];
+    Value all[MAX_FIXED];
     for (uint32_t i = 0; i < builtin->fixed; i++)
         all[i] = i < count ? args[i] : (Value){.kind = VALUE_ABSENT};
     for (uint32_t k = 0; k < named_count; k++) {

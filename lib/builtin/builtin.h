@@ -2,11 +2,11 @@
 //
 // A built-in is one row of builtin_list.h: name, function, parameters, purity, one line of help. The function gets its
 // arguments by position, already matched with the parameters; one that was not given is VALUE_ABSENT. It returns the
-// specified value, null for arguments of the wrong form, and reports a *bad call* of its own through builtin_fault.
+// specified value, null for arguments of the wrong form, and reports a *bad call* of its own through builtin_error.
 #ifndef PETRI_BUILTIN_BUILTIN_H
 #define PETRI_BUILTIN_BUILTIN_H
 
-#include "base/reach.h"
+#include "base/file_access.h"
 #include "value/node.h"
 #include "value/value.h"
 
@@ -15,16 +15,16 @@ typedef struct NoiseCache NoiseCache; // builtin/noise.h
 
 // What a call may use. Everything is borrowed for the call.
 typedef struct BuiltinContext {
-    const struct Builtin *called;        // whose call it is
-    Arena *arena;                        // results and temporaries
-    const SymbolTable *symbols;          // for texts
-    FileCache *files;                    // NULL: file functions find no file
-    NoiseCache *noise;                   // NULL: permutations are made anew for each call
-    const Reach *reach;                  // NULL: all files may be used
-    Str directory;                       // relative file names start here (L13.3); "" is the working directory
-    void (*fault)(void *host, Str text); // a diagnostic at the place of the call
-    void (*log)(void *host, Str text);   // a line of debug()
-    void *host;
+    const struct Builtin *called;  // whose call it is
+    Arena *arena;                  // results and temporaries
+    const SymbolTable *symbols;    // for texts
+    FileCache *files;              // NULL: file functions find no file
+    NoiseCache *noise;             // NULL: permutations are made anew for each call
+    const FileAccess *file_access; // NULL: all files may be used
+    Str directory;                 // relative file names start here (L13.3); "" is the working directory
+    void (*report_error)(void *user_data, Str text); // a diagnostic at the place of the call
+    void (*log)(void *user_data, Str text);          // a line of debug()
+    void *user_data;
 } BuiltinContext;
 
 typedef Value BuiltinCall(BuiltinContext *context, const Value *args, uint32_t count);
@@ -56,7 +56,7 @@ Value builtin_call(BuiltinContext *context, const Builtin *builtin, const Value 
                    const Symbol *const *names, const Value *named, uint32_t named_count);
 
 // Reports "NAME: text" as a diagnostic; null.
-Value builtin_fault(BuiltinContext *context, const char *name, const char *format, ...)
+Value builtin_error(BuiltinContext *context, const char *name, const char *format, ...)
     __attribute__((format(printf, 3, 4)));
 
 // A constant that is visible like a built-in (L4.2): true false null inf nan pi π tau 𝜏. False if there is none.

@@ -1,6 +1,5 @@
 // colour.c: colour spaces (spec builtins.md B11).
 #include "builtin/family.h"
-
 #include "maths/maths.h"
 #include "maths/random.h"
 
@@ -8,12 +7,12 @@
 #include <string.h>
 
 // x without its negative part; a nan counts as 0.
-static double lo(double x) {
+static double clamp_negative(double x) {
     return x > 0 ? x : 0;
 }
 
-static double unit(double x) {
-    x = lo(x);
+static double clamp_unit(double x) {
+    x = clamp_negative(x);
     return 1 < x ? 1 : x;
 }
 
@@ -48,7 +47,7 @@ Value builtin_hsl(BuiltinContext *context, const Value *args, uint32_t count) {
     if (!is_numeric_of(args[0], 3))
         return VALUE_NULL;
     const double *x = args[0].as.numbers;
-    return rgb_of_hsl(context->arena, x[0], unit(x[1]), unit(x[2]));
+    return rgb_of_hsl(context->arena, x[0], clamp_unit(x[1]), clamp_unit(x[2]));
 }
 
 // B11.2: l = v*(1 - s/2), s' = (v - l)/min(l, 1 - l).
@@ -56,7 +55,7 @@ Value builtin_hsv(BuiltinContext *context, const Value *args, uint32_t count) {
     if (!value_is_numeric(args[0]) || args[0].len > 3)
         return VALUE_NULL;
     const double *x = value_numbers(&args[0]);
-    double s = args[0].len > 1 ? unit(x[1]) : 1, v = args[0].len > 2 ? unit(x[2]) : 1;
+    double s = args[0].len > 1 ? clamp_unit(x[1]) : 1, v = args[0].len > 2 ? clamp_unit(x[2]) : 1;
     double l = v * (1 - s / 2);
     double least = l < 1 - l ? l : 1 - l;
     double saturation = l == 0 || l == 1 ? 0 : (v - l) / least;
@@ -79,11 +78,11 @@ static void black_body(double t, bool normalize, double *rgb) {
         y = -0.9549476 * x * x2 - 1.37418593 * x2 + 2.09137015 * x - 0.16748867;
     else
         y = 3.0817580 * x * x2 - 5.87338670 * x2 + 3.75112997 * x - 0.37001483;
-    double Y = normalize ? 1 : maths_pow(lo(t) / 6503.5, 4);
+    double Y = normalize ? 1 : maths_pow(clamp_negative(t) / 6503.5, 4);
     double X = Y * x / y, Z = Y * (1 - x - y) / y;
-    rgb[0] = lo(3.2406255 * X - 1.537208 * Y - 0.4986286 * Z);
-    rgb[1] = lo(-0.9689307 * X + 1.8757561 * Y + 0.0415175 * Z);
-    rgb[2] = lo(0.0557101 * X - 0.2040211 * Y + 1.0569959 * Z);
+    rgb[0] = clamp_negative(3.2406255 * X - 1.537208 * Y - 0.4986286 * Z);
+    rgb[1] = clamp_negative(-0.9689307 * X + 1.8757561 * Y + 0.0415175 * Z);
+    rgb[2] = clamp_negative(0.0557101 * X - 0.2040211 * Y + 1.0569959 * Z);
 }
 
 Value builtin_colortemp(BuiltinContext *context, const Value *args, uint32_t count) {
@@ -101,7 +100,7 @@ Value builtin_colortemp(BuiltinContext *context, const Value *args, uint32_t cou
 }
 
 // A column-major 3x3 matrix times v, each row as m[r]*v0 + m[r+3]*v1 + m[r+6]*v2.
-static void transform(const double *m, double *v) {
+static void transform_3x3(const double *m, double *v) {
     double result[3];
     for (int r = 0; r < 3; r++)
         result[r] = m[r] * v[0] + m[r + 3] * v[1] + m[r + 6] * v[2];
@@ -118,11 +117,11 @@ static Value rgb_of_oklab(Arena *arena, double l, double a, double b) {
                                 0.28125614896646783, -0.07167667866560119, 1.586163220440795};
     static const double C[9] = {3.2406, -0.9689, 0.0557, -1.5372, 1.8758, -0.2040, -0.4986, 0.0415, 1.0570};
     double v[3] = {l, a, b};
-    transform(B, v);
+    transform_3x3(B, v);
     for (int i = 0; i < 3; i++)
         v[i] = maths_pow(v[i], 3);
-    transform(A, v);
-    transform(C, v);
+    transform_3x3(A, v);
+    transform_3x3(C, v);
     return builtin_numbers(arena, v, 3);
 }
 

@@ -2,10 +2,9 @@
 //
 // The cache keeps the file and where its rows start; the fields of a row are taken apart when it is asked for, so a
 // large table costs a frame only the rows that it uses.
+#include "base/number.h"
 #include "builtin/family.h"
 #include "builtin/files.h"
-
-#include "base/number.h"
 
 #include <math.h>
 #include <string.h>

@@ -2,10 +2,10 @@
 #include "builtin/family.h"
 
 // Shorter vectors are done one by one.
-enum { BUILTIN_MANY = 4 };
+enum { BUILTIN_MIN_ARRAY = 4 };
 
 Value builtin_too_long(BuiltinContext *context, const char *name) {
-    return builtin_fault(context, name, "result is too long");
+    return builtin_error(context, name, "result is too long");
 }
 
 Value builtin_texts(Arena *arena, const Str *texts, uint32_t count) {
@@ -32,19 +32,19 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double)) {
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
     for (uint32_t i = 0; i < x.len; i++) {
         result[i] = f(x.as.numbers[i]);
-        arena_portion(arena, i, 1);
+        arena_charge_chunk(arena, i, 1);
     }
     return value_numbers_view(result, x.len);
 }
 
-Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany *many) {
-    if (x.len < BUILTIN_MANY || !value_is_numeric(x))
+Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call) {
+    if (x.len < BUILTIN_MIN_ARRAY || !value_is_numeric(x))
         return builtin_each(arena, x, f);
     double *result = arena_alloc_array(arena, x.len, sizeof *result);
-    for (uint32_t at = 0; at < x.len; at += METER_PORTION) {
-        uint32_t count = x.len - at < METER_PORTION ? x.len - at : METER_PORTION;
+    for (uint32_t at = 0; at < x.len; at += BUDGET_CHUNK) {
+        uint32_t count = x.len - at < BUDGET_CHUNK ? x.len - at : BUDGET_CHUNK;
         arena_charge(arena, count / 2);
-        many(cpu_here.level, x.as.numbers + at, count, result + at);
+        array_call(cpu_detected.level, x.as.numbers + at, count, result + at);
     }
     return value_numbers_view(result, x.len);
 }
@@ -71,8 +71,8 @@ Value builtin_repeat(Arena *arena, const Value *args, uint32_t count, double (*f
     for (uint32_t k = 0; k < count; k++)
         at[k] = 0;
     for (uint32_t i = 0; i < len; i++) {
-        if (i % METER_PORTION == METER_PORTION - 1)
-            arena_charge(arena, (uint64_t)METER_PORTION / 4 * count);
+        if (i % BUDGET_CHUNK == BUDGET_CHUNK - 1)
+            arena_charge(arena, (uint64_t)BUDGET_CHUNK / 4 * count);
         for (uint32_t k = 0; k < count; k++) {
             parts[k] = value_numbers(&args[k])[at[k]];
             at[k] = at[k] + 1 == args[k].len ? 0 : at[k] + 1;

@@ -2,9 +2,8 @@
 #ifndef PETRI_BUILTIN_FAMILY_H
 #define PETRI_BUILTIN_FAMILY_H
 
-#include "builtin/builtin.h"
-
 #include "base/cpu.h"
+#include "builtin/builtin.h"
 
 #define BUILTIN(name, ...) BuiltinCall builtin_##name;
 #include "builtin/builtin_list.h"
@@ -49,9 +48,9 @@ Value builtin_each(Arena *arena, Value x, double (*f)(double));
         return builtin_each(context->arena, args[0], function);                                                        \
     }
 
-// The same with a function that takes many numbers at once and gives the bits of f (maths/many.h).
-typedef void BuiltinMany(CpuLevel level, const double *x, size_t count, double *to);
-Value builtin_each_many(Arena *arena, Value x, double (*f)(double), BuiltinMany *many);
+// The same with a function that takes many numbers at once and gives the bits of f (maths/arrays.h).
+typedef void BuiltinArrayCall(CpuLevel level, const double *x, size_t count, double *to);
+Value builtin_each_array(Arena *arena, Value x, double (*f)(double), BuiltinArrayCall *array_call);
 
 // f of the `count` elements at each position of `count` vectors, element-wise with repetition (B0.4); null unless all
 // are numeric, or if there are none.

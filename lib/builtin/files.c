@@ -1,8 +1,8 @@
 // files.c: the file cache, read and read_bytes (spec builtins.md B13.1, B13.3, B13.4); see files.h.
 #include "builtin/files.h"
 
+#include "base/hash_index.h"
 #include "base/source.h"
-#include "base/table.h"
 #include "builtin/family.h"
 
 #include <errno.h>
@@ -12,11 +12,11 @@
 #include <unistd.h>
 
 enum {
-    LONGEST_NAME = 4096,
-    LARGEST_FILE = 1 << 30,
-    MOST_ENTRIES = 16384, // a script that makes up names must not fill the memory
+    MAX_NAME_LENGTH = 4096,
+    MAX_FILE_SIZE = 1 << 30,
+    MAX_ENTRIES = 16384, // a script that makes up names must not fill the memory
 };
-static const size_t MOST_BYTES = (size_t)2 << 30; // kept over all entries
+static const size_t MAX_BYTES = (size_t)2 << 30; // kept over all entries
 
 // What tells a file from an earlier state of it.
 typedef struct Stamp {
@@ -43,7 +43,7 @@ struct FileCache {
     FileEntry **entries;
     uint32_t count;
     uint32_t capacity;
-    Index index;
+    HashIndex index;
 };
 
 FileCache *file_cache_new(void) {
@@ -62,7 +62,7 @@ void file_cache_clear(FileCache *cache) {
         arena_free(&cache->entries[i]->arena);
     cache->entries = NULL;
     cache->count = cache->capacity = 0;
-    index_clear(&cache->index);
+    hash_index_clear(&cache->index);
     arena_rewind(&cache->arena, cache->empty);
 }
 
@@ -70,18 +70,18 @@ void file_cache_free(FileCache *cache) {
     if (!cache)
         return;
     file_cache_clear(cache);
-    index_free(&cache->index);
+    hash_index_free(&cache->index);
     Arena arena = cache->arena; // the cache dies with its arena
     arena_free(&arena);
 }
 
 // --- reading
 
-static Stamp stamp_take(const Reach *reach, const char *path) {
+static Stamp read_stamp(const FileAccess *file_access, const char *path) {
     struct stat info;
     Str bytes;
-    if (reach && reach->read)
-        return reach_read(reach, path, &bytes)
+    if (file_access && file_access->read_file)
+        return file_access_read(file_access, path, &bytes)
                    ? (Stamp){.inode = (ino_t)(uintptr_t)bytes.bytes, .size = (off_t)bytes.len}
                    : (Stamp){.error = errno};
     if (stat(path, &info) != 0)
@@ -98,7 +98,7 @@ static bool stamp_equal(const Stamp *a, const Stamp *b) {
            same_time(a->modified, b->modified) && same_time(a->changed, b->changed);
 }
 
-static const char *describe(int error) {
+static const char *describe_error(int error) {
     switch (error) {
     case ENOENT:
     case ENOTDIR:
@@ -118,20 +118,21 @@ static const char *describe(int error) {
 // Reads up to `size` bytes; a file that has grown meanwhile has another stamp and is read again at the next call.
 static bool read_bytes(const BuiltinContext *context, const char *path, char *bytes, size_t size, size_t *len,
                        const char **problem) {
-    Str given;
-    if (context->reach && context->reach->read) {
-        *problem = reach_read(context->reach, path, &given) ? NULL : describe(errno);
-        *len = !*problem && given.len < size ? given.len : !*problem ? size : 0;
+    Str host_bytes;
+    if (context->file_access && context->file_access->read_file) {
+        *problem = file_access_read(context->file_access, path, &host_bytes) ? NULL : describe_error(errno);
+        *len = !*problem && host_bytes.len < size ? host_bytes.len : !*problem ? size : 0;
         if (*len)
-            memcpy(bytes, given.bytes, *len);
+            memcpy(bytes, host_bytes.bytes, *len);
         return !*problem;
     }
     // A pipe put in the file's place must not block.
-    int file = reach_open(context->reach, path, O_RDONLY | O_NONBLOCK);
+    int file = file_access_open(context->file_access, path, O_RDONLY | O_NONBLOCK);
     struct stat info;
     if (file < 0 || fstat(file, &info) != 0) {
-        *problem = context->reach && errno == EXDEV ? reach_refusal(context->arena, context->reach, REACH_READ, path)
-                                                    : describe(errno);
+        *problem = context->file_access && errno == EXDEV
+                       ? file_access_reason(context->arena, context->file_access, FILE_ACCESS_READ, path)
+                       : describe_error(errno);
         if (file >= 0)
             close(file);
         return false;
@@ -155,12 +156,12 @@ static bool read_bytes(const BuiltinContext *context, const char *path, char *by
 }
 
 // The memory is taken before the file is opened: an allocation may not return (base/arena.h).
-static const void *load(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
+static const void *load_entry(const BuiltinContext *context, FileEntry *entry, const char *path, const char **problem) {
     if (entry->stamp.error) {
-        *problem = describe(entry->stamp.error);
+        *problem = describe_error(entry->stamp.error);
         return NULL;
     }
-    if (entry->stamp.size > LARGEST_FILE) {
+    if (entry->stamp.size > MAX_FILE_SIZE) {
         *problem = "it is larger than 1 GiB";
         return NULL;
     }
@@ -185,13 +186,14 @@ static bool entry_matches(const void *owner, uint32_t entry, const void *key) {
 }
 
 static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash) {
-    if (cache->count == MOST_ENTRIES)
+    if (cache->count == MAX_ENTRIES)
         file_cache_clear(cache);
-    cache->entries = arena_room(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
+    cache->entries =
+        arena_grow_array(&cache->arena, cache->entries, cache->count, &cache->capacity, sizeof *cache->entries);
     FileEntry *entry = arena_alloc(&cache->arena, sizeof *entry);
     *entry = (FileEntry){.path = str_copy(&cache->arena, key->path), .parse = key->parse};
     arena_init(&entry->arena, "file", SIZE_MAX);
-    if (!index_add(&cache->index, hash, cache->count))
+    if (!hash_index_add(&cache->index, hash, cache->count))
         arena_exhausted(&cache->arena);
     cache->entries[cache->count++] = entry;
     return entry;
@@ -200,16 +202,16 @@ static FileEntry *entry_add(FileCache *cache, const EntryKey *key, uint64_t hash
 static FileEntry *entry_get(FileCache *cache, Str path, FileParse *parse) {
     EntryKey key = {path, parse};
     uint64_t hash = hash_bytes(0, path.bytes, path.len);
-    uint32_t found = index_find(&cache->index, hash, entry_matches, cache, &key);
-    return found != INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
+    uint32_t found = hash_index_find(&cache->index, hash, entry_matches, cache, &key);
+    return found != HASH_INDEX_NONE ? cache->entries[found] : entry_add(cache, &key, hash);
 }
 
 // Frees the contents of the other entries if all together have become too large. They are read again when needed.
-static void shed(FileCache *cache, const FileEntry *kept) {
+static void evict_entries(FileCache *cache, const FileEntry *kept) {
     size_t used = 0;
     for (uint32_t i = 0; i < cache->count; i++)
         used += cache->entries[i]->arena.used;
-    if (used + (size_t)kept->stamp.size <= MOST_BYTES)
+    if (used + (size_t)kept->stamp.size <= MAX_BYTES)
         return;
     for (uint32_t i = 0; i < cache->count; i++)
         if (cache->entries[i] != kept && cache->entries[i]->parsed) {
@@ -219,18 +221,18 @@ static void shed(FileCache *cache, const FileEntry *kept) {
         }
 }
 
-static void warn(BuiltinContext *context, const char *function, Str name, const char *problem) {
+static void report_unreadable(BuiltinContext *context, const char *function, Str name, const char *problem) {
     int len = name.len < 200 ? (int)name.len : 200;
-    builtin_fault(context, function, "cannot read '%.*s': %s", len, name.bytes, problem);
+    builtin_error(context, function, "cannot read '%.*s': %s", len, name.bytes, problem);
 }
 
 const void *file_cache_get(BuiltinContext *context, const char *function, FileParse *parse, Value name) {
     FileCache *cache = context->files;
     Str text = value_text(context->arena, context->symbols, name);
-    bool nameable = text.len <= LONGEST_NAME && context->directory.len <= LONGEST_NAME &&
+    bool nameable = text.len <= MAX_NAME_LENGTH && context->directory.len <= MAX_NAME_LENGTH &&
                     (text.len == 0 || !memchr(text.bytes, 0, text.len));
     if (!cache || !nameable) {
-        warn(context, function, text, cache ? "not a file name" : "files are not available here");
+        report_unreadable(context, function, text, cache ? "not a file name" : "files are not available here");
         return NULL;
     }
     // While entries are made, running out of memory ends where it does for everything else in this call.
@@ -238,7 +240,7 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
     Str path = path_join(context->arena, context->directory, text);
     const char *c_path = str_to_c(context->arena, path);
     FileEntry *entry = entry_get(cache, path, parse);
-    Stamp stamp = stamp_take(context->reach, c_path);
+    Stamp stamp = read_stamp(context->file_access, c_path);
     if (entry->tried && stamp_equal(&entry->stamp, &stamp))
         return entry->parsed;
     arena_free(&entry->arena);
@@ -246,13 +248,13 @@ const void *file_cache_get(BuiltinContext *context, const char *function, FilePa
     entry->tried = false;
     entry->stamp = stamp;
     entry->parsed = NULL;
-    shed(cache, entry);
+    evict_entries(cache, entry);
     const char *problem = NULL;
-    entry->parsed = load(context, entry, c_path, &problem);
+    entry->parsed = load_entry(context, entry, c_path, &problem);
     entry->tried = true;
     if (!entry->parsed) {
         arena_free(&entry->arena);
-        warn(context, function, text, problem);
+        report_unreadable(context, function, text, problem);
     }
     return entry->parsed;
 }

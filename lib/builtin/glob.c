@@ -1,7 +1,6 @@
 // glob.c: paths that match a pattern (spec builtins.md B13.2).
-#include "builtin/family.h"
-
 #include "base/source.h"
+#include "builtin/family.h"
 
 #include <dirent.h>
 #include <errno.h>
@@ -74,11 +73,11 @@ static bool match_name(Str pattern, Str name) {
 
 // --- the walk
 
-enum { MOST_LISTINGS = 1 << 18, MOST_FOUND = 1 << 20, LISTING_WORK = 1000, PATH_WORK = 100 };
+enum { MAX_LISTINGS = 1 << 18, MAX_FOUND = 1 << 20, LISTING_WORK = 1000, PATH_WORK = 100 };
 
 typedef struct Glob {
     Arena *arena;
-    const Reach *reach;
+    const FileAccess *file_access;
     Str *parts;
     uint32_t part_count;
     bool only_directories;
@@ -86,8 +85,8 @@ typedef struct Glob {
     uint32_t found_count;
     uint32_t found_capacity;
     uint32_t listings;
-    bool too_much;
-    const char *refused; // a folder that may not be looked at, or NULL
+    bool limit_exceeded;
+    const char *denied; // a folder that may not be looked at, or NULL
 } Glob;
 
 static bool is_deep(Str part) {
@@ -110,38 +109,38 @@ static void glob_parse(Glob *glob, Str pattern) {
 }
 
 static void glob_found(Glob *glob, Str path) {
-    if (glob->found_count == MOST_FOUND) {
-        glob->too_much = true;
+    if (glob->found_count == MAX_FOUND) {
+        glob->limit_exceeded = true;
         return;
     }
-    glob->found = arena_room(glob->arena, glob->found, glob->found_count, &glob->found_capacity, sizeof path);
+    glob->found = arena_grow_array(glob->arena, glob->found, glob->found_count, &glob->found_capacity, sizeof path);
     glob->found[glob->found_count++] = path;
 }
 
 // A host's answer for a folder (PetriOptions.read): the names in it, a line each.
-static bool host_names(const Reach *reach, const char *path, Str *names) {
+static bool host_names(const FileAccess *file_access, const char *path, Str *names) {
     char folder[PATH_MAX + 2];
-    if (!reach_normal(path, folder))
+    if (!file_access_normalise(path, folder))
         return false;
     strcat(folder, folder[0] ? "/" : "./");
     names->len = 0;
-    names->bytes = reach->read(reach->read_host, folder, &names->len);
-    return names->bytes != NULL;
+    names->bytes = file_access->read_file(file_access->read_user_data, folder, &names->len);
+    return names->bytes;
 }
 
-static bool is_hosted(const Reach *reach) {
-    return reach && reach->read;
+static bool is_hosted(const FileAccess *file_access) {
+    return file_access && file_access->read_file;
 }
 
 static size_t list_hosted(Glob *glob, const char *path, Str **names) {
     Str text, line;
-    if (!host_names(glob->reach, path, &text))
+    if (!host_names(glob->file_access, path, &text))
         return 0;
     uint32_t count = 0, capacity = 0;
     for (size_t at = 0; at < text.len; at += line.len + 1) {
         const char *end = memchr(text.bytes + at, '\n', text.len - at);
         line = (Str){text.bytes + at, end ? (size_t)(end - text.bytes) - at : text.len - at};
-        *names = arena_room(glob->arena, *names, count, &capacity, sizeof line);
+        *names = arena_grow_array(glob->arena, *names, count, &capacity, sizeof line);
         if (line.len && utf8_find_error(line) == line.len)
             (*names)[count++] = (Str){line.bytes, line.len - (line.bytes[line.len - 1] == '/')};
     }
@@ -175,15 +174,15 @@ static void scan_directory(Arena *arena, const char *path, Str *names, char *byt
 
 static size_t list_directory(Glob *glob, const char *path, Str **names) {
     arena_charge(glob->arena, LISTING_WORK);
-    if (glob->listings++ == MOST_LISTINGS)
-        glob->too_much = true;
-    if (glob->too_much)
+    if (glob->listings++ == MAX_LISTINGS)
+        glob->limit_exceeded = true;
+    if (glob->limit_exceeded)
         return 0;
-    if (is_hosted(glob->reach))
+    if (is_hosted(glob->file_access))
         return list_hosted(glob, path, names);
     char resolved[PATH_MAX];
-    if (!reach_resolve(glob->reach, REACH_READ, path, resolved)) {
-        glob->refused = errno == EXDEV ? path : glob->refused;
+    if (!file_access_resolve(glob->file_access, FILE_ACCESS_READ, path, resolved)) {
+        glob->denied = errno == EXDEV ? path : glob->denied;
         return 0;
     }
     size_t count = 0, size = 0;
@@ -194,51 +193,52 @@ static size_t list_directory(Glob *glob, const char *path, Str **names) {
     return count;
 }
 
-static bool is_directory(const Reach *reach, const char *path, bool follow_links) {
+static bool is_directory(const FileAccess *file_access, const char *path, bool follow_links) {
     struct stat info;
     Str names;
-    if (is_hosted(reach))
-        return host_names(reach, path, &names);
+    if (is_hosted(file_access))
+        return host_names(file_access, path, &names);
     return (follow_links ? stat(path, &info) : lstat(path, &info)) == 0 && S_ISDIR(info.st_mode);
 }
 
-static bool is_there(const Reach *reach, const char *path) {
+static bool path_exists(const FileAccess *file_access, const char *path) {
     struct stat info;
     Str bytes;
-    if (is_hosted(reach))
-        return reach_read(reach, path, &bytes) || host_names(reach, path, &bytes);
+    if (is_hosted(file_access))
+        return file_access_read(file_access, path, &bytes) || host_names(file_access, path, &bytes);
     return lstat(path, &info) == 0;
 }
 
-static void walk(Glob *glob, Str path, uint32_t k);
+static void visit_parts(Glob *glob, Str path, uint32_t k);
 
 // A path that matches the parts up to k: a result, or a directory to go on in.
-static void reach(Glob *glob, Str path, uint32_t k) {
+static void visit_path(Glob *glob, Str path, uint32_t k) {
     const char *c_path = str_to_c(glob->arena, path);
     arena_charge(glob->arena, PATH_WORK);
     bool last = k + 1 == glob->part_count;
-    if (last && !glob->only_directories ? is_there(glob->reach, c_path) : is_directory(glob->reach, c_path, true)) {
+    if (last && !glob->only_directories ? path_exists(glob->file_access, c_path)
+                                        : is_directory(glob->file_access, c_path, true)) {
         if (last)
             glob_found(glob, path);
         else
-            walk(glob, path, k + 1);
+            visit_parts(glob, path, k + 1);
     }
 }
 
 // "**" at part k: this directory, and then the same in each directory in it, but not through symbolic links.
-static void walk_deep(Glob *glob, Str path, uint32_t k) {
+static void visit_deep(Glob *glob, Str path, uint32_t k) {
     bool last = k + 1 == glob->part_count;
     if (last)
         glob_found(glob, path);
     else
-        walk(glob, path, k + 1);
+        visit_parts(glob, path, k + 1);
     Str *names = NULL;
     size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
-    for (size_t i = 0; i < count && !glob->too_much; i++) {
+    for (size_t i = 0; i < count && !glob->limit_exceeded; i++) {
         Str below = path_join(glob->arena, path, names[i]);
         arena_charge(glob->arena, PATH_WORK);
-        if (is_directory(glob->reach, str_to_c(glob->arena, below), false))
-            walk(glob, below, k);
+        if (is_directory(glob->file_access, str_to_c(glob->arena, below), false))
+            visit_parts(glob, below, k);
         else if (last && !glob->only_directories)
             glob_found(glob, below);
     }
@@ -246,21 +246,21 @@ static void walk_deep(Glob *glob, Str path, uint32_t k) {
 
 // Everything below the directory `path` that matches the parts from k on. Paths have a greatest length, so the depth
 // has too.
-static void walk(Glob *glob, Str path, uint32_t k) {
-    if (path.len >= PATH_MAX || glob->too_much)
+static void visit_parts(Glob *glob, Str path, uint32_t k) {
+    if (path.len >= PATH_MAX || glob->limit_exceeded)
         return;
     Str part = glob->parts[k];
     if (is_deep(part)) {
-        walk_deep(glob, path, k);
+        visit_deep(glob, path, k);
     } else if (!memchr(part.bytes, '*', part.len) && !memchr(part.bytes, '?', part.len) &&
                !memchr(part.bytes, '[', part.len)) {
-        reach(glob, path_join(glob->arena, path, part), k);
+        visit_path(glob, path_join(glob->arena, path, part), k);
     } else {
         Str *names = NULL;
         size_t count = list_directory(glob, str_to_c(glob->arena, path), &names);
-        for (size_t i = 0; i < count && !glob->too_much; i++)
+        for (size_t i = 0; i < count && !glob->limit_exceeded; i++)
             if (match_name(part, names[i]))
-                reach(glob, path_join(glob->arena, path, names[i]), k);
+                visit_path(glob, path_join(glob->arena, path, names[i]), k);
     }
 }
 
@@ -268,7 +268,7 @@ static void walk(Glob *glob, Str path, uint32_t k) {
 
 static bool resolve_found(const Glob *glob, Str path, char resolved[PATH_MAX]) {
     const char *name = str_to_c(glob->arena, path);
-    return is_hosted(glob->reach) ? reach_normal(name, resolved) : realpath(name, resolved) != NULL;
+    return is_hosted(glob->file_access) ? file_access_normalise(name, resolved) : realpath(name, resolved) != NULL;
 }
 
 // The matches as absolute paths without symbolic links, sorted. The same match may have been reached in several ways
@@ -284,8 +284,8 @@ static Value glob_value(Glob *glob) {
         bool again = i > 0 && str_equal(found[i], found[i - 1]);
         if (again || !resolve_found(glob, found[i], resolved))
             continue;
-        if (!reach_has(glob->reach, REACH_READ, resolved)) {
-            glob->refused = str_to_c(arena, found[i]);
+        if (!file_access_allows(glob->file_access, FILE_ACCESS_READ, resolved)) {
+            glob->denied = str_to_c(arena, found[i]);
             continue;
         }
         Str path = str_from(resolved);
@@ -300,20 +300,21 @@ static Value glob_value(Glob *glob) {
 Value builtin_glob(BuiltinContext *context, const Value *args, uint32_t count) {
     Str pattern = value_text(context->arena, context->symbols, args[0]);
     if (pattern.len == 0 || pattern.bytes[0] == '/')
-        return builtin_fault(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
+        return builtin_error(context, "glob", "the pattern is %s", pattern.len ? "absolute" : "empty");
     if (!context->files || pattern.len >= PATH_MAX || memchr(pattern.bytes, 0, pattern.len))
         return VALUE_NULL;
-    Glob glob = {.arena = context->arena, .reach = context->reach};
+    Glob glob = {.arena = context->arena, .file_access = context->file_access};
     glob_parse(&glob, pattern);
     Str start = context->directory.len ? context->directory : STR(".");
     if (glob.part_count)
-        walk(&glob, start, 0);
+        visit_parts(&glob, start, 0);
     else
         glob_found(&glob, start);
-    if (glob.too_much)
-        return builtin_fault(context, "glob", "too many directories or matches");
+    if (glob.limit_exceeded)
+        return builtin_error(context, "glob", "too many directories or matches");
     Value paths = glob.found_count ? glob_value(&glob) : VALUE_NULL;
-    if (glob.refused)
-        builtin_fault(context, "glob", "%s", reach_refusal(context->arena, context->reach, REACH_READ, glob.refused));
+    if (glob.denied)
+        builtin_error(context, "glob", "%s",
+                      file_access_reason(context->arena, context->file_access, FILE_ACCESS_READ, glob.denied));
     return paths;
 }

@@ -1,9 +1,9 @@
 // maths.c: element-wise functions (spec builtins.md B1), plane and space (B2).
-#include "builtin/family.h"
+#include "maths/maths.h"
 
 #include "base/number.h"
-#include "maths/many.h"
-#include "maths/maths.h"
+#include "builtin/family.h"
+#include "maths/arrays.h"
 #include "maths/random.h"
 
 #include <math.h>
@@ -26,15 +26,15 @@ static double turns_acos(double x) {
 }
 
 // Functions that are faster for many numbers at once
-#define ELEMENT_WISE_MANY(name, function, many)                                                                        \
+#define ELEMENT_WISE_ARRAY(name, function, many)                                                                       \
     Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
-        return builtin_each_many(context->arena, args[0], function, many);                                             \
+        return builtin_each_array(context->arena, args[0], function, many);                                            \
     }
 
-static void turns_cos_many(CpuLevel level, const double *t, size_t count, double *to) {
+static void turns_cos_array(CpuLevel level, const double *t, size_t count, double *to) {
     for (size_t i = 0; i < count; i++)
         to[i] = t[i] + 0.25; // as turns_cos does
-    maths_turns_sin_many(level, to, count, to);
+    maths_turns_sin_array(level, to, count, to);
 }
 
 ELEMENT_WISE(builtin_abs, fabs)
@@ -42,12 +42,12 @@ ELEMENT_WISE(builtin_ceil, ceil)
 ELEMENT_WISE(builtin_floor, number_floor)
 ELEMENT_WISE(builtin_fract, fract)
 ELEMENT_WISE(builtin_sqrt, sqrt)
-ELEMENT_WISE_MANY(builtin_exp, maths_exp, maths_exp_many)
-ELEMENT_WISE_MANY(builtin_log, maths_log, maths_log_many)
+ELEMENT_WISE_ARRAY(builtin_exp, maths_exp, maths_exp_array)
+ELEMENT_WISE_ARRAY(builtin_log, maths_log, maths_log_array)
 ELEMENT_WISE(builtin_log2, maths_log2)
 ELEMENT_WISE(builtin_log10, maths_log10)
-ELEMENT_WISE_MANY(builtin_sin, turns_sin, maths_turns_sin_many)
-ELEMENT_WISE_MANY(builtin_cos, turns_cos, turns_cos_many)
+ELEMENT_WISE_ARRAY(builtin_sin, turns_sin, maths_turns_sin_array)
+ELEMENT_WISE_ARRAY(builtin_cos, turns_cos, turns_cos_array)
 ELEMENT_WISE(builtin_asin, turns_asin)
 ELEMENT_WISE(builtin_acos, turns_acos)
 

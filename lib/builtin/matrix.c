@@ -1,6 +1,5 @@
 // matrix.c: 3x3 and 4x4 matrices, column-major (spec builtins.md B6).
 #include "builtin/family.h"
-
 #include "value/ops.h"
 
 // Element i is (ma*mb - mc*md)*k.

@@ -4,14 +4,14 @@
 
 #include "builtin/family.h"
 #include "builtin/noise_point.h"
-#include "maths/many.h"
+#include "maths/arrays.h"
 #include "maths/random.h"
-#include "value/seed.h"
+#include "value/value_hash.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_DIMS = 4 };
+enum { MAX_DIMS = 4 };
 
 // --- permutations (B10.3)
 
@@ -78,8 +78,8 @@ static const uint8_t *permutation_get(NoiseCache *cache, uint64_t key, uint8_t l
 
 // The coordinates of a call and how many results their combinations give.
 typedef struct Grid {
-    const double *axes[MOST_DIMS];
-    uint32_t lens[MOST_DIMS];
+    const double *axes[MAX_DIMS];
+    uint32_t lens[MAX_DIMS];
     int dims;
     uint32_t len;
 } Grid;
@@ -89,7 +89,7 @@ typedef enum GridOutcome { GRID_OK, GRID_BAD, GRID_TOO_LONG } GridOutcome;
 // One to four numeric vectors; one stands for itself and a second coordinate of 0 (B10.2).
 static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
     static const double zero[1] = {0};
-    if (count < 1 || count > MOST_DIMS)
+    if (count < 1 || count > MAX_DIMS)
         return GRID_BAD;
     uint64_t len = 1;
     for (uint32_t i = 0; i < count; i++) {
@@ -111,18 +111,18 @@ static GridOutcome grid_read(Grid *grid, const Value *args, uint32_t count) {
 // result[j] = the noise, or result[j] + noise*weight, at every combination, the last coordinate varying fastest.
 static void grid_noise(Arena *arena, const Grid *grid, const uint8_t *permutation, double *result, bool add,
                        double weight) {
-    enum { BETWEEN_CHARGES = 1024 };
+    enum { CHARGE_INTERVAL = 1024 };
     const unsigned work = grid->dims == 2 ? 4 : grid->dims == 3 ? 10 : 30; // of a point
     double (*const noise)(const uint8_t *, const double *) = grid->dims == 2   ? noise_point_2
                                                              : grid->dims == 3 ? noise_point_3
                                                                                : noise_point_4;
-    uint32_t at[MOST_DIMS] = {0};
-    double c[MOST_DIMS];
+    uint32_t at[MAX_DIMS] = {0};
+    double c[MAX_DIMS];
     for (int i = 0; i < grid->dims; i++)
         c[i] = grid->axes[i][0];
     for (uint32_t j = 0; j < grid->len; j++) {
-        if (j % BETWEEN_CHARGES == 0)
-            arena_charge(arena, (grid->len - j < BETWEEN_CHARGES ? grid->len - j : BETWEEN_CHARGES) * (uint64_t)work);
+        if (j % CHARGE_INTERVAL == 0)
+            arena_charge(arena, (grid->len - j < CHARGE_INTERVAL ? grid->len - j : CHARGE_INTERVAL) * (uint64_t)work);
         double part = noise(permutation, c);
         result[j] = add ? result[j] + part * weight : part;
         int i = grid->dims - 1;
@@ -165,24 +165,24 @@ Value builtin_noise(BuiltinContext *context, const Value *args, uint32_t count) 
 
 void builtin_noise_points(BuiltinContext *context, Value seed, const double *x, const double *y, uint32_t count,
                           double *to) {
-    enum { FEWEST = 16 };           // for which it is worth it
-    const double FARTHEST = 0x1p45; // that maths_plane_noise_many takes
+    enum { MIN_POINTS = 16 };             // for which it is worth it
+    const double MAX_COORDINATE = 0x1p45; // that maths_plane_noise_array takes
     uint8_t local[256];
     const uint8_t *permutation = permutation_get(context->noise, value_seed_hash(context->arena, seed), local);
-    if (count < FEWEST) {
+    if (count < MIN_POINTS) {
         for (uint32_t i = 0; i < count; i++)
             to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
         return;
     }
     const PlaneNoise plane = noise_plane();
-    maths_plane_noise_many(cpu_here.level, &plane, permutation, x, y, count, to);
+    maths_plane_noise_array(cpu_detected.level, &plane, permutation, x, y, count, to);
     for (uint32_t i = 0; i < count; i++)
-        if (!(fabs(x[i]) < FARTHEST && fabs(y[i]) < FARTHEST))
+        if (!(fabs(x[i]) < MAX_COORDINATE && fabs(y[i]) < MAX_COORDINATE))
             to[i] = noise_point_2(permutation, (double[2]){x[i], y[i]});
 }
 
 // Far more than the number of doublings that a double survives near 1: a mistake, and it would take for ever.
-enum { MOST_OCTAVES = 1024 };
+enum { MAX_OCTAVES = 1024 };
 
 // B10.11: r = noise, then r = r + noise(c*2^o)*k^o, divided by the total weight.
 static void sum_octaves(BuiltinContext *context, Grid *grid, uint64_t seed, uint32_t octaves, double k,
@@ -213,8 +213,8 @@ Value builtin_octnoise(BuiltinContext *context, const Value *args, uint32_t coun
         return VALUE_NULL;
     if (outcome == GRID_TOO_LONG)
         return builtin_too_long(context, "octnoise");
-    if (octaves > MOST_OCTAVES)
-        return builtin_fault(context, "octnoise", "more than 1024 octaves");
+    if (octaves > MAX_OCTAVES)
+        return builtin_error(context, "octnoise", "more than 1024 octaves");
     double single, *result = grid.len == 1 ? &single : arena_alloc_array(context->arena, grid.len, sizeof *result);
     sum_octaves(context, &grid, value_seed_hash(context->arena, args[0]), (uint32_t)octaves, args[2].as.number, result);
     return value_numbers_view(result, grid.len);

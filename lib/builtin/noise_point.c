@@ -12,19 +12,19 @@
 #include <stdbool.h>
 #include <string.h>
 
-enum { MOST_DIMS = 4, MOST_EXTRA = 3 };
+enum { MAX_DIMS = 4, MAX_EXTRA = 3 };
 
 typedef struct NoisePoint {
     const uint8_t *permutation;
-    uint64_t base[MOST_DIMS]; // two's complement: only sums and the low eight bits matter
-    double frac[MOST_DIMS];   // fx … of B10.4
-    double d0[MOST_DIMS];
+    uint64_t base[MAX_DIMS]; // two's complement: only sums and the low eight bits matter
+    double frac[MAX_DIMS];   // fx … of B10.4
+    double d0[MAX_DIMS];
     double sum; // of the fractions
 } NoisePoint;
 
 // B10.4. False if the point is too far out or not a number.
-static inline bool point_place(NoisePoint *point, const double *c, int dims) {
-    double t = c[0], whole[MOST_DIMS];
+static inline bool point_locate(NoisePoint *point, const double *c, int dims) {
+    double t = c[0], whole[MAX_DIMS];
     for (int i = 1; i < dims; i++)
         t = t + c[i];
     t = t * NOISE_S[dims];
@@ -56,7 +56,7 @@ static inline const double *gradient(const NoisePoint *point, const NoiseVertex 
 
 // B10.5: d = ((d0 - a) - m*Q) - b per coordinate, A = 2 - d·d; if A > 0 the vertex adds A^4 * (g·d).
 static inline double add_vertex(const NoisePoint *point, double value, const NoiseVertex *v, int dims) {
-    double d[MOST_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
+    double d[MAX_DIMS], reach = 2, units = v->units * NOISE_Q[dims];
     for (int i = 0; i < dims; i++) {
         d[i] = ((point->d0[i] - v->early[i]) - units) - v->late[i];
         reach = reach - d[i] * d[i];
@@ -94,7 +94,7 @@ static int lowest_gap(unsigned mask) {
 // The vertex with offset `set` where the mask is set and `clear` elsewhere.
 static NoiseVertex vertex_of_mask(unsigned mask, int set, int clear, int units) {
     NoiseVertex v = {.units = (uint8_t)units};
-    for (int i = 0; i < MOST_DIMS; i++)
+    for (int i = 0; i < MAX_DIMS; i++)
         v.early[i] = (int8_t)(mask >> i & 1 ? set : clear);
     return v;
 }
@@ -115,7 +115,7 @@ typedef struct Candidates {
 } Candidates;
 
 // The score replaces the lesser candidate if it is greater.
-static void take_greater(Candidates *c, double score, unsigned mask, bool flag) {
+static void replace_lesser(Candidates *c, double score, unsigned mask, bool flag) {
     if (c->a >= c->b && score > c->b) {
         c->b = score;
         c->mask_b = mask;
@@ -129,7 +129,7 @@ static void take_greater(Candidates *c, double score, unsigned mask, bool flag) 
 
 // Regions A and B in three and four dimensions: the row of extra vertices in one of two tables.
 typedef struct Choice {
-    bool alone; // the corner of the cell is nearer than one of the candidates
+    bool corner_is_nearer; // the corner of the cell is nearer than one of the candidates
     unsigned row;
 } Choice;
 
@@ -138,7 +138,7 @@ static inline Choice choose_at_corner(const NoisePoint *point, int dims, bool fa
     unsigned flip = far ? (1u << dims) - 1 : 0;
     Candidates c = {.a = sign * point->frac[0], .mask_a = 1 ^ flip, .b = sign * point->frac[1], .mask_b = 2 ^ flip};
     for (int i = 2; i < dims; i++)
-        take_greater(&c, sign * point->frac[i], 1u << i ^ flip, false);
+        replace_lesser(&c, sign * point->frac[i], 1u << i ^ flip, false);
     if (u > c.a || u > c.b)
         return (Choice){true, c.b > c.a ? c.mask_b : c.mask_a};
     return (Choice){false, far ? c.mask_a & c.mask_b : c.mask_a | c.mask_b};
@@ -147,7 +147,7 @@ static inline Choice choose_at_corner(const NoisePoint *point, int dims, bool fa
 // --- two dimensions (B10.7)
 
 // `yes` where the condition holds, else `no`: without a branch, for points are as random as can be.
-static inline double choose(bool condition, double yes, double no) {
+static inline double select_value(bool condition, double yes, double no) {
     uint64_t mask = -(uint64_t)condition, bits = (number_bits(yes) & mask) | (number_bits(no) & ~mask);
     double chosen;
     memcpy(&chosen, &bits, sizeof chosen);
@@ -163,12 +163,12 @@ static inline double add_vertex_2(const NoisePoint *point, double value, int a, 
     p = point->permutation[(p + point->base[1] + (uint64_t)b) & 255];
     const double *g = NOISE_GRAD2[p % 8];
     double slope = g[0] * dx + g[1] * dy, squared = reach * reach;
-    return choose(reach > 0, value + (squared * squared) * slope, value);
+    return select_value(reach > 0, value + (squared * squared) * slope, value);
 }
 
 double noise_point_2(const uint8_t *permutation, const double *c) {
     NoisePoint point = {.permutation = permutation};
-    if (!point_place(&point, c, 2))
+    if (!point_locate(&point, c, 2))
         return 0;
     double fx = point.frac[0], fy = point.frac[1];
     double value = add_vertex_2(&point, 0, 1, 0, 1);
@@ -224,7 +224,7 @@ static void extras_3c(const double *f, NoiseVertex extra[2]) {
 
 double noise_point_3(const uint8_t *permutation, const double *c) {
     NoisePoint point = {.permutation = permutation};
-    if (!point_place(&point, c, 3))
+    if (!point_locate(&point, c, 3))
         return 0;
     double value;
     NoiseVertex between[2];
@@ -232,11 +232,11 @@ double noise_point_3(const uint8_t *permutation, const double *c) {
     if (point.sum <= 1) {
         value = add_vertices(&point, 0, NOISE_CORE3_A, 4, 3);
         Choice choice = choose_at_corner(&point, 3, false);
-        extra = choice.alone ? NOISE_EXT3_ORIGIN1[choice.row] : NOISE_EXT3_ORIGIN2[choice.row];
+        extra = choice.corner_is_nearer ? NOISE_EXT3_ORIGIN1[choice.row] : NOISE_EXT3_ORIGIN2[choice.row];
     } else if (point.sum >= 2) {
         value = add_vertices(&point, 0, NOISE_CORE3_B, 4, 3);
         Choice choice = choose_at_corner(&point, 3, true);
-        extra = choice.alone ? NOISE_EXT3_CORNER2[choice.row] : NOISE_EXT3_CORNER1[choice.row];
+        extra = choice.corner_is_nearer ? NOISE_EXT3_CORNER2[choice.row] : NOISE_EXT3_CORNER1[choice.row];
     } else {
         value = add_vertices(&point, 0, NOISE_CORE3_C, 6, 3);
         extras_3c(point.frac, between);
@@ -258,9 +258,9 @@ static inline Candidates candidates_4cd(const double *f, double sum, bool far) {
     c.mask_a = (xy > zw ? 3 : 12) ^ flip;
     c.b = xz > yw ? xz : yw;
     c.mask_b = (xz > yw ? 5 : 10) ^ flip;
-    take_greater(&c, xw > yz ? xw : yz, (xw > yz ? 9 : 6) ^ flip, true);
+    replace_lesser(&c, xw > yz ? xw : yz, (xw > yz ? 9 : 6) ^ flip, true);
     for (int i = 0; i < 4; i++)
-        take_greater(&c, sign * ((far ? 3 : 2) - sum + f[i]), 1u << i ^ flip, false);
+        replace_lesser(&c, sign * ((far ? 3 : 2) - sum + f[i]), 1u << i ^ flip, false);
     return c;
 }
 
@@ -286,19 +286,19 @@ static inline void extras_4cd(const double *f, double sum, bool far, NoiseVertex
 
 double noise_point_4(const uint8_t *permutation, const double *c) {
     NoisePoint point = {.permutation = permutation};
-    if (!point_place(&point, c, 4))
+    if (!point_locate(&point, c, 4))
         return 0;
     double value;
-    NoiseVertex between[MOST_EXTRA];
+    NoiseVertex between[MAX_EXTRA];
     const NoiseVertex *extra = between;
     if (point.sum <= 1) {
         value = add_vertices(&point, 0, NOISE_CORE4_A, 5, 4);
         Choice choice = choose_at_corner(&point, 4, false);
-        extra = choice.alone ? NOISE_EXT4_ORIGIN1[choice.row] : NOISE_EXT4_ORIGIN2[choice.row];
+        extra = choice.corner_is_nearer ? NOISE_EXT4_ORIGIN1[choice.row] : NOISE_EXT4_ORIGIN2[choice.row];
     } else if (point.sum >= 3) {
         value = add_vertices(&point, 0, NOISE_CORE4_B, 5, 4);
         Choice choice = choose_at_corner(&point, 4, true);
-        extra = choice.alone ? NOISE_EXT4_CORNER3[choice.row] : NOISE_EXT4_CORNER2[choice.row];
+        extra = choice.corner_is_nearer ? NOISE_EXT4_CORNER3[choice.row] : NOISE_EXT4_CORNER2[choice.row];
     } else if (point.sum <= 2) {
         value = add_vertices(&point, 0, NOISE_CORE4_C, 10, 4);
         extras_4cd(point.frac, point.sum, false, between);

@@ -2,7 +2,7 @@
 #ifndef PETRI_BUILTIN_NOISE_POINT_H
 #define PETRI_BUILTIN_NOISE_POINT_H
 
-#include "maths/many.h"
+#include "maths/arrays.h"
 
 #include <stdint.h>
 
@@ -11,7 +11,7 @@ double noise_point_2(const uint8_t *permutation, const double *c);
 double noise_point_3(const uint8_t *permutation, const double *c);
 double noise_point_4(const uint8_t *permutation, const double *c);
 
-// noise_point_2 for maths_plane_noise_many.
+// noise_point_2 for maths_plane_noise_array.
 PlaneNoise noise_plane(void);
 
 #endif

@@ -47,8 +47,8 @@ static uint32_t extreme_argument(Arena *arena, const Value *args, uint32_t count
     return best;
 }
 
-static Value extreme(BuiltinContext *context, const char *name, const Value *args, uint32_t count, int sign,
-                     bool position) {
+static Value find_extreme(BuiltinContext *context, const char *name, const Value *args, uint32_t count, int sign,
+                          bool position) {
     uint32_t best;
     if (count > 1) {
         best = extreme_argument(context->arena, args, count, sign);
@@ -63,25 +63,25 @@ static Value extreme(BuiltinContext *context, const char *name, const Value *arg
     } else {
         best = extreme_item(args[0].as.items, args[0].len, sign);
         if (best == NO_POSITION)
-            return builtin_fault(context, name, "elements cannot be ordered");
+            return builtin_error(context, name, "elements cannot be ordered");
     }
     return position ? value_number(best) : value_element(context->arena, args[0], best);
 }
 
 Value builtin_min(BuiltinContext *context, const Value *args, uint32_t count) {
-    return extreme(context, "min", args, count, -1, false);
+    return find_extreme(context, "min", args, count, -1, false);
 }
 
 Value builtin_max(BuiltinContext *context, const Value *args, uint32_t count) {
-    return extreme(context, "max", args, count, 1, false);
+    return find_extreme(context, "max", args, count, 1, false);
 }
 
 Value builtin_minindex(BuiltinContext *context, const Value *args, uint32_t count) {
-    return extreme(context, "minindex", args, count, -1, true);
+    return find_extreme(context, "minindex", args, count, -1, true);
 }
 
 Value builtin_maxindex(BuiltinContext *context, const Value *args, uint32_t count) {
-    return extreme(context, "maxindex", args, count, 1, true);
+    return find_extreme(context, "maxindex", args, count, 1, true);
 }
 
 // --- sorting (B3.3)
@@ -95,7 +95,7 @@ static void merge_numbers(Arena *arena, void *to, const void *from, uint32_t low
     double *y = to;
     for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || !(x[j] < x[i])) ? x[i++] : x[j++];
-        arena_portion(arena, k, 0); // is charged by merge_sort
+        arena_charge_chunk(arena, k, 0); // is charged by merge_sort
     }
 }
 
@@ -104,7 +104,7 @@ static void merge_texts(Arena *arena, void *to, const void *from, uint32_t low, 
     Str *y = to;
     for (uint32_t i = low, j = middle, k = low; k < high; k++) {
         y[k] = i < middle && (j == high || str_compare(x[j], x[i]) >= 0) ? x[i++] : x[j++];
-        arena_portion(arena, k, 2); // texts may be long
+        arena_charge_chunk(arena, k, 2); // texts may be long
     }
 }
 
@@ -150,7 +150,7 @@ Value builtin_sort(BuiltinContext *context, const Value *args, uint32_t count) {
         return value_numbers_view(builtin_sort_numbers(arena, numbers, v.len), v.len);
     }
     if (!all_texts(v))
-        return builtin_fault(context, "sort", "elements cannot be ordered");
+        return builtin_error(context, "sort", "elements cannot be ordered");
     Str *texts = arena_alloc_array(arena, v.len, sizeof *texts);
     for (uint32_t i = 0; i < v.len; i++)
         texts[i] = v.as.items[i].as.string->text;
@@ -169,7 +169,7 @@ typedef struct Census {
 
 enum { COUNT_WORK = 10 }; // of a search in a sorted vector
 
-static Census census_take(Arena *arena, const Value *v) {
+static Census read_census(Arena *arena, const Value *v) {
     Census census = {.numbers = arena_alloc_array(arena, v->len, sizeof(double))};
     if (v->kind == VALUE_MIXED) {
         census.texts = arena_alloc_array(arena, v->len, sizeof(Str));
@@ -177,7 +177,7 @@ static Census census_take(Arena *arena, const Value *v) {
     }
     for (uint32_t i = 0; i < v->len; i++) {
         Item item = value_at(v, i);
-        arena_portion(arena, i, 1);
+        arena_charge_chunk(arena, i, 1);
         if (item.type == ITEM_STRING)
             census.texts[census.text_count++] = item.as.string->text;
         else if (item.type != ITEM_NUMBER)
@@ -236,10 +236,10 @@ Value builtin_count(BuiltinContext *context, const Value *args, uint32_t count) 
         return VALUE_NULL;
     double *result = arena_alloc_array(arena, args[0].len, sizeof *result);
     ArenaMark scratch = arena_mark(arena);
-    Census census = census_take(arena, &args[1]);
+    Census census = read_census(arena, &args[1]);
     for (uint32_t i = 0; i < args[0].len; i++) {
         result[i] = census_count(arena, &census, value_at(&args[0], i));
-        arena_portion(arena, i, COUNT_WORK);
+        arena_charge_chunk(arena, i, COUNT_WORK);
     }
     arena_rewind(arena, scratch);
     return value_numbers_view(result, args[0].len);

@@ -1,13 +1,12 @@
 // others.c: debug output, and what petri has no pictures or fonts for (spec builtins.md B14).
 #include "builtin/family.h"
-
 #include "value/format.h"
 
 Value builtin_debug(BuiltinContext *context, const Value *args, uint32_t count) {
     if (context->log) {
         Text text = text_new(context->arena);
         format_debug(&text, context->symbols, args[0]);
-        context->log(context->host, text_str(&text));
+        context->log(context->user_data, text_str(&text));
     }
     return args[0];
 }
@@ -17,5 +16,5 @@ Value builtin_sample(BuiltinContext *context, const Value *args, uint32_t count)
 }
 
 Value builtin_measure_text(BuiltinContext *context, const Value *args, uint32_t count) {
-    return builtin_fault(context, "measure_text", "text is measured only where it is drawn");
+    return builtin_error(context, "measure_text", "text is measured only where it is drawn");
 }

@@ -1,6 +1,5 @@
 // quaternion.c: quaternions w;x;y;z (spec builtins.md B5).
 #include "builtin/family.h"
-
 #include "maths/maths.h"
 #include "maths/random.h"
 
@@ -29,7 +28,7 @@ Value builtin_quaternion(BuiltinContext *context, const Value *args, uint32_t co
     return quaternion_value(context->arena, (Quaternion){turns_cos(h), k * x, k * y, k * z});
 }
 
-static Quaternion multiply(Quaternion a, Quaternion b) {
+static Quaternion multiply_quaternions(Quaternion a, Quaternion b) {
     return (Quaternion){
         a.w * b.w - a.x * b.x - a.y * b.y - a.z * b.z,
         a.w * b.x + a.x * b.w + a.y * b.z - a.z * b.y,
@@ -39,7 +38,7 @@ static Quaternion multiply(Quaternion a, Quaternion b) {
 }
 
 // The vector v turned by a: (a v) a^-1 (B5.2).
-static Value turn(Arena *arena, Quaternion a, const double *v) {
+static Value rotate_vector(Arena *arena, Quaternion a, const double *v) {
     double x = v[0], y = v[1], z = v[2];
     double bw = -a.x * x - a.y * y - a.z * z;
     double bx = a.w * x + a.y * z - a.z * y;
@@ -59,10 +58,10 @@ Value builtin_qmul(BuiltinContext *context, const Value *args, uint32_t count) {
     if (!is_numeric_of(args[0], 4))
         return VALUE_NULL;
     if (is_numeric_of(args[1], 3))
-        return turn(context->arena, quaternion_of(args[0]), args[1].as.numbers);
+        return rotate_vector(context->arena, quaternion_of(args[0]), args[1].as.numbers);
     if (!is_numeric_of(args[1], 4))
         return VALUE_NULL;
-    return quaternion_value(context->arena, multiply(quaternion_of(args[0]), quaternion_of(args[1])));
+    return quaternion_value(context->arena, multiply_quaternions(quaternion_of(args[0]), quaternion_of(args[1])));
 }
 
 // A quaternion of angle 1/2 about some axis at right angles to a (B5.3, opposite directions).
@@ -97,10 +96,10 @@ Value builtin_slerp(BuiltinContext *context, const Value *args, uint32_t count) 
     Quaternion a = quaternion_of(args[1]), b = quaternion_of(args[2]);
     double n = 1 / (a.x * a.x + a.y * a.y + a.z * a.z + a.w * a.w);
     Quaternion inverse = {a.w * n, (-a.x) * n, (-a.y) * n, (-a.z) * n};
-    Quaternion r = multiply(b, inverse);
+    Quaternion r = multiply_quaternions(b, inverse);
     double theta = maths_acos(r.w), u = maths_sin(theta);
     theta = theta * args[0].as.number;
     double v = u != 0 ? maths_sin(theta) / u : 0;
     Quaternion e = {maths_cos(theta), r.x * v, r.y * v, r.z * v};
-    return quaternion_value(context->arena, multiply(e, a));
+    return quaternion_value(context->arena, multiply_quaternions(e, a));
 }

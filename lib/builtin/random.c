@@ -1,7 +1,6 @@
 // random.c: pseudo-random streams and shuffling (spec builtins.md B9.1, B9.7).
 #include "builtin/family.h"
-
-#include "value/seed.h"
+#include "value/value_hash.h"
 
 #define STREAM(name, kind)                                                                                             \
     Value name(BuiltinContext *context, const Value *args, uint32_t count) {                                           \
@@ -21,13 +20,13 @@ static uint32_t shuffle_partner(Value source, uint32_t i, uint32_t len) {
 Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count) {
     Value source = args[0], xs = args[1];
     if (source.kind != VALUE_STREAM || source.stream == STREAM_NORMAL)
-        return builtin_fault(context, "shuffle", "the source must be a uniform or beta stream");
+        return builtin_error(context, "shuffle", "the source must be a uniform or beta stream");
     if (xs.len <= 1)
         return xs.len ? xs : VALUE_NULL;
     if (xs.kind == VALUE_NUMBERS) {
         double *numbers = arena_copy(context->arena, xs.as.numbers, xs.len * sizeof *numbers);
         for (uint32_t i = 0; i + 1 < xs.len; i++) {
-            arena_portion(context->arena, i, 4);
+            arena_charge_chunk(context->arena, i, 4);
             uint32_t j = shuffle_partner(source, i, xs.len);
             double moved = numbers[i];
             numbers[i] = numbers[j];
@@ -37,7 +36,7 @@ Value builtin_shuffle(BuiltinContext *context, const Value *args, uint32_t count
     }
     Item *items = arena_copy(context->arena, xs.as.items, xs.len * sizeof *items);
     for (uint32_t i = 0; i + 1 < xs.len; i++) {
-        arena_portion(context->arena, i, 4);
+        arena_charge_chunk(context->arena, i, 4);
         uint32_t j = shuffle_partner(source, i, xs.len);
         Item moved = items[i];
         items[i] = items[j];

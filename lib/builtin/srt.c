@@ -1,9 +1,8 @@
 // srt.c: subtitle files (spec builtins.md B13.6).
-#include "builtin/family.h"
-#include "builtin/files.h"
-
 #include "base/number.h"
 #include "base/source.h"
+#include "builtin/family.h"
+#include "builtin/files.h"
 
 #include <string.h>
 
@@ -19,7 +18,7 @@ typedef struct SrtFile {
 } SrtFile;
 
 // Moves the part before a separator out of *text, and the separator too. False if there is none: then *part is all.
-static bool take_part(Str *text, Str separator, Str *part) {
+static bool split_part(Str *text, Str separator, Str *part) {
     size_t at = 0;
     while (at + separator.len <= text->len && memcmp(text->bytes + at, separator.bytes, separator.len) != 0)
         at++;
@@ -42,13 +41,13 @@ static bool read_digits(Str text, double *x) {
 static bool read_time(Str text, double *time) {
     Str rest = str_trim(text), clock, part;
     double milliseconds = 0, parts[3];
-    if (take_part(&rest, STR(","), &clock) && !read_digits(rest, &milliseconds))
+    if (split_part(&rest, STR(","), &clock) && !read_digits(rest, &milliseconds))
         return false;
     int count = 0;
     for (bool more = true; more; count++) {
         if (count == 3)
             return false;
-        more = take_part(&clock, STR(":"), &part);
+        more = split_part(&clock, STR(":"), &part);
         if (!read_digits(part, &parts[count]))
             return false;
     }
@@ -72,10 +71,10 @@ static bool read_section(Str section, Subtitle *subtitle) {
     Str number, times, start;
     if (section.len && section.bytes[section.len - 1] == '\n') // ends the last line of the file
         section.len--;
-    if (!take_part(&section, STR("\n"), &number) || !builtin_is_integer(number))
+    if (!split_part(&section, STR("\n"), &number) || !builtin_is_integer(number))
         return false;
-    take_part(&section, STR("\n"), &times);
-    if (!take_part(&times, STR("-->"), &start) || !read_time(start, &subtitle->start) ||
+    split_part(&section, STR("\n"), &times);
+    if (!split_part(&times, STR("-->"), &start) || !read_time(start, &subtitle->start) ||
         !read_time(times, &subtitle->end))
         return false;
     subtitle->text = section;
@@ -88,13 +87,13 @@ static const void *parse_srt(Arena *arena, char *bytes, size_t len, const char *
         return NULL;
     Str all = {bytes, source_unify_lines(bytes, len)}, rest = all, section;
     uint32_t count = 1;
-    while (take_part(&rest, STR("\n\n"), &section))
+    while (split_part(&rest, STR("\n\n"), &section))
         count++;
     SrtFile *file = arena_alloc(arena, sizeof *file);
     Subtitle *subtitles = arena_alloc_array(arena, count, sizeof *subtitles);
     rest = all;
     for (uint32_t i = 0; i < count; i++) {
-        take_part(&rest, STR("\n\n"), &section);
+        split_part(&rest, STR("\n\n"), &section);
         if (!read_section(section, &subtitles[i])) {
             *problem = "it is not a subtitle file";
             return NULL;
@@ -127,7 +126,7 @@ Value builtin_srt(BuiltinContext *context, const Value *args, uint32_t count) {
     for (uint32_t i = 0; i < file->count; i++) {
         Str text = file->subtitles[i].text, part;
         for (uint32_t k = 0; is_shown(&file->subtitles[i], time) && k < file->subtitles[i].line_count; k++, line++) {
-            take_part(&text, STR("\n"), &part);
+            split_part(&text, STR("\n"), &part);
             lines[line] = str_copy(context->arena, part);
         }
     }

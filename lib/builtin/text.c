@@ -10,11 +10,11 @@ Value builtin_chr(BuiltinContext *context, const Value *args, uint32_t count) {
     const double *x = value_numbers(&args[0]);
     Text text = text_new(context->arena);
     for (uint32_t i = 0; i < args[0].len; i++) {
-        arena_portion(context->arena, i, 1);
+        arena_charge_chunk(context->arena, i, 1);
         double code_point = floor(x[i]);
         // Surrogates are not characters: UTF-8 cannot hold them (E7).
         if (!(code_point >= 0 && code_point <= 0x10ffff) || (code_point >= 0xd800 && code_point <= 0xdfff))
-            return builtin_fault(context, "chr", "not a code point");
+            return builtin_error(context, "chr", "not a code point");
         text_add_code_point(&text, (uint32_t)code_point);
     }
     return value_string(context->arena, text_str(&text));
@@ -78,11 +78,11 @@ Value builtin_split(BuiltinContext *context, const Value *args, uint32_t count) 
     Str text = value_text(context->arena, context->symbols, args[0]);
     Str separator = is_absent(args[1]) ? STR("\n") : value_text(context->arena, context->symbols, args[1]);
     if (separator.len == 0)
-        return builtin_fault(context, "split", "the separator is empty");
+        return builtin_error(context, "split", "the separator is empty");
     arena_charge(context->arena, text.len / 8);
     size_t pieces = count_pieces(text, separator);
     if (pieces == 0)
-        return builtin_fault(context, "split", "nothing between separators");
+        return builtin_error(context, "split", "nothing between separators");
     if (pieces > VALUE_MAX_LEN)
         return builtin_too_long(context, "split");
     return split_text(context->arena, text, separator, (uint32_t)pieces);

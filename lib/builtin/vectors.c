@@ -60,7 +60,7 @@ static bool sum_arguments(const Value *args, double *width) {
 typedef enum Fold { FOLD_SUM, FOLD_PRODUCT, FOLD_MEAN } Fold;
 
 // k results, of which number i mod k takes in x[i].
-static Value fold(BuiltinContext *context, const char *name, const Value *args, Fold kind) {
+static Value fold_vector(BuiltinContext *context, const char *name, const Value *args, Fold kind) {
     double width;
     if (!sum_arguments(args, &width))
         return VALUE_NULL;
@@ -82,15 +82,15 @@ static Value fold(BuiltinContext *context, const char *name, const Value *args, 
 }
 
 Value builtin_sum(BuiltinContext *context, const Value *args, uint32_t count) {
-    return fold(context, "sum", args, FOLD_SUM);
+    return fold_vector(context, "sum", args, FOLD_SUM);
 }
 
 Value builtin_product(BuiltinContext *context, const Value *args, uint32_t count) {
-    return fold(context, "product", args, FOLD_PRODUCT);
+    return fold_vector(context, "product", args, FOLD_PRODUCT);
 }
 
 Value builtin_mean(BuiltinContext *context, const Value *args, uint32_t count) {
-    return fold(context, "mean", args, FOLD_MEAN);
+    return fold_vector(context, "mean", args, FOLD_MEAN);
 }
 
 Value builtin_accumulate(BuiltinContext *context, const Value *args, uint32_t count) {

@@ -1,7 +1,6 @@
 // waves.c: waveforms (spec builtins.md B7) and easings (B8).
-#include "builtin/family.h"
-
 #include "base/number.h"
+#include "builtin/family.h"
 #include "maths/maths.h"
 #include "maths/random.h"
 

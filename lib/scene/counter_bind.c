@@ -1,6 +1,7 @@
 // counter_bind.c: `!counter`: a value that grows with time, kept in the state.
 //
-// The value is a vector, as long as the longest of the attributes, and all is element by element (spec counters.md).
+// The value is a vector, as long as the longest of the vectors that it is computed from, and all is element by element
+// (spec counters.md).
 // Value and time are each stored only if finite, so that a bad frame is a lost one and no more.
 #include "base/number.h"
 #include "scene/systems.h"
@@ -9,7 +10,7 @@ static double element(Value v, uint32_t i) {
     return value_numbers(&v)[i % v.len];
 }
 
-static uint32_t longest(const Value *values, uint32_t count) {
+static uint32_t max_length(const Value *values, uint32_t count) {
     uint32_t len = 1;
     for (uint32_t i = 0; i < count; i++)
         if (values[i].len > len)
@@ -17,13 +18,20 @@ static uint32_t longest(const Value *values, uint32_t count) {
     return len;
 }
 
+static bool any_true(Value v) {
+    for (uint32_t i = 0; i < v.len; i++)
+        if (element(v, i) != 0)
+            return true;
+    return false;
+}
+
 // What the state has, as far as a counter can go on from it; else null.
-static Value usable(Value stored) {
+static Value usable_or_null(Value stored) {
     bool good = value_is_numeric(stored) && numbers_finite(value_numbers(&stored), stored.len, 1);
     return good ? stored : VALUE_NULL;
 }
 
-static void store(const Reader *reader, State *state, Value key, Value v, const char *what) {
+static void store_finite(const Reader *reader, State *state, Value key, Value v, const char *what) {
     if (numbers_finite(value_numbers(&v), v.len, 1))
         state_set(state, key, v);
     else
@@ -40,17 +48,20 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Value key = attrs.state, time = attrs.time, rate = attrs.rate, initial = attrs.initial;
     Value low = attrs.minimum, high = attrs.maximum, reset = attrs.reset;
     if (key.len == 0 || !state_key_valid(key)) {
-        reader_report(&reader, "skipped-system", "", STR("no usable state key; the counter is skipped"));
+        reader_report(&reader, "invalid-system", "", STR("no usable state key; the counter is skipped"));
         return;
     }
     Value time_key = scene_key(frame->arena, key, VALUE_NULL, scene->key_time);
-    Value old = usable(state_get(frame->state, key)), last = usable(state_get(frame->state, time_key));
-    Value parts[] = {initial, rate, low, high, time, reset, old};
-    uint32_t len = longest(parts, sizeof parts / sizeof parts[0]);
+    Value old = usable_or_null(state_get(frame->state, key)), last = usable_or_null(state_get(frame->state, time_key));
+    bool is_new = old.len == 0;
+    const Value first[] = {initial, low, high};
+    const Value next[] = {old, rate, time, last, low, high, reset, any_true(reset) ? initial : VALUE_NULL};
+    uint32_t len =
+        is_new ? max_length(first, sizeof first / sizeof first[0]) : max_length(next, sizeof next / sizeof next[0]);
     double *values = arena_alloc_array(frame->arena, len, sizeof *values);
     for (uint32_t i = 0; i < len; i++) {
         double passed = last.len ? element(time, i) - element(last, i) : 0;
-        bool start = old.len == 0 || (reset.len && element(reset, i) != 0);
+        bool start = is_new || (reset.len && element(reset, i) != 0);
         double x = start ? element(initial, i) : passed * element(rate, i) + element(old, i);
         if (low.len && x < element(low, i))
             x = element(low, i);
@@ -58,6 +69,6 @@ void counter_update(Scene *scene, const Node *node, const SceneFrame *frame) {
             x = element(high, i);
         values[i] = x;
     }
-    store(&reader, frame->state, key, value_numbers_view(values, len), "value");
-    store(&reader, frame->state, time_key, time, "time");
+    store_finite(&reader, frame->state, key, value_numbers_view(values, len), "value");
+    store_finite(&reader, frame->state, time_key, time, "time");
 }

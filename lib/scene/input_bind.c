@@ -2,7 +2,7 @@
 #include "scene/input_bind.h"
 
 #include "value/format.h"
-#include "value/run.h"
+#include "value/node_batch.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -32,61 +32,61 @@ int input_key_number(Str name) {
 
 static const InputSwitch NEVER_PRESSED = {.pushed = NAN, .released = NAN};
 
-void input_forget(InputHands *hands, InputBindings *bindings) {
-    *hands = (InputHands){.heard = false};
+void input_reset(InputState *input_state, InputBindings *bindings) {
+    *input_state = (InputState){.has_reports = false};
     *bindings = (InputBindings){.count = 0};
     arena_init(&bindings->arena, "input", SIZE_MAX);
     for (int i = 0; i < INPUT_KEYS; i++)
-        hands->keys[i] = NEVER_PRESSED;
+        input_state->keys[i] = NEVER_PRESSED;
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        hands->buttons[i] = NEVER_PRESSED;
+        input_state->buttons[i] = NEVER_PRESSED;
 }
 
 void input_init(Input *input, SymbolTable *symbols) {
-    input_forget(&input->hands, &input->bindings);
+    input_reset(&input->state, &input->bindings);
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        input->button_words[i] = symbol_know(symbols, str_from(button_names[i]));
-    input->pushed = symbol_know(symbols, STR("pushed"));
-    input->released = symbol_know(symbols, STR("released"));
-    input->toggled = symbol_know(symbols, STR("toggled"));
-    input->beat = symbol_know(symbols, STR("beat"));
+        input->button_words[i] = symbol_register(symbols, str_from(button_names[i]));
+    input->pushed = symbol_register(symbols, STR("pushed"));
+    input->released = symbol_register(symbols, STR("released"));
+    input->toggled = symbol_register(symbols, STR("toggled"));
+    input->beat = symbol_register(symbols, STR("beat"));
 }
 
 void input_free(Input *input) {
     arena_free(&input->bindings.arena);
 }
 
-bool input_key_bound(const Input *input, int key) {
+bool input_key_is_bound(const Input *input, int key) {
     for (uint32_t i = 0; i < input->bindings.count; i++)
         if (input->bindings.items[i].key == key)
             return key != INPUT_KEY_NONE;
     return false;
 }
 
-static void press(InputSwitch *item, bool pressed) {
+static void update_switch(InputSwitch *item, bool pressed) {
     item->pushes += pressed && !item->down;
     item->down = pressed;
 }
 
-void input_key(Input *input, int key, bool pressed) {
-    input->hands.heard = true;
-    press(&input->hands.keys[key], pressed);
+void input_report_key(Input *input, int key, bool pressed) {
+    input->state.has_reports = true;
+    update_switch(&input->state.keys[key], pressed);
 }
 
-void input_pointer(Input *input, const double *position, uint32_t buttons) {
-    InputHands *hands = &input->hands;
-    hands->heard = true;
-    hands->inside = position != NULL;
+void input_report_pointer(Input *input, const double *position, uint32_t buttons) {
+    InputState *input_state = &input->state;
+    input_state->has_reports = true;
+    input_state->inside = position;
     if (position)
-        memcpy(hands->position, position, sizeof hands->position);
+        memcpy(input_state->position, position, sizeof input_state->position);
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        press(&hands->buttons[i], buttons >> i & 1);
+        update_switch(&input_state->buttons[i], buttons >> i & 1);
 }
 
-void input_let_go(Input *input) {
+void input_release_all(Input *input) {
     for (int i = 0; i < INPUT_KEYS; i++)
-        press(&input->hands.keys[i], false);
-    input_pointer(input, NULL, 0);
+        update_switch(&input->state.keys[i], false);
+    input_report_pointer(input, NULL, 0);
 }
 
 // The key that a `!key` names, by a symbol or a string.
@@ -109,13 +109,13 @@ static void report_key(const Reader *reader, Value name) {
     else if (name.len)
         format_value(&out, reader->schema->symbols, name);
     text_add_c(&out, "; skipped");
-    reader_report(reader, "skipped-input", "name", text_str(&out));
+    reader_report(reader, "invalid-input-node", "name", text_str(&out));
 }
 
 void input_add_binding(InputBindings *bindings, Value state, int key) {
     InputBinding binding = {value_copy(&bindings->arena, state), key};
     bindings->items =
-        arena_room(&bindings->arena, bindings->items, bindings->count, &bindings->capacity, sizeof binding);
+        arena_grow_array(&bindings->arena, bindings->items, bindings->count, &bindings->capacity, sizeof binding);
     bindings->items[bindings->count++] = binding;
 }
 
@@ -126,7 +126,7 @@ static void bind_node(InputBindings *bindings, const Reader *reader) {
     bool names_key = reader->kind == KIND_KEY;
     int key = names_key ? named_key(reader->schema->symbols, attrs.name) : INPUT_KEY_NONE;
     if (attrs.state.len == 0 || !state_key_valid(attrs.state))
-        reader_report(reader, "skipped-input", "state", STR("no usable state key; skipped"));
+        reader_report(reader, "invalid-input-node", "state", STR("no usable state key; skipped"));
     else if (names_key && key == INPUT_KEY_NONE)
         report_key(reader, attrs.name);
     else
@@ -156,15 +156,15 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena) {
 }
 
 // Turns what was reported into what the frame of this beat sees.
-static void show(InputSwitch *item, double beat) {
-    bool shown = item->down || item->pushes > 0;
+static void advance_switch(InputSwitch *item, double beat) {
+    bool down = item->down || item->pushes > 0;
     if (item->pushes > 0)
         item->pushed = beat;
-    if (item->shown && !shown)
+    if (item->frame_down && !down)
         item->released = beat;
     item->toggled ^= item->pushes & 1;
     item->pushes = 0;
-    item->shown = shown;
+    item->frame_down = down;
 }
 
 typedef struct Writer {
@@ -174,9 +174,9 @@ typedef struct Writer {
 } Writer;
 
 struct InputChange {
-    const InputChange *before;
+    const InputChange *previous;
     Value key;
-    Value was;
+    Value old_value;
 };
 
 // Writes a value under state;first;second, of which the words may be NULL. Null removes it.
@@ -189,19 +189,19 @@ static void write_word(const Writer *writer, Value prefix, const Symbol *first, 
         vector_add_number(&key, second->number);
     InputChange *change = arena_alloc(writer->arena, sizeof *change);
     *change = (InputChange){writer->undo->last, vector_finish(&key), VALUE_NULL};
-    change->was = value_copy(writer->arena, state_get(writer->state, change->key));
+    change->old_value = value_copy(writer->arena, state_get(writer->state, change->key));
     writer->undo->last = change;
     state_set(writer->state, change->key, value);
 }
 
 static void write_pointer(const Writer *writer, const Input *input, Value prefix) {
-    const InputHands *hands = &input->hands;
-    Value position = hands->inside ? value_numbers_view(hands->position, 2) : VALUE_NULL;
+    const InputState *input_state = &input->state;
+    Value position = input_state->inside ? value_numbers_view(input_state->position, 2) : VALUE_NULL;
     write_word(writer, prefix, NULL, NULL, position);
     for (int i = 0; i < INPUT_BUTTONS; i++) {
-        const InputSwitch *button = &hands->buttons[i];
+        const InputSwitch *button = &input_state->buttons[i];
         if (i < USUAL_BUTTONS || !isnan(button->pushed))
-            write_word(writer, prefix, input->button_words[i], NULL, value_number(button->shown));
+            write_word(writer, prefix, input->button_words[i], NULL, value_number(button->frame_down));
     }
 }
 
@@ -210,9 +210,9 @@ static Value beat_value(double beat) {
 }
 
 static void write_key(const Writer *writer, const Input *input, Value prefix, const InputSwitch *key) {
-    write_word(writer, prefix, NULL, NULL, value_number(key->shown));
-    write_word(writer, prefix, input->pushed, NULL, value_number(key->shown));
-    write_word(writer, prefix, input->released, NULL, value_number(!key->shown));
+    write_word(writer, prefix, NULL, NULL, value_number(key->frame_down));
+    write_word(writer, prefix, input->pushed, NULL, value_number(key->frame_down));
+    write_word(writer, prefix, input->released, NULL, value_number(!key->frame_down));
     write_word(writer, prefix, input->toggled, NULL, value_number(key->toggled));
     write_word(writer, prefix, input->pushed, input->beat, beat_value(key->pushed));
     write_word(writer, prefix, input->released, input->beat, beat_value(key->released));
@@ -220,28 +220,28 @@ static void write_key(const Writer *writer, const Input *input, Value prefix, co
 
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo) {
     const Writer writer = {state, arena, undo};
-    InputHands *hands = &input->hands;
+    InputState *input_state = &input->state;
     undo->last = NULL;
-    undo->heard = hands->heard;
-    if (!hands->heard)
+    undo->has_reports = input_state->has_reports;
+    if (!input_state->has_reports)
         return;
-    undo->hands = *hands;
+    undo->state = *input_state;
     for (int i = 0; i < INPUT_KEYS; i++)
-        show(&hands->keys[i], beat);
+        advance_switch(&input_state->keys[i], beat);
     for (int i = 0; i < INPUT_BUTTONS; i++)
-        show(&hands->buttons[i], beat);
+        advance_switch(&input_state->buttons[i], beat);
     for (uint32_t i = 0; i < input->bindings.count; i++) {
         const InputBinding *binding = &input->bindings.items[i];
         if (binding->key == INPUT_KEY_NONE)
             write_pointer(&writer, input, binding->state);
         else
-            write_key(&writer, input, binding->state, &hands->keys[binding->key]);
+            write_key(&writer, input, binding->state, &input_state->keys[binding->key]);
     }
 }
 
-void input_unwrite(Input *input, State *state, const InputUndo *undo) {
-    for (const InputChange *change = undo->last; change; change = change->before)
-        state_set(state, change->key, change->was);
-    if (undo->heard)
-        input->hands = undo->hands;
+void input_undo_write(Input *input, State *state, const InputUndo *undo) {
+    for (const InputChange *change = undo->last; change; change = change->previous)
+        state_set(state, change->key, change->old_value);
+    if (undo->has_reports)
+        input->state = undo->state;
 }

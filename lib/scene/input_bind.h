@@ -14,7 +14,7 @@ enum { INPUT_BUTTONS = 8, INPUT_KEYS = 105, INPUT_KEY_NONE = -1 };
 // Something that is pressed and let go.
 typedef struct InputSwitch {
     bool down;       // as reported
-    bool shown;      // as the present frame sees it
+    bool frame_down; // as the present frame sees it
     bool toggled;    // changes with each push
     uint32_t pushes; // not shown yet
     double pushed;   // beat of the frame that saw the last push; nan: there was none
@@ -35,17 +35,17 @@ typedef struct InputBindings {
 } InputBindings;
 
 // What has been reported and shown.
-typedef struct InputHands {
+typedef struct InputState {
     InputSwitch keys[INPUT_KEYS]; // by number of their names
     InputSwitch buttons[INPUT_BUTTONS];
-    bool heard; // the host has reported something
+    bool has_reports; // the host has reported something
     bool inside;
     double position[2];
-} InputHands;
+} InputState;
 
 typedef struct Input {
     InputBindings bindings;
-    InputHands hands;
+    InputState state;
     // Words of state keys
     const Symbol *button_words[INPUT_BUTTONS];
     const Symbol *pushed;
@@ -55,21 +55,21 @@ typedef struct Input {
 } Input;
 
 // Puts them to before anything was reported or bound.
-void input_forget(InputHands *hands, InputBindings *bindings);
+void input_reset(InputState *input_state, InputBindings *bindings);
 void input_init(Input *input, SymbolTable *symbols);
 void input_free(Input *input);
 
 // The number of a key's name; INPUT_KEY_NONE if there is no such key.
 int input_key_number(Str name);
 // Whether a node of the last frame's tree asks for the key.
-bool input_key_bound(const Input *input, int key);
+bool input_key_is_bound(const Input *input, int key);
 
 // What the host reports. A press while pressed changes nothing.
-void input_key(Input *input, int key, bool pressed);
+void input_report_key(Input *input, int key, bool pressed);
 // `position` is NULL outside the window, else two finite numbers; bit i of `buttons` is button i.
-void input_pointer(Input *input, const double *position, uint32_t buttons);
+void input_report_pointer(Input *input, const double *position, uint32_t buttons);
 // Everything is let go and the pointer is outside.
-void input_let_go(Input *input);
+void input_release_all(Input *input);
 
 // Adds a binding; the key of the state is copied.
 void input_add_binding(InputBindings *bindings, Value state, int key);
@@ -79,11 +79,11 @@ void input_bind(Input *input, Schema *schema, Value tree, Arena *arena);
 typedef struct InputChange InputChange;
 typedef struct InputUndo {
     const InputChange *last; // in the write's arena
-    bool heard;
-    InputHands hands;
+    bool has_reports;
+    InputState state;
 } InputUndo;
 // Writes the state before the frame of this beat is evaluated; `arena` is that of the frame.
 void input_write(Input *input, State *state, Arena *arena, double beat, InputUndo *undo);
-void input_unwrite(Input *input, State *state, const InputUndo *undo);
+void input_undo_write(Input *input, State *state, const InputUndo *undo);
 
 #endif

@@ -8,10 +8,10 @@
 #include <string.h>
 
 void mirror_free(Mirror *mirror) {
-    heap_give(mirror->slots);
-    heap_give(mirror->last_slots);
-    heap_give(mirror->anchors);
-    heap_give(mirror->ids);
+    heap_free(mirror->slots);
+    heap_free(mirror->last_slots);
+    heap_free(mirror->anchors);
+    heap_free(mirror->ids);
 }
 
 bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count) {
@@ -23,18 +23,18 @@ bool mirror_restore(Mirror *mirror, const StateSlot *slots, uint32_t count) {
     return true;
 }
 
-static void own_copies(const Mirror *mirror, State *state, const StateSlot *slots, uint32_t count) {
-    for (uint32_t i = 0; mirror->lender && i < count; i++)
-        state_slot_own_copy(state, slots[i], mirror->lender);
+static void detach_entries(const Mirror *mirror, State *state, const StateSlot *slots, uint32_t count) {
+    for (uint32_t i = 0; mirror->owner && i < count; i++)
+        state_slot_detach(state, slots[i], mirror->owner);
 }
 
-static void own_all_copies(const Mirror *mirror, State *state) {
-    own_copies(mirror, state, mirror->slots, mirror->slot_count);
-    own_copies(mirror, state, mirror->last_slots, mirror->last_count);
+static void detach_all(const Mirror *mirror, State *state) {
+    detach_entries(mirror, state, mirror->slots, mirror->slot_count);
+    detach_entries(mirror, state, mirror->last_slots, mirror->last_count);
 }
 
 void mirror_leave(Mirror *mirror, State *state) {
-    own_all_copies(mirror, state);
+    detach_all(mirror, state);
     mirror->slot_count = 0;
     mirror->state = MIRROR_STALE;
 }
@@ -50,10 +50,10 @@ void mirror_remove(Mirror *mirror, State *state) {
 void mirror_open(PhysicsTree *tree) {
     State *state = tree->frame->state;
     Mirror *mirror = &tree->system->mirror, before = *mirror;
-    if (!mirror->lender)
-        mirror->lender = state_add_lender(state);
+    if (!mirror->owner)
+        mirror->owner = state_add_owner(state);
     if (mirror->state == MIRROR_OPEN) {
-        own_all_copies(mirror, state);
+        detach_all(mirror, state);
     } else {
         mirror->slots = before.last_slots;
         mirror->slot_capacity = before.last_capacity;
@@ -62,7 +62,7 @@ void mirror_open(PhysicsTree *tree) {
         mirror->last_capacity = before.slot_capacity;
     }
     mirror->slot_count = mirror->anchor_count = 0;
-    mirror->ids_known = false;
+    mirror->ids_cached = false;
     mirror->state = MIRROR_OPEN;
     phys_begin(tree->engine, tree->dimensions);
 }
@@ -93,48 +93,46 @@ PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attr
 
 void mirror_remove_vanished(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
-    for (uint32_t i = 0; i < mirror->last_count; i += 2)
-        if (physics_find_slot(tree, mirror->last_slots[i]) == PHYSICS_NO_BODY) {
+    for (uint32_t i = 0; i < mirror->last_count; i++)
+        if (!physics_mark(tree, mirror->last_slots[i]))
             state_slot_set(tree->frame->state, mirror->last_slots[i], VALUE_NULL);
-            state_slot_set(tree->frame->state, mirror->last_slots[i + 1], VALUE_NULL);
-        }
 }
 
 // Is the entry missing? *alike: if not, it has what the row has.
-static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *row, bool *alike) {
+static bool is_missing(const PhysicsTree *tree, StateSlot slot, const double *row, bool *in_sync) {
     const State *state = tree->frame->state;
     Value v = state_slot_get(state, slot);
     if (v.len == 0)
         return true;
     if (tree->dimensions > 1)
-        *alike = *alike && state_slot_borrows(state, slot, tree->system->mirror.lender);
+        *in_sync = *in_sync && state_slot_references(state, slot, tree->system->mirror.owner);
     else
-        *alike = *alike && v.len == 1 && v.kind == VALUE_NUMBERS && !memcmp(&v.as.number, row, sizeof *row);
+        *in_sync = *in_sync && v.len == 1 && v.kind == VALUE_NUMBERS && !memcmp(&v.as.number, row, sizeof *row);
     return false;
 }
 
 // Has nobody written to an entry that was missing, or to one of a single number? Neither disturbs the lender.
-static bool unlent_alike(const PhysicsTree *tree) {
+static bool unreferenced_in_sync(const PhysicsTree *tree) {
     const Mirror *mirror = &tree->system->mirror;
     if (tree->dimensions > 1 && mirror->missing == 0)
         return true;
     uint32_t missing = 0;
-    bool alike = true;
-    for (uint32_t i = 0; alike && i < mirror->slot_count / 2; i++) {
+    bool in_sync = true;
+    for (uint32_t i = 0; in_sync && i < mirror->slot_count / 2; i++) {
         if (phys_is_anchor(tree->engine, i))
             continue;
         const StateSlot *slots = mirror->slots + 2 * (size_t)i;
-        missing += is_missing(tree, slots[0], phys_position(tree->engine, i), &alike);
-        missing += is_missing(tree, slots[1], phys_velocity(tree->engine, i), &alike);
+        missing += is_missing(tree, slots[0], phys_position(tree->engine, i), &in_sync);
+        missing += is_missing(tree, slots[1], phys_velocity(tree->engine, i), &in_sync);
     }
-    return alike && missing == mirror->missing;
+    return in_sync && missing == mirror->missing;
 }
 
 bool mirror_reuse(PhysicsTree *tree) {
     Mirror *mirror = &tree->system->mirror;
-    bool disturbed = mirror->lender && state_take_disturbed(tree->frame->state, mirror->lender);
-    if (mirror->state != MIRROR_CURRENT || disturbed || !tree->from_state ||
-        tree->system->dimensions != tree->dimensions || !unlent_alike(tree))
+    bool modified = mirror->owner && state_clear_modified(tree->frame->state, mirror->owner);
+    if (mirror->state != MIRROR_CURRENT || modified || !tree->from_state ||
+        tree->system->dimensions != tree->dimensions || !unreferenced_in_sync(tree))
         return false;
     mirror->state = MIRROR_STALE;
     return true;
@@ -147,7 +145,7 @@ PhysPreserve mirror_preserve(const PhysicsTree *tree, uint32_t body) {
 }
 
 bool mirror_can_lend(const PhysicsTree *tree) {
-    return !tree->shared && !tree->failed && (tree->system->mirror.lender || tree->dimensions == 1) &&
+    return !tree->keys_collide && !tree->out_of_memory && (tree->system->mirror.owner || tree->dimensions == 1) &&
            phys_particle_count(tree->engine) == tree->body_count;
 }
 
@@ -165,7 +163,7 @@ static void copy_body(const PhysicsTree *tree, uint32_t body) {
 static void copy_anchors(const PhysicsTree *tree, bool store) {
     const Mirror *mirror = &tree->system->mirror;
     for (uint32_t i = 0; i < mirror->anchor_count; i++) {
-        own_copies(mirror, tree->frame->state, mirror->slots + 2 * (size_t)mirror->anchors[i], 2);
+        detach_entries(mirror, tree->frame->state, mirror->slots + 2 * (size_t)mirror->anchors[i], 2);
         if (store)
             copy_body(tree, mirror->anchors[i]);
     }
@@ -173,7 +171,7 @@ static void copy_anchors(const PhysicsTree *tree, bool store) {
 
 // Lets an entry borrow a row, if that holds a finite result or what the state had; false if they are not alike in the
 // end.
-static bool lend(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
+static bool lend_entry(const PhysicsTree *tree, StateSlot slot, const double *row, bool result) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
     uint32_t n = tree->dimensions;
@@ -183,47 +181,47 @@ static bool lend(const PhysicsTree *tree, StateSlot slot, const double *row, boo
         return true;
     }
     bool same_source = stored.len == 0 || tree->from_state; // else the run began with other numbers than are stored
-    bool alike = same_source && (result || (stored.kind == VALUE_NUMBERS && stored.len == n));
-    if (n > 1 && alike) {
-        state_slot_borrow(state, slot, mirror->lender, row, n);
+    bool in_sync = same_source && (result || (stored.kind == VALUE_NUMBERS && stored.len == n));
+    if (n > 1 && in_sync) {
+        state_slot_reference(state, slot, mirror->owner, row, n);
         return true;
     }
-    state_slot_own_copy(state, slot, mirror->lender);
+    state_slot_detach(state, slot, mirror->owner);
     if (result)
         state_slot_set(state, slot, value_numbers_view(row, n));
-    return alike;
+    return in_sync;
 }
 
 static bool lend_bodies(PhysicsTree *tree, bool simulated) {
     const PhysSystem *engine = tree->engine;
-    bool alike = true;
+    bool in_sync = true;
     tree->system->mirror.missing = 0;
     for (uint32_t i = 0; i < tree->body_count; i++) {
         if (phys_is_anchor(engine, i))
             continue;
         const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)i;
-        alike &= lend(tree, slots[0], phys_position(engine, i), simulated && phys_position_finite(engine, i));
-        alike &= lend(tree, slots[1], phys_velocity(engine, i), simulated && phys_velocity_finite(engine, i));
+        in_sync &= lend_entry(tree, slots[0], phys_position(engine, i), simulated && phys_position_finite(engine, i));
+        in_sync &= lend_entry(tree, slots[1], phys_velocity(engine, i), simulated && phys_velocity_finite(engine, i));
     }
-    return alike;
+    return in_sync;
 }
 
 // Entries that still borrow from the description before get copies.
-static void close_last(PhysicsTree *tree, bool lent) {
+static void close_last(PhysicsTree *tree, bool referenced) {
     Mirror *mirror = &tree->system->mirror;
     State *state = tree->frame->state;
-    for (uint32_t i = 0; mirror->lender && i < mirror->last_count; i++)
-        if (!lent || !physics_mark(tree, mirror->last_slots[i]))
-            state_slot_own_copy(state, mirror->last_slots[i], mirror->lender);
-    if (mirror->lender)
-        state_take_disturbed(state, mirror->lender); // by the mirror itself
+    for (uint32_t i = 0; mirror->owner && i < mirror->last_count; i++)
+        if (!referenced || !physics_mark(tree, mirror->last_slots[i]))
+            state_slot_detach(state, mirror->last_slots[i], mirror->owner);
+    if (mirror->owner)
+        state_clear_modified(state, mirror->owner); // by the mirror itself
     mirror->last_count = 0;
-    physics_forget_slots(tree);
+    physics_free_marks(tree);
 }
 
 void mirror_store(PhysicsTree *tree, bool simulated) {
     Mirror *mirror = &tree->system->mirror;
-    bool anew = mirror->state == MIRROR_OPEN, can_lend = mirror_can_lend(tree), alike = can_lend;
+    bool rebuilt = mirror->state == MIRROR_OPEN, can_lend = mirror_can_lend(tree), in_sync = can_lend;
     // The recorded language cases leave out the anchors of a system without particles as long as no time passes.
     bool anchors = simulated || tree->body_count > mirror->anchor_count;
     if (!can_lend && simulated) {
@@ -231,10 +229,10 @@ void mirror_store(PhysicsTree *tree, bool simulated) {
             copy_body(tree, i);
     } else {
         copy_anchors(tree, anchors);
-        if (can_lend && (anew || (simulated && (mirror->missing || tree->dimensions == 1))))
-            alike = lend_bodies(tree, simulated);
+        if (can_lend && (rebuilt || (simulated && (mirror->missing || tree->dimensions == 1))))
+            in_sync = lend_bodies(tree, simulated);
     }
-    if (anew)
+    if (rebuilt)
         close_last(tree, can_lend);
-    mirror->state = alike ? MIRROR_CURRENT : MIRROR_STALE;
+    mirror->state = in_sync ? MIRROR_CURRENT : MIRROR_STALE;
 }

@@ -48,8 +48,8 @@ typedef enum MirrorState { MIRROR_STALE, MIRROR_OPEN, MIRROR_CURRENT } MirrorSta
 // All zeros is a mirror of no particles. Slots come in pairs, position and velocity, by particle handle.
 typedef struct Mirror {
     MirrorState state;
-    StateLender lender; // 0: none yet, or no memory for one
-    StateSlot *slots;   // of the particles and anchors in the last tree
+    StateOwner owner; // 0: none yet, or no memory for one
+    StateSlot *slots; // of the particles and anchors in the last tree
     uint32_t slot_count;
     uint32_t slot_capacity;
     StateSlot *last_slots; // while OPEN: of the last tree that was read whole
@@ -61,7 +61,7 @@ typedef struct Mirror {
     uint32_t missing; // entries that the state does not have yet
     double *ids;      // of all particles, for those who ask (scene_view_ids)
     uint32_t id_capacity;
-    bool ids_known;  // they were looked at since the last tree was read whole
+    bool ids_cached; // they were looked at since the last tree was read whole
     bool ids_single; // … and each is one number, which is there
 } Mirror;
 
@@ -83,7 +83,8 @@ bool mirror_add(PhysicsTree *tree, StateSlot position, StateSlot velocity, bool 
 // the attribute's (*from_attribute). One number is copied to *single.
 PhysVector mirror_start(const PhysicsTree *tree, StateSlot slot, PhysVector attribute, double *single,
                         bool *from_attribute);
-// Removes the entries of particles that were in the last tree and are not in this one.
+// Removes the entries of particles that were in the last tree and are not in this one, except entries that a particle
+// of this tree also has: $(prefix;id;:velocity) may be the position of another particle.
 void mirror_remove_vanished(const PhysicsTree *tree);
 
 // Can the description be brought up to date with this frame's tree? If so, it counts as STALE until mirror_store.

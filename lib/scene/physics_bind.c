@@ -1,7 +1,6 @@
 // physics_bind.c: one frame of a `!physics` system, between tree, state and engine (spec physics.md section 2).
-#include "scene/systems.h"
-
 #include "base/heap.h"
+#include "scene/systems.h"
 
 #include <math.h>
 
@@ -14,22 +13,23 @@ Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last) {
     return vector_finish(&key);
 }
 
-static double scene_number(const State *state, StateSlot slot, double fallback) {
+static double scene_number(const State *state, StateSlot slot, double default_value) {
     Value v = state_slot_get(state, slot);
-    return v.kind == VALUE_NUMBERS && v.len == 1 && isfinite(v.as.number) ? v.as.number : fallback;
+    return v.kind == VALUE_NUMBERS && v.len == 1 && isfinite(v.as.number) ? v.as.number : default_value;
 }
 
 // The system of a prefix that has not been updated in this frame, or NULL; *occurrence counts those that have.
 static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t *occurrence, Arena *arena) {
-    PhysicsSystem *expected = scene->expected; // as in the frame before
+    PhysicsSystem *expected = scene->next_expected; // as in the frame before
     *occurrence = 0;
-    if (expected && expected->start == start && expected->occurrence == 0 && expected->seen != scene->frame_number)
+    if (expected && expected->start == start && expected->occurrence == 0 &&
+        expected->last_frame != scene->frame_number)
         return expected;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         arena_charge(arena, 4); // they lie anywhere in memory
         if (system->start != start)
             continue;
-        if (system->seen != scene->frame_number)
+        if (system->last_frame != scene->frame_number)
             return system;
         ++*occurrence;
     }
@@ -37,7 +37,7 @@ static PhysicsSystem *known_system(const Scene *scene, StateSlot start, uint32_t
 }
 
 static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurrence, const SceneFrame *frame) {
-    PhysicsSystem *system = meter_take(scene->meter, PHYSICS_SYSTEM_BYTES) ? heap_zeroed(1, sizeof *system) : NULL;
+    PhysicsSystem *system = budget_reserve(scene->meter, PHYSICS_SYSTEM_BYTES) ? heap_calloc(1, sizeof *system) : NULL;
     if (!system)
         return NULL;
     *scene->systems_end = system;
@@ -46,7 +46,7 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
     *system = (PhysicsSystem){
         .start = start,
         .occurrence = occurrence,
-        .seen = scene->frame_number - 1,
+        .last_frame = scene->frame_number - 1,
         .run = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_run)),
         .iteration = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_iteration)),
         .clock = state_slot(frame->state, scene_key(frame->arena, prefix, VALUE_NULL, scene->key_clock)),
@@ -60,8 +60,8 @@ static PhysicsSystem *new_system(Scene *scene, StateSlot start, uint32_t occurre
 }
 
 // What was absent from the last frame has no last tree; its keys stay.
-static void note_absence(const Scene *scene, PhysicsSystem *system, State *state) {
-    if (system->seen + 1 == scene->frame_number)
+static void detach_if_absent(const Scene *scene, PhysicsSystem *system, State *state) {
+    if (system->last_frame + 1 == scene->frame_number)
         return;
     mirror_leave(&system->mirror, state);
 }
@@ -75,8 +75,8 @@ static PhysicsSystem *find_system(Scene *scene, Value prefix, const SceneFrame *
     PhysicsSystem *system = known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return new_system(scene, start, occurrence, frame);
-    scene->expected = system->next;
-    note_absence(scene, system, frame->state);
+    scene->next_expected = system->next;
+    detach_if_absent(scene, system, frame->state);
     return system;
 }
 
@@ -85,7 +85,7 @@ bool scene_next_system(const Scene *scene, const void **cursor, SceneSystem *sav
     if (!system)
         return false;
     *cursor = system;
-    bool absent = system->seen != scene->frame_number; // then it has no last tree
+    bool absent = system->last_frame != scene->frame_number; // then it has no last tree
     *saved =
         (SceneSystem){system->start, system->occurrence, system->mirror.slots, absent ? 0 : system->mirror.slot_count};
     return true;
@@ -95,7 +95,7 @@ bool scene_restore_system(Scene *scene, const SceneSystem *saved, const SceneFra
     PhysicsSystem *system = new_system(scene, saved->prefix, saved->occurrence, frame);
     if (!system || !system->engine || !mirror_restore(&system->mirror, saved->slots, saved->slot_count))
         return false;
-    system->seen = scene->frame_number; // the next update is that of the frame after
+    system->last_frame = scene->frame_number; // the next update is that of the frame after
     return true;
 }
 
@@ -112,22 +112,22 @@ static bool read_settings(const Reader *reader, const SceneFrame *frame, SystemA
         settings->resolution = frame->resolution;
     if (!isfinite(settings->run))
         settings->run = 0;
-    const char *why = NULL;
+    const char *reason = NULL;
     if (settings->state.len == 0)
-        why = "no state prefix; the system is skipped";
+        reason = "no state prefix; the system is skipped";
     else if (!state_key_valid(settings->state))
-        why = "state cannot be a key; the system is skipped";
+        reason = "state cannot be a key; the system is skipped";
     else if (!(settings->dimensions >= 1))
-        why = "dimensions must be at least 1; the system is skipped";
+        reason = "dimensions must be at least 1; the system is skipped";
     else if (settings->dimensions > 1e9)
-        why = "dimensions beyond 1000000000; the system is skipped";
+        reason = "dimensions beyond 1000000000; the system is skipped";
     else if (!isfinite(settings->time))
-        why = "time is not finite; the system is skipped";
+        reason = "time is not finite; the system is skipped";
     else if (!(settings->resolution > 0) || !isfinite(settings->resolution))
-        why = "resolution must be above 0 and finite; the system is skipped";
-    if (why)
-        reader_report(reader, "skipped-system", "", str_from(why));
-    return !why;
+        reason = "resolution must be above 0 and finite; the system is skipped";
+    if (reason)
+        reader_report(reader, "invalid-system", "", str_from(reason));
+    return !reason;
 }
 
 // Number of nodes below, up to a limit: decides whether vectors of so many dimensions can be held at all.
@@ -147,14 +147,14 @@ static bool fits_in_memory(const Reader *reader, const SystemAttrs *settings) {
         settings->dimensions * sizeof(double) * COPIES * (double)(count_nodes(reader->arena, reader->node) + 1);
     if (bytes <= (double)(UINT64_C(1) << 30))
         return true;
-    reader_report(reader, "skipped-system", "",
+    reader_report(reader, "invalid-system", "",
                   STR("too many dimensions for so many nodes (limit 1 GiB); the system is skipped"));
     return false;
 }
 
 // Step 6: simulates up to `settings->time`; returns the clock afterwards.
-static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last, double clock,
-                       uint64_t *steps) {
+static double simulate_system(PhysicsTree *tree, const Reader *reader, const SystemAttrs *settings, double last,
+                              double clock, uint64_t *steps) {
     PhysTime time = {.last = last,
                      .now = settings->time,
                      .clock = clock,
@@ -169,17 +169,17 @@ static double simulate(PhysicsTree *tree, const Reader *reader, const SystemAttr
         reader_report(reader, "physics-memory", "",
                       STR("not enough memory for the system's particles; nothing is simulated"));
     else if (result.status == PHYS_DROPPED_TIME)
-        reader_report(reader, "dropped-time", "",
+        reader_report(reader, "step-limit", "",
                       STR("more steps in one frame than can be made (limit 1000000); the rest is dropped"));
     else if (result.status == PHYS_STOPPED)
-        tree->scene->stopped = meter_look(tree->scene->meter);
-    tree->failed |= result.status == PHYS_NO_MEMORY;
+        tree->scene->stopped = budget_check(tree->scene->meter);
+    tree->out_of_memory |= result.status == PHYS_NO_MEMORY;
     mirror_store(tree, result.status == PHYS_OK || result.status == PHYS_DROPPED_TIME);
     return result.clock;
 }
 
 // Reads a tree from scratch.
-static void describe(PhysicsTree *tree) {
+static void read_tree(PhysicsTree *tree) {
     tree->body_count = 0;
     mirror_open(tree);
     physics_read_bodies(tree);
@@ -187,11 +187,11 @@ static void describe(PhysicsTree *tree) {
     mirror_remove_vanished(tree);
 }
 
-static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader, const SystemAttrs *settings,
-                       const SceneFrame *frame) {
+static uint64_t update_system(Scene *scene, PhysicsSystem *system, const Reader *reader, const SystemAttrs *settings,
+                              const SceneFrame *frame) {
     State *state = frame->state;
     double clock = scene_number(state, system->clock, 0);
-    system->began = clock > 0;
+    system->had_simulated = clock > 0;
     double last = scene_number(state, system->last, settings->time);
     double iteration = floor(scene_number(state, system->iteration, -1)) + 1;
     Value stored_run = state_slot_get(state, system->run);
@@ -216,42 +216,42 @@ static uint64_t update(Scene *scene, PhysicsSystem *system, const Reader *reader
                         .from_state = iteration > 0,
                         .run = settings->run,
                         .iteration = iteration};
-    uint64_t reports = scene->schema->reports;
+    uint64_t reports = scene->schema->report_count;
     if (!physics_reuse(&tree))
-        describe(&tree);
-    bool faultless = scene->schema->reports == reports;
+        read_tree(&tree);
+    bool faultless = scene->schema->report_count == reports;
     uint64_t steps = 0;
     if (settings->time > last) {
-        clock = simulate(&tree, reader, settings, last, clock, &steps);
+        clock = simulate_system(&tree, reader, settings, last, clock, &steps);
     } else {
-        tree.failed |= !phys_rest(tree.engine);
+        tree.out_of_memory |= !phys_skip_frame(tree.engine);
         mirror_store(&tree, false);
     }
     if (!faultless)
         system->mirror.state = MIRROR_STALE; // mistakes are reported in each frame
-    scene->exhausted |= tree.failed;
-    physics_remember(&tree);
+    scene->exhausted |= tree.out_of_memory;
+    physics_cache_tree(&tree);
     set_number(frame, system->last, settings->time);
     set_number(frame, system->clock, clock);
     return steps;
 }
 
 // A system that is skipped in a frame is not absent: it keeps its list of particles.
-static void keep_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
+static void retain_skipped(Scene *scene, Value prefix, const SceneFrame *frame) {
     uint32_t occurrence;
     StateSlot start = state_find(frame->state, prefix);
     PhysicsSystem *system = start == STATE_NO_SLOT ? NULL : known_system(scene, start, &occurrence, frame->arena);
     if (!system)
         return;
-    note_absence(scene, system, frame->state);
-    system->seen = scene->frame_number;
+    detach_if_absent(scene, system, frame->state);
+    system->last_frame = scene->frame_number;
 }
 
 uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame) {
     Reader reader = {scene->schema, frame->arena, node, KIND_PHYSICS, 1};
     SystemAttrs settings;
     if (!read_settings(&reader, frame, &settings) || !fits_in_memory(&reader, &settings)) {
-        keep_skipped(scene, settings.state, frame);
+        retain_skipped(scene, settings.state, frame);
         return 0;
     }
     reader.dimensions = (uint32_t)settings.dimensions;
@@ -262,7 +262,7 @@ uint64_t physics_update(Scene *scene, const Node *node, const SceneFrame *frame)
         return 0;
     }
     if (system->occurrence == 1)
-        reader_report(&reader, "shared-prefix", "", STR("another system has the same state prefix"));
-    system->seen = scene->frame_number;
-    return system->steps = update(scene, system, &reader, &settings, frame);
+        reader_report(&reader, "duplicate-prefix", "", STR("another system has the same state prefix"));
+    system->last_frame = scene->frame_number;
+    return system->steps = update_system(scene, system, &reader, &settings, frame);
 }

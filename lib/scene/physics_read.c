@@ -3,9 +3,8 @@
 #include "maths/random.h"
 #include "physics/forces.h"
 #include "scene/systems.h"
-
 #include "value/format.h"
-#include "value/seed.h"
+#include "value/value_hash.h"
 
 #include <math.h>
 #include <stdlib.h>
@@ -15,19 +14,19 @@ static Reader reader_of(const PhysicsTree *tree, const Node *node, NodeKind kind
     return (Reader){tree->scene->schema, tree->frame->arena, node, kind, tree->dimensions};
 }
 
-void physics_take_defaults(Scene *scene) {
-    schema_defaults(KIND_PARTICLE, &scene->bodies_before[false]);
-    schema_defaults(KIND_ANCHOR, &scene->bodies_before[true]);
-    scene->bodies_before[true].numbers.anchor = true;
+void physics_read_defaults(Scene *scene) {
+    schema_defaults(KIND_PARTICLE, &scene->body_defaults[false]);
+    schema_defaults(KIND_ANCHOR, &scene->body_defaults[true]);
+    scene->body_defaults[true].numbers.anchor = true;
     for (int kind = 0; kind < PHYS_FORCE_KINDS; kind++) {
-        schema_defaults(schema_kind_of_force((PhysForceKind)kind), &scene->forces_before[kind]);
-        scene->forces_before[kind].force.kind = (PhysForceKind)kind;
+        schema_defaults(schema_kind_of_force((PhysForceKind)kind), &scene->force_defaults[kind]);
+        scene->force_defaults[kind].force.kind = (PhysForceKind)kind;
     }
 }
 
 void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, BodyAttrs *body) {
     const Reader reader = reader_of(tree, node, anchor ? KIND_ANCHOR : KIND_PARTICLE);
-    *body = tree->scene->bodies_before[anchor];
+    *body = tree->scene->body_defaults[anchor];
     reader_fill(&reader, body);
 }
 
@@ -38,13 +37,13 @@ static void check_reserved(PhysicsTree *tree, const Reader *reader, Value id) {
     for (size_t i = 0; i < sizeof reserved / sizeof reserved[0]; i++)
         if (id.len == 1 && id.kind == VALUE_NUMBERS && id.as.number == reserved[i]->number) {
             reader_report(reader, "reserved-id", "", STR("the system keeps a value of its own under this id"));
-            tree->shared = true;
+            tree->keys_collide = true;
         }
 }
 
-void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool lasts) {
+void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool has_program_lifetime) {
     PhysicsSystem *system = tree->system;
-    if (tree->root->program_lifetime_children || !lasts)
+    if (tree->root->program_lifetime_children || !has_program_lifetime)
         return; // the whole tree is known by its address, or the node does not last
     if (!heap_reserve((void **)&system->nodes, &system->node_capacity, body, sizeof *system->nodes))
         return;
@@ -54,14 +53,14 @@ void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node,
 }
 
 // Remembers a body under its slots. False if memory is used up.
-static bool remember_body(PhysicsTree *tree, bool anchor, StateSlot position, StateSlot velocity) {
+static bool register_body(PhysicsTree *tree, bool anchor, StateSlot position, StateSlot velocity) {
     uint32_t body = tree->body_count, mark = 2 * (tree->scene->body_base + body);
     tree->scene->body_count = body + 1; // at once: however the reading ends, its marks are old ones to the next tree
     if (velocity == STATE_NO_SLOT || !mirror_add(tree, position, velocity, anchor) ||
         !physics_set_mark(tree, position, mark) ||
         (!physics_mark(tree, velocity) && !physics_set_mark(tree, velocity, mark + 1)))
         return false;
-    tree->shared |= physics_mark(tree, velocity) != mark + 1;
+    tree->keys_collide |= physics_mark(tree, velocity) != mark + 1;
     tree->body_count++;
     return true;
 }
@@ -82,23 +81,23 @@ static bool add_body(PhysicsTree *tree, const Node *node, Value id, bool anchor)
         return false;
     }
     check_reserved(tree, &reader, id);
-    tree->shared |= physics_mark(tree, slot) != 0; // the velocity of another
+    tree->keys_collide |= physics_mark(tree, slot) != 0; // the velocity of another
     StateSlot velocity = state_slot(tree->frame->state, physics_key(tree, id, true, numbers));
-    if (remember_body(tree, anchor, slot, velocity))
+    if (register_body(tree, anchor, slot, velocity))
         return true;
-    tree->failed = true;
+    tree->out_of_memory = true;
     return false;
 }
 
 // `known` is what the node is remembered by.
-__attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, const Node *known, bool anchor,
+__attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *node, const Node *identity, bool anchor,
                                                 uint32_t group) {
     BodyAttrs body;
     double position, velocity;
     physics_read_particle(tree, node, anchor, &body);
     if (!add_body(tree, node, body.id, anchor))
         return;
-    physics_keep_node(tree, tree->body_count - 1, known, node->program_lifetime);
+    physics_cache_node(tree, tree->body_count - 1, identity, node->program_lifetime);
     PhysParticle *numbers = &body.numbers;
     if (!anchor) {
         const StateSlot *slots = tree->system->mirror.slots + 2 * (size_t)(tree->body_count - 1);
@@ -112,13 +111,13 @@ __attribute__((noinline)) static void read_body(PhysicsTree *tree, const Node *n
 
 enum { BODY_WORK = 16 };
 
-__attribute__((noinline)) static void read_run(PhysicsTree *tree, const NodeRun *run, bool anchor, uint32_t group) {
+__attribute__((noinline)) static void read_run(PhysicsTree *tree, const NodeBatch *run, bool anchor, uint32_t group) {
     NodeRow row;
-    node_run_open(run, &row);
+    node_batch_open(run, &row);
     for (uint32_t i = 0; i < run->count; i++) {
         arena_charge(tree->frame->arena, BODY_WORK);
-        node_run_row(run, i, &row);
-        read_body(tree, &row.node, node_run_identity(run, i), anchor, group);
+        node_batch_row(run, i, &row);
+        read_body(tree, &row.node, node_batch_identity(run, i), anchor, group);
     }
 }
 
@@ -130,8 +129,8 @@ static void read_group_bodies(PhysicsTree *tree, const Node *parent, uint32_t gr
         switch (kind) {
         case KIND_PARTICLE:
         case KIND_ANCHOR:
-            if (child->is_run)
-                read_run(tree, node_run(child), kind == KIND_ANCHOR, group);
+            if (child->is_batch)
+                read_run(tree, node_batch(child), kind == KIND_ANCHOR, group);
             else
                 read_body(tree, child, child, kind == KIND_ANCHOR, group);
             break;
@@ -149,7 +148,7 @@ void physics_read_bodies(PhysicsTree *tree) {
     tree->system->node_count = 0;
     phys_expect_particles(tree->engine, node_child_count(tree->root) - tree->root->child_count); // those of runs
     read_group_bodies(tree, tree->root, 0);
-    tree->scene->marked = tree->system;
+    tree->scene->marked_system = tree->system;
     tree->system->mirror.slot_count = 2 * tree->body_count;
 }
 
@@ -189,7 +188,7 @@ static bool bind_ends(PhysicsTree *tree, const Reader *reader, const ForceAttrs 
     text_add_format(&text, "%s=", first ? "to" : "from");
     format_value(&text, reader->schema->symbols, first ? read->to : read->from);
     text_add_c(&text, " names no particle; ignored");
-    reader_report_attr(reader, "no-such-particle", first ? ATTR_TO : ATTR_FROM, text_str(&text));
+    reader_report_attr(reader, "unknown-particle", first ? ATTR_TO : ATTR_FROM, text_str(&text));
     return false;
 }
 
@@ -210,7 +209,7 @@ uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before) {
 }
 
 // Bounds: `fixed` gives both.
-static bool take_bound(double fixed, double *bound) {
+static bool resolve_bound(double fixed, double *bound) {
     *bound = isnan(fixed) ? *bound : fixed;
     bool given = !isnan(*bound);
     *bound = given ? *bound : 0;
@@ -219,11 +218,11 @@ static bool take_bound(double fixed, double *bound) {
 
 // Fills `force` from a force applier or barrier; false if it is to be ignored.
 static bool read_force(PhysicsTree *tree, const Reader *reader, uint32_t randoms, PhysForce *force) {
-    ForceAttrs read = tree->scene->forces_before[schema_force(reader->kind)];
+    ForceAttrs read = tree->scene->force_defaults[schema_force(reader->kind)];
     reader_fill(reader, &read);
     *force = read.force;
-    force->has_minimum = take_bound(read.fixed, &force->minimum);
-    force->has_maximum = take_bound(read.fixed, &force->maximum);
+    force->has_minimum = resolve_bound(read.fixed, &force->minimum);
+    force->has_maximum = resolve_bound(read.fixed, &force->maximum);
     ForceRow row = phys_force_row(force->kind);
     if (row.need == NEED_STREAM)
         force->key = physics_random_key(tree, randoms);
@@ -262,14 +261,14 @@ __attribute__((noinline)) static void read_applier(PhysicsTree *tree, const Node
                      sizeof *system->randoms))
         system->randoms[system->random_count++] = (RandomForce){number, randoms};
     else
-        tree->failed = true;
+        tree->out_of_memory = true;
 }
 
 static void read_group_forces(PhysicsTree *tree, const Node *parent, uint32_t group, uint32_t randoms) {
     for (uint32_t i = 0; i < parent->child_count; i++) {
         const Node *child = parent->children[i];
         NodeKind kind = schema_kind(tree->scene->schema, child);
-        arena_charge(tree->frame->arena, child->is_run ? node_run(child)->count : 1);
+        arena_charge(tree->frame->arena, child->is_batch ? node_batch(child)->count : 1);
         if (kind == KIND_GROUP) {
             read_group_forces(tree, child, tree->next_group++, randoms);
         } else if (kind != KIND_PARTICLE && kind != KIND_ANCHOR) {

@@ -8,7 +8,7 @@
 
 // Takes the numbers of the next particle. False if it is not the one that was here in the last frame. `known` is what
 // the node is remembered by.
-__attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, const Node *known, bool anchor,
+__attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *node, const Node *identity, bool anchor,
                                                  uint32_t group) {
     PhysicsSystem *system = tree->system;
     uint32_t body = tree->body_count++;
@@ -16,7 +16,7 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
         phys_particle_group(tree->engine, body) != group)
         return false;
     bool comparable = node->program_lifetime && system->generation == tree->frame->generation;
-    if (comparable && body < system->node_count && system->nodes[body] == known)
+    if (comparable && body < system->node_count && system->nodes[body] == identity)
         return true;
     BodyAttrs read;
     physics_read_particle(tree, node, anchor, &read);
@@ -30,17 +30,17 @@ __attribute__((noinline)) static bool reuse_body(PhysicsTree *tree, const Node *
     phys_update_particle(tree->engine, body, &read.numbers, preserve);
     if (body < system->node_count)
         system->nodes[body] = NULL;
-    physics_keep_node(tree, body, known, node->program_lifetime);
+    physics_cache_node(tree, body, identity, node->program_lifetime);
     return true;
 }
 
-__attribute__((noinline)) static bool reuse_run(PhysicsTree *tree, const NodeRun *run, bool anchor, uint32_t group) {
+__attribute__((noinline)) static bool reuse_run(PhysicsTree *tree, const NodeBatch *run, bool anchor, uint32_t group) {
     NodeRow row;
-    node_run_open(run, &row);
+    node_batch_open(run, &row);
     arena_charge(tree->frame->arena, run->count);
     for (uint32_t i = 0; i < run->count; i++) {
-        node_run_row(run, i, &row);
-        if (!reuse_body(tree, &row.node, node_run_identity(run, i), anchor, group))
+        node_batch_row(run, i, &row);
+        if (!reuse_body(tree, &row.node, node_batch_identity(run, i), anchor, group))
             return false;
     }
     return true;
@@ -57,8 +57,8 @@ static bool reuse_group(PhysicsTree *tree, const Node *parent, uint32_t group) {
                 !reuse_group(tree, child, number))
                 return false;
         } else if ((kind == KIND_PARTICLE || kind == KIND_ANCHOR) &&
-                   !(child->is_run ? reuse_run(tree, node_run(child), kind == KIND_ANCHOR, group)
-                                   : reuse_body(tree, child, child, kind == KIND_ANCHOR, group))) {
+                   !(child->is_batch ? reuse_run(tree, node_batch(child), kind == KIND_ANCHOR, group)
+                                     : reuse_body(tree, child, child, kind == KIND_ANCHOR, group))) {
             return false;
         }
     }
@@ -88,10 +88,10 @@ bool physics_reuse(PhysicsTree *tree) {
         return false;
     phys_begin_forces(tree->engine);
     physics_read_forces(tree);
-    return !tree->failed;
+    return !tree->out_of_memory;
 }
 
-void physics_remember(const PhysicsTree *tree) {
+void physics_cache_tree(const PhysicsTree *tree) {
     PhysicsSystem *system = tree->system;
     system->dimensions = tree->dimensions;
     system->generation = tree->frame->generation;

@@ -3,9 +3,8 @@
 // The scene marks the slots of the tree that was read last with the particles that they are of, in one array for all
 // systems: 2 * (base + handle) for a position, one more for a velocity. What is below 2 * base is left over from trees
 // before.
-#include "scene/systems.h"
-
 #include "base/heap.h"
+#include "scene/systems.h"
 
 #include <string.h>
 
@@ -57,12 +56,12 @@ bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark) {
 }
 
 void physics_clear_marks(const PhysicsTree *tree) {
-    enum { HIGHEST = 1 << 29 }; // leaves room for as many bodies
+    enum { MAX_BASE = 1 << 29 }; // leaves room for as many bodies
     Scene *scene = tree->scene;
-    scene->marked = NULL;
+    scene->marked_system = NULL;
     scene->body_base += scene->body_count + 1;
     scene->body_count = 0;
-    if (scene->body_base < HIGHEST)
+    if (scene->body_base < MAX_BASE)
         return;
     if (scene->bodies)
         memset(scene->bodies, 0, scene->body_capacity * sizeof *scene->bodies);
@@ -74,35 +73,35 @@ int64_t physics_find_slot(const PhysicsTree *tree, StateSlot slot) {
     return mark && mark % 2 == 0 ? (int64_t)(mark / 2 - tree->scene->body_base) : PHYSICS_NO_BODY;
 }
 
-void physics_forget_slots(const PhysicsTree *tree) {
-    enum { MANY = 1 << 16 }; // that are worth their memory
+void physics_free_marks(const PhysicsTree *tree) {
+    enum { MIN_FREED_CAPACITY = 1 << 16 }; // that are worth their memory
     Scene *scene = tree->scene;
-    if (!tree->root->program_lifetime_children || scene->body_capacity < MANY)
+    if (!tree->root->program_lifetime_children || scene->body_capacity < MIN_FREED_CAPACITY)
         return;
     physics_clear_marks(tree);
-    heap_give(scene->bodies);
+    heap_free(scene->bodies);
     scene->bodies = NULL;
     scene->body_capacity = 0;
 }
 
 // Marks the slots of a tree that was not read in this frame, or not as the last one.
-static void mark_again(PhysicsTree *tree) {
+static void rebuild_marks(PhysicsTree *tree) {
     const PhysicsSystem *system = tree->system;
-    if (tree->scene->marked == system)
+    if (tree->scene->marked_system == system)
         return;
     physics_clear_marks(tree);
     tree->scene->body_count = tree->body_count;
     for (uint32_t i = 0; i < system->mirror.slot_count; i++)
         if (!physics_set_mark(tree, system->mirror.slots[i], 2 * (tree->scene->body_base + i / 2) + i % 2))
-            tree->failed = true;
-    tree->scene->marked = system;
+            tree->out_of_memory = true;
+    tree->scene->marked_system = system;
 }
 
 int64_t physics_find_body(PhysicsTree *tree, Value id) {
     double numbers[PHYSICS_KEY_NUMBERS];
     if (id.len == 0)
         return PHYSICS_NO_BODY;
-    mark_again(tree);
+    rebuild_marks(tree);
     StateSlot slot = state_find(tree->frame->state, physics_key(tree, id, false, numbers));
     return slot == STATE_NO_SLOT ? PHYSICS_NO_BODY : physics_find_slot(tree, slot);
 }

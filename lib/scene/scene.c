@@ -10,17 +10,17 @@
 Scene *scene_new(Arena *arena, Schema *schema) {
     SymbolTable *symbols = schema->symbols;
     Scene *scene = arena_alloc(arena, sizeof *scene);
-    *scene = (Scene){.schema = schema, .meter = arena->meter};
-    physics_take_defaults(scene);
+    *scene = (Scene){.schema = schema, .meter = arena->budget};
+    physics_read_defaults(scene);
     input_init(&scene->input, symbols);
-    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_here.level, .meter = scene->meter};
+    scene->physics = (PhysOptions){.threads = 1, .cpu = cpu_detected.level, .meter = scene->meter};
     scene->systems_end = &scene->systems;
-    scene->key_run = symbol_know(symbols, STR("run"));
-    scene->key_iteration = symbol_know(symbols, STR("iteration"));
-    scene->key_clock = symbol_know(symbols, STR("clock"));
-    scene->key_last = symbol_know(symbols, STR("last"));
-    scene->key_velocity = symbol_know(symbols, STR("velocity"));
-    scene->key_time = symbol_know(symbols, STR("time"));
+    scene->key_run = symbol_register(symbols, STR("run"));
+    scene->key_iteration = symbol_register(symbols, STR("iteration"));
+    scene->key_clock = symbol_register(symbols, STR("clock"));
+    scene->key_last = symbol_register(symbols, STR("last"));
+    scene->key_velocity = symbol_register(symbols, STR("velocity"));
+    scene->key_time = symbol_register(symbols, STR("time"));
     return scene;
 }
 
@@ -32,13 +32,13 @@ void scene_set_physics(Scene *scene, const PhysOptions *options) {
 }
 
 static void free_system(PhysicsSystem *system) {
-    meter_give(system->meter, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
+    budget_release(system->meter, PHYSICS_SYSTEM_BYTES + system->mirror.id_capacity * sizeof *system->mirror.ids);
     phys_free(system->engine);
     mirror_free(&system->mirror);
-    heap_give(system->nodes);
-    heap_give(system->randoms);
-    heap_give(system->links);
-    heap_give(system);
+    heap_free(system->nodes);
+    heap_free(system->randoms);
+    heap_free(system->links);
+    heap_free(system);
 }
 
 void scene_free_systems(PhysicsSystem *systems) {
@@ -53,22 +53,22 @@ static void find_end(Scene *scene) {
         scene->systems_end = &(*scene->systems_end)->next;
 }
 
-PhysicsSystem *scene_set_aside(Scene *scene) {
+PhysicsSystem *scene_detach_systems(Scene *scene) {
     PhysicsSystem *systems = scene->systems;
-    scene->systems = scene->expected = scene->viewed = NULL;
+    scene->systems = scene->next_expected = scene->viewed = NULL;
     scene->systems_end = &scene->systems;
-    scene->marked = NULL;
+    scene->marked_system = NULL;
     return systems;
 }
 
-void scene_bring_back(Scene *scene, PhysicsSystem *systems) {
+void scene_attach_systems(Scene *scene, PhysicsSystem *systems) {
     scene_reset(scene);
     scene->systems = systems;
     find_end(scene);
 }
 
 void scene_reset(Scene *scene) {
-    scene_free_systems(scene_set_aside(scene));
+    scene_free_systems(scene_detach_systems(scene));
 }
 
 void scene_free(Scene *scene) {
@@ -76,21 +76,21 @@ void scene_free(Scene *scene) {
         return;
     scene_reset(scene);
     phys_threads_free(scene->physics.pool);
-    heap_give(scene->bodies);
+    heap_free(scene->bodies);
     input_free(&scene->input);
 }
 
-bool scene_take_exhausted(Scene *scene) {
+bool scene_clear_exhausted(Scene *scene) {
     bool was = scene->exhausted;
     scene->exhausted = false;
     return was;
 }
 
-bool scene_take_stopped(Scene *scene, ArenaEnd *end) {
-    MeterAnswer how = scene->stopped;
-    scene->stopped = METER_GOES_ON;
-    *end = how == METER_WORK ? ARENA_WORK : how == METER_INTERRUPTED ? ARENA_INTERRUPTED : *end;
-    return how != METER_GOES_ON;
+bool scene_clear_stopped(Scene *scene, ArenaOutcome *end) {
+    BudgetOutcome how = scene->stopped;
+    scene->stopped = BUDGET_OK;
+    *end = how == BUDGET_EXCEEDED ? ARENA_WORK_LIMIT : how == BUDGET_INTERRUPTED ? ARENA_INTERRUPTED : *end;
+    return how != BUDGET_OK;
 }
 
 Input *scene_input(Scene *scene) {
@@ -105,10 +105,10 @@ static void own_slots(PhysicsSystem *system, StateSlot *slots[OWN_SLOTS]) {
 }
 
 // Drops slots of the state that nothing needs any more, once they are many: ids that come and go would fill it.
-static void tidy_state(Scene *scene, const SceneFrame *frame) {
-    enum { MANY = 4096 };
+static void compact_state(Scene *scene, const SceneFrame *frame) {
+    enum { MIN_COMPACTED = 4096 };
     uint32_t count = state_slot_count(frame->state), held = 0;
-    if (count < MANY || count / 2 < state_count(frame->state))
+    if (count < MIN_COMPACTED || count / 2 < state_count(frame->state))
         return;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         if (system->mirror.state == MIRROR_OPEN)
@@ -129,7 +129,7 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
     }
     if (!state_compact(frame->state, used, moved))
         return;
-    scene->marked = NULL;
+    scene->marked_system = NULL;
     for (PhysicsSystem *system = scene->systems; system; system = system->next) {
         own_slots(system, own);
         for (int i = 0; i < OWN_SLOTS; i++)
@@ -141,22 +141,22 @@ static void tidy_state(Scene *scene, const SceneFrame *frame) {
 
 // Gives the engines of systems back that the last frames have left out: what comes again begins with what the state
 // has, which is all that there was.
-static void drop_absent(Scene *scene, const SceneFrame *frame) {
+static void free_absent(Scene *scene, const SceneFrame *frame) {
     enum { FRAMES = 8 };
     PhysicsSystem **link = &scene->systems;
     while (*link) {
         PhysicsSystem *system = *link;
-        if (system->seen + FRAMES >= scene->frame_number) {
+        if (system->last_frame + FRAMES >= scene->frame_number) {
             link = &system->next;
             continue;
         }
         mirror_leave(&system->mirror, frame->state);
         *link = system->next;
         free_system(system);
-        scene->marked = NULL;
+        scene->marked_system = NULL;
     }
     scene->systems_end = link;
-    scene->expected = scene->systems;
+    scene->next_expected = scene->systems;
     scene->viewed = NULL;
 }
 
@@ -164,23 +164,23 @@ uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame) {
     enum { NODE_WORK = 50 }; // a look-up and some entries of the state
     uint64_t steps = 0;
     scene->frame_number++;
-    scene->stopped = METER_GOES_ON;
-    drop_absent(scene, frame);
-    tidy_state(scene, frame);
+    scene->stopped = BUDGET_OK;
+    free_absent(scene, frame);
+    compact_state(scene, frame);
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len; i++) {
         const Item *item = &tree.as.items[i];
         NodeKind kind = item->type == ITEM_NODE ? schema_kind(scene->schema, item->as.node) : KIND_COUNT;
         if (kind != KIND_PHYSICS && kind != KIND_COUNTER)
             continue;
-        scene->stopped = meter_charge(scene->meter, NODE_WORK);
-        if (scene->stopped != METER_GOES_ON)
+        scene->stopped = budget_charge(scene->meter, NODE_WORK);
+        if (scene->stopped != BUDGET_OK)
             break;
-        scene->schema->at = item->as.node;
+        scene->schema->current_node = item->as.node;
         if (kind == KIND_PHYSICS)
             steps += physics_update(scene, item->as.node, frame);
         else
             counter_update(scene, item->as.node, frame);
-        if (scene->exhausted || scene->stopped != METER_GOES_ON)
+        if (scene->exhausted || scene->stopped != BUDGET_OK)
             return steps; // what comes to nothing ends here
     }
     input_bind(&scene->input, scene->schema, tree, frame->arena);
@@ -191,7 +191,7 @@ bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view
     bool further = scene->viewed && number >= scene->viewed_number; // hosts ask for one after the other
     size_t at = further ? scene->viewed_number : 0;
     for (PhysicsSystem *system = further ? scene->viewed : scene->systems; system; system = system->next) {
-        if (system->seen != scene->frame_number || !system->engine || !system->dimensions || at++ < number)
+        if (system->last_frame != scene->frame_number || !system->engine || !system->dimensions || at++ < number)
             continue;
         scene->viewed = system;
         scene->viewed_number = number;
@@ -201,7 +201,7 @@ bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view
                             .dimensions = system->dimensions,
                             .particle_count = count < listed ? count : listed,
                             .steps = system->steps,
-                            .began = system->began,
+                            .had_simulated = system->had_simulated,
                             .slots = system->mirror.slots,
                             .system = system};
         return true;
@@ -211,7 +211,7 @@ bool scene_view(Scene *scene, const State *state, size_t number, SceneView *view
 
 Value scene_view_id(Arena *arena, const State *state, const SceneView *view, uint32_t particle) {
     Value key =
-        value_copy(arena, state_slot_key_in(state, view->slots[2 * (size_t)particle], (double[STATE_KEY_ROOM]){0}));
+        value_copy(arena, state_slot_key_in(state, view->slots[2 * (size_t)particle], (double[STATE_KEY_BUFFER]){0}));
     return value_slice(arena, key, view->prefix.len, key.len - view->prefix.len);
 }
 
@@ -225,16 +225,16 @@ static bool reserve_ids(PhysicsSystem *system, uint32_t count) {
     Mirror *mirror = &system->mirror;
     if (count <= mirror->id_capacity)
         return true;
-    meter_give(system->meter, mirror->id_capacity * sizeof *mirror->ids);
-    heap_give(mirror->ids);
+    budget_release(system->meter, mirror->id_capacity * sizeof *mirror->ids);
+    heap_free(mirror->ids);
     mirror->ids = NULL;
     mirror->id_capacity = 0;
-    if (!meter_take(system->meter, count * sizeof *mirror->ids))
+    if (!budget_reserve(system->meter, count * sizeof *mirror->ids))
         return false;
-    mirror->ids = heap_take(count * sizeof *mirror->ids);
+    mirror->ids = heap_alloc(count * sizeof *mirror->ids);
     mirror->id_capacity = mirror->ids ? count : 0;
     if (!mirror->ids)
-        meter_give(system->meter, count * sizeof *mirror->ids);
+        budget_release(system->meter, count * sizeof *mirror->ids);
     return mirror->ids;
 }
 
@@ -243,10 +243,10 @@ bool scene_view_ids(const State *state, const SceneView *view, const double **id
     *ids = NULL;
     if (!view->particle_count)
         return true;
-    if (!mirror->ids_known) {
+    if (!mirror->ids_cached) {
         if (!reserve_ids(view->system, view->particle_count))
             return false;
-        mirror->ids_single = mirror->ids_known = true;
+        mirror->ids_single = mirror->ids_cached = true;
         for (uint32_t i = 0; i < view->particle_count && mirror->ids_single; i++) {
             mirror->ids[i] = single_id(state, view, i);
             mirror->ids_single = mirror->ids[i] == mirror->ids[i];
@@ -264,7 +264,7 @@ bool scene_view_find(Scene *scene, State *state, Arena *arena, const SceneView *
                         .prefix = view->prefix,
                         .body_count = view->particle_count};
     int64_t found = physics_find_body(&tree, id);
-    if (tree.failed)
+    if (tree.out_of_memory)
         arena_exhausted(arena);
     *particle = (uint32_t)found;
     return found != PHYSICS_NO_BODY && found < view->particle_count;

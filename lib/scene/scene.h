@@ -32,8 +32,8 @@ void scene_reset(Scene *scene);
 // Sets the systems aside while others are restored, with another dictionary; they are brought back, in place of those,
 // if that has failed, and freed, after their dictionary, if it has not.
 typedef struct PhysicsSystem PhysicsSystem;
-PhysicsSystem *scene_set_aside(Scene *scene);
-void scene_bring_back(Scene *scene, PhysicsSystem *systems);
+PhysicsSystem *scene_detach_systems(Scene *scene);
+void scene_attach_systems(Scene *scene, PhysicsSystem *systems);
 void scene_free_systems(PhysicsSystem *systems);
 // For saving: the systems and the state keys of the particles in their last frame's trees, which decide what a later
 // frame removes. `*cursor` starts at NULL; false at the end. Slots come in pairs: position, velocity.
@@ -53,8 +53,8 @@ typedef struct SceneView {
     Value prefix;
     uint32_t dimensions;
     uint32_t particle_count;
-    uint64_t steps; // made in the last update
-    bool began;     // it had simulated before that
+    uint64_t steps;     // made in the last update
+    bool had_simulated; // it had simulated before that
     const StateSlot *slots;
     PhysicsSystem *system;
 } SceneView;
@@ -70,8 +70,8 @@ Input *scene_input(Scene *scene);
 // Updates all systems from the node elements of `tree`; returns the simulation steps made.
 uint64_t scene_update(Scene *scene, Value tree, const SceneFrame *frame);
 // Whether a system could not be updated since this was asked last because memory was used up.
-bool scene_take_exhausted(Scene *scene);
+bool scene_clear_exhausted(Scene *scene);
 // Whether the arena's meter has ended the last update, half-way, and how.
-bool scene_take_stopped(Scene *scene, ArenaEnd *end);
+bool scene_clear_stopped(Scene *scene, ArenaOutcome *end);
 
 #endif

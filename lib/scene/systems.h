@@ -2,11 +2,11 @@
 #ifndef PETRI_SCENE_SYSTEMS_H
 #define PETRI_SCENE_SYSTEMS_H
 
-#include "base/table.h"
+#include "base/hash_index.h"
 #include "scene/input_bind.h"
 #include "scene/mirror.h"
 #include "scene/scene.h"
-#include "value/run.h"
+#include "value/node_batch.h"
 
 // A force whose key changes from frame to frame.
 typedef struct RandomForce {
@@ -30,11 +30,11 @@ struct PhysicsSystem {
     StateSlot clock;
     StateSlot last;
     PhysSystem *engine;
-    Meter *meter; // that its own memory is charged to, as long as it has an engine
+    Budget *meter; // that its own memory is charged to, as long as it has an engine
     Mirror mirror;
-    uint64_t steps; // of the last update
-    bool began;     // it had simulated before the last update, so the script could see its particles
-    uint64_t seen;  // number of the scene's frame in which it was updated last
+    uint64_t steps;      // of the last update
+    bool had_simulated;  // it had simulated before the last update, so the script could see its particles
+    uint64_t last_frame; // number of the scene's frame in which it was updated last
 
     // The last frame's tree: what the next one is compared with.
     uint32_t dimensions;         // in the last update
@@ -54,24 +54,24 @@ struct PhysicsSystem {
 
 struct Scene {
     Schema *schema;
-    BodyAttrs bodies_before[2]; // the defaults of a particle and of an anchor
-    ForceAttrs forces_before[PHYS_FORCE_KINDS];
-    bool exhausted; // see scene_take_exhausted
-    MeterAnswer stopped;
-    Meter *meter;
+    BodyAttrs body_defaults[2]; // the defaults of a particle and of an anchor
+    ForceAttrs force_defaults[PHYS_FORCE_KINDS];
+    bool exhausted; // see scene_clear_exhausted
+    BudgetOutcome stopped;
+    Budget *meter;
     Input input;
     PhysicsSystem *systems;
-    PhysicsSystem **systems_end; // where the next one goes
-    PhysicsSystem *expected;     // the one after that of the last node; or NULL
-    PhysicsSystem *viewed;       // the last one that was asked for; or NULL
+    PhysicsSystem **systems_end;  // where the next one goes
+    PhysicsSystem *next_expected; // the one after that of the last node; or NULL
+    PhysicsSystem *viewed;        // the last one that was asked for; or NULL
     size_t viewed_number;
     uint64_t frame_number;
     PhysOptions physics;
     uint32_t *bodies; // by slot: 2 * (base + handle) of the particle whose position it is, + 1 if it is its velocity
     uint32_t body_capacity;
-    uint32_t body_base;          // of the tree that was read last; what is below is of others
-    uint32_t body_count;         // of that tree
-    const PhysicsSystem *marked; // whose tree that was
+    uint32_t body_base;                 // of the tree that was read last; what is below is of others
+    uint32_t body_count;                // of that tree
+    const PhysicsSystem *marked_system; // whose tree that was
     // Symbols of state keys
     const Symbol *key_run;
     const Symbol *key_iteration;
@@ -92,8 +92,8 @@ struct PhysicsTree {
     PhysSystem *engine;
     uint32_t body_count; // particles and anchors
     bool from_state;     // positions and velocities come from the state where it has them
-    bool shared;         // two of its keys are one, or one of the system's own
-    bool failed;         // memory was used up
+    bool keys_collide;   // two of its keys are one, or one of the system's own
+    bool out_of_memory;  // memory was used up
     double run;
     double iteration;
     uint32_t random_count; // the latest key of a random force: how many were before it
@@ -106,7 +106,7 @@ struct PhysicsTree {
 Value scene_key(Arena *arena, Value prefix, Value id, const Symbol *last);
 
 // physics_read.c
-void physics_take_defaults(Scene *scene);
+void physics_read_defaults(Scene *scene);
 // The attributes of a !particle or !anchor; what is wrong is reported. Vectors are borrowed.
 void physics_read_particle(const PhysicsTree *tree, const Node *node, bool anchor, BodyAttrs *body);
 // Fills the engine from the tree: groups and particles, then forces.
@@ -115,7 +115,7 @@ void physics_read_forces(PhysicsTree *tree);
 // The key of the stream of a random force in this frame.
 uint64_t physics_random_key(PhysicsTree *tree, uint32_t randoms_before);
 // Remembers the node of a particle, if that can help in the next frame: if it `lasts` as long as the program.
-void physics_keep_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool lasts);
+void physics_cache_node(const PhysicsTree *tree, uint32_t body, const Node *node, bool has_program_lifetime);
 
 // physics_slots.c
 enum { PHYSICS_NO_BODY = -1, PHYSICS_KEY_NUMBERS = 24 };
@@ -131,13 +131,13 @@ uint32_t physics_mark(const PhysicsTree *tree, StateSlot slot);
 bool physics_set_mark(const PhysicsTree *tree, StateSlot slot, uint32_t mark);
 void physics_clear_marks(const PhysicsTree *tree);
 // Frees the marks, if they are many and will hardly be needed again.
-void physics_forget_slots(const PhysicsTree *tree);
+void physics_free_marks(const PhysicsTree *tree);
 
 // physics_reuse.c: brings the engine's description up to date with the tree. False if that is not possible: then it
 // must be read from scratch.
 bool physics_reuse(PhysicsTree *tree);
 // After a frame: what the next one's tree is compared with.
-void physics_remember(const PhysicsTree *tree);
+void physics_cache_tree(const PhysicsTree *tree);
 
 // What a system takes before it has any particles, about.
 enum { PHYSICS_SYSTEM_BYTES = 24 << 10 };

@@ -4,20 +4,20 @@
 
 // What makes a picture.
 #define SOURCE_ROWS(kind) \
-    ATTR(kind, SIZE, SIZE, NOWHERE, TOLD(0, "that of the node around it"), "pixels", "") \
+    ATTR(kind, SIZE, SIZE, NOWHERE, DESCRIBED(0, "that of the node around it"), "pixels", "") \
     ATTR(kind, ID, TEXT, NOWHERE, NONE, "", "the name by which !reference and images find this picture") \
     ATTR(kind, HIDDEN, FLAG, NOWHERE, IS(false), "", "make the picture, but do not show it to the node around it")
 // What makes one of the pictures inside.
 #define PROGRAM_ROWS(kind) \
     SOURCE_ROWS(kind) \
-    ATTR(kind, COMPOSITE, MIX, NOWHERE, TOLD(MIX_OVER, ":over"), "", "how each picture inside combines with those before it") \
+    ATTR(kind, COMPOSITE, MIX, NOWHERE, DESCRIBED(MIX_OVER, ":over"), "", "how each picture inside combines with those before it") \
     ALIAS(kind, BLEND, COMPOSITE, "composite", MIX, NOWHERE, "") \
     ATTR(kind, ALPHA, AMOUNT, NOWHERE, IS(1), "", "multiplies the result, all four channels") \
-    ATTR(kind, COLORBITS, INTEGER, NOWHERE, TOLD(0, "the window's"), "", "8, 16 or 32 for each channel") \
-    ATTR(kind, PASSES, INTEGER, NOWHERE, TOLD(0, ""), "", "how often the program is run, each time on its last result") \
-    ATTR(kind, DOWNSAMPLE, INTEGER, NOWHERE, IS(2), "", "how much smaller the passes of downsample_passes are") \
+    ATTR(kind, COLORBITS, FINITE_INTEGER, NOWHERE, DESCRIBED(0, "the window's"), "", "8, 16 or 32 for each channel") \
+    ATTR(kind, PASSES, FINITE_INTEGER, NOWHERE, DESCRIBED(0, ""), "", "how often the program is run, each time on its last result") \
+    ATTR(kind, DOWNSAMPLE, FINITE_INTEGER, NOWHERE, IS(2), "", "how much smaller the passes of downsample_passes are") \
     ATTR(kind, DOWNSAMPLE_PASSES, LIST, NOWHERE, NONE, "", "") \
-    ATTR(kind, BORDER, QUAD, NOWHERE, TOLD(0, "0;0;0;0"), "", "colour beyond the edges of the pictures inside") \
+    ATTR(kind, BORDER, QUAD, NOWHERE, DESCRIBED(0, "0;0;0;0"), "", "colour beyond the edges of the pictures inside") \
     ATTR(kind, REPEAT, AMOUNTS, NOWHERE, NONE, "", "the pictures inside repeat beyond their edges, along x and y") \
     ATTR(kind, NEAREST, FLAG, NOWHERE, IS(false), "", "take the nearest pixel of pictures of another size") \
     ATTR(kind, VERTEX, TEXT, NOWHERE, NONE, "", "a program of GLSL in place of the usual one") \
@@ -34,7 +34,7 @@
 
 NODE(WINDOW, "window", TOP, WINDOW, "a window on the screen, or the picture that is rendered; black where nothing is drawn")
 PROGRAM_ROWS(WINDOW)
-ATTR(WINDOW, TITLE, TEXT, NOWHERE, TOLD(0, "Flitter"), "", "")
+ATTR(WINDOW, TITLE, TEXT, NOWHERE, DESCRIBED(0, "Flitter"), "", "")
 ATTR(WINDOW, SCREEN, AMOUNT, NOWHERE, NONE, "", "ignored")
 ATTR(WINDOW, FULLSCREEN, FLAG, NOWHERE, IS(false), "", "ignored: `petri view --fullscreen`")
 ATTR(WINDOW, VSYNC, FLAG, NOWHERE, IS(false), "", "ignored")
@@ -47,23 +47,23 @@ PROGRAM_ROWS(OFFSCREEN)
 NODE(RECORD, "record", PICTURE, PICTURES, "write what is inside to a file, when rendering or viewing")
 PROGRAM_ROWS(RECORD)
 ATTR(RECORD, FILENAME, TEXT, NOWHERE, NONE, "", "a picture, written once for each name, or a film; null: nothing is written")
-ATTR(RECORD, QUALITY, INTEGER, NOWHERE, IS(75), "", "of JPEG, up to 100")
+ATTR(RECORD, QUALITY, FINITE_INTEGER, NOWHERE, IS(75), "", "of JPEG, up to 100")
 ATTR(RECORD, KEEP_ALPHA, FLAG, NOWHERE, IS(false), "", "write alpha, too; colours stay multiplied by it")
-ATTR(RECORD, CODEC, TEXT, NOWHERE, TOLD(0, "h264"), "", "of films")
-ATTR(RECORD, PIXFMT, TEXT, NOWHERE, TOLD(0, "yuv420p"), "", "of films")
+ATTR(RECORD, CODEC, TEXT, NOWHERE, DESCRIBED(0, "h264"), "", "of films")
+ATTR(RECORD, PIXFMT, TEXT, NOWHERE, DESCRIBED(0, "yuv420p"), "", "of films")
 ATTR(RECORD, LIMIT, AMOUNT, NOWHERE, NONE, "seconds", "after which a film ends")
 
-NODE(POINTER, "pointer", HAND, NOTHING, "write where the pointer is, when viewing")
+NODE(POINTER, "pointer", INPUT, NOTHING, "write where the pointer is, when viewing")
 ATTR(POINTER, STATE, ANY, TO_INPUT(state), NONE, "", "key of the state that is written")
 
-NODE(KEY, "key", HAND, NOTHING, "write whether a key is down, when viewing")
+NODE(KEY, "key", INPUT, NOTHING, "write whether a key is down, when viewing")
 ATTR(KEY, NAME, ANY, TO_INPUT(name), NONE, "", "which key")
 ATTR(KEY, STATE, ANY, TO_INPUT(state), NONE, "", "key of the state that is written")
 
 NODE(PICTURE_IMAGE, "image", PICTURE, NOTHING, "a picture from a PNG or JPEG file")
 ATTR(PICTURE_IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
-ATTR(PICTURE_IMAGE, SIZE, SIZE, NOWHERE, TOLD(0, "that of the file"), "pixels", "")
-ATTR(PICTURE_IMAGE, FLIP, FLIP, NOWHERE, TOLD(0, "not at all"), "", "")
+ATTR(PICTURE_IMAGE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "that of the file"), "pixels", "")
+ATTR(PICTURE_IMAGE, FLIP, FLIP, NOWHERE, DESCRIBED(0, "not at all"), "", "")
 ATTR(PICTURE_IMAGE, ID, TEXT, NOWHERE, NONE, "", "the name by which !reference and images find this picture")
 ATTR(PICTURE_IMAGE, HIDDEN, FLAG, NOWHERE, IS(false), "", "make the picture, but do not show it to the node around it")
 
@@ -75,12 +75,12 @@ PROGRAM_ROWS(SHADER)
 
 NODE(ADJUST, "adjust", PICTURE, PICTURES, "change colours")
 PROGRAM_ROWS(ADJUST)
-ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, TOLD(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers by columns: what red, green and blue become")
+ATTR(ADJUST, COLOR_MATRIX, LIST, NOWHERE, DESCRIBED(1, "1;0;0;0;1;0;0;0;1"), "", "nine numbers by columns: what red, green and blue become")
 ATTR(ADJUST, HUE, AMOUNT, NOWHERE, IS(0), "turns", "")
 ATTR(ADJUST, SATURATION, AMOUNT, NOWHERE, IS(1), "", "0 is grey")
 ADJUST_ROWS(ADJUST, 0)
 ATTR(ADJUST, GAMMA, AMOUNT, NOWHERE, IS(1), "", "")
-ATTR(ADJUST, TONEMAP, TONEMAP, NOWHERE, TOLD(0, "none"), "", "bring colours beyond white into what can be shown")
+ATTR(ADJUST, TONEMAP, TONEMAP, NOWHERE, DESCRIBED(0, "none"), "", "bring colours beyond white into what can be shown")
 ATTR(ADJUST, WHITEPOINT, AMOUNT, NOWHERE, IS(0), "", "what :reinhard makes white, if above 1")
 
 NODE(BLUR, "blur", PICTURE, PICTURES, "blur")
@@ -99,7 +99,7 @@ ATTR(EDGES, MIXER, AMOUNT, NOWHERE, IS(0), "", "how much of the picture itself i
 
 NODE(CHROMAKEY, "chromakey", PICTURE, PICTURES, "make what has one hue transparent")
 PROGRAM_ROWS(CHROMAKEY)
-ATTR(CHROMAKEY, HUE, AMOUNT, NOWHERE, TOLD(1.0 / 3, "1/3"), "turns", "")
+ATTR(CHROMAKEY, HUE, AMOUNT, NOWHERE, DESCRIBED(1.0 / 3, "1/3"), "turns", "")
 ATTR(CHROMAKEY, RANGE, AMOUNT, NOWHERE, IS(0.1), "turns", "of the hue")
 ATTR(CHROMAKEY, SATURATION, AMOUNT, NOWHERE, IS(0.75), "", "least")
 ATTR(CHROMAKEY, BRIGHTNESS, AMOUNT, NOWHERE, IS(0.1), "", "least")
@@ -126,13 +126,13 @@ ATTR(PICTURE_TRANSFORM, KEYSTONE, AMOUNTS, NOWHERE, IS(0), "", "perspective")
 NODE(VIGNETTE, "vignette", PICTURE, PICTURES, "fade towards the edges")
 PROGRAM_ROWS(VIGNETTE)
 ATTR(VIGNETTE, INSET, AMOUNT, NOWHERE, IS(0.25), "widths", "how far from the edges")
-ATTR(VIGNETTE, FADE, FADE, NOWHERE, TOLD(FADE_LINEAR, ":linear"), "", "")
+ATTR(VIGNETTE, FADE, FADE, NOWHERE, DESCRIBED(FADE_LINEAR, ":linear"), "", "")
 
 NODE(NOISE, "noise", PICTURE, PICTURES, "noise that flows in space")
 PROGRAM_ROWS(NOISE)
-ATTR(NOISE, SEED, SEED, NOWHERE, TOLD((double)(int64_t)RANDOM_HASH_START / 281474976710656.0, "null"), "", "")
-ATTR(NOISE, COMPONENTS, INTEGER, NOWHERE, IS(1), "", "how many channels are noise")
-ATTR(NOISE, OCTAVES, INTEGER, NOWHERE, IS(1), "", "")
+ATTR(NOISE, SEED, SEED, NOWHERE, DESCRIBED((double)(int64_t)RANDOM_HASH_START / 281474976710656.0, "null"), "", "")
+ATTR(NOISE, COMPONENTS, FINITE_INTEGER, NOWHERE, IS(1), "", "how many channels are noise")
+ATTR(NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(1), "", "")
 ATTR(NOISE, ROUGHNESS, AMOUNT, NOWHERE, IS(0.5), "", "of each octave against the one before")
 ATTR(NOISE, ORIGIN, AMOUNTS, NOWHERE, IS(0), "", "")
 ATTR(NOISE, Z, AMOUNT, NOWHERE, IS(0), "", "")
@@ -141,7 +141,7 @@ ATTR(NOISE, TSCALE, TRIPLE, NOWHERE, IS(1), "", "how far colours inside move the
 ATTR(NOISE, MULTIPLIER, AMOUNT, NOWHERE, IS(0.5), "", "")
 ATTR(NOISE, OFFSET, AMOUNT, NOWHERE, IS(0.5), "", "is added")
 ATTR(NOISE, DEFAULT, QUAD, NOWHERE, IS(1), "", "of the channels that are no noise")
-ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, TOLD(NOISE_PLANE, ":plane"), "", "what the picture is wound around")
+ATTR(NOISE, SHAPE, NOISE_SHAPE, NOWHERE, DESCRIBED(NOISE_PLANE, ":plane"), "", "what the picture is wound around")
 
 NODE(FLARE, "flare", PICTURE, PICTURES, "what a lens makes of bright places")
 PROGRAM_ROWS(FLARE)
@@ -151,7 +151,7 @@ ATTR(FLARE, UPRIGHT_LENGTH, AMOUNT, NOWHERE, IS(0.25), "", "of streaks along x a
 ATTR(FLARE, DIAGONAL_LENGTH, AMOUNT, NOWHERE, IS(0.125), "", "of streaks between them")
 ATTR(FLARE, HALO_RADIUS, AMOUNT, NOWHERE, IS(0.0625), "", "")
 ATTR(FLARE, HALO_ATTENUATION, AMOUNT, NOWHERE, IS(0), "stops", "")
-ATTR(FLARE, GHOSTS, INTEGER, NOWHERE, IS(6), "", "how many, up to 6")
+ATTR(FLARE, GHOSTS, FINITE_INTEGER, NOWHERE, IS(6), "", "how many, up to 6")
 ATTR(FLARE, ABERRATION, AMOUNT, NOWHERE, IS(1), "", "how far colours fall apart")
 
 NODE(KALEID, "kaleid", PICTURE, PICTURES, "a kaleidoscope")

@@ -5,7 +5,7 @@
 #include "schema/reader.h"
 
 #include "value/format.h"
-#include "value/seed.h"
+#include "value/value_hash.h"
 
 #include <math.h>
 #include <string.h>
@@ -24,11 +24,11 @@ static size_t find_name(const Schema *schema, const Symbol *name) {
     return at;
 }
 
-void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host) {
-    *schema = (Schema){.symbols = symbols, .host = host};
+void schema_init(Schema *schema, SymbolTable *symbols, SchemaSink sink) {
+    *schema = (Schema){.symbols = symbols, .sink = sink};
     for (int i = 0; i < KIND_COUNT; i++)
         schema->kinds[i] =
-            (i == KIND_PARTICLE ? symbol_of_many : symbol_intern)(symbols, str_from(schema_kinds[i].name));
+            (i == KIND_PARTICLE ? symbol_intern_batched : symbol_intern)(symbols, str_from(schema_kinds[i].name));
     for (int i = 0; i < WORD_COUNT; i++)
         schema->words[i] = symbol_number(schema_words[i].text);
     for (int i = 0, row = 0; i < KIND_COUNT; i++) {
@@ -44,7 +44,7 @@ void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host) {
                 .field = attr->field,
                 .plain = (uint8_t)(plain ? type->shape : SHAPE_OTHER),
             };
-            schema->slants[i] |= type->shape == SHAPE_VECTOR && attr->fallback.value != 0;
+            schema->has_vector_default[i] |= type->shape == SHAPE_VECTOR && attr->default_value.value != 0;
         }
     }
     schema->first_row[KIND_COUNT] = ROW_COUNT;
@@ -64,13 +64,13 @@ NodeKind schema_window_kind(const Schema *schema, const Node *node) {
 
 NodeKind schema_kind_in(const Schema *schema, const Node *node, PlaceKind children) {
     for (int kind = schema->by_name[find_name(schema, node->kind)]; kind > 0; kind = schema->next_of_name[kind - 1])
-        if (schema_may_stand((NodeKind)(kind - 1), children))
+        if (schema_can_contain((NodeKind)(kind - 1), children))
             return (NodeKind)(kind - 1);
     return KIND_COUNT;
 }
 
 // "name=value" of an attribute by which a node is known: a system by its state, anything else by its id.
-static void add_known_by(Text *out, const Reader *reader, AttrRow row) {
+static void add_identifier(Text *out, const Reader *reader, AttrRow row) {
     Value v = node_get(reader->node, reader->schema->slots[row].name);
     if (v.len == 0 || v.len > 16)
         return;
@@ -82,18 +82,18 @@ void reader_report_at(const Reader *reader, const char *code, Origin place, Str 
     Schema *schema = reader->schema;
     Text out = text_new(reader->arena);
     text_add_format(&out, "!%.*s", STR_ARGS(reader->node->kind->name));
-    add_known_by(&out, reader, ROW_PARTICLE_ID);
-    add_known_by(&out, reader, ROW_PHYSICS_STATE);
-    schema->reports++;
-    schema->host.report(schema->host.host, DIAG_WARNING, code, &place, text_str(&out), key, text);
+    add_identifier(&out, reader, ROW_PARTICLE_ID);
+    add_identifier(&out, reader, ROW_PHYSICS_STATE);
+    schema->report_count++;
+    schema->sink.report(schema->sink.user_data, DIAG_WARNING, code, &place, text_str(&out), key, text);
 }
 
 void reader_report(const Reader *reader, const char *code, const char *key, Str text) {
-    reader_report_at(reader, code, node_place(reader->node, NULL), str_from(key), text);
+    reader_report_at(reader, code, node_origin(reader->node, NULL), str_from(key), text);
 }
 
 static void report_symbol(const Reader *reader, const char *code, const Symbol *attr, Str text) {
-    reader_report_at(reader, code, node_place(reader->node, attr), attr->name, text);
+    reader_report_at(reader, code, node_origin(reader->node, attr), attr->name, text);
 }
 
 void reader_report_attr(const Reader *reader, const char *code, AttrName name, Str text) {
@@ -119,7 +119,7 @@ static void report_unknown(const Reader *reader, const Symbol *name) {
 void schema_add_nearest_kind(Text *out, Str kind, PlaceKind place, const char *before, const char *after) {
     StrNearest nearest = nearest_to(kind);
     for (int i = 0; i < KIND_COUNT; i++)
-        if (schema_may_stand((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
+        if (schema_can_contain((NodeKind)i, place) || (place == PLACE_TOP && is_in_window(schema_kinds[i].place)))
             str_try_nearest(&nearest, str_from(schema_kinds[i].name));
     if (nearest.found.len)
         text_add_format(out, ", did you mean %s%.*s%s?", before, STR_ARGS(nearest.found), after);
@@ -132,13 +132,13 @@ static void add_hex(Text *out, Value found) {
         text_add_format(out, ", did you mean %.*s?", STR_ARGS(colour));
 }
 
-static void add_wanted(Text *out, const Reader *reader, const TypeRow *type) {
+static void add_expected(Text *out, const Reader *reader, const TypeRow *type) {
     bool vector = type->shape == SHAPE_VECTOR || type->shape == SHAPE_NORMAL;
     if (vector && reader->dimensions > 1)
         text_add_format(out, "one number or a vector of %u", reader->dimensions);
     else
         text_add_c(out,
-                   vector || (type->shape <= SHAPE_CLOCK && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
+                   vector || (type->shape <= SHAPE_TIME && type->shape != SHAPE_NUMBERS) ? "one number" : type->text);
 }
 
 // "attribute should be …, not …".
@@ -146,7 +146,7 @@ static void report_shape(const Reader *reader, const SchemaRow *row, Value found
     const TypeRow *type = &schema_types[row->type];
     Text out = text_new(reader->arena);
     text_add_format(&out, "%s should be ", schema_names[row->name]);
-    add_wanted(&out, reader, type);
+    add_expected(&out, reader, type);
     text_add_c(&out, ", not ");
     if (found.len <= 8)
         format_value(&out, reader->schema->symbols, found);
@@ -170,11 +170,11 @@ static bool is_number(Value v) {
     return v.kind == VALUE_NUMBERS && v.len == 1;
 }
 
-static double limited(const Reader *reader, const SchemaRow *row, Value v) {
+static double clamp_to_limits(const Reader *reader, const SchemaRow *row, Value v) {
     const TypeRow *type = &schema_types[row->type];
     double x = v.as.number;
     if (x < type->low && type->low == 0 && reader->schema->lint)
-        report_lint(reader, "below-zero", row, v, " is below 0 and counts as 0");
+        report_lint(reader, "negative-value", row, v, " is below 0 and counts as 0");
     return x < type->low ? type->low : x > type->high ? type->high : x;
 }
 
@@ -206,7 +206,7 @@ static PhysVector read_vector(const Reader *reader, const Value *v) {
 }
 
 // Stores a value that need not be looked at twice; false if it must be.
-static inline bool store_plainly(const SchemaSlot *slot, uint32_t n, const Value *v, char *record) {
+static inline bool store_fast(const SchemaSlot *slot, uint32_t n, const Value *v, char *record) {
     void *field = record + slot->field;
     switch (slot->plain) {
     case SHAPE_NUMBER:
@@ -228,7 +228,7 @@ static inline bool store_plainly(const SchemaSlot *slot, uint32_t n, const Value
 }
 
 // The same for any value; false if it is malformed.
-static bool store_carefully(const Reader *reader, const SchemaRow *row, const Value *v, char *record) {
+static bool store_checked(const Reader *reader, const SchemaRow *row, const Value *v, char *record) {
     void *field = record + row->field;
     AttrShape shape = schema_types[row->type].shape;
     if (shape == SHAPE_VALUE || shape == SHAPE_NUMBERS) {
@@ -241,15 +241,15 @@ static bool store_carefully(const Reader *reader, const SchemaRow *row, const Va
             return false;
         *(PhysVector *)field = shape == SHAPE_NORMAL ? unit_vector(reader, vector) : vector;
     } else {
-        if (!is_number(*v) || (isnan(v->as.number) && shape != SHAPE_CLOCK))
+        if (!is_number(*v) || (isnan(v->as.number) && shape != SHAPE_TIME))
             return false;
-        *(double *)field = shape == SHAPE_WHOLE ? floor(v->as.number) : limited(reader, row, *v);
+        *(double *)field = shape == SHAPE_INTEGER ? floor(v->as.number) : clamp_to_limits(reader, row, *v);
     }
     return true;
 }
 
 // One attribute that is not plain; `row` is the end of the kind's rows if it has no such attribute.
-static __attribute__((noinline)) void fill_carefully(const Reader *reader, const Attr *attr, int row, char *record) {
+static __attribute__((noinline)) void fill_checked(const Reader *reader, const Attr *attr, int row, char *record) {
     const SchemaRow *found = &schema_rows[row];
     if (row == reader->schema->first_row[reader->kind + 1]) {
         report_unknown(reader, attr->name);
@@ -260,31 +260,31 @@ static __attribute__((noinline)) void fill_carefully(const Reader *reader, const
     if (found->alias) {
         const SchemaRow *winner = schema_row(reader->kind, found->alias);
         Value v = node_get(reader->node, reader->schema->slots[winner - schema_rows].name);
-        if (v.len > 0 && store_carefully(reader, winner, &v, record))
+        if (v.len > 0 && store_checked(reader, winner, &v, record))
             return;
     }
-    if (!store_carefully(reader, found, &attr->value, record))
+    if (!store_checked(reader, found, &attr->value, record))
         report_shape(reader, found, attr->value);
 }
 
 // Gives vectors that nobody gave their defaults: 0;…;0;x.
-static void fill_slants(const Reader *reader, char *record) {
+static void fill_vector_defaults(const Reader *reader, char *record) {
     int first = reader->schema->first_row[reader->kind], end = reader->schema->first_row[reader->kind + 1];
     for (int i = first; i < end; i++) {
         const SchemaRow *row = &schema_rows[i];
         PhysVector *field = (PhysVector *)(void *)(record + row->field);
-        if (schema_types[row->type].shape != SHAPE_VECTOR || row->fallback.value == 0 || *field)
+        if (schema_types[row->type].shape != SHAPE_VECTOR || row->default_value.value == 0 || *field)
             continue;
         double *vector = arena_alloc_array(reader->arena, reader->dimensions, sizeof *vector);
         for (uint32_t k = 0; k < reader->dimensions; k++)
-            vector[k] = k + 1 == reader->dimensions ? row->fallback.value : 0;
+            vector[k] = k + 1 == reader->dimensions ? row->default_value.value : 0;
         *field = vector;
     }
 }
 
 // The slot of an attribute among those of a kind, or their end; `guess` is the one after that of the attribute before.
-static inline const SchemaSlot *slot_of(const SchemaSlot *first, const SchemaSlot *end, const SchemaSlot *guess,
-                                        const Symbol *name) {
+static inline const SchemaSlot *find_slot(const SchemaSlot *first, const SchemaSlot *end, const SchemaSlot *guess,
+                                          const Symbol *name) {
     for (const SchemaSlot *slot = guess; slot < end; slot++)
         if (slot->name == name)
             return slot;
@@ -300,29 +300,29 @@ void reader_fill(const Reader *reader, void *record) {
     const SchemaSlot *end = schema->slots + schema->first_row[reader->kind + 1];
     const Attr *attr = reader->node->attrs, *last = attr ? attr + reader->node->attr_count : attr;
     for (; attr < last; attr++) {
-        const SchemaSlot *slot = slot_of(first, end, guess, attr->name);
-        if (slot == end || !store_plainly(slot, reader->dimensions, &attr->value, record))
-            fill_carefully(reader, attr, (int)(slot - schema->slots), record);
+        const SchemaSlot *slot = find_slot(first, end, guess, attr->name);
+        if (slot == end || !store_fast(slot, reader->dimensions, &attr->value, record))
+            fill_checked(reader, attr, (int)(slot - schema->slots), record);
         guess = slot < end ? slot + 1 : first;
     }
-    if (schema->slants[reader->kind])
-        fill_slants(reader, record);
+    if (schema->has_vector_default[reader->kind])
+        fill_vector_defaults(reader, record);
 }
 
 // A number that a symbol stands for is no number in a drawing; symbols are beyond all coordinates.
-static bool is_measure(double x) {
+static bool is_finite_number(double x) {
     return isfinite(x) && x > -8e307;
 }
 
-static bool read_measures(Value v, const TypeRow *type, uint32_t most, AttrValue *attr) {
+static bool read_finite_numbers(Value v, const TypeRow *type, uint32_t max, AttrValue *attr) {
     bool all = type->shape == SHAPE_TRIPLE || type->shape == SHAPE_QUAD;
-    if (!value_is_numeric(v) || v.len > most || (type->shape == SHAPE_COLOR && v.len == 2) ||
-        (all && v.len > 1 && v.len < most))
+    if (!value_is_numeric(v) || v.len > max || (type->shape == SHAPE_COLOR && v.len == 2) ||
+        (all && v.len > 1 && v.len < max))
         return false;
     const double *numbers = value_numbers(&v);
     double *out = attr->as.numbers;
     for (uint32_t i = 0; i < v.len; i++) {
-        if (!is_measure(numbers[i]) || numbers[i] < type->low || numbers[i] > type->high)
+        if (!is_finite_number(numbers[i]) || numbers[i] < type->low || numbers[i] > type->high)
             return false;
         out[i] = numbers[i];
     }
@@ -341,7 +341,7 @@ static bool read_numbers(const Reader *reader, Value v, bool even, AttrValue *at
     if (!value_is_numeric(v))
         return false;
     for (uint32_t i = 0; i < v.len; i++)
-        if (!is_measure(numbers[i]))
+        if (!is_finite_number(numbers[i]))
             return false;
     attr->as.list = arena_copy(reader->arena, numbers, v.len * sizeof(double));
     attr->count = v.len;
@@ -365,7 +365,7 @@ static bool read_word(const Reader *reader, Value v, AttrType type, int *word) {
 static bool read_weight(const Reader *reader, Value v, const SchemaRow *row, AttrValue *attr) {
     int weight = 0;
     if (!read_word(reader, v, row->type, &weight))
-        return read_measures(v, &schema_types[row->type], 1, attr);
+        return read_finite_numbers(v, &schema_types[row->type], 1, attr);
     attr->as.numbers[0] = weight;
     return true;
 }
@@ -373,31 +373,31 @@ static bool read_weight(const Reader *reader, Value v, const SchemaRow *row, Att
 // Colours of bytes: whole numbers, of which one is far beyond white.
 static void lint_colour(const Reader *reader, const SchemaRow *row, Value v) {
     const double *numbers = value_numbers(&v);
-    double most = 0;
+    double max = 0;
     for (uint32_t i = 0; i < v.len && i < 3; i++) {
         if (numbers[i] != floor(numbers[i]))
             return;
-        most = fmax(most, numbers[i]);
+        max = fmax(max, numbers[i]);
     }
-    if (most >= 2)
+    if (max >= 2)
         report_lint(reader, "colour-range", row, v,
                     " is beyond white, which is 1;1;1: parts that go up to 255 are written (r;g;b)/255");
 }
 
 // False if the value cannot be used.
-static bool read_drawn(const Reader *reader, const SchemaRow *row, Value v, AttrValue *attr) {
+static bool read_drawing_attr(const Reader *reader, const SchemaRow *row, Value v, AttrValue *attr) {
     const TypeRow *type = &schema_types[row->type];
     switch (type->shape) {
-    case SHAPE_MEASURE:
-        return read_measures(v, type, 1, attr);
+    case SHAPE_FINITE:
+        return read_finite_numbers(v, type, 1, attr);
     case SHAPE_PAIR:
-        return read_measures(v, type, 2, attr);
+        return read_finite_numbers(v, type, 2, attr);
     case SHAPE_TRIPLE:
-        return read_measures(v, type, 3, attr);
+        return read_finite_numbers(v, type, 3, attr);
     case SHAPE_QUAD:
-        return read_measures(v, type, 4, attr);
+        return read_finite_numbers(v, type, 4, attr);
     case SHAPE_COLOR:
-        if (!read_measures(v, type, 4, attr))
+        if (!read_finite_numbers(v, type, 4, attr))
             return false;
         if (reader->schema->lint)
             lint_colour(reader, row, v);
@@ -438,7 +438,7 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
     bool good = true;
     for (uint32_t i = 0; i < node->attr_count; i++) {
         const Value v = node->attrs[i].value;
-        const SchemaSlot *slot = slot_of(first, end, guess, node->attrs[i].name);
+        const SchemaSlot *slot = find_slot(first, end, guess, node->attrs[i].name);
         guess = slot < end ? slot + 1 : first;
         AttrValue *attr = &attrs[*count];
         if (slot == end) {
@@ -446,16 +446,16 @@ bool reader_list(const Reader *reader, AttrValue *attrs, uint32_t *count) {
             if (reader->kind != KIND_SHADER)
                 report_unknown(reader, node->attrs[i].name);
             else if (read_numbers(reader, v, false, attr)) { // its program may ask for any name
-                attr->own = str_to_c(reader->arena, node->attrs[i].name->name);
+                attr->custom_name = str_to_c(reader->arena, node->attrs[i].name->name);
                 ++*count;
             }
             continue;
         }
         const SchemaRow *found = &schema_rows[slot - slots];
         *attr = (AttrValue){.name = found->alias ? found->alias : found->name, .row = (uint16_t)(slot - slots)};
-        if (!read_drawn(reader, found, v, attr)) {
+        if (!read_drawing_attr(reader, found, v, attr)) {
             report_shape(reader, found, v);
-            good &= !schema_types[found->type].vital || !has_shape(found, v);
+            good &= !schema_types[found->type].required || !has_shape(found, v);
             if (found->type == TYPE_MIX) { // such a node shows nothing, which is not what the default means
                 attr->as.word = MIX_UNKNOWN;
                 ++*count;
@@ -473,7 +473,7 @@ void schema_store(const AttrValue *attr, void *record) {
         return;
     void *field = (char *)record + row->field;
     switch (schema_types[row->type].shape) {
-    case SHAPE_MEASURE:
+    case SHAPE_FINITE:
     case SHAPE_WEIGHT:
         *(double *)field = attr->as.numbers[0];
         break;
@@ -498,27 +498,27 @@ void schema_store(const AttrValue *attr, void *record) {
 }
 
 static void store_default(const SchemaRow *row, char *record) {
-    const Fallback *fallback = &row->fallback;
+    const AttrDefault *attr_default = &row->default_value;
     void *field = record + row->field;
     AttrShape shape = schema_types[row->type].shape;
-    double x = fallback->value;
+    double x = attr_default->value;
     if (shape == SHAPE_VALUE || shape == SHAPE_NUMBERS)
         *(Value *)field = isnan(x) ? VALUE_NULL : value_number(x);
     else if (shape == SHAPE_VECTOR || shape == SHAPE_NORMAL)
         *(PhysVector *)field = NULL;
-    else if (shape <= SHAPE_CLOCK)
+    else if (shape <= SHAPE_TIME)
         *(double *)field = x;
     else
-        schema_store(
-            &(AttrValue){.row = (uint16_t)(row - schema_rows),
-                         .as = shape == SHAPE_TEXT
-                                   ? (union AttrData){.text = str_from(fallback->string ? fallback->string : "")}
-                               : shape == SHAPE_WORD   ? (union AttrData){.word = (int)x}
-                               : shape == SHAPE_FLAG   ? (union AttrData){.flag = x != 0}
-                               : shape == SHAPE_COLOR  ? (union AttrData){.numbers = {x, x, x, 1}}
-                               : shape == SHAPE_TRIPLE ? (union AttrData){.numbers = {x, x, x}}
-                                                       : (union AttrData){.numbers = {x}}},
-            record);
+        schema_store(&(AttrValue){.row = (uint16_t)(row - schema_rows),
+                                  .as = shape == SHAPE_TEXT
+                                            ? (union AttrData){.text = str_from(
+                                                                   attr_default->string ? attr_default->string : "")}
+                                        : shape == SHAPE_WORD   ? (union AttrData){.word = (int)x}
+                                        : shape == SHAPE_FLAG   ? (union AttrData){.flag = x != 0}
+                                        : shape == SHAPE_COLOR  ? (union AttrData){.numbers = {x, x, x, 1}}
+                                        : shape == SHAPE_TRIPLE ? (union AttrData){.numbers = {x, x, x}}
+                                                                : (union AttrData){.numbers = {x}}},
+                     record);
 }
 
 void schema_defaults(NodeKind kind, void *record) {

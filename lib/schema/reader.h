@@ -7,17 +7,17 @@
 #define PETRI_SCHEMA_READER_H
 
 #include "base/diag.h"
-#include "base/reach.h"
+#include "base/file_access.h"
 #include "schema/records.h"
 #include "schema/table.h"
 #include "value/node.h"
 
-typedef struct SchemaHost {
-    void *host;
+typedef struct SchemaSink {
+    void *user_data;
     // What is wrong with which node; `key` tells apart what may be wrong with one node, while the text may go on to
     // tell what was found and change from frame to frame.
-    void (*report)(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text);
-} SchemaHost;
+    void (*report)(void *sink, DiagLevel level, const char *code, const Origin *origin, Str node, Str key, Str text);
+} SchemaSink;
 
 // What the reader looks at first of a row.
 typedef struct SchemaSlot {
@@ -31,22 +31,23 @@ typedef struct SchemaSlot {
 // The table with its names interned in a session's symbol table.
 typedef struct Schema {
     SymbolTable *symbols;
-    SchemaHost host;
-    uint64_t reports;   // given so far
-    const Node *at;     // that was begun to be read or updated last, to tell where a limit was reached; NULL: none
-    const Reach *reach; // of the files that nodes name; NULL: all may be used
-    bool lint;          // report what is hardly meant, too
+    SchemaSink sink;
+    uint64_t report_count; // given so far
+    const Node
+        *current_node; // that was begun to be read or updated last, to tell where a limit was reached; NULL: none
+    const FileAccess *file_access; // of the files that nodes name; NULL: all may be used
+    bool lint;                     // report what is hardly meant, too
     const Symbol *kinds[KIND_COUNT];
     SchemaSlot slots[ROW_COUNT];
-    double words[WORD_COUNT];           // their values as symbols
-    uint16_t first_row[KIND_COUNT + 1]; // by kind
-    int first_in_window;                // of the kinds
-    uint8_t by_name[512];               // the first kind in windows of a name, + 1: a hash table, mostly empty
-    uint8_t next_of_name[KIND_COUNT];   // the next one of the same name, + 1
-    bool slants[KIND_COUNT];            // some vector of the kind has a default that is not 0
+    double words[WORD_COUNT];            // their values as symbols
+    uint16_t first_row[KIND_COUNT + 1];  // by kind
+    int first_in_window;                 // of the kinds
+    uint8_t by_name[512];                // the first kind in windows of a name, + 1: a hash table, mostly empty
+    uint8_t next_of_name[KIND_COUNT];    // the next one of the same name, + 1
+    bool has_vector_default[KIND_COUNT]; // some vector of the kind has a default that is not 0
 } Schema;
 
-void schema_init(Schema *schema, SymbolTable *symbols, SchemaHost host);
+void schema_init(Schema *schema, SymbolTable *symbols, SchemaSink sink);
 // KIND_COUNT if these nodes do nothing inside of `!physics` and at the top, or in a window.
 static inline NodeKind schema_kind(const Schema *schema, const Node *node) {
     for (int kind = 0; kind < schema->first_in_window; kind++)
@@ -85,10 +86,10 @@ void reader_fill(const Reader *reader, void *record);
 
 // An attribute that was read.
 typedef struct AttrValue {
-    uint16_t name;   // AttrName
-    uint16_t row;    // of its kind
-    uint32_t count;  // of numbers
-    const char *own; // the name of an ATTR_NONE: what a program may ask for, in `list`
+    uint16_t name;           // AttrName
+    uint16_t row;            // of its kind
+    uint32_t count;          // of numbers
+    const char *custom_name; // the name of an ATTR_NONE: what a program may ask for, in `list`
     union AttrData {
         double numbers[4]; // of points, sizes, colours (always four), a weight, up to four amounts
         const double *list;

@@ -47,7 +47,7 @@ typedef struct InputAttrs {
 } InputAttrs;
 
 // How things look in a canvas: inherited down the tree.
-typedef struct Look {
+typedef struct GraphicsState {
     double color[4];
     double stroke_width;
     double font_size;
@@ -63,10 +63,10 @@ typedef struct Look {
     uint32_t source; // in place of the colour
     uint32_t filter;
     uint32_t effect; // on paths
-} Look;
+} GraphicsState;
 
 // Of three dimensions (canvas3d_list.h): a material, a render group and a camera, whatever a node has of these.
-typedef struct Look3D {
+typedef struct GraphicsState3D {
     double color[3];
     double emissive[3];
     double roughness;
@@ -96,6 +96,6 @@ typedef struct Look3D {
     double fog_curve;
     bool monochrome;
     double tint[3];
-} Look3D;
+} GraphicsState3D;
 
 #endif

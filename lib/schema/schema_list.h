@@ -9,7 +9,7 @@
 //     CHILDREN which may stand in it (PlaceKind). FORCE(ID, "kind", "help", "formula"): a node of force_list.h, with
 //     the same ID; the formula is that of lib/physics/README.md, in lines (tests/docs/formulas.sh compares them).
 // ATTR(KIND, NAME, TYPE, field, default, "unit", "help"). The field is where the value goes (records.h); NOWHERE: it is
-//     ignored or, in drawings, looked up by its name. The default is IS(x); TOLD(x, "in words"); INHERITED(x, "in
+//     ignored or, in drawings, looked up by its name. The default is IS(x); DESCRIBED(x, "in words"); INHERITED(x, "in
 //     words"), to begin with; or NONE: for a number nan, else null. Of a vector it is the last element; the others are
 //     0.
 // ALIAS(KIND, NAME, OF, "of", TYPE, field, "unit"): another name of an attribute of the same kind, which wins over it.
@@ -41,14 +41,14 @@ TYPE(NUMBER, NUMBER, -INFINITY, INFINITY, false, "number")
 TYPE(ABOVE_ZERO, NUMBER, -INFINITY, INFINITY, false, "number above 0")  // others have a meaning of their own
 TYPE(FROM_ZERO, NUMBER, 0, INFINITY, false, "number, 0 or more")
 TYPE(PART, NUMBER, 0, 1, false, "number from 0 to 1")
-TYPE(WHOLE, WHOLE, -INFINITY, INFINITY, false, "whole number")
-TYPE(DIMENSIONS, WHOLE, -INFINITY, INFINITY, false, "whole number, 1 or more")
-TYPE(CLOCK, CLOCK, -INFINITY, INFINITY, false, "number")
+TYPE(INTEGER, INTEGER, -INFINITY, INFINITY, false, "whole number")
+TYPE(DIMENSIONS, INTEGER, -INFINITY, INFINITY, false, "whole number, 1 or more")
+TYPE(TIME, TIME, -INFINITY, INFINITY, false, "number")
 TYPE(VECTOR, VECTOR, 0, 0, false, "vector")
 TYPE(NORMAL, NORMAL, 0, 0, false, "vector")
 // Of drawings. Numbers are finite.
-TYPE(MEASURE, MEASURE, -INFINITY, INFINITY, true, "number")
-TYPE(WIDTH, MEASURE, 0, INFINITY, false, "number, 0 or more")
+TYPE(FINITE, FINITE, -INFINITY, INFINITY, true, "number")
+TYPE(WIDTH, FINITE, 0, INFINITY, false, "number, 0 or more")
 TYPE(POINT, PAIR, -INFINITY, INFINITY, true, "x;y")
 TYPE(SIZE, PAIR, 0, INFINITY, true, "one number or two, 0 or more")
 TYPE(SCALE, PAIR, -INFINITY, INFINITY, true, "one number or two")
@@ -64,8 +64,8 @@ TYPE(SLANT, WORD, 0, 0, false, ":upright, :oblique or :italic")
 TYPE(FONT_WIDTH, WORD, 0, 0, false, "a word such as :condensed")
 TYPE(COMPOSITE, WORD, 0, 0, false, "a word such as :over, :add, :multiply or :dst_out")
 // Of pictures.
-TYPE(AMOUNT, MEASURE, -INFINITY, INFINITY, false, "number")
-TYPE(INTEGER, MEASURE, -1e9, 1e9, false, "whole number")
+TYPE(AMOUNT, FINITE, -INFINITY, INFINITY, false, "number")
+TYPE(FINITE_INTEGER, FINITE, -1e9, 1e9, false, "whole number")
 TYPE(AMOUNTS, PAIR, -INFINITY, INFINITY, false, "one number or two")
 TYPE(TRIPLE, TRIPLE, -INFINITY, INFINITY, false, "one number or three")
 TYPE(QUAD, QUAD, -INFINITY, INFINITY, false, "one number or four")
@@ -308,7 +308,7 @@ NAME(MODE, "mode")
 #define POWER_ROW(kind) \
     ATTR(kind, POWER, FROM_ZERO, TO_FORCE(force.power), IS(1), "", "of the displacement: 1 is a linear spring")
 #define REACH_ROW(kind) \
-    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), TOLD(0, ""), "", "between particles at least this far apart there is no force")
+    ATTR(kind, MAX_DISTANCE, ABOVE_ZERO, TO_FORCE(force.max_distance), DESCRIBED(0, ""), "", "between particles at least this far apart there is no force")
 #define BOUND_ROWS(kind) \
     ATTR(kind, FIXED, NUMBER, TO_FORCE(fixed), NONE, "", "minimum and maximum at once, and wins over both") \
     ATTR(kind, MINIMUM, NUMBER, TO_FORCE(force.minimum), NONE, "", "distance below which the spring pushes") \
@@ -318,11 +318,11 @@ NAME(MODE, "mode")
 
 NODE(PHYSICS, "physics", SCENE, PHYSICS, "a particle system")
 ATTR(PHYSICS, STATE, ANY, TO_SYSTEM(state), NONE, "", "the key under which particles are written: $(key;id), $(key;id;:velocity)")
-ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), TOLD(0, ""), "", "how many components vectors have")
-ATTR(PHYSICS, TIME, CLOCK, TO_SYSTEM(time), TOLD(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
-ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), TOLD(0, "1/fps"), "units of time", "longest simulation step")
-ATTR(PHYSICS, RUN, WHOLE, TO_SYSTEM(run), IS(0), "", "another number starts the system anew")
-ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), TOLD(0, ""), "", "highest speed; 0 or less is no limit")
+ATTR(PHYSICS, DIMENSIONS, DIMENSIONS, TO_SYSTEM(dimensions), DESCRIBED(0, ""), "", "how many components vectors have")
+ATTR(PHYSICS, TIME, TIME, TO_SYSTEM(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
+ATTR(PHYSICS, RESOLUTION, ABOVE_ZERO, TO_SYSTEM(resolution), DESCRIBED(0, "1/fps"), "units of time", "longest simulation step")
+ATTR(PHYSICS, RUN, INTEGER, TO_SYSTEM(run), IS(0), "", "another number starts the system anew")
+ATTR(PHYSICS, SPEED_OF_LIGHT, NUMBER, TO_SYSTEM(speed_of_light), DESCRIBED(0, ""), "", "highest speed; 0 or less is no limit")
 
 NODE(PARTICLE, "particle", PHYSICS, NOTHING, "a particle; its attributes count when it appears, later the state moves it")
 ATTR(PARTICLE, ID, ANY, TO_BODY(id), NONE, "", "unique in its system; without it the particle is ignored")
@@ -407,7 +407,7 @@ EASE_ROW(DRAG)
 
 FORCE(BUOYANCY, "buoyancy", "weight in a medium",
     "F = strength · gravity · (m − density·r^n)")
-ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), TOLD(-1, "0;...;0;-1"), "", "acceleration that a weight has in the void")
+ATTR(BUOYANCY, GRAVITY, VECTOR, TO_FORCE(force.vector), DESCRIBED(-1, "0;...;0;-1"), "", "acceleration that a weight has in the void")
 ATTR(BUOYANCY, DENSITY, NUMBER, TO_FORCE(force.density), IS(1), "", "mass of the medium that a particle of radius 1 displaces")
 STRENGTH_ROW(BUOYANCY)
 EASE_ROW(BUOYANCY)
@@ -426,7 +426,7 @@ NODE(COUNTER, "counter", SCENE, NOTHING, "a clock with a speed of its own, writt
 ATTR(COUNTER, STATE, ANY, TO_COUNTER(state), NONE, "", "the key under which the value is written")
 ATTR(COUNTER, INITIAL, NUMBERS, TO_COUNTER(initial), IS(0), "", "value at the start, and while reset")
 ATTR(COUNTER, RATE, NUMBERS, TO_COUNTER(rate), IS(0), "", "growth per unit of time")
-ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), TOLD(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
+ATTR(COUNTER, TIME, NUMBERS, TO_COUNTER(time), DESCRIBED(0, "the frame's, in seconds"), "", "the clock to follow, such as beat")
 ATTR(COUNTER, MINIMUM, NUMBERS, TO_COUNTER(minimum), NONE, "", "least value")
 ALIAS(COUNTER, MIN, MINIMUM, "minimum", NUMBERS, TO_COUNTER(minimum), "")
 ATTR(COUNTER, MAXIMUM, NUMBERS, TO_COUNTER(maximum), NONE, "", "greatest value")
@@ -434,23 +434,23 @@ ALIAS(COUNTER, MAX, MAXIMUM, "maximum", NUMBERS, TO_COUNTER(maximum), "")
 ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the value is the initial one")
 
 #define TRANSFORM_ROWS(kind) \
-    ATTR(kind, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "move the origin; of the three, what is written first is applied first") \
-    ATTR(kind, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "enlarge") \
-    ATTR(kind, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "clockwise")
+    ATTR(kind, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "move the origin; of the three, what is written first is applied first") \
+    ATTR(kind, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "enlarge") \
+    ATTR(kind, ROTATE, FINITE, NOWHERE, IS(0), "turns", "clockwise")
 #define PAINT_ROWS(kind) \
-    ATTR(kind, COLOR, COLOR, TO_LOOK(color), INHERITED(0, "0"), "", "takes the place of a source that would be inherited") \
-    ATTR(kind, STROKE_WIDTH, WIDTH, TO_LOOK(stroke_width), INHERITED(0, "0"), "", "0 is one pixel, whatever the scale") \
-    ATTR(kind, STROKE_JOIN, JOIN, TO_LOOK(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
-    ATTR(kind, STROKE_CAP, CAP, TO_LOOK(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
-    ATTR(kind, COMPOSITE, COMPOSITE, TO_LOOK(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there") \
-    ATTR(kind, ANTIALIAS, FLAG, TO_LOOK(antialias), INHERITED(true, "true"), "", "smooth edges, but for text, which always has them") \
+    ATTR(kind, COLOR, COLOR, TO_GRAPHICS(color), INHERITED(0, "0"), "", "takes the place of a source that would be inherited") \
+    ATTR(kind, STROKE_WIDTH, WIDTH, TO_GRAPHICS(stroke_width), INHERITED(0, "0"), "", "0 is one pixel, whatever the scale") \
+    ATTR(kind, STROKE_JOIN, JOIN, TO_GRAPHICS(join), INHERITED(JOIN_MITER, ":miter"), "", "corners of lines") \
+    ATTR(kind, STROKE_CAP, CAP, TO_GRAPHICS(cap), INHERITED(CAP_BUTT, ":butt"), "", "ends of lines") \
+    ATTR(kind, COMPOSITE, COMPOSITE, TO_GRAPHICS(composite), INHERITED(COMPOSITE_OVER, ":over"), "", "how colours combine with what is there") \
+    ATTR(kind, ANTIALIAS, FLAG, TO_GRAPHICS(antialias), INHERITED(true, "true"), "", "smooth edges, but for text, which always has them") \
     ATTR(kind, DITHER, FLAG, NOWHERE, IS(false), "", "ignored")
 #define FONT_ROWS(kind) \
-    ATTR(kind, FONT_FAMILY, TEXT, TO_LOOK(family), INHERITED_TEXT("Helvetica"), "", "one or more names, with commas; the first that there is") \
-    ATTR(kind, FONT_SIZE, WIDTH, TO_LOOK(font_size), INHERITED(20, "20"), "", "") \
-    ATTR(kind, FONT_WEIGHT, WEIGHT, TO_LOOK(weight), INHERITED(400, ":normal"), "", "") \
-    ATTR(kind, FONT_WIDTH, FONT_WIDTH, TO_LOOK(width), INHERITED(4, ":normal"), "", "") \
-    ATTR(kind, FONT_SLANT, SLANT, TO_LOOK(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
+    ATTR(kind, FONT_FAMILY, TEXT, TO_GRAPHICS(family), INHERITED_TEXT("Helvetica"), "", "one or more names, with commas; the first that there is") \
+    ATTR(kind, FONT_SIZE, WIDTH, TO_GRAPHICS(font_size), INHERITED(20, "20"), "", "") \
+    ATTR(kind, FONT_WEIGHT, WEIGHT, TO_GRAPHICS(weight), INHERITED(400, ":normal"), "", "") \
+    ATTR(kind, FONT_WIDTH, FONT_WIDTH, TO_GRAPHICS(width), INHERITED(4, ":normal"), "", "") \
+    ATTR(kind, FONT_SLANT, SLANT, TO_GRAPHICS(slant), INHERITED(SLANT_UPRIGHT, ":upright"), "", "")
 #define SHAPE_ROWS(kind) \
     ATTR(kind, FILL, FLAG, NOWHERE, IS(false), "", "fill the shape by itself; the current path is left alone") \
     ATTR(kind, STROKE, FLAG, NOWHERE, IS(false), "", "draw its outline by itself; the current path is left alone")
@@ -460,13 +460,13 @@ ATTR(COUNTER, RESET, NUMBERS, TO_COUNTER(reset), NONE, "", "where true, the valu
 NODE(CANVAS, "canvas", PICTURE, DRAWING, "a sheet to draw on: origin at the top left, y down, angles in turns")
 SOURCE_ROWS(CANVAS)
 ATTR(CANVAS, LINEAR, FLAG, NOWHERE, IS(false), "", "colours are linear light, and combine as such")
-ATTR(CANVAS, COLORBITS, INTEGER, NOWHERE, IS(8), "", "of a linear one; with 16 or 32 light does not end at 1")
+ATTR(CANVAS, COLORBITS, FINITE_INTEGER, NOWHERE, IS(8), "", "of a linear one; with 16 or 32 light does not end at 1")
 TRANSFORM_ROWS(CANVAS)
 PAINT_ROWS(CANVAS)
 FONT_ROWS(CANVAS)
 
 NODE(CANVAS_GROUP, "group", DRAWING, DRAWING, "what is set here, or clipped inside, holds for what is inside")
-ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, TOLD(FILL_WINDING, ":winding"), "", "of the path that begins here")
+ATTR(CANVAS_GROUP, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "of the path that begins here")
 TRANSFORM_ROWS(CANVAS_GROUP)
 PAINT_ROWS(CANVAS_GROUP)
 FONT_ROWS(CANVAS_GROUP)
@@ -479,21 +479,21 @@ PAINT_ROWS(PAINT)
 
 NODE(FONT, "font", DRAWING, DRAWING, "font for what is inside")
 FONT_ROWS(FONT)
-ALIAS(FONT, FAMILY, FONT_FAMILY, "font_family", TEXT, TO_LOOK(family), "")
-ALIAS(FONT, SIZE, FONT_SIZE, "font_size", WIDTH, TO_LOOK(font_size), "")
-ALIAS(FONT, WEIGHT, FONT_WEIGHT, "font_weight", WEIGHT, TO_LOOK(weight), "")
-ALIAS(FONT, SLANT, FONT_SLANT, "font_slant", SLANT, TO_LOOK(slant), "")
+ALIAS(FONT, FAMILY, FONT_FAMILY, "font_family", TEXT, TO_GRAPHICS(family), "")
+ALIAS(FONT, SIZE, FONT_SIZE, "font_size", WIDTH, TO_GRAPHICS(font_size), "")
+ALIAS(FONT, WEIGHT, FONT_WEIGHT, "font_weight", WEIGHT, TO_GRAPHICS(weight), "")
+ALIAS(FONT, SLANT, FONT_SLANT, "font_slant", SLANT, TO_GRAPHICS(slant), "")
 
 NODE(LAYER, "layer", DRAWING, DRAWING, "draw what is inside by itself, then all of it at once")
 ATTR(LAYER, SIZE, SIZE, NOWHERE, NONE, "", "what lies outside of it is cut off, to the end of the group around it; without it nothing is drawn")
-ATTR(LAYER, ORIGIN, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner of the size, before the layer's own transform")
-ATTR(LAYER, ALPHA, MEASURE, NOWHERE, IS(1), "", "0 is invisible")
+ATTR(LAYER, ORIGIN, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner of the size, before the layer's own transform")
+ATTR(LAYER, ALPHA, FINITE, NOWHERE, IS(1), "", "0 is invisible")
 TRANSFORM_ROWS(LAYER)
 PAINT_ROWS(LAYER)
 FONT_ROWS(LAYER)
 
 NODE(PATH, "path", DRAWING, DRAWING, "begin a new path; what is inside adds to it, then fills or strokes it")
-ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, TOLD(FILL_WINDING, ":winding"), "", "what is inside where the path crosses itself; an inverse one is all outside")
+ATTR(PATH, FILL_TYPE, FILL_TYPE, NOWHERE, DESCRIBED(FILL_WINDING, ":winding"), "", "what is inside where the path crosses itself; an inverse one is all outside")
 
 NODE(MOVE_TO, "move_to", DRAWING, NOTHING, "begin another piece of the path")
 ATTR(MOVE_TO, POINT, POINT, NOWHERE, NONE, "", "")
@@ -507,36 +507,36 @@ ATTR(CURVE_TO, C1, POINT, NOWHERE, NONE, "", "the control point; with c2, that o
 ATTR(CURVE_TO, C2, POINT, NOWHERE, NONE, "", "control point of the end")
 
 NODE(ARC, "arc", DRAWING, NOTHING, "part of an ellipse, joined to the path by a line")
-ATTR(ARC, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre")
+ATTR(ARC, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
 ATTR(ARC, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
-ATTR(ARC, START, MEASURE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
-ATTR(ARC, SWEEP, MEASURE, NOWHERE, TOLD(NAN, "end - start"), "turns", "whole turns do not count; this or end is needed")
-ATTR(ARC, END, MEASURE, NOWHERE, NONE, "turns", "sweep goes before it")
+ATTR(ARC, START, FINITE, NOWHERE, IS(0), "turns", "clockwise from the x axis")
+ATTR(ARC, SWEEP, FINITE, NOWHERE, DESCRIBED(NAN, "end - start"), "turns", "whole turns do not count; this or end is needed")
+ATTR(ARC, END, FINITE, NOWHERE, NONE, "turns", "sweep goes before it")
 ATTR(ARC, MOVE_TO, FLAG, NOWHERE, IS(false), "", "begin another piece of the path in place of the line")
 
 NODE(ARC_TO, "arc_to", DRAWING, NOTHING, "part of an ellipse from where the path ends, at first from 0;0")
 ATTR(ARC_TO, POINT, POINT, NOWHERE, NONE, "", "where it goes")
 ATTR(ARC_TO, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y; enlarged if it does not reach")
-ATTR(ARC_TO, ROTATION, MEASURE, NOWHERE, IS(0), "degrees", "of the ellipse, clockwise")
+ATTR(ARC_TO, ROTATION, FINITE, NOWHERE, IS(0), "degrees", "of the ellipse, clockwise")
 ATTR(ARC_TO, LARGE, FLAG, NOWHERE, IS(false), "", "more than half of it")
 ATTR(ARC_TO, CCW, FLAG, NOWHERE, IS(false), "", "counter-clockwise")
 
 NODE(RECT, "rect", DRAWING, NOTHING, "a rectangle")
-ATTR(RECT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "a corner, top left unless the size is negative")
+ATTR(RECT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "a corner, top left unless the size is negative")
 ATTR(RECT, SIZE, SCALE, NOWHERE, NONE, "", "")
 ATTR(RECT, RADIUS, SIZE, NOWHERE, IS(0), "", "of its corners, shrunk to what fits")
 SHAPE_ROWS(RECT)
 PAINT_ROWS(RECT)
 
 NODE(ELLIPSE, "ellipse", DRAWING, NOTHING, "an ellipse or a circle")
-ATTR(ELLIPSE, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre")
+ATTR(ELLIPSE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre")
 ATTR(ELLIPSE, RADIUS, SIZE, NOWHERE, NONE, "", "one, or that along x and that along y")
 SHAPE_ROWS(ELLIPSE)
 PAINT_ROWS(ELLIPSE)
 
 NODE(LINE, "line", DRAWING, NOTHING, "a line through points")
 ATTR(LINE, POINTS, POINTS, NOWHERE, NONE, "", "")
-ATTR(LINE, CURVE, MEASURE, NOWHERE, IS(0), "turns", "corners that turn by no more than this are curves; 0: none, 0.25 and more: all")
+ATTR(LINE, CURVE, FINITE, NOWHERE, IS(0), "turns", "corners that turn by no more than this are curves; 0: none, 0.25 and more: all")
 ATTR(LINE, CLOSE, FLAG, NOWHERE, IS(false), "", "join the last point to the first")
 SHAPE_ROWS(LINE)
 PAINT_ROWS(LINE)
@@ -555,9 +555,9 @@ PAINT_ROWS(STROKE)
 
 NODE(TEXT, "text", DRAWING, NOTHING, "one line of text")
 ATTR(TEXT, TEXT, TEXT, NOWHERE, NONE, "", "")
-ATTR(TEXT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "its middle; with center=false where its base line begins")
+ATTR(TEXT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "its middle; with center=false where its base line begins")
 ATTR(TEXT, CENTER, FLAG, NOWHERE, IS(true), "", "")
-ATTR(TEXT, FILL, FLAG, NOWHERE, TOLD(true, "true unless stroke"), "", "draw the letters")
+ATTR(TEXT, FILL, FLAG, NOWHERE, DESCRIBED(true, "true unless stroke"), "", "draw the letters")
 ATTR(TEXT, STROKE, FLAG, NOWHERE, IS(false), "", "draw their outlines")
 PAINT_ROWS(TEXT)
 FONT_ROWS(TEXT)
@@ -566,8 +566,8 @@ NODE(IMAGE, "image", DRAWING, NOTHING, "a picture from a PNG or JPEG file, or of
 ATTR(IMAGE, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(IMAGE, IMAGE_ID, TEXT, NOWHERE, NONE, "", "the id of a node whose picture it is")
 ALIAS(IMAGE, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
-ATTR(IMAGE, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "top left corner")
-ATTR(IMAGE, SIZE, SCALE, NOWHERE, TOLD(0, "that of the picture"), "", "of a box that it is stretched to")
+ATTR(IMAGE, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "top left corner")
+ATTR(IMAGE, SIZE, SCALE, NOWHERE, DESCRIBED(0, "that of the picture"), "", "of a box that it is stretched to")
 ATTR(IMAGE, FIT, SIZE, NOWHERE, NONE, "", "of a box that it is put into, as large as it goes")
 ATTR(IMAGE, FILL, SIZE, NOWHERE, NONE, "", "of a box that it fills; what does not fit is cut off")
 
@@ -575,41 +575,41 @@ NODE(GRADIENT, "gradient", SOURCE, STOP, "colours that flow into each other, for
 ATTR(GRADIENT, START, POINT, NOWHERE, NONE, "", "of a linear one")
 ATTR(GRADIENT, END, POINT, NOWHERE, NONE, "", "of a linear one")
 ATTR(GRADIENT, RADIUS, SIZE, NOWHERE, NONE, "", "of a radial one: one, or that along x and that along y")
-ATTR(GRADIENT, POINT, POINT, NOWHERE, TOLD(0, "0;0"), "", "centre of a radial one")
-ATTR(GRADIENT, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "of a radial one")
+ATTR(GRADIENT, POINT, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "centre of a radial one")
+ATTR(GRADIENT, ROTATE, FINITE, NOWHERE, IS(0), "turns", "of a radial one")
 
 NODE(STOP, "stop", STOP, NOTHING, "a colour of a gradient")
-ATTR(STOP, OFFSET, MEASURE, NOWHERE, TOLD(NAN, "evenly spread"), "", "from 0 to 1")
-ATTR(STOP, COLOR, COLOR, NOWHERE, TOLD(0, "that in force"), "", "")
+ATTR(STOP, OFFSET, FINITE, NOWHERE, DESCRIBED(NAN, "evenly spread"), "", "from 0 to 1")
+ATTR(STOP, COLOR, COLOR, NOWHERE, DESCRIBED(0, "that in force"), "", "")
 
 NODE(COLOR, "color", SOURCE, NOTHING, "one colour, for what is drawn after it")
-ATTR(COLOR, COLOR, COLOR, NOWHERE, TOLD(0, "that in force"), "", "")
+ATTR(COLOR, COLOR, COLOR, NOWHERE, DESCRIBED(0, "that in force"), "", "")
 
 NODE(PATTERN, "pattern", SOURCE, NOTHING, "an image repeated in both directions, for what is drawn after it")
 ATTR(PATTERN, FILENAME, TEXT, NOWHERE, NONE, "", "")
 ATTR(PATTERN, IMAGE_ID, TEXT, NOWHERE, NONE, "", "the id of a node whose picture it is")
 ALIAS(PATTERN, TEXTURE_ID, IMAGE_ID, "image_id", TEXT, NOWHERE, "")
-ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "of the three, what is written first is applied first")
-ATTR(PATTERN, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "")
-ATTR(PATTERN, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "clockwise")
+ATTR(PATTERN, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "of the three, what is written first is applied first")
+ATTR(PATTERN, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "")
+ATTR(PATTERN, ROTATE, FINITE, NOWHERE, IS(0), "turns", "clockwise")
 
 NODE(BLEND, "blend", SOURCE, SOURCE, "the two sources inside, combined, for what is drawn after it")
-ATTR(BLEND, RATIO, MEASURE, NOWHERE, NONE, "", "part of the second one")
-ATTR(BLEND, MODE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second one combines with the first")
+ATTR(BLEND, RATIO, FINITE, NOWHERE, NONE, "", "part of the second one")
+ATTR(BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without a ratio: how the second one combines with the first")
 
 NODE(CANVAS_NOISE, "noise", SOURCE, NOTHING, "noise, in all four channels, for what is drawn after it")
 ATTR(CANVAS_NOISE, FREQUENCY, SCALE, NOWHERE, NONE, "", "waves a unit, along x and along y; without it it is no source")
-ATTR(CANVAS_NOISE, OCTAVES, INTEGER, NOWHERE, IS(8), "", "each twice as fine as the one before")
-ATTR(CANVAS_NOISE, SEED, MEASURE, NOWHERE, IS(0), "", "another one, other noise")
-ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, TOLD(0, "endless"), "", "of a tile, in whole units, which repeats without a seam")
-ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, TOLD(TURBULENCE_FRACTAL, ":fractal"), "", "turbulence: waves that are folded at 0")
+ATTR(CANVAS_NOISE, OCTAVES, FINITE_INTEGER, NOWHERE, IS(8), "", "each twice as fine as the one before")
+ATTR(CANVAS_NOISE, SEED, FINITE, NOWHERE, IS(0), "", "another one, other noise")
+ATTR(CANVAS_NOISE, SIZE, SIZE, NOWHERE, DESCRIBED(0, "endless"), "", "of a tile, in whole units, which repeats without a seam")
+ATTR(CANVAS_NOISE, TYPE, NOISE_TYPE, NOWHERE, DESCRIBED(TURBULENCE_FRACTAL, ":fractal"), "", "turbulence: waves that are folded at 0")
 
 NODE(CANVAS_BLUR, "blur", FILTER, FILTER, "blur what is drawn after it")
 ATTR(CANVAS_BLUR, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
 
 NODE(SHADOW, "shadow", FILTER, FILTER, "a shadow behind what is drawn after it")
 ATTR(SHADOW, RADIUS, SIZE, NOWHERE, NONE, "", "standard deviation, one or that along x and that along y")
-ATTR(SHADOW, OFFSET, POINT, NOWHERE, TOLD(0, "0;0"), "", "where it is from what casts it")
+ATTR(SHADOW, OFFSET, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "where it is from what casts it")
 ATTR(SHADOW, COLOR, COLOR, NOWHERE, IS(0), "", "")
 ATTR(SHADOW, SHADOW_ONLY, FLAG, NOWHERE, IS(false), "", "do not draw what casts it")
 
@@ -624,15 +624,15 @@ ATTR(ERODE, RADIUS, SIZE, NOWHERE, NONE, "", "the smallest value in a box of so 
 
 NODE(FILTER_MATRIX, "color_matrix", FILTER, FILTER, "change the colours of what is drawn after it")
 ATTR(FILTER_MATRIX, MATRIX, TWENTY, NOWHERE, NONE, "", "four rows of five: what red, green, blue and alpha become of r;g;b;a;1; wins over all others")
-ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, TOLD(0, "1;0;0;0;0"), "", "a row of it; rows win over scale and offset, and these over the rest")
-ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, TOLD(0, "0;1;0;0;0"), "", "")
-ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, TOLD(0, "0;0;1;0;0"), "", "")
-ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, TOLD(0, "0;0;0;1;0"), "", "")
+ATTR(FILTER_MATRIX, RED, FIVE, NOWHERE, DESCRIBED(0, "1;0;0;0;0"), "", "a row of it; rows win over scale and offset, and these over the rest")
+ATTR(FILTER_MATRIX, GREEN, FIVE, NOWHERE, DESCRIBED(0, "0;1;0;0;0"), "", "")
+ATTR(FILTER_MATRIX, BLUE, FIVE, NOWHERE, DESCRIBED(0, "0;0;1;0;0"), "", "")
+ATTR(FILTER_MATRIX, ALPHA, FIVE, NOWHERE, DESCRIBED(0, "0;0;0;1;0"), "", "")
 ATTR(FILTER_MATRIX, SCALE, TRIPLE, NOWHERE, IS(1), "", "factors of red, green and blue")
 ATTR(FILTER_MATRIX, OFFSET, TRIPLE, NOWHERE, IS(0), "", "what is added to them then")
-ATTR(FILTER_MATRIX, BRIGHTNESS, MEASURE, NOWHERE, IS(0), "", "is added")
-ATTR(FILTER_MATRIX, CONTRAST, MEASURE, NOWHERE, IS(1), "", "around grey")
-ATTR(FILTER_MATRIX, SATURATION, MEASURE, NOWHERE, IS(1), "", "0 is grey")
+ATTR(FILTER_MATRIX, BRIGHTNESS, FINITE, NOWHERE, IS(0), "", "is added")
+ATTR(FILTER_MATRIX, CONTRAST, FINITE, NOWHERE, IS(1), "", "around grey")
+ATTR(FILTER_MATRIX, SATURATION, FINITE, NOWHERE, IS(1), "", "0 is grey")
 
 NODE(DRAWN, "source", FILTER, NOTHING, "what is drawn, as it is: an input of another filter")
 
@@ -641,26 +641,26 @@ PAINT_ROWS(FILTER_PAINT)
 
 NODE(FILTER_BLEND, "blend", FILTER, FILTER, "the two filters inside, combined, for what is drawn after it")
 ATTR(FILTER_BLEND, COEFFICIENTS, QUAD, NOWHERE, NONE, "", "of both multiplied, of the second, of the first, and what is added")
-ATTR(FILTER_BLEND, RATIO, MEASURE, NOWHERE, NONE, "", "part of the first one")
-ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, TOLD(COMPOSITE_OVER, ":over"), "", "without either: how the second one combines with the first")
+ATTR(FILTER_BLEND, RATIO, FINITE, NOWHERE, NONE, "", "part of the first one")
+ATTR(FILTER_BLEND, MODE, COMPOSITE, NOWHERE, DESCRIBED(COMPOSITE_OVER, ":over"), "", "without either: how the second one combines with the first")
 
 NODE(DASH, "dash", EFFECT, EFFECT, "interrupt lines that are drawn after it")
 ATTR(DASH, INTERVALS, LIST, NOWHERE, NONE, "", "on;off;on;off…, an even number")
-ATTR(DASH, OFFSET, MEASURE, NOWHERE, IS(0), "", "where in the intervals each line begins")
+ATTR(DASH, OFFSET, FINITE, NOWHERE, IS(0), "", "where in the intervals each line begins")
 
 NODE(ROUND_CORNERS, "round_corners", EFFECT, EFFECT, "round the corners of what is drawn after it")
 ATTR(ROUND_CORNERS, RADIUS, WIDTH, NOWHERE, NONE, "", "how far before a corner its curve begins")
 
 NODE(JITTER, "jitter", EFFECT, EFFECT, "roughen what is drawn after it")
 ATTR(JITTER, LENGTH, WIDTH, NOWHERE, NONE, "", "of the pieces that lines are cut into")
-ATTR(JITTER, DEVIATION, MEASURE, NOWHERE, NONE, "", "how far their ends are moved sideways, at most")
-ATTR(JITTER, SEED, MEASURE, NOWHERE, IS(0), "", "another one, other ends")
+ATTR(JITTER, DEVIATION, FINITE, NOWHERE, NONE, "", "how far their ends are moved sideways, at most")
+ATTR(JITTER, SEED, FINITE, NOWHERE, IS(0), "", "another one, other ends")
 
 NODE(PATH_MATRIX, "path_matrix", EFFECT, EFFECT, "transform the figures that are drawn after it, but not their lines' width")
 ATTR(PATH_MATRIX, MATRIX, NINE, NOWHERE, NONE, "", "three rows of three; wins over all others")
-ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, TOLD(1, "1;1"), "", "first")
-ATTR(PATH_MATRIX, ROTATE, MEASURE, NOWHERE, IS(0), "turns", "then, clockwise")
-ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, TOLD(0, "0;0"), "", "in the end")
+ATTR(PATH_MATRIX, SCALE, SCALE, NOWHERE, DESCRIBED(1, "1;1"), "", "first")
+ATTR(PATH_MATRIX, ROTATE, FINITE, NOWHERE, IS(0), "turns", "then, clockwise")
+ATTR(PATH_MATRIX, TRANSLATE, POINT, NOWHERE, DESCRIBED(0, "0;0"), "", "in the end")
 
 NODE(SUM, "sum", EFFECT, EFFECT, "the figures of all effects inside, for what is drawn after it")
 #include "schema/canvas3d_list.h"

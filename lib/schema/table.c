@@ -27,12 +27,12 @@ const TypeRow schema_types[TYPE_COUNT] = {
 #define TO_FORCE(field) offsetof(ForceAttrs, field)
 #define TO_COUNTER(field) offsetof(CounterAttrs, field)
 #define TO_INPUT(field) offsetof(InputAttrs, field)
-#define TO_LOOK(field) offsetof(Look, field)
-#define TO_LOOK3D(field) offsetof(Look3D, field)
+#define TO_GRAPHICS(field) offsetof(GraphicsState, field)
+#define TO_GRAPHICS3D(field) offsetof(GraphicsState3D, field)
 #define NOWHERE FIELD_NOWHERE
 #define IS(x)                                                                                                          \
     { x, #x, false, NULL }
-#define TOLD(x, text)                                                                                                  \
+#define DESCRIBED(x, text)                                                                                             \
     { x, text, false, NULL }
 #define INHERITED(x, text)                                                                                             \
     { x, "inherited, at first " text, true, NULL }
@@ -64,11 +64,11 @@ const SchemaRow *schema_row(NodeKind kind, AttrName name) {
     return numbers[kind][name] ? &schema_rows[numbers[kind][name] - 1] : NULL;
 }
 
-bool schema_may_stand(NodeKind kind, PlaceKind children) {
+bool schema_can_contain(NodeKind kind, PlaceKind children) {
     PlaceKind place = schema_kinds[kind].place;
     switch (children) {
     case PLACE_WINDOW:
-        return place == PLACE_HAND || place == PLACE_PICTURE || place == PLACE_TOP;
+        return place == PLACE_INPUT || place == PLACE_PICTURE || place == PLACE_TOP;
     case PLACE_PICTURES:
         return place == PLACE_PICTURE || place == PLACE_TOP;
     case PLACE_DRAWING:
@@ -105,7 +105,7 @@ NodeKind schema_kind_of_force(PhysForceKind force) {
     return kinds[force];
 }
 
-bool schema_is_undrawn(Str name) {
+bool schema_is_unsupported(Str name) {
     static const char undrawn[] = "video";
     return str_word_number(name, undrawn) >= 0;
 }

@@ -44,7 +44,7 @@ typedef enum PlaceKind {
     PLACE_WINDOW,   // as CHILDREN: pictures and hands
     PLACE_PICTURES, // as CHILDREN: pictures, those of the top included
     PLACE_PICTURE,
-    PLACE_HAND,    // pointer and keys
+    PLACE_INPUT,   // pointer and keys
     PLACE_DRAWING, // sources, too, may stand where one draws
     PLACE_SOURCE,
     PLACE_FILTER, // likewise
@@ -58,11 +58,11 @@ typedef enum AttrShape {
     SHAPE_VALUE,   // Value
     SHAPE_NUMBERS, // Value of one number or more
     SHAPE_NUMBER,  // double, moved to the limits of its type
-    SHAPE_WHOLE,   // double, rounded down
-    SHAPE_CLOCK,   // double; nan is taken
+    SHAPE_INTEGER, // double, rounded down
+    SHAPE_TIME,    // double; nan is taken
     SHAPE_VECTOR,  // PhysVector of as many elements as the system has dimensions; one number stands for all
     SHAPE_NORMAL,  // likewise, of length 1; NULL if it has no direction
-    SHAPE_MEASURE, // double, finite
+    SHAPE_FINITE,  // double, finite
     SHAPE_PAIR,    // double[2]; one number stands for both
     SHAPE_TRIPLE,  // double[3]; likewise
     SHAPE_QUAD,    // double[4]; likewise
@@ -115,18 +115,18 @@ typedef struct KindRow {
 
 typedef struct TypeRow {
     AttrShape shape;
-    bool vital; // a drawing node is left out if these are no finite numbers within limits
+    bool required; // a drawing node is left out if these are no finite numbers within limits
     double low;
     double high;
     const char *text;
 } TypeRow;
 
-typedef struct Fallback {
+typedef struct AttrDefault {
     double value;
     const char *text; // in words; "" for none
     bool inherited;   // `value` is where inheritance begins
     const char *string;
-} Fallback;
+} AttrDefault;
 
 enum { FIELD_NOWHERE = UINT16_MAX };
 
@@ -136,7 +136,7 @@ typedef struct SchemaRow {
     uint16_t name;  // AttrName
     uint16_t alias; // AttrName of the attribute that this one is another name of
     uint16_t field; // offset in the record of its kind, or FIELD_NOWHERE
-    Fallback fallback;
+    AttrDefault default_value;
     const char *unit; // "" for none, or where the help tells
     const char *help; // "" where the name says all
 } SchemaRow;
@@ -162,8 +162,8 @@ const char *schema_formula(NodeKind kind);
 // The kind that stands for a force.
 NodeKind schema_kind_of_force(PhysForceKind force);
 // May a node of this kind stand where these may?
-bool schema_may_stand(NodeKind kind, PlaceKind children);
+bool schema_can_contain(NodeKind kind, PlaceKind children);
 // Is it one of the nodes that Flitter shows and petri does not?
-bool schema_is_undrawn(Str name);
+bool schema_is_unsupported(Str name);
 
 #endif

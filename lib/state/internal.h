@@ -3,22 +3,22 @@
 #define PETRI_STATE_INTERNAL_H
 
 #include "base/arena.h"
-#include "base/table.h"
-#include "state/series.h"
+#include "base/hash_index.h"
+#include "state/key_range.h"
 
 typedef struct StateEntry {
     Value key;   // in `keys`, or inline
     Value value; // one heap block, or inline; borrowed if there is a lender. Null: the slot is empty
     uint32_t hash;
-    StateLender lender;
+    StateOwner owner;
 } StateEntry;
 
 // What a slot takes besides its key and value: the entry and its part of the index, both with room to grow.
-#define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(IndexSlot)))
+#define SLOT_BYTES (2 * (sizeof(StateEntry) + sizeof(HashIndexSlot)))
 
 enum {
-    MOST_SERIES = 8, // each look-up goes through them
-    MOST_ALONE = 64, // pairs of slots that have entries though they might be a series
+    MAX_KEY_RANGES = 8,      // each look-up goes through them
+    MAX_SEPARATE_PAIRS = 64, // pairs of slots that have entries though they might be a series
 };
 
 struct State {
@@ -27,34 +27,34 @@ struct State {
     uint32_t capacity;
     uint32_t count; // slots, empty ones included
     uint32_t live;
-    Series series[MOST_SERIES]; // in the order of their slots
-    uint32_t series_count;
-    uint32_t row; // pairs at the end of the entries that might be a series
-    Index index;  // slots that have entries
+    KeyRange ranges[MAX_KEY_RANGES]; // in the order of their slots
+    uint32_t range_count;
+    uint32_t candidate_pairs; // pairs at the end of the entries that might be a series
+    HashIndex index;          // slots that have entries
     Arena keys;
-    bool *disturbed; // by lender
-    uint32_t lender_count;
-    bool exhausted; // see state_take_exhausted
-    Meter *meter;   // that memory is charged to, or NULL
+    bool *modified; // by lender
+    uint32_t owner_count;
+    bool exhausted; // see state_clear_exhausted
+    Budget *budget; // that memory is charged to, or NULL
 };
 
-static inline Series *state_series(const State *state, StateSlot slot) {
-    for (uint32_t i = 0; i < state->series_count; i++)
-        if (series_has_slot(&state->series[i], slot))
-            return (Series *)&state->series[i];
+static inline KeyRange *state_key_range(const State *state, StateSlot slot) {
+    for (uint32_t i = 0; i < state->range_count; i++)
+        if (key_range_has_slot(&state->ranges[i], slot))
+            return (KeyRange *)&state->ranges[i];
     return NULL;
 }
 
 // The entry of a slot that is in no series.
 static inline StateEntry *state_entry(const State *state, StateSlot slot) {
     uint32_t skipped = 0;
-    for (uint32_t i = 0; i < state->series_count && state->series[i].first < slot; i++)
-        skipped += state->series[i].count;
+    for (uint32_t i = 0; i < state->range_count && state->ranges[i].first < slot; i++)
+        skipped += state->ranges[i].count;
     return &state->entries[slot - skipped];
 }
 
 // compact.c: begins an arena for keys; puts a copy of a key into one, or returns false if memory is used up.
-void state_start_keys(Arena *keys, Meter *meter);
-bool state_own_key(Arena *keys, Value *copy, Value key);
+void state_start_keys(Arena *keys, Budget *budget);
+bool state_copy_key(Arena *keys, Value *copy, Value key);
 
 #endif

@@ -1,33 +1,32 @@
 // state.c: see state.h.
-#include "state/internal.h"
-
 #include "base/arena.h"
+#include "base/hash_index.h"
 #include "base/heap.h"
 #include "base/number.h"
-#include "base/table.h"
 #include "maths/random.h"
+#include "state/internal.h"
 
 #include <math.h>
 #include <string.h>
 
-State *state_new(Meter *meter) {
-    State *state = heap_zeroed(1, sizeof(State));
+State *state_new(Budget *budget) {
+    State *state = heap_calloc(1, sizeof(State));
     if (!state)
         return NULL;
-    state->meter = meter;
-    state_start_keys(&state->keys, meter);
+    state->budget = budget;
+    state_start_keys(&state->keys, budget);
     return state;
 }
 
 // A block for a value, within the budget.
-static void *take(State *state, size_t bytes) {
-    void *block = meter_take(state->meter, bytes) ? heap_take(bytes) : NULL;
+static void *alloc_block(State *state, size_t bytes) {
+    void *block = budget_reserve(state->budget, bytes) ? heap_alloc(bytes) : NULL;
     if (!block)
         state->exhausted = true;
     return block;
 }
 
-static bool exhausted(State *state) {
+static bool set_exhausted(State *state) {
     state->exhausted = true;
     return false;
 }
@@ -38,7 +37,7 @@ typedef struct Parts {
     size_t bytes; // of their texts
 } Parts;
 
-static Parts parts_of(Value v) {
+static Parts count_parts(Value v) {
     Parts parts = {0};
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
         if (v.as.items[i].type == ITEM_STRING) {
@@ -52,14 +51,14 @@ static Parts parts_of(Value v) {
 static size_t block_size(Value v) {
     if (v.kind == VALUE_NUMBERS)
         return v.len > 1 ? v.len * sizeof(double) : 0;
-    Parts parts = parts_of(v);
+    Parts parts = count_parts(v);
     return v.len * sizeof(Item) + parts.strings * sizeof(String) + parts.bytes;
 }
 
-static Value own_mixed(void *block, Value v) {
+static Value copy_mixed(void *block, Value v) {
     Item *items = block;
     String *string = (String *)(items + v.len);
-    char *text = (char *)(string + parts_of(v).strings);
+    char *text = (char *)(string + count_parts(v).strings);
     for (uint32_t i = 0; i < v.len; i++) {
         items[i] = v.as.items[i];
         if (items[i].type != ITEM_STRING)
@@ -74,52 +73,52 @@ static Value own_mixed(void *block, Value v) {
     return (Value){.len = v.len, .kind = VALUE_MIXED, .as.items = items};
 }
 
-static bool own(State *state, Value *copy, Value v) {
+static bool copy_value(State *state, Value *copy, Value v) {
     size_t size = block_size(v);
     *copy = v;
     if (!size)
         return true;
-    void *block = take(state, size);
+    void *block = alloc_block(state, size);
     if (!block)
         return false;
     if (v.kind == VALUE_MIXED)
-        *copy = own_mixed(block, v);
+        *copy = copy_mixed(block, v);
     else
         copy->as.numbers = memcpy(block, v.as.numbers, size);
     return true;
 }
 
-static void disown(State *state, StateEntry *entry) {
+static void free_value(State *state, StateEntry *entry) {
     Value *v = &entry->value;
-    size_t size = entry->lender ? 0 : block_size(*v);
+    size_t size = entry->owner ? 0 : block_size(*v);
     if (size) {
-        meter_give(state->meter, size);
-        heap_give((void *)v->as.numbers);
+        budget_release(state->budget, size);
+        heap_free((void *)v->as.numbers);
     }
-    entry->lender = 0;
+    entry->owner = 0;
     *v = VALUE_NULL;
 }
 
 void state_clear(State *state) {
     for (uint32_t i = 0; i < state->entry_count; i++)
-        disown(state, &state->entries[i]);
-    meter_give(state->meter, state->entry_count * SLOT_BYTES);
-    state->count = state->live = state->entry_count = state->series_count = state->row = 0;
-    index_clear(&state->index);
+        free_value(state, &state->entries[i]);
+    budget_release(state->budget, state->entry_count * SLOT_BYTES);
+    state->count = state->live = state->entry_count = state->range_count = state->candidate_pairs = 0;
+    hash_index_clear(&state->index);
     arena_reset(&state->keys);
-    for (uint32_t i = 0; i < state->lender_count; i++)
-        state->disturbed[i] = true;
+    for (uint32_t i = 0; i < state->owner_count; i++)
+        state->modified[i] = true;
 }
 
 void state_free(State *state) {
     if (!state)
         return;
     state_clear(state);
-    index_free(&state->index);
+    hash_index_free(&state->index);
     arena_free(&state->keys);
-    heap_give(state->disturbed);
-    heap_give(state->entries);
-    heap_give(state);
+    heap_free(state->modified);
+    heap_free(state->entries);
+    heap_free(state);
 }
 
 bool state_key_valid(Value key) {
@@ -162,179 +161,179 @@ static bool entry_has_key(const void *owner, uint32_t entry, const void *key) {
     return key_equal(state_entry(owner, entry)->key, *(const Value *)key);
 }
 
-static StateSlot find(const State *state, Value key, uint64_t hash) {
-    uint32_t found = index_find(&state->index, hash, entry_has_key, state, &key);
-    return found == INDEX_NONE ? STATE_NO_SLOT : found;
+static StateSlot find_entry(const State *state, Value key, uint64_t hash) {
+    uint32_t found = hash_index_find(&state->index, hash, entry_has_key, state, &key);
+    return found == HASH_INDEX_NONE ? STATE_NO_SLOT : found;
 }
 
-static StateSlot find_in_series(const State *state, Value key) {
+static StateSlot find_in_key_ranges(const State *state, Value key) {
     StateSlot found = STATE_NO_SLOT;
-    for (uint32_t i = 0; i < state->series_count && found == STATE_NO_SLOT; i++)
-        found = series_find(&state->series[i], key);
+    for (uint32_t i = 0; i < state->range_count && found == STATE_NO_SLOT; i++)
+        found = key_range_find(&state->ranges[i], key);
     return found;
 }
 
 // Turns the entries at the end into a series, if they have no values.
-static void begin_series(State *state) {
-    enum { SLOTS = 2 * MOST_ALONE };
+static void begin_key_range(State *state) {
+    enum { SLOTS = 2 * MAX_SEPARATE_PAIRS };
     const StateEntry *entries = state->entries + state->entry_count - SLOTS;
-    state->row = 0;
-    if (entries[1].key.len > STATE_KEY_ROOM)
+    state->candidate_pairs = 0;
+    if (entries[1].key.len > STATE_KEY_BUFFER)
         return;
     for (uint32_t i = 0; i < SLOTS; i++)
         if (entries[i].value.len > 0)
             return;
     StateSlot first = state->count - SLOTS;
     for (uint32_t i = 0; i < SLOTS; i++)
-        index_remove(&state->index, (uint64_t)entries[i].hash << 32, first + i);
-    state->series[state->series_count++] = (Series){
+        hash_index_remove(&state->index, (uint64_t)entries[i].hash << 32, first + i);
+    state->ranges[state->range_count++] = (KeyRange){
         .first = first, .count = SLOTS, .prefix_len = entries[1].key.len - 2, .head = entries[1].key.as.numbers};
     state->entry_count -= SLOTS;
-    meter_give(state->meter, SLOTS * SLOT_BYTES);
+    budget_release(state->budget, SLOTS * SLOT_BYTES);
 }
 
 // A slot with an entry was made: is there a row of pairs now that is worth a series?
-static void look_for_series(State *state) {
+static void detect_key_range(State *state) {
     const StateEntry *end = state->entries + state->entry_count;
-    if (state->series_count == MOST_SERIES || state->entry_count < 4 || end[-1].key.kind != VALUE_NUMBERS ||
+    if (state->range_count == MAX_KEY_RANGES || state->entry_count < 4 || end[-1].key.kind != VALUE_NUMBERS ||
         end[-1].key.len != end[-2].key.len + 1)
         return;
-    bool follow = series_follow(end[-4].key, end[-3].key, end[-2].key, end[-1].key);
-    const Series *last = state->series_count ? &state->series[state->series_count - 1] : NULL;
+    bool follow = key_range_follows(end[-4].key, end[-3].key, end[-2].key, end[-1].key);
+    const KeyRange *last = state->range_count ? &state->ranges[state->range_count - 1] : NULL;
     if (last && last->first + last->count > state->count - 4)
         follow = false;
-    state->row = follow ? state->row + 1 : 1;
-    if (state->row == MOST_ALONE)
-        begin_series(state);
+    state->candidate_pairs = follow ? state->candidate_pairs + 1 : 1;
+    if (state->candidate_pairs == MAX_SEPARATE_PAIRS)
+        begin_key_range(state);
 }
 
-static bool is_next(const State *state, Value key) {
-    const Series *last = state->series_count ? &state->series[state->series_count - 1] : NULL;
-    return last && last->first + last->count == state->count && series_is_next(last, key);
+static bool is_next_in_key_range(const State *state, Value key) {
+    const KeyRange *last = state->range_count ? &state->ranges[state->range_count - 1] : NULL;
+    return last && last->first + last->count == state->count && key_range_is_next(last, key);
 }
 
 // Room for more entries. False if memory is used up.
 static bool reserve_entries(State *state, uint32_t count) {
-    if (!meter_take(state->meter, count * SLOT_BYTES))
-        return exhausted(state);
+    if (!budget_reserve(state->budget, count * SLOT_BYTES))
+        return set_exhausted(state);
     if (heap_reserve((void **)&state->entries, &state->capacity, state->entry_count + count - 1, sizeof(StateEntry)))
         return true;
-    meter_give(state->meter, count * SLOT_BYTES);
-    return exhausted(state);
+    budget_release(state->budget, count * SLOT_BYTES);
+    return set_exhausted(state);
 }
 
 StateSlot state_slot(State *state, Value key) {
     if (!state_key_valid(key))
         return STATE_NO_SLOT;
-    StateSlot found = find_in_series(state, key);
+    StateSlot found = find_in_key_ranges(state, key);
     if (found != STATE_NO_SLOT)
         return found;
     uint64_t hash = key_hash(key);
-    found = find(state, key, hash);
+    found = find_entry(state, key, hash);
     if (found != STATE_NO_SLOT)
         return found;
-    if (is_next(state, key)) {
-        state->series[state->series_count - 1].count++;
+    if (is_next_in_key_range(state, key)) {
+        state->ranges[state->range_count - 1].count++;
         return state->count++;
     }
     StateEntry entry = {.hash = (uint32_t)(hash >> 32)};
     if (!reserve_entries(state, 1))
         return STATE_NO_SLOT;
-    if (!index_add(&state->index, hash, state->count)) {
-        meter_give(state->meter, SLOT_BYTES);
-        return exhausted(state), STATE_NO_SLOT;
+    if (!hash_index_add(&state->index, hash, state->count)) {
+        budget_release(state->budget, SLOT_BYTES);
+        return set_exhausted(state), STATE_NO_SLOT;
     }
-    if (!state_own_key(&state->keys, &entry.key, key)) {
-        index_remove(&state->index, hash, state->count);
-        meter_give(state->meter, SLOT_BYTES);
-        return exhausted(state), STATE_NO_SLOT;
+    if (!state_copy_key(&state->keys, &entry.key, key)) {
+        hash_index_remove(&state->index, hash, state->count);
+        budget_release(state->budget, SLOT_BYTES);
+        return set_exhausted(state), STATE_NO_SLOT;
     }
     state->entries[state->entry_count++] = entry;
     state->count++;
-    look_for_series(state);
+    detect_key_range(state);
     return state->count - 1;
 }
 
 StateSlot state_find(const State *state, Value key) {
     if (!state_key_valid(key))
         return STATE_NO_SLOT;
-    StateSlot found = find_in_series(state, key);
-    return found == STATE_NO_SLOT ? find(state, key, key_hash(key)) : found;
+    StateSlot found = find_in_key_ranges(state, key);
+    return found == STATE_NO_SLOT ? find_entry(state, key, key_hash(key)) : found;
 }
 
 typedef struct KeysCopy {
     Arena *arena;
-    Series *series;
+    KeyRange *range;
 } KeysCopy;
 
 static void write_keys(void *context) {
     KeysCopy *copy = context;
-    Series *series = copy->series;
-    uint32_t pairs = (series->count + 1) / 2, stride = series->prefix_len + 2;
+    KeyRange *range = copy->range;
+    uint32_t pairs = (range->count + 1) / 2, stride = range->prefix_len + 2;
     double *keys = arena_alloc(copy->arena, (size_t)pairs * stride * sizeof *keys);
     for (uint32_t i = 0; i < pairs; i++)
-        series_write_key(series, i, keys + (size_t)i * stride);
-    series->keys = keys;
-    series->keys_count = pairs;
+        key_range_write_key(range, i, keys + (size_t)i * stride);
+    range->keys = keys;
+    range->keys_count = pairs;
 }
 
 // The key of a slot in a series. Keys are written out when the first is asked for; null if there is no memory for them.
-static Value series_key(State *state, Series *series, StateSlot slot) {
-    uint32_t at = slot - series->first, stride = series->prefix_len + 2;
+static Value range_key(State *state, KeyRange *range, StateSlot slot) {
+    uint32_t at = slot - range->first, stride = range->prefix_len + 2;
     Arena *arena = &state->keys;
-    KeysCopy copy = {arena, series};
-    if (at / 2 >= series->keys_count && arena_protect(&arena, 1, write_keys, &copy) != ARENA_DONE)
-        return exhausted(state), VALUE_NULL;
-    return (Value){.len = stride - 1 + at % 2, .as.numbers = series->keys + (size_t)(at / 2) * stride};
+    KeysCopy copy = {arena, range};
+    if (at / 2 >= range->keys_count && arena_protect(&arena, 1, write_keys, &copy) != ARENA_OK)
+        return set_exhausted(state), VALUE_NULL;
+    return (Value){.len = stride - 1 + at % 2, .as.numbers = range->keys + (size_t)(at / 2) * stride};
 }
 
 Value state_slot_get(const State *state, StateSlot slot) {
-    const Series *series = state_series(state, slot);
-    return series ? series_value(series, slot) : slot < state->count ? state_entry(state, slot)->value : VALUE_NULL;
+    const KeyRange *range = state_key_range(state, slot);
+    return range ? key_range_value(range, slot) : slot < state->count ? state_entry(state, slot)->value : VALUE_NULL;
 }
 
 Value state_slot_key(const State *state, StateSlot slot) {
-    Series *series = state_series(state, slot);
-    return series                ? series_key((State *)state, series, slot)
+    KeyRange *range = state_key_range(state, slot);
+    return range                 ? range_key((State *)state, range, slot)
            : slot < state->count ? state_entry(state, slot)->key
                                  : VALUE_NULL;
 }
 
-Value state_slot_key_in(const State *state, StateSlot slot, double room[STATE_KEY_ROOM]) {
-    const Series *series = state_series(state, slot);
-    if (!series)
+Value state_slot_key_in(const State *state, StateSlot slot, double buffer[STATE_KEY_BUFFER]) {
+    const KeyRange *range = state_key_range(state, slot);
+    if (!range)
         return state_slot_key(state, slot);
-    uint32_t at = slot - series->first;
-    series_write_key(series, at / 2, room);
-    return (Value){.len = series->prefix_len + 1 + at % 2, .as.numbers = room};
+    uint32_t at = slot - range->first;
+    key_range_write_key(range, at / 2, buffer);
+    return (Value){.len = range->prefix_len + 1 + at % 2, .as.numbers = buffer};
 }
 
 bool state_slot_has_key(const State *state, StateSlot slot, Value key) {
-    const Series *series = state_series(state, slot);
-    return series ? series_find(series, key) == slot
-                  : slot < state->count && key_equal(state_entry(state, slot)->key, key);
+    const KeyRange *range = state_key_range(state, slot);
+    return range ? key_range_find(range, key) == slot
+                 : slot < state->count && key_equal(state_entry(state, slot)->key, key);
 }
 
-const Value *state_slot_key_at(const State *state, StateSlot slot, Value *room) {
-    if (!state_series(state, slot))
+const Value *state_slot_key_at(const State *state, StateSlot slot, Value *buffer) {
+    if (!state_key_range(state, slot))
         return &state_entry(state, slot)->key;
-    *room = state_slot_key(state, slot);
-    return room;
+    *buffer = state_slot_key(state, slot);
+    return buffer;
 }
 
-const Value *state_slot_at(const State *state, StateSlot slot, Value *room) {
-    const Series *series = state_series(state, slot);
-    if (!series)
+const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer) {
+    const KeyRange *range = state_key_range(state, slot);
+    if (!range)
         return &state_entry(state, slot)->value;
-    *room = series_value(series, slot);
-    return room;
+    *buffer = key_range_value(range, slot);
+    return buffer;
 }
 
 double state_slot_last_number(const State *state, StateSlot slot, uint32_t len) {
-    const Series *series = state_series(state, slot);
-    if (series)
-        return series->prefix_len + 1 == len && (slot - series->first) % 2 == 0
-                   ? series_id(series, (slot - series->first) / 2)
+    const KeyRange *range = state_key_range(state, slot);
+    if (range)
+        return range->prefix_len + 1 == len && (slot - range->first) % 2 == 0
+                   ? key_range_id(range, (slot - range->first) / 2)
                    : NAN;
     Value key = state_slot_key(state, slot);
     Item last = key.len == len ? value_at(&key, len - 1) : (Item){.type = ITEM_STRING};
@@ -342,47 +341,47 @@ double state_slot_last_number(const State *state, StateSlot slot, uint32_t len) 
 }
 
 // Makes entries of the slots of a series, behind those of the slots before. False if memory is used up.
-static bool write_out(State *state, Series *gone) {
-    Series series = *gone;
-    uint32_t at = (uint32_t)(state_entry(state, series.first) - state->entries), added = 0;
-    if (series_key(state, gone, series.first + series.count - 1).len == 0 || !reserve_entries(state, series.count))
+static bool expand_key_range(State *state, KeyRange *gone) {
+    KeyRange range = *gone;
+    uint32_t at = (uint32_t)(state_entry(state, range.first) - state->entries), added = 0;
+    if (range_key(state, gone, range.first + range.count - 1).len == 0 || !reserve_entries(state, range.count))
         return false;
-    series = *gone;
+    range = *gone;
     StateEntry *entries = state->entries + at;
-    memmove(entries + series.count, entries, (state->entry_count - at) * sizeof *entries);
-    for (; added < series.count; added++) {
-        StateSlot slot = series.first + added;
-        Value key = series_key(state, gone, slot), value = series_value(&series, slot);
+    memmove(entries + range.count, entries, (state->entry_count - at) * sizeof *entries);
+    for (; added < range.count; added++) {
+        StateSlot slot = range.first + added;
+        Value key = range_key(state, gone, slot), value = key_range_value(&range, slot);
         uint64_t hash = key_hash(key);
-        if (!index_add(&state->index, hash, slot))
+        if (!hash_index_add(&state->index, hash, slot))
             break;
-        entries[added] = (StateEntry){key, value, (uint32_t)(hash >> 32), value.len ? series.lender : 0};
+        entries[added] = (StateEntry){key, value, (uint32_t)(hash >> 32), value.len ? range.owner : 0};
     }
-    if (added < series.count) {
+    if (added < range.count) {
         while (added-- > 0)
-            index_remove(&state->index, (uint64_t)entries[added].hash << 32, series.first + added);
-        memmove(entries, entries + series.count, (state->entry_count - at) * sizeof *entries);
-        meter_give(state->meter, series.count * SLOT_BYTES);
-        return exhausted(state);
+            hash_index_remove(&state->index, (uint64_t)entries[added].hash << 32, range.first + added);
+        memmove(entries, entries + range.count, (state->entry_count - at) * sizeof *entries);
+        budget_release(state->budget, range.count * SLOT_BYTES);
+        return set_exhausted(state);
     }
-    memmove(gone, gone + 1, (size_t)(state->series + --state->series_count - gone) * sizeof *gone);
-    state->entry_count += series.count;
+    memmove(gone, gone + 1, (size_t)(state->ranges + --state->range_count - gone) * sizeof *gone);
+    state->entry_count += range.count;
     return true;
 }
 
 // The same for the series of a slot, if it is in one.
-static bool alone(State *state, StateSlot slot) {
-    Series *series = state_series(state, slot);
-    return !series || write_out(state, series);
+static bool ensure_entry(State *state, StateSlot slot) {
+    KeyRange *range = state_key_range(state, slot);
+    return !range || expand_key_range(state, range);
 }
 
 // Puts a value that the entry owns from now on in the place of the one it has.
-static void replace(State *state, StateEntry *entry, Value owned) {
+static void replace_value(State *state, StateEntry *entry, Value owned) {
     state->live += (owned.len > 0);
     state->live -= (entry->value.len > 0);
-    if (entry->lender)
-        state->disturbed[entry->lender - 1] = true;
-    disown(state, entry);
+    if (entry->owner)
+        state->modified[entry->owner - 1] = true;
+    free_value(state, entry);
     entry->value = owned;
 }
 
@@ -392,11 +391,11 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
     Value present = state_slot_get(state, slot);
     if (present.len == value.len && (value.len == 0 || value_equal(NULL, present, value)))
         return true; // equal values leave the stored bits alone
-    if (!alone(state, slot))
+    if (!ensure_entry(state, slot))
         return false;
     StateEntry *entry = state_entry(state, slot);
     Value *stored = &entry->value;
-    if (!entry->lender && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
+    if (!entry->owner && value.kind == VALUE_NUMBERS && stored->kind == VALUE_NUMBERS && value.len == stored->len &&
         value.len > 0) {
         if (value.len == 1)
             *stored = value;
@@ -405,72 +404,72 @@ bool state_slot_set(State *state, StateSlot slot, Value value) {
         return true;
     }
     Value copy;
-    if (!own(state, &copy, value.len ? value : VALUE_NULL))
+    if (!copy_value(state, &copy, value.len ? value : VALUE_NULL))
         return false;
-    replace(state, entry, copy);
+    replace_value(state, entry, copy);
     return true;
 }
 
-StateLender state_add_lender(State *state) {
-    bool *larger = heap_resize(state->disturbed, (state->lender_count + 1) * sizeof *larger);
+StateOwner state_add_owner(State *state) {
+    bool *larger = heap_resize(state->modified, (state->owner_count + 1) * sizeof *larger);
     if (!larger)
-        return exhausted(state), 0;
-    state->disturbed = larger;
-    larger[state->lender_count] = false;
-    return ++state->lender_count;
+        return set_exhausted(state), 0;
+    state->modified = larger;
+    larger[state->owner_count] = false;
+    return ++state->owner_count;
 }
 
-bool state_take_disturbed(State *state, StateLender lender) {
-    bool disturbed = state->disturbed[lender - 1];
-    state->disturbed[lender - 1] = false;
-    return disturbed;
+bool state_clear_modified(State *state, StateOwner owner) {
+    bool modified = state->modified[owner - 1];
+    state->modified[owner - 1] = false;
+    return modified;
 }
 
-void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const double *numbers, uint32_t len) {
+void state_slot_reference(State *state, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len) {
     if (slot >= state->count)
         return;
-    Series *series = state_series(state, slot);
-    uint32_t lent = series ? series->lent : 0;
-    if (series && series_borrow(series, slot, lender, numbers, len)) {
-        state->live += series->lent - lent;
+    KeyRange *range = state_key_range(state, slot);
+    uint32_t referenced = range ? range->referenced : 0;
+    if (range && key_range_reference(range, slot, owner, numbers, len)) {
+        state->live += range->referenced - referenced;
         return;
     }
-    if (!alone(state, slot))
+    if (!ensure_entry(state, slot))
         return;
     StateEntry *entry = state_entry(state, slot);
-    if (entry->lender == lender && entry->value.len == len) {
+    if (entry->owner == owner && entry->value.len == len) {
         entry->value.as.numbers = numbers;
         return;
     }
-    replace(state, entry, value_numbers_view(numbers, len));
-    entry->lender = lender;
+    replace_value(state, entry, value_numbers_view(numbers, len));
+    entry->owner = owner;
 }
 
-bool state_slot_borrows(const State *state, StateSlot slot, StateLender lender) {
-    const Series *series = state_series(state, slot);
-    if (series)
-        return lender && series_borrows(series, slot, lender);
-    return lender && slot < state->count && state_entry(state, slot)->lender == lender;
+bool state_slot_references(const State *state, StateSlot slot, StateOwner owner) {
+    const KeyRange *range = state_key_range(state, slot);
+    if (range)
+        return owner && key_range_references(range, slot, owner);
+    return owner && slot < state->count && state_entry(state, slot)->owner == owner;
 }
 
-bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender) {
-    if (!state_slot_borrows(state, slot, lender))
+bool state_slot_detach(State *state, StateSlot slot, StateOwner owner) {
+    if (!state_slot_references(state, slot, owner))
         return true;
-    if (!alone(state, slot)) { // the series cannot keep what its lender is about to take away
-        Series *series = state_series(state, slot);
-        state->live -= series->lent;
-        series->lent = series->fresh = 0;
-        state->disturbed[lender - 1] = true;
+    if (!ensure_entry(state, slot)) { // the series cannot keep what its lender is about to take away
+        KeyRange *range = state_key_range(state, slot);
+        state->live -= range->referenced;
+        range->referenced = range->stored = 0;
+        state->modified[owner - 1] = true;
         return false;
     }
     StateEntry *entry = state_entry(state, slot);
     Value copy;
-    if (!own(state, &copy, entry->value)) {
-        replace(state, entry, VALUE_NULL);
+    if (!copy_value(state, &copy, entry->value)) {
+        replace_value(state, entry, VALUE_NULL);
         return false;
     }
     entry->value = copy;
-    entry->lender = 0;
+    entry->owner = 0;
     return true;
 }
 
@@ -489,12 +488,12 @@ uint32_t state_slot_count(const State *state) {
     return state->count;
 }
 
-bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double room[STATE_KEY_ROOM]) {
+bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]) {
     while (*cursor < state->count) {
         StateSlot slot = (*cursor)++;
         *value = state_slot_get(state, slot);
         if (value->len > 0) {
-            *key = state_slot_key_in(state, slot, room);
+            *key = state_slot_key_in(state, slot, buffer);
             return true;
         }
     }
@@ -505,7 +504,7 @@ uint32_t state_count(const State *state) {
     return state->live;
 }
 
-bool state_take_exhausted(State *state) {
+bool state_clear_exhausted(State *state) {
     bool was = state->exhausted;
     state->exhausted = false;
     return was;

@@ -14,7 +14,7 @@ typedef uint32_t StateSlot;
 
 // NULL if memory is used up. What it holds is charged to the meter (or NULL), which counts as memory that is used up,
 // too, when it refuses.
-State *state_new(Meter *meter);
+State *state_new(Budget *budget);
 void state_free(State *state);
 // Removes every entry; slots become invalid.
 void state_clear(State *state);
@@ -35,35 +35,35 @@ StateSlot state_slot(State *state, Value key);
 StateSlot state_find(const State *state, Value key);
 Value state_slot_get(const State *state, StateSlot slot);
 // The key of a slot; a borrowed view, valid until state_clear. Keys of particles whose ids count up are written out
-// when the first of them is asked for (series.h): null if memory is used up.
+// when the first of them is asked for (key_range.h): null if memory is used up.
 Value state_slot_key(const State *state, StateSlot slot);
 // The same without memory; valid as long as `room` is.
-enum { STATE_KEY_ROOM = 16 };
-Value state_slot_key_in(const State *state, StateSlot slot, double room[STATE_KEY_ROOM]);
+enum { STATE_KEY_BUFFER = 16 };
+Value state_slot_key_in(const State *state, StateSlot slot, double buffer[STATE_KEY_BUFFER]);
 bool state_slot_has_key(const State *state, StateSlot slot, Value key);
 // The last number of a key of so many elements; the quiet NaN, which no key has, if this one has more or fewer or ends
 // with a text.
 double state_slot_last_number(const State *state, StateSlot slot, uint32_t len);
 // Where key and value are, or `room`: valid until a slot is made, or state_clear. The slot must exist.
-const Value *state_slot_key_at(const State *state, StateSlot slot, Value *room);
-const Value *state_slot_at(const State *state, StateSlot slot, Value *room); // likewise, or until it is written to
+const Value *state_slot_key_at(const State *state, StateSlot slot, Value *buffer);
+const Value *state_slot_at(const State *state, StateSlot slot, Value *buffer); // likewise, or until it is written to
 // As state_set. Numbers of unchanged length are overwritten in place.
 bool state_slot_set(State *state, StateSlot slot, Value value);
 
 // Lenders. A system that owns numbers from frame to frame need not copy them here: it is a lender, and an entry borrows
 // its numbers, which means that the entry points at them. Whoever else writes to or removes such an entry disturbs the
 // lender: the entry owns its value from then on. scene/mirror.h says what for.
-typedef uint32_t StateLender; // 0: nobody
+typedef uint32_t StateOwner; // 0: nobody
 // 0 if memory is used up.
-StateLender state_add_lender(State *state);
+StateOwner state_add_owner(State *state);
 // Has anything disturbed the lender since this was asked last? Its own writes with state_slot_set count too.
-bool state_take_disturbed(State *state, StateLender lender);
+bool state_clear_modified(State *state, StateOwner owner);
 // Lets an entry borrow `len` > 1 numbers, which must stay where they are until it is written to or owns a copy.
-void state_slot_borrow(State *state, StateSlot slot, StateLender lender, const double *numbers, uint32_t len);
-bool state_slot_borrows(const State *state, StateSlot slot, StateLender lender);
+void state_slot_reference(State *state, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len);
+bool state_slot_references(const State *state, StateSlot slot, StateOwner owner);
 // If the entry borrows from the lender, gives it a copy instead; if there is no memory for it, the entry is removed and
 // false returned.
-bool state_slot_own_copy(State *state, StateSlot slot, StateLender lender);
+bool state_slot_detach(State *state, StateSlot slot, StateOwner owner);
 
 // How many slots there are, with and without a value. Slots of removed keys stay until state_compact.
 uint32_t state_slot_count(const State *state);
@@ -74,10 +74,10 @@ bool state_compact(State *state, const uint8_t *used, StateSlot *moved);
 
 // Entries that have a value, in the order of their slots: `*cursor` starts at 0; false at the end. The key is valid as
 // long as `room` is.
-bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double room[STATE_KEY_ROOM]);
+bool state_next(const State *state, uint32_t *cursor, Value *key, Value *value, double buffer[STATE_KEY_BUFFER]);
 uint32_t state_count(const State *state);
 
 // Whether anything failed because memory was used up since this was asked last.
-bool state_take_exhausted(State *state);
+bool state_clear_exhausted(State *state);
 
 #endif

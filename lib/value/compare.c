@@ -2,12 +2,12 @@
 //
 // Nodes are shared: a script can make a tree of 2^60 nodes of which it has 60. So after a number of them pairs that
 // were found equal are remembered, and each is charged for, which bounds what is left.
-#include "value/run.h"
-#include "value/walk.h"
+#include "value/node_batch.h"
+#include "value/tree_memo.h"
 
 typedef struct Comparison {
     Arena *arena; // NULL: free of charge
-    Walk walk;
+    TreeMemo memo;
 } Comparison;
 
 static bool equal_values(Comparison *comparison, Value a, Value b);
@@ -34,7 +34,7 @@ static bool equal_nodes(Comparison *comparison, const Node *a, const Node *b) {
         node_child_count(a) != node_child_count(b))
         return false;
     uint64_t known;
-    if (walk_knows(&comparison->walk, comparison->arena, a, b, &known))
+    if (tree_memo_find(&comparison->memo, comparison->arena, a, b, &known))
         return true;
     for (uint32_t i = 0; i < a->tag_count; i++)
         if (a->tags[i] != b->tags[i])
@@ -47,7 +47,7 @@ static bool equal_nodes(Comparison *comparison, const Node *a, const Node *b) {
     for (uint32_t i = 0; i < count; i++)
         if (!equal_nodes(comparison, ours[i], theirs[i]))
             return false;
-    walk_learn(&comparison->walk, a, b, true);
+    tree_memo_store(&comparison->memo, a, b, true);
     return true;
 }
 
@@ -69,10 +69,11 @@ static bool equal_items(Comparison *comparison, Item a, Item b) {
 }
 
 // How many elements from `start` on are equal, up to `len`.
-static uint32_t equal_run(Comparison *comparison, Value a, uint32_t a_start, Value b, uint32_t b_start, uint32_t len) {
+static uint32_t equal_prefix_length(Comparison *comparison, Value a, uint32_t a_start, Value b, uint32_t b_start,
+                                    uint32_t len) {
     for (uint32_t i = 0; i < len; i++) {
-        if (i % METER_PORTION == 0 && comparison->arena)
-            arena_charge(comparison->arena, (len - i < METER_PORTION ? len - i : METER_PORTION) / 4);
+        if (i % BUDGET_CHUNK == 0 && comparison->arena)
+            arena_charge(comparison->arena, (len - i < BUDGET_CHUNK ? len - i : BUDGET_CHUNK) / 4);
         if (!equal_items(comparison, value_at(&a, a_start + i), value_at(&b, b_start + i)))
             return i;
     }
@@ -82,14 +83,14 @@ static uint32_t equal_run(Comparison *comparison, Value a, uint32_t a_start, Val
 static bool equal_values(Comparison *comparison, Value a, Value b) {
     if (a.kind == VALUE_STREAM || b.kind == VALUE_STREAM)
         return a.kind == b.kind && a.stream == b.stream && a.as.key == b.as.key;
-    return a.len == b.len && equal_run(comparison, a, 0, b, 0, a.len) == a.len;
+    return a.len == b.len && equal_prefix_length(comparison, a, 0, b, 0, a.len) == a.len;
 }
 
 bool value_equal(Arena *arena, Value a, Value b) {
     Comparison comparison = {arena, {0}};
     ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
     bool equal = equal_values(&comparison, a, b);
-    if (comparison.walk.facts)
+    if (comparison.memo.entries)
         arena_rewind(arena, mark);
     return equal;
 }
@@ -121,8 +122,8 @@ int value_compare(Arena *arena, Value a, Value b) {
         return 0; // the same object (L5.5 rule 1)
     Comparison comparison = {arena, {0}};
     ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
-    uint32_t len = a.len < b.len ? a.len : b.len, same = equal_run(&comparison, a, 0, b, 0, len);
-    if (comparison.walk.facts)
+    uint32_t len = a.len < b.len ? a.len : b.len, same = equal_prefix_length(&comparison, a, 0, b, 0, len);
+    if (comparison.memo.entries)
         arena_rewind(arena, mark);
     return same < len ? item_compare_unequal(value_at(&a, same), value_at(&b, same))
                       : (a.len > b.len) - (a.len < b.len);
@@ -138,8 +139,8 @@ bool value_contains(Arena *arena, Value x, Value y) {
     for (uint32_t start = 0; !found && start + x.len <= y.len && y.len; start++) {
         uint32_t i = 0;
         for (; i < x.len; i++) {
-            if (looked_at++ >= METER_PORTION && arena) {
-                arena_charge(arena, METER_PORTION / 2);
+            if (looked_at++ >= BUDGET_CHUNK && arena) {
+                arena_charge(arena, BUDGET_CHUNK / 2);
                 looked_at = 0;
             }
             if (!equal_items(&comparison, value_at(&x, i), value_at(&y, start + i)))
@@ -147,7 +148,7 @@ bool value_contains(Arena *arena, Value x, Value y) {
         }
         found = i == x.len;
     }
-    if (comparison.walk.facts)
+    if (comparison.memo.entries)
         arena_rewind(arena, mark);
     return found;
 }

@@ -3,7 +3,7 @@
 
 #include "base/number.h"
 #include "base/unicode.h"
-#include "value/run.h"
+#include "value/node_batch.h"
 
 #include <math.h>
 #include <string.h>
@@ -110,18 +110,19 @@ static void format_head(Text *out, const SymbolTable *symbols, const Node *node,
     }
 }
 
-bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *host) {
+bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line,
+                 void *user_data) {
     arena_charge(out->arena, 2 + (unsigned)depth / 8);
     for (int i = 0; i < depth; i++)
         text_add_c(out, "    ");
     format_head(out, symbols, node, format_value);
     text_add_char(out, '\n');
-    bool goes_on = !line || line(host, out);
+    bool continues = !line || line(user_data, out);
     uint32_t count;
     const Node *const *children = node_children(out->arena, node, &count);
-    for (uint32_t i = 0; goes_on && i < count; i++)
-        goes_on = format_tree(out, symbols, children[i], depth + 1, line, host);
-    return goes_on;
+    for (uint32_t i = 0; continues && i < count; i++)
+        continues = format_tree(out, symbols, children[i], depth + 1, line, user_data);
+    return continues;
 }
 
 static void format_debug_node(Text *out, const SymbolTable *symbols, const Node *node, int depth) {

@@ -12,10 +12,10 @@ Str format_text(Arena *arena, const SymbolTable *symbols, Value v);
 // The text of debug() (L18.3).
 void format_debug(Text *out, const SymbolTable *symbols, Value v);
 // Takes what the text has, after a line of a tree, and may empty it; false ends the tree there.
-typedef bool FormatLine(void *host, Text *out);
+typedef bool FormatLine(void *user_data, Text *out);
 // One line per node (L18.2), starting at `depth` levels of four spaces. A shared node is printed wherever it is, so the
 // text may be far longer than there is memory for: `line` (or NULL) passes it on. False if that has ended it.
-bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *host);
+bool format_tree(Text *out, const SymbolTable *symbols, const Node *node, int depth, FormatLine *line, void *user_data);
 // Canonical order of state keys (L18.4): element by element symbols, numbers, strings; a prefix comes first.
 int format_key_compare(const SymbolTable *symbols, Value a, Value b);
 

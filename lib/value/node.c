@@ -1,5 +1,5 @@
 // node.c: see node.h.
-#include "value/run.h"
+#include "value/node_batch.h"
 
 #include <string.h>
 
@@ -46,20 +46,20 @@ uint32_t value_height(Value v) {
     return height;
 }
 
-bool value_has_runs(Value v) {
+bool value_has_batches(Value v) {
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
-        if (v.as.items[i].type == ITEM_NODE && v.as.items[i].as.node->has_runs)
+        if (v.as.items[i].type == ITEM_NODE && v.as.items[i].as.node->has_batches)
             return true;
     return false;
 }
 
 Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t set_count) {
     uint32_t height = node->height;
-    bool has_runs = node->has_runs;
+    bool has_batches = node->has_batches;
     for (uint32_t i = 0; i < set_count; i++) {
         uint32_t inner = value_height(set[i].value) + 1;
         height = inner > height ? inner : height;
-        has_runs |= inner > 1 && value_has_runs(set[i].value);
+        has_batches |= inner > 1 && value_has_batches(set[i].value);
     }
     if (height > NODE_MAX_HEIGHT)
         return NULL;
@@ -81,7 +81,7 @@ Node *node_set_attrs(Arena *arena, const Node *node, const Attr *set, uint32_t s
     copy->attrs = attrs;
     copy->attr_count = count;
     copy->height = (uint16_t)height;
-    copy->has_runs = has_runs;
+    copy->has_batches = has_batches;
     return copy;
 }
 
@@ -93,7 +93,7 @@ NodeList node_list_in(const Node **nodes, Value children) {
         const Node *node = children.as.items[i].as.node;
         if (node->height > list.height)
             list.height = node->height;
-        list.has_runs |= node->has_runs;
+        list.has_batches |= node->has_batches;
         nodes[list.count++] = node;
     }
     return list;
@@ -122,37 +122,37 @@ Node *node_append_list(Arena *arena, const Node *node, const NodeList *list) {
         copy->program_lifetime_children = false;
     }
     copy->child_count += list->count;
-    copy->has_runs |= list->has_runs;
+    copy->has_batches |= list->has_batches;
     if (list->height >= copy->height)
         copy->height = (uint16_t)(list->height + 1);
     return copy;
 }
 
 // Depth is limited by NODE_MAX_HEIGHT; what is marked already has been visited.
-static void node_keep(Node *node) {
+static void node_mark_program_lifetime(Node *node) {
     if (node->program_lifetime)
         return;
     node->program_lifetime = node->program_lifetime_children = true;
     for (uint32_t i = 0; i < node->attr_count; i++)
-        value_keep(node->attrs[i].value);
+        value_mark_program_lifetime(node->attrs[i].value);
     for (uint32_t i = 0; i < node->child_count; i++)
-        node_keep((Node *)node->children[i]);
+        node_mark_program_lifetime((Node *)node->children[i]);
 }
 
-void value_keep(Value v) {
+void value_mark_program_lifetime(Value v) {
     for (uint32_t i = 0; v.kind == VALUE_MIXED && i < v.len; i++)
         if (v.as.items[i].type == ITEM_NODE)
-            node_keep((Node *)v.as.items[i].as.node);
+            node_mark_program_lifetime((Node *)v.as.items[i].as.node);
 }
 
-Origin node_place(const Node *node, const Symbol *attr) {
+Origin node_origin(const Node *node, const Symbol *attr) {
     const NodeOrigin *origin = node->origin;
     if (!origin)
         return (Origin){0};
     for (uint32_t i = 0; i < origin->attr_count; i++)
         if (origin->attrs[i].name == attr)
-            return (Origin){origin->place.source, origin->attrs[i].span};
-    return origin->place;
+            return (Origin){origin->origin.source, origin->attrs[i].span};
+    return origin->origin;
 }
 
 Value node_get(const Node *node, const Symbol *name) {
@@ -161,8 +161,8 @@ Value node_get(const Node *node, const Symbol *name) {
 }
 
 const Node *node_copy(Arena *arena, const Node *node) {
-    if (node->is_run)
-        return node_run_copy(arena, node_run(node));
+    if (node->is_batch)
+        return node_batch_copy(arena, node_batch(node));
     Node *copy = node_clone(arena, node);
     copy->program_lifetime_children = false;
     copy->tags = arena_copy(arena, node->tags, node->tag_count * sizeof *node->tags);

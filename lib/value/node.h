@@ -1,7 +1,7 @@
 // node.h: immutable tree nodes (spec language.md L7), and functions as values.
 //
 // Every operation returns a new node and leaves its operand alone; children and attribute values are shared. Who goes
-// through the children of any node takes node_children (value/run.h), as some may be kept as rows.
+// through the children of any node takes node_children (value/node_batch.h), as some may be kept as rows.
 #ifndef PETRI_VALUE_NODE_H
 #define PETRI_VALUE_NODE_H
 
@@ -17,7 +17,7 @@ typedef struct Attr {
 
 // Where a node came from in a script.
 typedef struct NodeOrigin {
-    Origin place;
+    Origin origin;
     const struct AttrOrigin {
         const Symbol *name;
         Span span;
@@ -40,8 +40,8 @@ struct Node {
     // the same `children` and `child_count` mean the same children.
     bool program_lifetime : 1;
     bool program_lifetime_children : 1;
-    bool is_run : 1;   // stands for several children of its parent: value/run.h
-    bool has_runs : 1; // there is such a node below, or in an attribute
+    bool is_batch : 1;    // stands for several children of its parent: value/node_batch.h
+    bool has_batches : 1; // there is such a node below, or in an attribute
 };
 
 _Static_assert(sizeof(Node) <= 56, "scripts make thousands of nodes a frame");
@@ -65,22 +65,22 @@ typedef struct NodeList {
     uint32_t count;
     uint16_t height;       // the greatest of a node
     bool program_lifetime; // as in Node
-    bool has_runs;         // one of them is a run, or has some
+    bool has_batches;      // one of them is a run, or has some
 } NodeList;
 NodeList node_list(Arena *arena, Value children);
 // The same in an array that has room for as many nodes as there are elements.
 NodeList node_list_in(const Node **nodes, Value children);
 // The greatest height of the nodes in a vector, 0 if there are none; and whether one of them has runs.
 uint32_t value_height(Value v);
-bool value_has_runs(Value v);
+bool value_has_batches(Value v);
 // NULL if the tree would be too high.
 Node *node_append_list(Arena *arena, const Node *node, const NodeList *list);
 // Marks the nodes of a value that lives as long as its program, and all that are in them.
-void value_keep(Value v);
+void value_mark_program_lifetime(Value v);
 // The attribute's value, or null.
 Value node_get(const Node *node, const Symbol *name);
 // Where the attribute of this name was written, or else the node; the source is NULL if that is unknown, too.
-Origin node_place(const Node *node, const Symbol *attr);
+Origin node_origin(const Node *node, const Symbol *attr);
 // Structural equality (L7.5); the arena is as for value_equal.
 bool node_equal(Arena *arena, const Node *a, const Node *b);
 const Node *node_copy(Arena *arena, const Node *node);

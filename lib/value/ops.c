@@ -2,7 +2,7 @@
 #include "value/ops.h"
 
 #include "base/cpu.h"
-#include "maths/many.h"
+#include "maths/arrays.h"
 #include "maths/maths.h"
 
 #include <math.h>
@@ -59,26 +59,26 @@ static bool simple_arith(ArithOp op, const double *restrict x, uint32_t x_len, c
 }
 
 // x^y for a vector: by one exponent, or element by element. False if x is a number.
-static bool many_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result,
-                        uint32_t len) {
+static bool array_powers(const double *x, uint32_t x_len, const double *y, uint32_t y_len, double *result,
+                         uint32_t len) {
     if (x_len != len)
         return false;
     if (y_len == 1)
-        maths_power_many(cpu_here.level, x, *y, x_len, result);
+        maths_power_array(cpu_detected.level, x, *y, x_len, result);
     else
-        maths_pow_many(cpu_here.level, x, y, x_len, result);
+        maths_pow_array(cpu_detected.level, x, y, x_len, result);
     return true;
 }
 
 // The operations on many elements at once, a portion at a time; false if this is none.
-static bool by_portions(Arena *arena, ArithOp op, const double *x, uint32_t x_len, const double *y, uint32_t y_len,
-                        double *result, uint32_t len) {
-    for (uint32_t at = 0; at < len; at += METER_PORTION) {
-        uint32_t count = len - at < METER_PORTION ? len - at : METER_PORTION;
+static bool arith_in_chunks(Arena *arena, ArithOp op, const double *x, uint32_t x_len, const double *y, uint32_t y_len,
+                            double *result, uint32_t len) {
+    for (uint32_t at = 0; at < len; at += BUDGET_CHUNK) {
+        uint32_t count = len - at < BUDGET_CHUNK ? len - at : BUDGET_CHUNK;
         uint32_t x_count = x_len == 1 ? 1 : count, y_count = y_len == 1 ? 1 : count;
         const double *x_at = x_len == 1 ? x : x + at, *y_at = y_len == 1 ? y : y + at;
         arena_charge(arena, op == ARITH_POW ? count / 2 : 0);
-        if (op == ARITH_POW ? !many_powers(x_at, x_count, y_at, y_count, result + at, count)
+        if (op == ARITH_POW ? !array_powers(x_at, x_count, y_at, y_count, result + at, count)
                             : !simple_arith(op, x_at, x_count, y_at, y_count, result + at, count))
             return false;
     }
@@ -96,10 +96,10 @@ Value op_arith(Arena *arena, ArithOp op, Value a, Value b) {
     uint32_t len = a.len > b.len ? a.len : b.len;
     double *result = arena_alloc_array(arena, len, sizeof *result);
     if ((a.len == 1 || b.len == 1 || a.len == b.len) &&
-        by_portions(arena, square ? ARITH_MUL : op, x, a.len, square ? x : y, square ? a.len : b.len, result, len))
+        arith_in_chunks(arena, square ? ARITH_MUL : op, x, a.len, square ? x : y, square ? a.len : b.len, result, len))
         return value_numbers_view(result, len);
     for (uint32_t i = 0, j = 0, k = 0; i < len; i++) {
-        arena_portion(arena, i, 1);
+        arena_charge_chunk(arena, i, 1);
         result[i] = square ? x[j] * x[j] : op_number(op, x[j], y[k]);
         j = j + 1 == a.len ? 0 : j + 1;
         k = k + 1 == b.len ? 0 : k + 1;
@@ -123,32 +123,32 @@ Value op_plus(Value v) {
 }
 
 // A bound of a range: its number, or the default for null; false if it has another shape.
-static bool range_part(Value v, double fallback, double *x) {
+static bool range_bound(Value v, double fallback, double *x) {
     *x = v.len == 0 ? fallback : v.as.number;
     return v.len == 0 || (v.len == 1 && v.kind == VALUE_NUMBERS);
 }
 
-OpSpan op_span(Value start, Value stop, Value step, bool *too_long) {
-    OpSpan span = {0};
-    if (!range_part(start, 0, &span.from) || !range_part(step, 1, &span.by) || span.by == 0 || stop.len != 1 ||
-        stop.kind != VALUE_NUMBERS)
-        return span;
-    double count = ceil((stop.as.number - span.from) / span.by);
+OpRange op_range_bounds(Value start, Value stop, Value step, bool *too_long) {
+    OpRange range = {0};
+    if (!range_bound(start, 0, &range.start) || !range_bound(step, 1, &range.step) || range.step == 0 ||
+        stop.len != 1 || stop.kind != VALUE_NUMBERS)
+        return range;
+    double count = ceil((stop.as.number - range.start) / range.step);
     if (!(count > 0) || isinf(count))
-        return span;
+        return range;
     if (count > VALUE_MAX_LEN)
         *too_long = true;
     else
-        span.len = (uint32_t)count;
-    return span;
+        range.len = (uint32_t)count;
+    return range;
 }
 
 Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long) {
-    OpSpan span = op_span(start, stop, step, too_long);
-    if (span.len < 2)
-        return span.len ? value_number(op_span_number(&span, 0)) : VALUE_NULL;
-    double *result = arena_alloc_array(arena, span.len, sizeof *result);
-    for (uint32_t i = 0; i < span.len; i++)
-        result[i] = op_span_number(&span, i);
-    return value_numbers_view(result, span.len);
+    OpRange range = op_range_bounds(start, stop, step, too_long);
+    if (range.len < 2)
+        return range.len ? value_number(op_range_number(&range, 0)) : VALUE_NULL;
+    double *result = arena_alloc_array(arena, range.len, sizeof *result);
+    for (uint32_t i = 0; i < range.len; i++)
+        result[i] = op_range_number(&range, i);
+    return value_numbers_view(result, range.len);
 }

@@ -16,14 +16,14 @@ Value op_plus(Value v);
 // start..stop|step (L5.3). *too_long is set if the count exceeds VALUE_MAX_LEN.
 Value op_range(Arena *arena, Value start, Value stop, Value step, bool *too_long);
 // The same without its vector.
-typedef struct OpSpan {
-    double from;
-    double by;
+typedef struct OpRange {
+    double start;
+    double step;
     uint32_t len;
-} OpSpan;
-OpSpan op_span(Value start, Value stop, Value step, bool *too_long);
-static inline double op_span_number(const OpSpan *span, uint32_t i) {
-    return span->from + span->by * i;
+} OpRange;
+OpRange op_range_bounds(Value start, Value stop, Value step, bool *too_long);
+static inline double op_range_number(const OpRange *range, uint32_t i) {
+    return range->start + range->step * i;
 }
 
 #endif

@@ -24,8 +24,8 @@ SymbolTable symbol_table_new(Arena *arena) {
 }
 
 void symbol_table_free(SymbolTable *table) {
-    index_free(&table->by_name);
-    index_free(&table->by_number);
+    hash_index_free(&table->by_name);
+    hash_index_free(&table->by_number);
 }
 
 static bool has_name(const void *owner, uint32_t entry, const void *key) {
@@ -36,48 +36,48 @@ static bool has_number(const void *owner, uint32_t entry, const void *key) {
     return ((const SymbolTable *)owner)->items[entry]->number == *(const double *)key;
 }
 
-static uint32_t intern(SymbolTable *table, Str name) {
+static uint32_t intern_name(SymbolTable *table, Str name) {
     uint64_t hash = hash_bytes(0, name.bytes, name.len);
-    uint32_t found = index_find(&table->by_name, hash, has_name, table, &name);
-    if (found != INDEX_NONE)
+    uint32_t found = hash_index_find(&table->by_name, hash, has_name, table, &name);
+    if (found != HASH_INDEX_NONE)
         return found;
-    table->items = arena_room(table->arena, table->items, table->count, &table->capacity, sizeof *table->items);
+    table->items = arena_grow_array(table->arena, table->items, table->count, &table->capacity, sizeof *table->items);
     Symbol *symbol = arena_alloc(table->arena, sizeof *symbol);
     *symbol = (Symbol){.name = str_copy(table->arena, name), .number = symbol_number(name)};
-    if (!index_add(&table->by_name, hash, table->count))
+    if (!hash_index_add(&table->by_name, hash, table->count))
         arena_exhausted(table->arena);
     table->items[table->count] = symbol;
     return table->count++;
 }
 
 const Symbol *symbol_intern(SymbolTable *table, Str name) {
-    uint32_t entry = intern(table, name); // first: it may move items
+    uint32_t entry = intern_name(table, name); // first: it may move items
     return table->items[entry];
 }
 
-const Symbol *symbol_of_many(SymbolTable *table, Str name) {
-    uint32_t entry = intern(table, name);
-    table->items[entry]->many = true;
+const Symbol *symbol_intern_batched(SymbolTable *table, Str name) {
+    uint32_t entry = intern_name(table, name);
+    table->items[entry]->batched = true;
     return table->items[entry];
 }
 
-const Symbol *symbol_know(SymbolTable *table, Str name) {
-    uint32_t entry = intern(table, name);
+const Symbol *symbol_register(SymbolTable *table, Str name) {
+    uint32_t entry = intern_name(table, name);
     Symbol *symbol = table->items[entry];
-    if (symbol->known)
+    if (symbol->registered)
         return symbol;
     uint64_t hash = hash_mix(number_bits(symbol->number));
-    if (index_find(&table->by_number, hash, has_number, table, &symbol->number) != INDEX_NONE)
+    if (hash_index_find(&table->by_number, hash, has_number, table, &symbol->number) != HASH_INDEX_NONE)
         return NULL;
-    if (!index_add(&table->by_number, hash, entry))
+    if (!hash_index_add(&table->by_number, hash, entry))
         arena_exhausted(table->arena);
-    symbol->known = true;
+    symbol->registered = true;
     return symbol;
 }
 
 const Symbol *symbol_of_number(const SymbolTable *table, double number) {
     if (!(number < -8.9e307)) // symbols lie in (-1.8e308, -8.9e307]: nearly every number leaves here
         return NULL;
-    uint32_t entry = index_find(&table->by_number, hash_mix(number_bits(number)), has_number, table, &number);
-    return entry == INDEX_NONE ? NULL : table->items[entry];
+    uint32_t entry = hash_index_find(&table->by_number, hash_mix(number_bits(number)), has_number, table, &number);
+    return entry == HASH_INDEX_NONE ? NULL : table->items[entry];
 }

@@ -7,14 +7,14 @@
 #define PETRI_VALUE_SYMBOL_H
 
 #include "base/arena.h"
+#include "base/hash_index.h"
 #include "base/str.h"
-#include "base/table.h"
 
 typedef struct Symbol {
     Str name;
-    double number; // the value of `:name`
-    bool known;    // has occurred as a symbol, not only as a name
-    bool many;     // nodes of this kind may be very many, so that a loop keeps them as rows (value/run.h)
+    double number;   // the value of `:name`
+    bool registered; // has occurred as a symbol, not only as a name
+    bool batched;    // nodes of this kind may be very many, so that a loop keeps them as rows (value/node_batch.h)
 } Symbol;
 
 typedef struct SymbolTable {
@@ -22,8 +22,8 @@ typedef struct SymbolTable {
     Symbol **items;
     uint32_t count;
     uint32_t capacity;
-    Index by_name;
-    Index by_number; // known symbols only
+    HashIndex by_name;
+    HashIndex by_number; // known symbols only
 } SymbolTable;
 
 // 64-bit FNV-1a over the code points of the text (L4.3).
@@ -36,9 +36,9 @@ void symbol_table_free(SymbolTable *table);
 // The one Symbol of this name; lives as long as the table.
 const Symbol *symbol_intern(SymbolTable *table, Str name);
 // The same, marked as having occurred as a symbol. NULL if another known symbol has the same number (a collision).
-const Symbol *symbol_know(SymbolTable *table, Str name);
+const Symbol *symbol_register(SymbolTable *table, Str name);
 // The same as symbol_intern, marked as the kind of very many nodes.
-const Symbol *symbol_of_many(SymbolTable *table, Str name);
+const Symbol *symbol_intern_batched(SymbolTable *table, Str name);
 // The known symbol with this number, or NULL.
 const Symbol *symbol_of_number(const SymbolTable *table, double number);
 

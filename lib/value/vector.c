@@ -34,13 +34,13 @@ static void vector_make_mixed(Vector *vector) {
     vector->mixed = true;
 }
 
-static void append(Vector *vector, Value part) {
+static void append_elements(Vector *vector, Value part) {
     if (part.kind == VALUE_MIXED)
         vector_make_mixed(vector);
     if (part.len == 0 || !vector_reserve(vector, part.len))
         return;
-    if (part.len >= METER_NUMBERS)
-        arena_charge(vector->arena, part.len / METER_NUMBERS);
+    if (part.len >= BUDGET_NUMBERS)
+        arena_charge(vector->arena, part.len / BUDGET_NUMBERS);
     if (!vector->mixed)
         memcpy(vector->as.numbers + vector->len, value_numbers(&part), part.len * sizeof(double));
     else if (part.kind == VALUE_MIXED)
@@ -62,11 +62,11 @@ void vector_add(Vector *vector, Value part) {
         return;
     }
     if (vector->parts == 2)
-        append(vector, vector->first);
+        append_elements(vector, vector->first);
     if (part.len == 1 && part.kind == VALUE_NUMBERS && !vector->mixed && vector->len < vector->capacity)
         vector->as.numbers[vector->len++] = part.as.number;
     else
-        append(vector, part);
+        append_elements(vector, part);
 }
 
 void vector_add_number(Vector *vector, double x) {
@@ -74,13 +74,12 @@ void vector_add_number(Vector *vector, double x) {
 }
 
 void vector_add_item(Vector *vector, Item item) {
-    if (item.type == ITEM_NUMBER) {
+    if (item.type == ITEM_NUMBER)
         vector_add_number(vector, item.as.number);
-    } else if (vector->parts == 0) {
+    else if (vector->parts == 0)
         vector_add(vector, value_item(vector->arena, item));
-    } else {
+    else
         vector_add(vector, (Value){.len = 1, .kind = VALUE_MIXED, .as.items = &item});
-    }
 }
 
 Value vector_finish(Vector *vector) {

@@ -1,6 +1,6 @@
-// seed.h: the seed hash of a vector (spec builtins.md B9.2), from which streams and noise get their keys.
-#ifndef PETRI_VALUE_SEED_H
-#define PETRI_VALUE_SEED_H
+// value_hash.h: the seed hash of a vector (spec builtins.md B9.2), from which streams and noise get their keys.
+#ifndef PETRI_VALUE_VALUE_HASH_H
+#define PETRI_VALUE_VALUE_HASH_H
 
 #include "value/value.h"
 

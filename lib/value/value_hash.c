@@ -1,26 +1,26 @@
-// seed.c: see seed.h.
-#include "value/seed.h"
+// value_hash.c: see value_hash.h.
+#include "value/value_hash.h"
 
 #include "base/cpu.h"
 #include "base/number.h"
-#include "maths/many.h"
+#include "maths/arrays.h"
 #include "maths/random.h"
-#include "value/run.h"
-#include "value/walk.h"
+#include "value/node_batch.h"
+#include "value/tree_memo.h"
 
 #include <math.h>
 #include <string.h>
 
 typedef struct Hashing {
     Arena *arena; // NULL: free of charge
-    Walk walk;
+    TreeMemo memo;
 } Hashing;
 
 static uint64_t hash_vector(Hashing *hashing, Value v, bool floored);
 
 static uint64_t hash_node(Hashing *hashing, const Node *node) {
     uint64_t hash;
-    if (walk_knows(&hashing->walk, hashing->arena, node, NULL, &hash))
+    if (tree_memo_find(&hashing->memo, hashing->arena, node, NULL, &hash))
         return hash;
     hash = random_hash_step(RANDOM_HASH_START, symbol_hash(node->kind->name));
     for (uint32_t i = 0; i < node->tag_count; i++)
@@ -47,7 +47,7 @@ static uint64_t hash_node(Hashing *hashing, const Node *node) {
     const Node *const *children = node_children(hashing->arena, node, &count);
     for (uint32_t i = 0; i < count; i++)
         hash = random_hash_step(hash, hash_node(hashing, children[i]));
-    walk_learn(&hashing->walk, node, NULL, hash);
+    tree_memo_store(&hashing->memo, node, NULL, hash);
     return hash;
 }
 
@@ -67,8 +67,8 @@ static uint64_t hash_item(Hashing *hashing, Item item, bool floored) {
 static uint64_t hash_vector(Hashing *hashing, Value v, bool floored) {
     uint64_t hash = RANDOM_HASH_START;
     for (uint32_t i = 0; i < v.len; i++) {
-        if (i % METER_PORTION == METER_PORTION - 1 && hashing->arena)
-            arena_charge(hashing->arena, METER_PORTION / 4);
+        if (i % BUDGET_CHUNK == BUDGET_CHUNK - 1 && hashing->arena)
+            arena_charge(hashing->arena, BUDGET_CHUNK / 4);
         hash = random_hash_step(hash, hash_item(hashing, value_at(&v, i), floored));
     }
     return hash;
@@ -78,7 +78,7 @@ static uint64_t hash_all(Arena *arena, Value seed, bool floored) {
     Hashing hashing = {arena, {0}};
     ArenaMark mark = arena ? arena_mark(arena) : (ArenaMark){0};
     uint64_t hash = hash_vector(&hashing, seed, floored);
-    if (hashing.walk.facts)
+    if (hashing.memo.entries)
         arena_rewind(arena, mark);
     return hash;
 }
@@ -102,11 +102,11 @@ double value_stream_item(Value stream, uint64_t i) {
     }
 }
 
-static void items_in_a_row(Value stream, uint64_t first, uint32_t count, double *to) {
+static void consecutive_items(Value stream, uint64_t first, uint32_t count, double *to) {
     if (count > 1 && stream.stream == STREAM_UNIFORM)
-        maths_uniform_many(cpu_here.level, stream.as.key, first, count, to);
+        maths_uniform_array(cpu_detected.level, stream.as.key, first, count, to);
     else if (count > 1 && stream.stream == STREAM_NORMAL)
-        random_normals(cpu_here.level, stream.as.key, first, count, to);
+        random_normals(cpu_detected.level, stream.as.key, first, count, to);
     else
         for (uint32_t i = 0; i < count; i++)
             to[i] = value_stream_item(stream, first + i);
@@ -118,7 +118,7 @@ void value_stream_items(Value stream, const double *at, uint32_t count, double *
         run = 1;
         while (i + run < count && first + run != 0 && value_stream_position(at[i + run]) == first + run)
             run++;
-        items_in_a_row(stream, first, run, to + i);
+        consecutive_items(stream, first, run, to + i);
     }
 }
 

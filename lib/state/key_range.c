@@ -1,0 +1,88 @@
+// key_range.c: see key_range.h.
+#include "state/key_range.h"
+
+#include "base/number.h"
+
+#include <string.h>
+
+static bool same_bits(double x, double y) {
+    return number_bits(x) == number_bits(y);
+}
+
+double key_range_id(const KeyRange *range, uint32_t pair) {
+    return number_counted(range->head[range->prefix_len], pair);
+}
+
+void key_range_write_key(const KeyRange *range, uint32_t pair, double *to) {
+    memcpy(to, range->head, (range->prefix_len + 2) * sizeof *to);
+    to[range->prefix_len] = key_range_id(range, pair);
+}
+
+static bool begins_with(const double *numbers, const double *prefix, uint32_t len) {
+    uint32_t i = 0; // prefixes are too short for memcmp to pay
+    while (i < len && same_bits(numbers[i], prefix[i]))
+        i++;
+    return i == len;
+}
+
+// Does a key begin as those of the series do and end as those of second slots, if it is as long?
+static bool is_alike(const KeyRange *range, Value key) {
+    uint32_t n = range->prefix_len;
+    return key.kind == VALUE_NUMBERS && (key.len == n + 1 || key.len == n + 2) &&
+           begins_with(key.as.numbers, range->head, n) &&
+           (key.len == n + 1 || same_bits(key.as.numbers[n + 1], range->head[n + 1]));
+}
+
+StateSlot key_range_find(const KeyRange *range, Value key) {
+    if (!is_alike(range, key))
+        return STATE_NO_SLOT;
+    double id = key.as.numbers[range->prefix_len], pair = id - range->head[range->prefix_len];
+    if (!(pair >= 0 && pair < range->count))
+        return STATE_NO_SLOT;
+    uint32_t at = 2 * (uint32_t)pair + (key.len > range->prefix_len + 1);
+    return at < range->count && same_bits(key_range_id(range, (uint32_t)pair), id) ? range->first + at : STATE_NO_SLOT;
+}
+
+bool key_range_is_next(const KeyRange *range, Value key) {
+    return is_alike(range, key) && key.len == range->prefix_len + 1 + range->count % 2 &&
+           same_bits(key.as.numbers[range->prefix_len], key_range_id(range, range->count / 2));
+}
+
+bool key_range_follows(Value position, Value velocity, Value next_position, Value next_velocity) {
+    if (velocity.kind != VALUE_NUMBERS || velocity.len < 3 || position.len != velocity.len - 1 ||
+        position.kind != VALUE_NUMBERS || !begins_with(position.as.numbers, velocity.as.numbers, position.len))
+        return false;
+    KeyRange range = {.count = 2, .prefix_len = velocity.len - 2, .head = velocity.as.numbers};
+    if (!key_range_is_next(&range, next_position))
+        return false;
+    range.count++;
+    return key_range_is_next(&range, next_velocity);
+}
+
+Value key_range_value(const KeyRange *range, StateSlot slot) {
+    uint32_t at = slot - range->first;
+    if (at >= range->referenced)
+        return VALUE_NULL;
+    const double *numbers = at < range->stored ? range->numbers : range->previous;
+    return (Value){.len = range->len, .as.numbers = numbers + (size_t)at * range->len};
+}
+
+bool key_range_reference(KeyRange *range, StateSlot slot, StateOwner owner, const double *numbers, uint32_t len) {
+    uint32_t at = slot - range->first;
+    if (at == 0 && (range->referenced == 0 ||
+                    (range->stored >= range->referenced && range->owner == owner && range->len == len))) {
+        range->previous = range->numbers;
+        range->numbers = numbers;
+        range->owner = owner;
+        range->len = len;
+        range->stored = 0;
+    }
+    if (at != range->stored || range->owner != owner || range->len != len ||
+        numbers != range->numbers + (size_t)at * len)
+        return key_range_references(range, slot, owner) && range->len == len &&
+               numbers == key_range_value(range, slot).as.numbers;
+    range->stored++;
+    if (range->referenced < range->stored)
+        range->referenced = range->stored;
+    return true;
+}
