@@ -37,8 +37,8 @@ bool gr_accepts(const gr_pstate *parser, int token);
 
 #include <string.h>
 
-#define YYMALLOC heap_take
-#define YYFREE heap_give
+#define YYMALLOC heap_alloc
+#define YYFREE heap_free
 #define YYMAXDEPTH 200000
 #define YYLLOC_DEFAULT(current, rhs, count)                                                                            \
     do {                                                                                                               \
@@ -51,45 +51,45 @@ bool gr_accepts(const gr_pstate *parser, int token);
 static void gr_error(const Span *span, ParseContext *context, const char *text);
 
 // The node itself, unless the tree has become too high.
-static Ast *checked(ParseContext *context, Ast *ast) {
+static Ast *check_height(ParseContext *context, Ast *ast) {
     if (ast->height <= AST_MAX_HEIGHT)
         return ast;
     gr_error(&ast->span, context, NULL);
     return ast_literal(context->arena, ast->span, VALUE_NULL); // any shallow tree: the program has failed
 }
 
-static Ast *make(ParseContext *context, AstKind kind, Span span, Ast *a, Ast *b, Ast *c, uint32_t count) {
+static Ast *new_ast(ParseContext *context, AstKind kind, Span span, Ast *a, Ast *b, Ast *c, uint32_t count) {
     Ast *children[] = {a, b, c};
-    return checked(context, ast_new(context->arena, kind, span, NULL, children, count));
+    return check_height(context, ast_new(context->arena, kind, span, NULL, children, count));
 }
 
-#define UNARY(kind, span, a) make(context, kind, span, a, NULL, NULL, 1)
-#define BINARY(kind, span, a, b) make(context, kind, span, a, b, NULL, 2)
-#define TERNARY(kind, span, a, b, c) make(context, kind, span, a, b, c, 3)
-#define NODE_OF(kind, span, name, list) checked(context, ast_from_list(context->arena, kind, span, name, list))
+#define UNARY(kind, span, a) new_ast(context, kind, span, a, NULL, NULL, 1)
+#define BINARY(kind, span, a, b) new_ast(context, kind, span, a, b, NULL, 2)
+#define TERNARY(kind, span, a, b, c) new_ast(context, kind, span, a, b, c, 3)
+#define NODE_OF(kind, span, name, list) check_height(context, ast_from_list(context->arena, kind, span, name, list))
 #define LIST() ast_list_new(context->arena)
 #define LIST1(item) ast_list_add(LIST(), item)
 
 // A named node with up to one child.
-static Ast *named(ParseContext *context, AstKind kind, Span span, const Ast *name, Ast *child) {
+static Ast *new_named_ast(ParseContext *context, AstKind kind, Span span, const Ast *name, Ast *child) {
     Ast *children[] = {child};
-    return checked(context,
+    return check_height(context,
                          ast_new(context->arena, kind, span, name ? name->name : NULL, children, child ? 1 : 0));
 }
 
 // FUNC with its parameters and body.
-static Ast *function(ParseContext *context, Span span, const Ast *name, AstList *params, Span params_span, Ast *body) {
+static Ast *new_function_ast(ParseContext *context, Span span, const Ast *name, AstList *params, Span params_span, Ast *body) {
     Ast *children[] = {NODE_OF(AST_PARAMS, params_span, NULL, params), body};
-    return checked(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
+    return check_height(context, ast_new(context->arena, AST_FUNC, span, name ? name->name : NULL, children, 2));
 }
 
 // A list with one item stands for itself.
-static Ast *single_or(ParseContext *context, AstKind kind, Span span, AstList *list) {
+static Ast *one_or_list(ParseContext *context, AstKind kind, Span span, AstList *list) {
     return list->count == 1 ? list->items[0] : NODE_OF(kind, span, NULL, list);
 }
 
 // `subject` followed by tags and attributes; `list` starts with the subject.
-static AstList *prepend(ParseContext *context, Ast *first, const AstList *rest) {
+static AstList *prepend_item(ParseContext *context, Ast *first, const AstList *rest) {
     return ast_list_add_all(LIST1(first), rest);
 }
 }
@@ -127,7 +127,7 @@ pragmas:
   ;
 pragma:
     "%pragma" NAME literal NEWLINE {
-        $$ = named(context, AST_PRAGMA, (Span){@1.start, @literal.end}, $NAME, $literal);
+        $$ = new_named_ast(context, AST_PRAGMA, (Span){@1.start, @literal.end}, $NAME, $literal);
     }
   ;
 
@@ -149,8 +149,8 @@ item:
   | "let" names '=' suite {
         $$ = NODE_OF(AST_LET, @$, NULL, LIST1(BINARY(AST_BINDING, @$, $names, $suite)));
     }
-  | "func" NAME '(' params_opt ')' suite { $$ = function(context, @$, $NAME, $params_opt, @params_opt, $suite); }
-  | "func" '(' params_opt ')' suite { $$ = function(context, @$, NULL, $params_opt, @params_opt, $suite); }
+  | "func" NAME '(' params_opt ')' suite { $$ = new_function_ast(context, @$, $NAME, $params_opt, @params_opt, $suite); }
+  | "func" '(' params_opt ')' suite { $$ = new_function_ast(context, @$, NULL, $params_opt, @params_opt, $suite); }
   | "import" names "from" comp NEWLINE { $$ = BINARY(AST_IMPORT, @$, $names, $comp); }
   ;
 
@@ -184,8 +184,8 @@ params:
   | params ',' param { $$ = ast_list_add($1, $3); }
   ;
 param:
-    NAME { $$ = named(context, AST_PARAM, @$, $1, NULL); }
-  | NAME '=' decorated { $$ = named(context, AST_PARAM, @$, $1, $3); }
+    NAME { $$ = new_named_ast(context, AST_PARAM, @$, $1, NULL); }
+  | NAME '=' decorated { $$ = new_named_ast(context, AST_PARAM, @$, $1, $3); }
   ;
 
 statement:
@@ -194,7 +194,7 @@ statement:
   | lead statement { $$ = BINARY(AST_APPEND, @1, $1, $2); }
   | template NEWLINE
   | template suite {
-        $$ = NODE_OF(AST_TEMPLATE, @1, NULL, ast_list_add(prepend(context, $1->children[0],
+        $$ = NODE_OF(AST_TEMPLATE, @1, NULL, ast_list_add(prepend_item(context, $1->children[0],
                      &(AstList){.items = (Ast **)$1->children + 1, .count = $1->count - 1}), $2));
     }
   | for_statement
@@ -208,7 +208,7 @@ lead:
   | decorated "<<" NEWLINE
   ;
 
-template: '@' atom attrs { $$ = NODE_OF(AST_TEMPLATE, @$, NULL, prepend(context, $atom, $attrs)); };
+template: '@' atom attrs { $$ = NODE_OF(AST_TEMPLATE, @$, NULL, prepend_item(context, $atom, $attrs)); };
 attrs:
     %empty { $$ = LIST(); }
   | attrs attr { $$ = ast_list_add($1, $2); }
@@ -246,7 +246,7 @@ chain:
 
 decorated:
     comp
-  | comp decorations { $$ = NODE_OF(AST_DECORATE, @$, NULL, prepend(context, $1, $2)); }
+  | comp decorations { $$ = NODE_OF(AST_DECORATE, @$, NULL, prepend_item(context, $1, $2)); }
   ;
 decorations:
     TAG { $$ = LIST1($1); }
@@ -254,23 +254,23 @@ decorations:
   | decorations TAG { $$ = ast_list_add($1, $2); }
   | decorations attr { $$ = ast_list_add($1, $2); }
   ;
-attr: NAME '=' comp { $$ = named(context, AST_ATTR, @$, $1, $3); };
+attr: NAME '=' comp { $$ = new_named_ast(context, AST_ATTR, @$, $1, $3); };
 
-comp: compose { $$ = single_or(context, AST_COMPOSE, @$, $1); };
+comp: compose { $$ = one_or_list(context, AST_COMPOSE, @$, $1); };
 compose:
     lambda { $$ = LIST1($1); }
   | compose ';' lambda { $$ = ast_list_add($1, $3); }
   ;
 
 lambda:
-    "func" '(' params_opt ')' lambda { $$ = function(context, @$, NULL, $params_opt, @params_opt, $5); }
+    "func" '(' params_opt ')' lambda { $$ = new_function_ast(context, @$, NULL, $params_opt, @params_opt, $5); }
   | loopish
   ;
 
 loopish:
     cond
   | loopish "for" names "in" cond { $$ = TERNARY(AST_FOR, @$, $names, $cond, $1); }
-  | loopish "where" wbinds %prec WHERE_END { $$ = NODE_OF(AST_WHERE, @$, NULL, prepend(context, $1, $wbinds)); }
+  | loopish "where" wbinds %prec WHERE_END { $$ = NODE_OF(AST_WHERE, @$, NULL, prepend_item(context, $1, $wbinds)); }
   ;
 wbinds:
     wbind { $$ = LIST1($1); }
@@ -332,7 +332,7 @@ power: post | power "**" post { $$ = BINARY(AST_POW, @$, $1, $3); };
 
 post:
     atom
-  | post '(' args_opt ')' { $$ = NODE_OF(AST_CALL, @$, NULL, prepend(context, $1, $3)); }
+  | post '(' args_opt ')' { $$ = NODE_OF(AST_CALL, @$, NULL, prepend_item(context, $1, $3)); }
   | post '[' chain ']' { $$ = BINARY(AST_INDEX, @$, $1, $3); }
   ;
 args_opt: %empty { $$ = LIST(); } | args | args ',' named_args { $$ = ast_list_add_all($1, $3); } | named_args;
@@ -344,7 +344,7 @@ named_args:
     named_arg { $$ = LIST1($1); }
   | named_args ',' named_arg { $$ = ast_list_add($1, $3); }
   ;
-named_arg: NAME '=' chain { $$ = named(context, AST_NAMED, @$, $1, $3); };
+named_arg: NAME '=' chain { $$ = new_named_ast(context, AST_NAMED, @$, $1, $3); };
 
 atom:
     literal
@@ -372,7 +372,7 @@ static int yyreport_syntax_error(const yypcontext_t *at, ParseContext *context) 
     *unexpected = (Unexpected){.found = found == YYSYMBOL_YYEMPTY ? "nothing" : yysymbol_name(found),
                                .span = *yypcontext_location(at),
                                .expected_count = count > 0 ? count : 0,
-                               .wants_value = gr_accepts(at->yyps, NUMBER)};
+                               .value_expected = gr_accepts(at->yyps, NUMBER)};
     for (int i = 0; i < count; i++)
         unexpected->expected[i] = yysymbol_name(expected[i]);
     return 0;

@@ -10,7 +10,7 @@ AstList *ast_list_new(Arena *arena) {
 }
 
 AstList *ast_list_add(AstList *list, Ast *item) {
-    list->items = arena_room(list->arena, list->items, list->count, &list->capacity, sizeof *list->items);
+    list->items = arena_grow_array(list->arena, list->items, list->count, &list->capacity, sizeof *list->items);
     list->items[list->count++] = item;
     return list;
 }
@@ -72,7 +72,7 @@ static void print_level(Text *out, const SymbolTable *symbols, const Source *sou
         text_add_char(out, ' ');
         format_value(out, symbols, ast->value);
     }
-    SourcePlace place = source_locate(source, ast->span.start);
+    SourcePosition place = source_locate(source, ast->span.start);
     text_add_format(out, "  @%u:%u\n", place.line, place.column);
     for (uint32_t i = 0; i < ast->count; i++)
         print_level(out, symbols, source, ast->children[i], depth + 1);

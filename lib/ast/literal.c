@@ -86,7 +86,7 @@ static void octal_escape(Text *out, Str body, size_t *at) {
     text_add_code_point(out, code_point);
 }
 
-static const char *escape(Text *out, Str body, size_t *at) {
+static const char *parse_escape(Text *out, Str body, size_t *at) {
     static const char letters[] = "\\'\"abtnvfr", meanings[] = "\\'\"\a\b\t\n\v\f\r";
     char c = body.bytes[*at];
     const char *simple = c ? strchr(letters, c) : NULL;
@@ -120,7 +120,7 @@ const char *literal_string(Arena *arena, Str token, Str *text) {
             text_add_char(&out, c);
             continue;
         }
-        const char *complaint = escape(&out, body, &at);
+        const char *complaint = parse_escape(&out, body, &at);
         if (complaint)
             return complaint;
     }
@@ -129,7 +129,7 @@ const char *literal_string(Arena *arena, Str token, Str *text) {
 }
 
 // Length of a run of digits and underscores that starts with a digit.
-static size_t digit_run(Str text, size_t at) {
+static size_t skip_digits(Str text, size_t at) {
     size_t start = at;
     while (at < text.len && (is_digit(text.bytes[at]) || (at > start && text.bytes[at] == '_')))
         at++;
@@ -146,9 +146,9 @@ bool literal_parse_number(Str text, double *x) {
     } else {
         const Suffix *suffix = find_suffix(text);
         Str digits = {text.bytes, text.len - (suffix ? strlen(suffix->text) : 0)};
-        size_t at = digit_run(digits, 0), whole = at;
+        size_t at = skip_digits(digits, 0), whole = at;
         if (at < digits.len && digits.bytes[at] == '.') {
-            size_t fraction = digit_run(digits, at + 1);
+            size_t fraction = skip_digits(digits, at + 1);
             if (fraction == 0)
                 return false;
             at += 1 + fraction;
@@ -158,7 +158,7 @@ bool literal_parse_number(Str text, double *x) {
         if (at < digits.len && (digits.bytes[at] == 'e' || digits.bytes[at] == 'E')) {
             at++;
             at += at < digits.len && (digits.bytes[at] == '-' || digits.bytes[at] == '+');
-            size_t exponent = digit_run(digits, at);
+            size_t exponent = skip_digits(digits, at);
             if (exponent == 0)
                 return false;
             at += exponent;

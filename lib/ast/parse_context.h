@@ -15,29 +15,29 @@ typedef struct Unexpected {
     Span span;
     const char *expected[PARSE_ALTERNATIVES]; // by name
     int expected_count;                       // 0: none or too many
-    bool wants_value;                         // a value is one of them
+    bool value_expected;                      // a value is one of them
 } Unexpected;
 
 // Takes each token as the grammar sees it: a word that is a keyword where it stands has its kind.
-typedef void ParseSeen(void *host, const Token *token);
+typedef void ParseTokenCallback(void *user_data, const Token *token);
 
 typedef struct ParseContext {
     Arena *arena; // the program's
     SymbolTable *symbols;
     const Source *source;
     DiagSink *diags;
-    Ast *program;         // the result
-    bool failed;          // an error was reported
-    uint32_t faulty_line; // of the last error
-    bool too_deep;        // … that of nesting; reported once, and parsing stops
-    bool reported;        // the lexer or the layout has explained the present error already
+    Ast *program;        // the result
+    bool failed;         // an error was reported
+    uint32_t error_line; // of the last error
+    bool too_deep;       // … that of nesting; reported once, and parsing stops
+    bool reported;       // the lexer or the layout has explained the present error already
     // Noted by the grammar while it takes one token.
     Unexpected unexpected;
     bool overflow; // the tree has become too high, or the parser's stack is full
     Span overflow_at;
-    bool loose;      // for editors: as much as there is is read
-    ParseSeen *seen; // NULL: nobody wants the tokens
-    void *host;
+    bool error_tolerant;          // for editors: as much as there is is read
+    ParseTokenCallback *on_token; // NULL: nobody wants the tokens
+    void *user_data;
 } ParseContext;
 
 #endif

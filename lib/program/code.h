@@ -29,16 +29,16 @@ typedef enum Opcode {
 
 // A node that is made at once: what is known of it beforehand.
 typedef struct NodeCode {
-    const Node *base;           // kind and tags
-    const Symbol *const *names; // of the attributes, each once
-    const Origin *decorated;    // where they were added, or NULL
-    const NodeList *kept;       // constant children, or NULL
+    const Node *base;                  // kind and tags
+    const Symbol *const *names;        // of the attributes, each once
+    const Origin *decorated;           // where they were added, or NULL
+    const NodeList *constant_children; // constant children, or NULL
 } NodeCode;
 
 // What a closure takes along when it is made.
 typedef enum CaptureKind {
     CAPTURE_SLOT,  // of the enclosing function
-    CAPTURE_AGAIN, // what the enclosing closure has captured
+    CAPTURE_OUTER, // what the enclosing closure has captured
     CAPTURE_SELF,  // the enclosing closure
 } CaptureKind;
 
@@ -71,21 +71,21 @@ typedef struct DecorateCode {
 // A loop of whose body many rounds can be run at once, instruction by instruction: no round depends on another one, and
 // nothing is to be seen of them but their parts. Each register that the body writes is a column then, with a value for
 // each round.
-typedef struct RoundsCode {
-    uint32_t end;           // the NEXT
-    int32_t first;          // of the registers that may be columns,
-    uint32_t range;         // … which are so many;
-    const uint8_t *columns; // of each of them: which column it is, from 1; 0: none, it is the same in all rounds
+typedef struct BatchPlan {
+    uint32_t end;            // the NEXT
+    int32_t first_register;  // of the registers that may be columns,
+    uint32_t register_count; // … which are so many;
+    const uint8_t *columns;  // of each of them: which column it is, from 1; 0: none, it is the same in all rounds
     uint32_t column_count;
-    uint32_t part_count; // ADD_PARTs
-} RoundsCode;
+    uint32_t yield_count; // ADD_PARTs
+} BatchPlan;
 
-enum { CODE_MOST_COLUMNS = 64, CODE_MOST_PARTS = 8, CODE_MOST_READ = 32 }; // registers that one instruction reads
+enum { CODE_MAX_COLUMNS = 64, CODE_MAX_YIELDS = 8, CODE_MAX_READ = 32 }; // registers that one instruction reads
 
 typedef struct Instr {
     uint16_t op;
     uint16_t loop;
-    int32_t d; // register written, or the first that is bound; ADD_ROW: whether nothing else of the round stays
+    int32_t d; // register written, or the first that is bound; YIELD_NODE: whether nothing else of the round stays
     union {
         int32_t a;
         uint32_t list; // position of the first operand in `operands`
@@ -95,19 +95,20 @@ typedef struct Instr {
         int32_t c;
         uint32_t count; // of the list, or of the registers bound
     };
-    uint32_t target; // instruction to jump to; number of a capture or a place; ADD_ROW: the register of the loop's name
+    uint32_t
+        target; // instruction to jump to; number of a capture or a place; YIELD_NODE: the register of the loop's name
     const Origin *at;
     union {
         const NodeCode *node;
-        const NodeList *kept; // APPEND: constant children, or NULL
+        const NodeList *constant_children; // APPEND: constant children, or NULL
         const DecorateCode *decorate;
         const FunctionCode *function; // CLOSURE
         const CallCode *call;
         const Builtin *builtin;
-        const RoundsCode *rounds;   // FOR, FOR_SPAN: NULL if rounds are run one by one
-        const Symbol *name;         // UNBOUND
-        const Symbol *const *names; // IMPORT
-        const Origin *inner;        // SLICE: the place of the range; LOOKUP: that of the key
+        const BatchPlan *batch_plan; // FOR, FOR_RANGE: NULL if rounds are run one by one
+        const Symbol *name;          // UNBOUND
+        const Symbol *const *names;  // IMPORT
+        const Origin *inner_origin;  // SLICE: the place of the range; LOOKUP: that of the key
     } as;
 } Instr;
 
@@ -124,8 +125,8 @@ struct Code {
     const uint32_t *lines; // of each instruction the line of the source, from 1; NULL unless asked for
 };
 
-// The operands that an instruction reads: CODE_MOST_READ at most if it belongs to a RoundsCode. `operands`: of the
+// The operands that an instruction reads: CODE_MAX_READ at most if it belongs to a BatchPlan. `operands`: of the
 // code.
-uint32_t program_reads(const int32_t *operands, const Instr *instr, int32_t *reads);
+uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads);
 
 #endif

@@ -3,17 +3,18 @@
 // One pass, in the order of evaluation: a binding becomes visible just after its value has been compiled, which is
 // exactly its scope (spec language.md L8.2).
 #include "program/compile.h"
+
 #include "program/lower.h"
 
 Expr *compile_expr_new(Compiler *compiler, ExprKind kind, const Ast *ast, const Expr *const *children, uint32_t count) {
     Expr *expr = arena_alloc(compiler->scratch, sizeof *expr);
     *expr = (Expr){.kind = kind,
                    .count = count,
-                   .place = {compiler->source, ast->span},
+                   .origin = {compiler->source, ast->span},
                    .children = arena_copy(compiler->scratch, children, count * sizeof *children)};
     for (uint32_t i = 0; kind == EXPR_COMPOSE && i < count; i++)
         expr->slot += !expr_only_binds(children[i]);
-    fold_describe(expr);
+    fold_set_dependencies(expr);
     return expr;
 }
 
@@ -103,7 +104,7 @@ static const Expr *compile_binding(Compiler *compiler, const Ast *binding) {
     bind->slot = compile_bind_names(compiler, BINDING_LET, names, binding->children[1]);
     bind->slot_count = names->count;
     if (value->kind == EXPR_CONST)
-        compile_set_known(compiler, names->count, value->as.value);
+        compile_set_constant(compiler, names->count, value->as.value);
     return bind;
 }
 
@@ -138,7 +139,7 @@ static const Expr *compile_for(Compiler *compiler, const Ast *ast, bool in_child
     compiler->repeats--;
     compile_scope_close(compiler, mark);
     Expr *expr = compile_expr_new(compiler, EXPR_FOR, ast, parts, 2);
-    expr->may_run = in_children;
+    expr->can_batch = in_children;
     expr->slot = slot;
     expr->slot_count = ast->children[0]->count;
     return expr;
@@ -177,7 +178,7 @@ static const Expr *compile_decorate(Compiler *compiler, const Ast *ast) {
 }
 
 // CALL and TEMPLATE alike: callee, positional and named arguments.
-static const Expr *make_call(Compiler *compiler, const Ast *ast, const Ast *const *args, uint32_t count) {
+static const Expr *compile_call(Compiler *compiler, const Ast *ast, const Ast *const *args, uint32_t count) {
     CallCode *code = arena_alloc(compiler->scratch, sizeof *code);
     const Symbol **names = arena_alloc_array(compiler->scratch, count, sizeof *names);
     const Expr **children = arena_alloc_array(compiler->scratch, count + 1, sizeof *children);
@@ -206,7 +207,7 @@ static const Expr *compile_template(Compiler *compiler, const Ast *ast) {
         args[0] = ast->children[count];
     for (uint32_t i = 0; i < count - suite; i++)
         args[i + suite] = ast->children[i + 1];
-    return make_call(compiler, ast, args, count);
+    return compile_call(compiler, ast, args, count);
 }
 
 // A closure depends on its defaults, which are its children, and on what it captures; its body is another matter.
@@ -215,9 +216,9 @@ static void describe_closure(Expr *expr) {
     for (uint32_t i = 0; i < code->capture_count; i++) {
         const Capture *capture = &code->captures[i];
         if (capture->kind != CAPTURE_SLOT)
-            expr->enclosed = true;
-        else if (capture->slot < expr->lowest)
-            expr->lowest = capture->slot;
+            expr->uses_closure = true;
+        else if (capture->slot < expr->lowest_slot)
+            expr->lowest_slot = capture->slot;
     }
 }
 
@@ -225,7 +226,7 @@ const Code *compile_code(Compiler *compiler, const Expr *expr, uint32_t slot_cou
     LowerOptions options = {.arena = compiler->arena,
                             .values = compiler->arena,
                             .scratch = compiler->scratch,
-                            .places = &compiler->places,
+                            .lookup_count = &compiler->lookup_count,
                             .lines = compiler->options->lines};
     return program_lower(&options, expr, slot_count);
 }
@@ -271,7 +272,7 @@ static const Expr *compile_func_statement(Compiler *compiler, const Ast *ast) {
     bind->slot = compile_bind(compiler, BINDING_FUNC, ast->name, ast->span, ast);
     bind->slot_count = 1;
     if (closure->kind == EXPR_CONST)
-        compile_set_known(compiler, 1, closure->as.value);
+        compile_set_constant(compiler, 1, closure->as.value);
     return bind;
 }
 
@@ -301,32 +302,32 @@ static const Expr *compile_import(Compiler *compiler, const Ast *ast) {
 
 static Include find_include(Compiler *compiler, const Ast *ast, const Expr *file) {
     if (file->kind != EXPR_CONST)
-        return (Include){.place = file->place.span,
+        return (Include){.span = file->origin.span,
                          .fault = STR("the file of an %include must be known when the program is loaded")};
-    Include include = {.place = ast->span};
+    Include include = {.span = ast->span};
     if (file->as.value.len == 0)
         return include;
-    Str name = value_text(compiler->arena, compiler->symbols, file->as.value), why = {0};
+    Str name = value_text(compiler->arena, compiler->symbols, file->as.value), reason = {0};
     Str path = path_join(compiler->arena, compiler->source->directory, name);
     const CompileHost *host = &compiler->options->host;
-    include.ast = host->include(host->host, path, &include.source, &why);
+    include.ast = host->include(host->user_data, path, &include.source, &reason);
     if (!include.ast)
-        include.fault = str_format(compiler->arena, "cannot include '%.*s': %.*s", STR_ARGS(path), STR_ARGS(why));
+        include.fault = str_format(compiler->arena, "cannot include '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
     return include;
 }
 
 // Puts the statements of another file in the place of the directive.
 static const Expr *compile_include(Compiler *compiler, const Ast *ast, bool in_children) {
-    compiler->fixed = true;
+    compiler->in_include_path = true;
     const Expr *file = compile_expr(compiler, ast->children[0]);
-    compiler->fixed = false;
-    Include include = compiler->rehearsal ? compiler->rehearsal->includes[compiler->include_count]
-                                          : find_include(compiler, ast, file);
+    compiler->in_include_path = false;
+    Include include = compiler->folding_pass ? compiler->folding_pass->includes[compiler->include_count]
+                                             : find_include(compiler, ast, file);
     size_t size = compiler->include_count++ * sizeof include;
     compiler->includes = arena_grow(compiler->scratch, compiler->includes, size, size + sizeof include);
     compiler->includes[compiler->include_count - 1] = include;
     if (include.fault.len)
-        compile_report(compiler, include.place, DIAG_WARNING, "cannot-include", include.fault, (Str){0});
+        compile_report(compiler, include.span, DIAG_WARNING, "cannot-include", include.fault, (Str){0});
     if (!include.ast)
         return compile_constant(compiler, ast, VALUE_NULL);
     const Source *outer = compiler->source;
@@ -366,7 +367,7 @@ static const Expr *compile_kind(Compiler *compiler, const Ast *ast, bool in_chil
     case AST_DECORATE:
         return compile_decorate(compiler, ast);
     case AST_CALL:
-        return make_call(compiler, ast, (const Ast *const *)ast->children + 1, ast->count - 1);
+        return compile_call(compiler, ast, (const Ast *const *)ast->children + 1, ast->count - 1);
     case AST_TEMPLATE:
         return compile_template(compiler, ast);
     case AST_RANGE:
@@ -415,8 +416,8 @@ const Expr *compile_expr(Compiler *compiler, const Ast *ast) {
     arena_charge(compiler->scratch, 2);
     const Expr *expr = fold_expr(compiler, (Expr *)compile_kind(compiler, ast, in_children), mark);
     compiler->depth--;
-    if (ast == compiler->fallback)
-        compile_note_fallback(compiler, expr);
+    if (ast == compiler->parameter_default)
+        compile_note_default(compiler, expr);
     return expr;
 }
 
@@ -477,7 +478,7 @@ static const Program *compile_file(Compiler *compiler, const Ast *ast) {
     collect_exports(compiler, program, params);
     lint_unused(compiler, compiler->function->scope, params);
     program->code = compile_code(compiler, expr, function.frame_size);
-    program->place_count = compiler->places;
+    program->lookup_count = compiler->lookup_count;
     program->parameters = compiler->parameters;
     program->parameter_count = compiler->parameter_count;
     program->define_uses = compiler->define_uses;
@@ -500,12 +501,12 @@ const Program *program_compile(Arena *arena, Arena *scratch, SymbolTable *symbol
     CompileOptions simplifying = *options;
     simplifying.simplify = true;
     simplifying.lint = simplifying.lines = false;
-    DiagSink unheard = diag_sink_new(scratch, 0);
-    Compiler rehearsal = compiler;
-    rehearsal.options = &simplifying;
-    rehearsal.diags = &unheard;
-    compile_file(&rehearsal, ast);
-    compiler.rehearsal = &rehearsal;
+    DiagSink discarded = diag_sink_new(scratch, 0);
+    Compiler folding_pass = compiler;
+    folding_pass.options = &simplifying;
+    folding_pass.diags = &discarded;
+    compile_file(&folding_pass, ast);
+    compiler.folding_pass = &folding_pass;
     return compile_file(&compiler, ast);
 }
 

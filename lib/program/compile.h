@@ -15,8 +15,8 @@ struct Binding {
     uint32_t slot;
     Span span;
     BindingKind kind;
-    bool used;  // some name has been resolved to it
-    bool known; // its value is `constant`, whatever the frame
+    bool used;        // some name has been resolved to it
+    bool is_constant; // its value is `constant`, whatever the frame
     Value constant;
     const Ast *value; // all of it is bound to this name; NULL: only a part, or something that is no value of a `let`
 };
@@ -39,7 +39,7 @@ struct FunctionScope {
 typedef struct Include {
     const Ast *ast; // NULL: nothing
     const Source *source;
-    Span place; // of the fault
+    Span span; // of the fault
     Str fault;
 } Include;
 
@@ -52,25 +52,25 @@ struct Compiler {
     const CompileOptions *options;
     DiagSink *diags;
     FunctionScope *function;
-    bool fixed;       // compiling the file of an %include, where a test is meant to be known
-    uint32_t repeats; // loop bodies and functions around this place: it may be evaluated several times in a frame
-    uint32_t places;  // look-ups so far
-    bool in_children; // what is compiled next becomes children of a node, as it is or as a part of them
-    bool is_module;   // the file only binds names: they are for others, so none is unused
-    uint32_t depth;   // expressions around this place; 1: a statement of the top level
+    bool in_include_path;  // compiling the file of an %include, where a test is meant to be known
+    uint32_t repeats;      // loop bodies and functions around this place: it may be evaluated several times in a frame
+    uint32_t lookup_count; // look-ups so far
+    bool in_children;      // what is compiled next becomes children of a node, as it is or as a part of them
+    bool is_module;        // the file only binds names: they are for others, so none is unused
+    uint32_t depth;        // expressions around this place; 1: a statement of the top level
     DefineUse *define_uses;
     Parameter *parameters;
     uint32_t parameter_count;
     uint32_t parameter_capacity;
     Str *imports;
     uint32_t import_count;
-    const Ast *subject;       // to which attributes or children are being added
-    const Ast *key;           // that is being looked up in the state
-    const Ast *parameter_use; // the name on the right of the last parameter's binding: unbound, but meant so
-    const Ast *fallback;      // … and its default, if that is all there is on the right of an `or`
-    Include *includes;        // in order
+    const Ast *subject;           // to which attributes or children are being added
+    const Ast *key;               // that is being looked up in the state
+    const Ast *parameter_use;     // the name on the right of the last parameter's binding: unbound, but meant so
+    const Ast *parameter_default; // … and its default, if that is all there is on the right of an `or`
+    Include *includes;            // in order
     uint32_t include_count;
-    const Compiler *rehearsal; // without the simplifier: a compilation with it, for what has to be known beforehand
+    const Compiler *folding_pass; // without the simplifier: a compilation with it, for what has to be known beforehand
 };
 
 typedef struct ScopeMark {
@@ -96,7 +96,7 @@ uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *nam
 // What one of `count` names gets of a value (L8.3).
 Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count);
 // Tells the `count` bindings made last that their value is a constant, to be unpacked if there are several.
-void compile_set_known(Compiler *compiler, uint32_t count, Value value);
+void compile_set_constant(Compiler *compiler, uint32_t count, Value value);
 // The binding that a name has here, in this function or an enclosing one, or NULL. Does not count as a use.
 const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name);
 const Expr *compile_name(Compiler *compiler, const Ast *ast);
@@ -111,7 +111,7 @@ bool compile_is_free(const Compiler *compiler, const Symbol *name);
 // Parameters (parameters.c). Notes a binding of a `let` that is one; to be called before its value is compiled.
 void compile_note_parameter(Compiler *compiler, const Ast *binding);
 // Notes what the default of the last parameter has been compiled to.
-void compile_note_fallback(Compiler *compiler, const Expr *fallback);
+void compile_note_default(Compiler *compiler, const Expr *default_expr);
 // Notes where a program binds a name that -D defines.
 void compile_note_define(Compiler *compiler, const Binding *binding);
 
@@ -119,9 +119,9 @@ void compile_note_define(Compiler *compiler, const Binding *binding);
 // are its own. Returns the expression, or what is left of it after static parts have been evaluated.
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark);
 // Notes what a new expression depends on, from its kind and children.
-void fold_describe(Expr *expr);
+void fold_set_dependencies(Expr *expr);
 // Notes that an expression depends on whatever `part` depends on.
-void fold_depend(Expr *expr, const Expr *part);
+void fold_add_dependency(Expr *expr, const Expr *child);
 
 // Lints, for `petri check`: things that are no faults but hardly meant (lint.c). All do nothing unless asked for.
 void lint_bind(Compiler *compiler, const Binding *binding);

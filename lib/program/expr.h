@@ -26,11 +26,11 @@ struct Expr {
     uint32_t slot;
     uint32_t slot_count;
     // For the simplifier (fold.c): what the value depends on.
-    bool dynamic;    // something that may change from frame to frame
-    bool enclosed;   // the running closure: its captures or itself
-    bool may_run;    // FOR: what it makes becomes children, so it may be in runs (value/run.h)
-    uint32_t lowest; // the lowest slot that is read, UINT32_MAX if none
-    Origin place;
+    bool dynamic;         // something that may change from frame to frame
+    bool uses_closure;    // the running closure: its captures or itself
+    bool can_batch;       // FOR: what it makes becomes children, so it may be in runs (value/node_batch.h)
+    uint32_t lowest_slot; // the lowest slot that is read, UINT32_MAX if none
+    Origin origin;
     union {
         Value value;                // CONST
         const Symbol *name;         // NODE, UNBOUND
@@ -38,7 +38,7 @@ struct Expr {
         const FunctionCode *function;
         const CallCode *call;
         const Decoration *decorate;
-        const NodeList *kept; // APPEND: the children, if they are constant; or NULL
+        const NodeList *constant_children; // APPEND: the children, if they are constant; or NULL
     } as;
     const Expr *const *children;
 };

@@ -10,28 +10,27 @@
 // static particle tree comes to be one constant vector of nodes that all frames share.
 #include "program/compile.h"
 #include "program/lower.h"
-
-#include "value/seed.h"
+#include "value/value_hash.h"
 
 // More elements than this are worth the time of evaluating them again rather than the memory of keeping them.
-enum { MOST_ELEMENTS = 1 << 22 };
+enum { MAX_ELEMENTS = 1 << 22 };
 
-void fold_depend(Expr *expr, const Expr *part) {
-    expr->dynamic |= part->dynamic;
-    expr->enclosed |= part->enclosed;
-    if (part->lowest < expr->lowest)
-        expr->lowest = part->lowest;
+void fold_add_dependency(Expr *expr, const Expr *child) {
+    expr->dynamic |= child->dynamic;
+    expr->uses_closure |= child->uses_closure;
+    if (child->lowest_slot < expr->lowest_slot)
+        expr->lowest_slot = child->lowest_slot;
 }
 
-void fold_describe(Expr *expr) {
-    expr->lowest = UINT32_MAX;
+void fold_set_dependencies(Expr *expr) {
+    expr->lowest_slot = UINT32_MAX;
     switch (expr->kind) {
     case EXPR_SLOT:
-        expr->lowest = expr->slot;
+        expr->lowest_slot = expr->slot;
         break;
     case EXPR_CAPTURE:
     case EXPR_SELF:
-        expr->enclosed = true;
+        expr->uses_closure = true;
         break;
     case EXPR_LOOKUP:
     case EXPR_IMPORT:
@@ -42,7 +41,7 @@ void fold_describe(Expr *expr) {
         break;
     }
     for (uint32_t i = 0; i < expr->count; i++)
-        fold_depend(expr, expr->children[i]);
+        fold_add_dependency(expr, expr->children[i]);
 }
 
 // Kinds that act on the frame, are constants already, or are as quick as one.
@@ -62,7 +61,7 @@ static bool is_candidate(const Compiler *compiler, const Expr *expr) {
 }
 
 // Does a value reach a closure? Gives up with yes where there is very much to look at.
-enum { MOST_VISITS = 100000 };
+enum { MAX_VISITS = 100000 };
 
 static bool node_reaches_closure(const Node *node, uint32_t *visits);
 
@@ -78,7 +77,7 @@ static bool reaches_closure(Value v, uint32_t *visits) {
 }
 
 static bool node_reaches_closure(const Node *node, uint32_t *visits) {
-    if (++*visits > MOST_VISITS)
+    if (++*visits > MAX_VISITS)
         return true;
     for (uint32_t i = 0; i < node->attr_count; i++)
         if (reaches_closure(node->attrs[i].value, visits))
@@ -91,30 +90,30 @@ static bool node_reaches_closure(const Node *node, uint32_t *visits) {
 
 // Each evaluation makes closures that equal no others and count their own calls, so an expression that may be evaluated
 // several times in a frame must not be replaced by one that shares them.
-static bool may_keep(const Compiler *compiler, Value value) {
+static bool can_fold(const Compiler *compiler, Value value) {
     uint32_t visits = 0;
-    return value.len <= MOST_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
+    return value.len <= MAX_ELEMENTS && (compiler->repeats == 0 || !reaches_closure(value, &visits));
 }
 
 // A constant in the place of an expression. What the expression depended on, it is still taken to depend on.
-static const Expr *replace_by(Compiler *compiler, const Expr *expr, Value value) {
+static const Expr *replace_with_constant(Compiler *compiler, const Expr *expr, Value value) {
     Expr *folded = arena_copy(compiler->scratch, expr, sizeof *expr);
     folded->kind = EXPR_CONST;
     folded->count = 0;
     folded->as.value = value;
-    fold_describe(folded);
-    value_keep(value);
+    fold_set_dependencies(folded);
+    value_mark_program_lifetime(value);
     return folded;
 }
 
 // Constant children are one array that every frame's parent shares.
-static void keep_children(Compiler *compiler, Expr *expr) {
+static void share_constant_children(Compiler *compiler, Expr *expr) {
     if (expr->kind != EXPR_APPEND || expr->children[1]->kind != EXPR_CONST)
         return;
     NodeList *list = arena_alloc(compiler->arena, sizeof *list);
     *list = node_list(compiler->arena, expr->children[1]->as.value);
     list->program_lifetime = true;
-    expr->as.kept = list;
+    expr->as.constant_children = list;
 }
 
 // An `if` whose first test is known comes down to one branch or starts with the next test.
@@ -128,28 +127,28 @@ static const Expr *prune_branches(Compiler *compiler, const Expr *expr) {
     if (skip == 0)
         return expr;
     if (skip == expr->count)
-        return replace_by(compiler, expr, VALUE_NULL);
+        return replace_with_constant(compiler, expr, VALUE_NULL);
     if (skip + 1 == expr->count)
         return expr->children[skip];
     Expr *rest = arena_copy(compiler->scratch, expr, sizeof *expr);
     rest->children += skip;
     rest->count -= skip;
-    fold_describe(rest);
+    fold_set_dependencies(rest);
     return rest;
 }
 
 // The value of an expression that reads no slot from outside; false, with nothing left of it, if it is not known yet or
 // must not be kept.
-static bool evaluate(Compiler *compiler, const Expr *expr, Value *value) {
+static bool evaluate_expr(Compiler *compiler, const Expr *expr, Value *value) {
     const CompileHost *host = &compiler->options->host;
     ArenaMark before = arena_mark(compiler->arena), scratch = arena_mark(compiler->scratch);
     LowerOptions options = {.arena = compiler->scratch, .values = compiler->arena, .scratch = compiler->scratch};
     const Code *code = program_lower(&options, expr, compiler->function->frame_size);
-    bool known = host->evaluate(host->host, code, value) && may_keep(compiler, *value);
+    bool is_folded = host->evaluate(host->user_data, code, value) && can_fold(compiler, *value);
     arena_rewind(compiler->scratch, scratch);
-    if (!known)
+    if (!is_folded)
         arena_rewind(compiler->arena, before);
-    return known;
+    return is_folded;
 }
 
 const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
@@ -158,15 +157,15 @@ const Expr *fold_expr(Compiler *compiler, Expr *expr, uint32_t mark) {
     const Expr *pruned = expr->kind == EXPR_IF ? prune_branches(compiler, expr) : expr;
     if (pruned != expr)
         return pruned;
-    keep_children(compiler, expr);
-    if (expr->dynamic || expr->enclosed || expr->lowest < mark || !is_candidate(compiler, expr))
+    share_constant_children(compiler, expr);
+    if (expr->dynamic || expr->uses_closure || expr->lowest_slot < mark || !is_candidate(compiler, expr))
         return expr;
     Value value;
-    if (!evaluate(compiler, expr, &value)) {
+    if (!evaluate_expr(compiler, expr, &value)) {
         expr->dynamic = true; // what encloses it need not try
         return expr;
     }
-    return replace_by(compiler, expr, value);
+    return replace_with_constant(compiler, expr, value);
 }
 
 Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t count) {
@@ -177,10 +176,10 @@ Value compile_unpack(Compiler *compiler, Value value, uint32_t element, uint32_t
     return value_element(compiler->arena, value, element);
 }
 
-void compile_set_known(Compiler *compiler, uint32_t count, Value value) {
+void compile_set_constant(Compiler *compiler, uint32_t count, Value value) {
     Binding *binding = compiler->function->scope;
     for (uint32_t i = count; i > 0; i--, binding = binding->outer) {
-        binding->known = true;
+        binding->is_constant = true;
         binding->constant = compile_unpack(compiler, value, i - 1, count);
     }
 }

@@ -1,19 +1,18 @@
 // lint.c: what `petri check` says beyond faults; see compile.h.
-#include "program/compile.h"
-
 #include "base/file.h"
 #include "builtin/builtin.h"
+#include "program/compile.h"
 #include "value/format.h"
 
-static bool wanted(const Compiler *compiler) {
-    return compiler->options->lint && !compiler->fixed;
+static bool lint_enabled(const Compiler *compiler) {
+    return compiler->options->lint && !compiler->in_include_path;
 }
 
-static void warn(Compiler *compiler, Span span, const char *code, Str text) {
+static void add_warning(Compiler *compiler, Span span, const char *code, Str text) {
     compile_report(compiler, span, DIAG_WARNING, code, text, (Str){0});
 }
 
-static void warn_hint(Compiler *compiler, Span span, const char *code, Str text, Str hint) {
+static void add_warning_with_hint(Compiler *compiler, Span span, const char *code, Str text, Str hint) {
     compile_report(compiler, span, DIAG_WARNING, code, text, hint);
 }
 
@@ -24,26 +23,27 @@ static bool is_builtin(const Compiler *compiler, Str name) {
 
 void lint_bind(Compiler *compiler, const Binding *binding) {
     Str name = binding->name->name;
-    if (wanted(compiler) && is_builtin(compiler, name))
+    if (lint_enabled(compiler) && is_builtin(compiler, name))
         compile_report(compiler, binding->span, DIAG_NOTE, "shadowed-builtin",
                        str_format(compiler->arena, "'%.*s' hides the built-in of that name", STR_ARGS(name)), (Str){0});
 }
 
 // Loops may run for their number of rounds only, and a name that starts with an underscore says that it is not used.
-static bool may_be_unused(const Binding *binding) {
+static bool can_be_unused(const Binding *binding) {
     return binding->kind == BINDING_LOOP || binding->name->name.bytes[0] == '_';
 }
 
 void lint_unused(Compiler *compiler, const Binding *scope, const Binding *end) {
     static const char *const kinds[] = {"let", "func", "parameter", "loop name", "import"};
     // A file that yields nothing is a module: its top-level names are for others.
-    if (!wanted(compiler) ||
+    if (!lint_enabled(compiler) ||
         (!compiler->function->outer && compiler->function->scope == scope && !end && compiler->is_module))
         return;
     for (const Binding *binding = scope; binding != end; binding = binding->outer)
-        if (!binding->used && !may_be_unused(binding))
-            warn(compiler, binding->span, "unused-name",
-                 str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
+        if (!binding->used && !can_be_unused(binding))
+            add_warning(
+                compiler, binding->span, "unused-name",
+                str_format(compiler->arena, "unused %s '%.*s'", kinds[binding->kind], STR_ARGS(binding->name->name)));
 }
 
 // In the words of the call itself (lib/builtin), so that it is told once if the first frame gets there.
@@ -51,9 +51,9 @@ static void lint_builtin_call(Compiler *compiler, const Ast *ast, const Builtin 
     uint32_t count = code->arg_count + code->named_count;
     bool few = count < builtin->required;
     if (few || (!builtin->variadic && count > builtin->fixed))
-        warn(compiler, ast->span, "bad-call",
-             str_format(compiler->arena, "%s: too %s arguments: %u given to %s(%s)", builtin->name,
-                        few ? "few" : "many", count, builtin->name, builtin->parameters));
+        add_warning(compiler, ast->span, "bad-call",
+                    str_format(compiler->arena, "%s: too %s arguments: %u given to %s(%s)", builtin->name,
+                               few ? "few" : "many", count, builtin->name, builtin->parameters));
 }
 
 static const Ast *find_param(const Ast *params, const Symbol *name) {
@@ -75,23 +75,23 @@ static void lint_user_call(Compiler *compiler, const Ast *ast, const Ast *functi
     const Ast *params = function->children[0];
     Arena *arena = compiler->arena;
     if (code->arg_count > params->count)
-        warn(compiler, ast->span, "wrong-arguments",
-             str_format(arena, "%u arguments for a function of %u", code->arg_count, params->count));
+        add_warning(compiler, ast->span, "wrong-arguments",
+                    str_format(arena, "%u arguments for a function of %u", code->arg_count, params->count));
     for (uint32_t i = 0; i < code->named_count; i++)
         if (!find_param(params, code->names[i]))
-            warn(compiler, ast->span, "wrong-arguments",
-                 str_format(arena, "the function has no parameter '%.*s'", STR_ARGS(code->names[i]->name)));
+            add_warning(compiler, ast->span, "wrong-arguments",
+                        str_format(arena, "the function has no parameter '%.*s'", STR_ARGS(code->names[i]->name)));
     // A template may leave its first parameter to a suite that is not there.
     for (uint32_t i = code->arg_count; i < params->count && ast->kind == AST_CALL; i++) {
         const Ast *param = params->children[i];
         if (param->count == 0 && !is_named(code, param->name))
-            warn(compiler, ast->span, "wrong-arguments",
-                 str_format(arena, "no argument for '%.*s', which has no default", STR_ARGS(param->name->name)));
+            add_warning(compiler, ast->span, "wrong-arguments",
+                        str_format(arena, "no argument for '%.*s', which has no default", STR_ARGS(param->name->name)));
     }
 }
 
 void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const CallCode *code) {
-    if (!wanted(compiler))
+    if (!lint_enabled(compiler))
         return;
     const Binding *binding =
         ast->children[0]->kind == AST_NAME ? compile_find_binding(compiler, ast->children[0]->name) : NULL;
@@ -105,9 +105,9 @@ void lint_call(Compiler *compiler, const Ast *ast, const Expr *callee, const Cal
 }
 
 static void warn_negation(Compiler *compiler, Span span, Str name) {
-    warn_hint(compiler, span, "node-as-test",
-              str_format(compiler->arena, "'!%.*s' is a node, which is always true", STR_ARGS(name)),
-              str_format(compiler->arena, "to negate write not %.*s", STR_ARGS(name)));
+    add_warning_with_hint(compiler, span, "node-as-condition",
+                          str_format(compiler->arena, "'!%.*s' is a node, which is always true", STR_ARGS(name)),
+                          str_format(compiler->arena, "to negate write not %.*s", STR_ARGS(name)));
 }
 
 static const Node *constant_node(const Expr *expr) {
@@ -118,26 +118,26 @@ static const Node *constant_node(const Expr *expr) {
 
 // An `if` whose test is a true constant never gets to what follows.
 void lint_branches(Compiler *compiler, const Expr *expr) {
-    if (!wanted(compiler))
+    if (!lint_enabled(compiler))
         return;
     for (uint32_t i = 0; i + 1 < expr->count; i += 2) {
         const Node *node = constant_node(expr->children[i]);
         if (node) {
-            warn_negation(compiler, expr->children[i]->place.span, node->kind->name);
+            warn_negation(compiler, expr->children[i]->origin.span, node->kind->name);
             return;
         }
     }
     for (uint32_t i = 0; i + 2 < expr->count; i += 2)
         if (expr->children[i]->kind == EXPR_CONST && value_true(expr->children[i]->as.value)) {
-            warn(compiler, expr->children[i]->place.span, "unreachable",
-                 STR("always true: what follows under else is never reached"));
+            add_warning(compiler, expr->children[i]->origin.span, "unreachable",
+                        STR("always true: what follows under else is never reached"));
             return;
         }
 }
 
 // `!x` where x is a name: negated, as they say elsewhere?
 void lint_negation(Compiler *compiler, const Ast *ast) {
-    if (wanted(compiler) && ast->kind == AST_NODE &&
+    if (lint_enabled(compiler) && ast->kind == AST_NODE &&
         (compile_find_binding(compiler, ast->name) || engine_name_exists(ast->name->name)))
         warn_negation(compiler, ast->span, ast->name->name);
 }
@@ -150,25 +150,25 @@ static bool has_text(Value v) {
 }
 
 void lint_arith(Compiler *compiler, const Ast *ast, const Expr *expr) {
-    for (uint32_t i = 0; wanted(compiler) && i < expr->count; i++)
+    for (uint32_t i = 0; lint_enabled(compiler) && i < expr->count; i++)
         if (expr->children[i]->kind == EXPR_CONST && has_text(expr->children[i]->as.value)) {
-            warn_hint(compiler, ast->span, "text-arithmetic", STR("arithmetic on a text is null"),
-                      STR("a text of several parts is written with semicolons: 'x=';x"));
+            add_warning_with_hint(compiler, ast->span, "string-arithmetic", STR("arithmetic on a text is null"),
+                                  STR("a text of several parts is written with semicolons: 'x=';x"));
             return;
         }
 }
 
 // The machine says the same when it gets there, which may be late.
 void lint_import(Compiler *compiler, const Ast *ast, const Expr *file) {
-    if (!wanted(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
+    if (!lint_enabled(compiler) || file->kind != EXPR_CONST || file->as.value.len == 0)
         return;
     Arena *arena = compiler->arena;
     Str name = value_text(arena, compiler->symbols, file->as.value);
     Str path = path_join(arena, compiler->source->directory, name);
     Str version;
     if (name.len && !file_version(arena, compiler->options->files, str_to_c(arena, path), &version))
-        warn(compiler, ast->span, "cannot-import",
-             str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
+        add_warning(compiler, ast->span, "cannot-import",
+                    str_format(arena, "cannot import '%.*s': there is no such file", STR_ARGS(path)));
 }
 
 void lint_pragma(Compiler *compiler, const Ast *pragma) {
@@ -177,10 +177,10 @@ void lint_pragma(Compiler *compiler, const Ast *pragma) {
     for (size_t i = 0; i < sizeof known / sizeof known[0]; i++) {
         if (str_equal(name, known[i]))
             return;
-        if (str_distance(name, known[i]) < 3)
+        if (str_edit_distance(name, known[i]) < 3)
             hint = str_format(compiler->arena, "did you mean %s?", known[i].bytes);
     }
-    if (wanted(compiler))
+    if (lint_enabled(compiler))
         compile_report(compiler, pragma->span, DIAG_WARNING, "unknown-pragma",
                        str_format(compiler->arena, "unknown pragma '%.*s'", STR_ARGS(name)), hint);
 }

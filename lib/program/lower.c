@@ -12,16 +12,16 @@
 static uint32_t line_of(const Lowering *lowering, Opcode op, const Expr *at) {
     uint32_t last = lowering->instr_count;
     bool ends = op == OP_COMPOSE || op == OP_JUMP || op == OP_RETURN;
-    if (ends && last > 0 && lowering->instrs[last - 1].at->source == at->place.source)
+    if (ends && last > 0 && lowering->instrs[last - 1].at->source == at->origin.source)
         return lowering->lines[last - 1];
-    return source_line(at->place.source, at->place.span.start);
+    return source_line(at->origin.source, at->origin.span.start);
 }
 
-const Origin *lower_place(Lowering *lowering, const Expr *expr) {
-    if (lowering->placed != expr)
-        lowering->place = arena_copy(lowering->options->arena, &expr->place, sizeof expr->place);
-    lowering->placed = expr;
-    return lowering->place;
+const Origin *lower_origin(Lowering *lowering, const Expr *expr) {
+    if (lowering->origin_expr != expr)
+        lowering->origin = arena_copy(lowering->options->arena, &expr->origin, sizeof expr->origin);
+    lowering->origin_expr = expr;
+    return lowering->origin;
 }
 
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count) {
@@ -31,15 +31,15 @@ const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *
 void lower_emit(Lowering *lowering, const Expr *at, Instr instr) {
     uint32_t capacity = lowering->instr_capacity;
     lowering->instrs =
-        arena_room(lowering->options->scratch, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
+        arena_grow_array(lowering->options->scratch, lowering->instrs, lowering->instr_count, &capacity, sizeof(Instr));
     if (lowering->options->lines) {
         uint32_t same = lowering->instr_capacity;
-        lowering->lines =
-            arena_room(lowering->options->scratch, lowering->lines, lowering->instr_count, &same, sizeof(uint32_t));
+        lowering->lines = arena_grow_array(lowering->options->scratch, lowering->lines, lowering->instr_count, &same,
+                                           sizeof(uint32_t));
         lowering->lines[lowering->instr_count] = line_of(lowering, (Opcode)instr.op, at);
     }
     lowering->instr_capacity = capacity;
-    instr.at = lower_place(lowering, at);
+    instr.at = lower_origin(lowering, at);
     lowering->instrs[lowering->instr_count++] = instr;
 }
 
@@ -51,8 +51,8 @@ int32_t lower_temporary(Lowering *lowering) {
 }
 
 int32_t lower_constant(Lowering *lowering, Value value) {
-    lowering->constants = arena_room(lowering->options->scratch, lowering->constants, lowering->constant_count,
-                                     &lowering->constant_capacity, sizeof(Value));
+    lowering->constants = arena_grow_array(lowering->options->scratch, lowering->constants, lowering->constant_count,
+                                           &lowering->constant_capacity, sizeof(Value));
     lowering->constants[lowering->constant_count++] = value;
     return -(int32_t)lowering->constant_count;
 }
@@ -71,8 +71,8 @@ int32_t lower_operand(Lowering *lowering, const Expr *expr) {
 uint32_t lower_list(Lowering *lowering, const int32_t *operands, uint32_t count) {
     uint32_t start = lowering->operand_count;
     for (uint32_t i = 0; i < count; i++) {
-        lowering->operands = arena_room(lowering->options->scratch, lowering->operands, lowering->operand_count,
-                                        &lowering->operand_capacity, sizeof(int32_t));
+        lowering->operands = arena_grow_array(lowering->options->scratch, lowering->operands, lowering->operand_count,
+                                              &lowering->operand_capacity, sizeof(int32_t));
         lowering->operands[lowering->operand_count++] = operands[i];
     }
     return start;
@@ -86,7 +86,7 @@ uint32_t lower_operands(Lowering *lowering, const Expr *const *exprs, uint32_t c
 }
 
 // The end of a jump: the instruction that is emitted next.
-void lower_land(Lowering *lowering, uint32_t jump) {
+void lower_patch_jump(Lowering *lowering, uint32_t jump) {
     lowering->instrs[jump].target = lowering->instr_count;
 }
 
@@ -107,7 +107,7 @@ static void emit_operator(Lowering *lowering, uint16_t op, const Expr *expr, int
     lower_emit(lowering, expr, (Instr){.op = op, .d = d, .a = a, .b = b, .c = (int32_t)expr->slot});
 }
 
-static void load(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_load(Lowering *lowering, const Expr *expr, int32_t d) {
     uint16_t op = expr->kind == EXPR_CAPTURE  ? OP_CAPTURE
                   : expr->kind == EXPR_SELF   ? OP_SELF
                   : expr->kind == EXPR_GLOBAL ? OP_GLOBAL
@@ -120,7 +120,7 @@ static void load(Lowering *lowering, const Expr *expr, int32_t d) {
 
 // --- statements: what binds names and has no value
 
-static void bind(Lowering *lowering, const Expr *expr) {
+static void lower_bind(Lowering *lowering, const Expr *expr) {
     const Expr *value = expr->children[0];
     if (expr->slot_count == 1) {
         lower_into(lowering, value, (int32_t)expr->slot);
@@ -130,7 +130,7 @@ static void bind(Lowering *lowering, const Expr *expr) {
     lower_emit(lowering, expr, (Instr){.op = OP_UNPACK, .d = (int32_t)expr->slot, .count = expr->slot_count, .a = a});
 }
 
-static void import(Lowering *lowering, const Expr *expr) {
+static void lower_import(Lowering *lowering, const Expr *expr) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     lower_emit(lowering, expr,
                (Instr){.op = OP_IMPORT,
@@ -143,9 +143,9 @@ static void import(Lowering *lowering, const Expr *expr) {
 void lower_statement(Lowering *lowering, const Expr *expr) {
     int32_t mark = lowering->next_register;
     if (expr->kind == EXPR_BIND)
-        bind(lowering, expr);
+        lower_bind(lowering, expr);
     else if (expr->kind == EXPR_IMPORT)
-        import(lowering, expr);
+        lower_import(lowering, expr);
     else
         for (uint32_t i = 0; i < expr->count; i++)
             lower_statement(lowering, expr->children[i]);
@@ -154,7 +154,7 @@ void lower_statement(Lowering *lowering, const Expr *expr) {
 
 // --- values
 
-static void compose(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_compose(Lowering *lowering, const Expr *expr, int32_t d) {
     if (expr->slot == 1 && !expr_only_binds(expr->children[expr->count - 1])) {
         for (uint32_t i = 0; i + 1 < expr->count; i++)
             lower_statement(lowering, expr->children[i]);
@@ -177,21 +177,21 @@ static void compose(Lowering *lowering, const Expr *expr, int32_t d) {
 }
 
 // `or` and `and`: the left value stays unless the right one is wanted.
-static void short_circuit(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_short_circuit(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t left = lower_operand(lowering, expr->children[0]);
     int32_t result = lower_temporary(lowering);
     emit_move(lowering, result, left, expr);
     uint32_t jump = emit_jump(lowering, expr->kind == EXPR_OR ? OP_JUMP_TRUE : OP_JUMP_FALSE, result, expr);
     lower_into(lowering, expr->children[1], result);
-    lower_land(lowering, jump);
+    lower_patch_jump(lowering, jump);
     emit_move(lowering, d, result, expr);
 }
 
 // A branch of an `if`: its value goes to a register or, in a loop's body, to the loop.
-static void branch(Lowering *lowering, const Expr *expr, const Target *target) {
+static void lower_branch(Lowering *lowering, const Expr *expr, const Target *target) {
     int32_t mark = lowering->next_register;
     if (target->to_loop)
-        lower_part(lowering, expr, target->loop);
+        lower_yields(lowering, expr, target->loop);
     else
         lower_into(lowering, expr, target->d);
     lowering->next_register = mark;
@@ -204,21 +204,21 @@ void lower_if(Lowering *lowering, const Expr *expr, const Target *target) {
         int32_t test = lower_operand(lowering, expr->children[i]);
         uint32_t past = emit_jump(lowering, OP_JUMP_FALSE, test, expr->children[i]);
         lowering->next_register = mark;
-        branch(lowering, expr->children[i + 1], target);
+        lower_branch(lowering, expr->children[i + 1], target);
         ends[end_count++] = emit_jump(lowering, OP_JUMP, 0, expr);
-        lower_land(lowering, past);
+        lower_patch_jump(lowering, past);
     }
     if (i < expr->count)
-        branch(lowering, expr->children[i], target);
+        lower_branch(lowering, expr->children[i], target);
     else if (target->to_loop)
-        lower_add_part(lowering, lower_constant(lowering, VALUE_NULL), target->loop, expr);
+        lower_yield(lowering, lower_constant(lowering, VALUE_NULL), target->loop, expr);
     else
         emit_move(lowering, target->d, lower_constant(lowering, VALUE_NULL), expr);
     while (end_count > 0)
-        lower_land(lowering, ends[--end_count]);
+        lower_patch_jump(lowering, ends[--end_count]);
 }
 
-static void closure(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_closure(Lowering *lowering, const Expr *expr, int32_t d) {
     uint32_t list = lower_operands(lowering, expr->children, expr->count);
     lower_emit(lowering, expr,
                (Instr){.op = OP_CLOSURE, .d = d, .list = list, .count = expr->count, .as.function = expr->as.function});
@@ -235,7 +235,7 @@ static const Builtin *direct_builtin(const Expr *callee, const CallCode *code) {
     return fits ? builtin : NULL;
 }
 
-static void call(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_call(Lowering *lowering, const Expr *expr, int32_t d) {
     const Builtin *builtin = direct_builtin(expr->children[0], expr->as.call);
     int32_t callee = builtin ? 0 : lower_operand(lowering, expr->children[0]);
     uint32_t list = lower_operands(lowering, expr->children + 1, expr->count - 1);
@@ -251,20 +251,21 @@ static void call(Lowering *lowering, const Expr *expr, int32_t d) {
 }
 
 // A key that is composed on the spot is looked up by its parts.
-static void lookup(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_lookup(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *key = expr->children[0];
     bool parts = key->kind == EXPR_COMPOSE && key->slot > 1;
     for (uint32_t i = 0; parts && i < key->count; i++)
         parts = !expr_only_binds(key->children[i]);
     uint32_t count = parts ? key->count : 1;
     uint32_t list = lower_operands(lowering, parts ? key->children : expr->children, count);
-    Instr instr = {.op = OP_LOOKUP, .d = d, .list = list, .count = count, .as.inner = lower_place(lowering, key)};
-    instr.target = lowering->options->places ? (*lowering->options->places)++ : UINT32_MAX;
+    Instr instr = {
+        .op = OP_LOOKUP, .d = d, .list = list, .count = count, .as.inner_origin = lower_origin(lowering, key)};
+    instr.target = lowering->options->lookup_count ? (*lowering->options->lookup_count)++ : UINT32_MAX;
     lower_emit(lowering, expr, instr);
 }
 
 // `vector[start..stop]` takes elements without making the range.
-static void subscript(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     const Expr *range = expr->children[1];
     bool slice = range->kind == EXPR_RANGE && range->children[2]->kind == EXPR_CONST &&
                  value_is_null(range->children[2]->as.value);
@@ -275,27 +276,28 @@ static void subscript(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t a = lower_operand(lowering, expr->children[0]);
     int32_t b = lower_operand(lowering, range->children[0]);
     int32_t c = lower_operand(lowering, range->children[1]);
-    lower_emit(lowering, expr,
-               (Instr){.op = OP_SLICE, .d = d, .a = a, .b = b, .c = c, .as.inner = lower_place(lowering, range)});
+    lower_emit(
+        lowering, expr,
+        (Instr){.op = OP_SLICE, .d = d, .a = a, .b = b, .c = c, .as.inner_origin = lower_origin(lowering, range)});
 }
 
-static void range(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_range(Lowering *lowering, const Expr *expr, int32_t d) {
     int32_t parts[3];
     for (int i = 0; i < 3; i++)
         parts[i] = lower_operand(lowering, expr->children[i]);
     lower_emit(lowering, expr, (Instr){.op = OP_RANGE, .d = d, .a = parts[0], .b = parts[1], .c = parts[2]});
 }
 
-static void move(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_move(Lowering *lowering, const Expr *expr, int32_t d) {
     emit_move(lowering, d, lower_operand(lowering, expr), expr);
 }
 
-static void binding(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_binding(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_statement(lowering, expr);
     emit_move(lowering, d, lower_constant(lowering, VALUE_NULL), expr);
 }
 
-static void choice(Lowering *lowering, const Expr *expr, int32_t d) {
+static void lower_if_value(Lowering *lowering, const Expr *expr, int32_t d) {
     lower_if(lowering, expr, &(Target){.d = d});
 }
 
@@ -308,17 +310,17 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
 #define SAME(kind)
 #define PLAIN(kind) [EXPR_##kind] = {NULL, OP_##kind},
 #include "program/expr_list.h"
-        [EXPR_CONST] = {.lower = move},        [EXPR_SLOT] = {.lower = move},
-        [EXPR_CAPTURE] = {.lower = load},      [EXPR_SELF] = {.lower = load},
-        [EXPR_GLOBAL] = {.lower = load},       [EXPR_UNBOUND] = {.lower = load},
-        [EXPR_COMPOSE] = {.lower = compose},   [EXPR_BIND] = {.lower = binding},
-        [EXPR_LET] = {.lower = binding},       [EXPR_IMPORT] = {.lower = binding},
-        [EXPR_FUNC] = {.lower = closure},      [EXPR_FOR] = {.lower = lower_for},
-        [EXPR_IF] = {.lower = choice},         [EXPR_NODE] = {.lower = lower_node},
-        [EXPR_APPEND] = {.lower = lower_node}, [EXPR_DECORATE] = {.lower = lower_node},
-        [EXPR_CALL] = {.lower = call},         [EXPR_OR] = {.lower = short_circuit},
-        [EXPR_AND] = {.lower = short_circuit}, [EXPR_RANGE] = {.lower = range},
-        [EXPR_INDEX] = {.lower = subscript},   [EXPR_LOOKUP] = {.lower = lookup}};
+        [EXPR_CONST] = {.lower = lower_move},        [EXPR_SLOT] = {.lower = lower_move},
+        [EXPR_CAPTURE] = {.lower = lower_load},      [EXPR_SELF] = {.lower = lower_load},
+        [EXPR_GLOBAL] = {.lower = lower_load},       [EXPR_UNBOUND] = {.lower = lower_load},
+        [EXPR_COMPOSE] = {.lower = lower_compose},   [EXPR_BIND] = {.lower = lower_binding},
+        [EXPR_LET] = {.lower = lower_binding},       [EXPR_IMPORT] = {.lower = lower_binding},
+        [EXPR_FUNC] = {.lower = lower_closure},      [EXPR_FOR] = {.lower = lower_for},
+        [EXPR_IF] = {.lower = lower_if_value},       [EXPR_NODE] = {.lower = lower_node},
+        [EXPR_APPEND] = {.lower = lower_node},       [EXPR_DECORATE] = {.lower = lower_node},
+        [EXPR_CALL] = {.lower = lower_call},         [EXPR_OR] = {.lower = lower_short_circuit},
+        [EXPR_AND] = {.lower = lower_short_circuit}, [EXPR_RANGE] = {.lower = lower_range},
+        [EXPR_INDEX] = {.lower = lower_subscript},   [EXPR_LOOKUP] = {.lower = lower_lookup}};
     int32_t mark = lowering->next_register;
     if (ways[expr->kind].lower)
         ways[expr->kind].lower(lowering, expr, d);
@@ -328,7 +330,7 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d) {
 }
 
 // The constants in the order in which negative operands count them.
-static const Value *reversed(const Lowering *lowering) {
+static const Value *reversed_constants(const Lowering *lowering) {
     uint32_t count = lowering->constant_count;
     Value *constants = arena_alloc_array(lowering->options->arena, count, sizeof *constants);
     for (uint32_t i = 0; i < count; i++)
@@ -343,14 +345,14 @@ const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_
     lower_emit(&lowering, expr, (Instr){.op = OP_RETURN, .a = result});
     Arena *arena = options->arena;
     Code *code = arena_alloc(arena, sizeof *code);
-    *code = (Code){.source = expr->place.source,
+    *code = (Code){.source = expr->origin.source,
                    .instrs = arena_copy(arena, lowering.instrs, lowering.instr_count * sizeof(Instr)),
                    .count = lowering.instr_count,
                    .register_count = (uint32_t)lowering.register_count,
                    .slot_count = slot_count,
                    .loop_count = lowering.loop_count,
                    .operands = arena_copy(arena, lowering.operands, lowering.operand_count * sizeof(int32_t)),
-                   .constants = reversed(&lowering),
+                   .constants = reversed_constants(&lowering),
                    .constant_count = lowering.constant_count,
                    .lines = options->lines ? arena_copy(arena, lowering.lines, lowering.instr_count * sizeof(uint32_t))
                                            : NULL};

@@ -7,11 +7,12 @@
 
 // How an expression is to be lowered.
 typedef struct LowerOptions {
-    Arena *arena;     // the code goes here
-    Arena *values;    // parts of values that the code makes, which may outlive it
-    Arena *scratch;   // what is dropped afterwards
-    uint32_t *places; // counts the look-ups of a program: raised by those in the expression; NULL: none is numbered
-    bool lines;       // note the lines of instructions
+    Arena *arena;   // the code goes here
+    Arena *values;  // parts of values that the code makes, which may outlive it
+    Arena *scratch; // what is dropped afterwards
+    uint32_t
+        *lookup_count; // counts the look-ups of a program: raised by those in the expression; NULL: none is numbered
+    bool lines;        // note the lines of instructions
 } LowerOptions;
 
 // The code of an expression that is evaluated in a frame of `slot_count` slots.
@@ -20,8 +21,8 @@ const Code *program_lower(const LowerOptions *options, const Expr *expr, uint32_
 // The code under construction.
 typedef struct Lowering {
     const LowerOptions *options;
-    const Expr *placed;  // the expression whose place was put down last,
-    const Origin *place; // … which is here
+    const Expr *origin_expr; // the expression whose place was put down last,
+    const Origin *origin;    // … which is here
     Instr *instrs;
     uint32_t *lines; // as many as instructions, if wanted
     uint32_t instr_count;
@@ -36,8 +37,9 @@ typedef struct Lowering {
     int32_t register_count;
     uint32_t loop_depth;
     uint32_t loop_count;
-    const Expr *row;   // the node that each round of a loop makes, which may go into a run; NULL: there is no such node
-    uint32_t row_loop; // … and the instruction that begins that loop
+    const Expr
+        *yielded_node; // the node that each round of a loop makes, which may go into a run; NULL: there is no such node
+    uint32_t yielded_loop; // … and the instruction that begins that loop
 } Lowering;
 
 // Where the value of an expression goes.
@@ -50,7 +52,7 @@ typedef struct Target {
 // Puts an instruction down; its place is that of `at`.
 void lower_emit(Lowering *lowering, const Expr *at, Instr instr);
 // The place of an expression, in the code.
-const Origin *lower_place(Lowering *lowering, const Expr *expr);
+const Origin *lower_origin(Lowering *lowering, const Expr *expr);
 // A copy of names, in the code.
 const Symbol *const *lower_names(const Lowering *lowering, const Symbol *const *names, uint32_t count);
 // A register of its own until next_register is set back.
@@ -64,16 +66,16 @@ void lower_into(Lowering *lowering, const Expr *expr, int32_t d);
 // A binding, whose value is null.
 void lower_statement(Lowering *lowering, const Expr *expr);
 // Makes a jump lead to what comes next.
-void lower_land(Lowering *lowering, uint32_t jump);
+void lower_patch_jump(Lowering *lowering, uint32_t jump);
 void lower_if(Lowering *lowering, const Expr *expr, const Target *target);
 
 void lower_for(Lowering *lowering, const Expr *expr, int32_t d);
 // The value of a loop's body, or of a part of it.
-void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop);
-void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
+void lower_yields(Lowering *lowering, const Expr *expr, uint16_t loop);
+void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at);
 // Whether many rounds of the loop that begins with instruction `start` can be run at once, its body being all that
 // follows; NULL if not.
-const RoundsCode *lower_rounds(const Lowering *lowering, uint32_t start);
+const BatchPlan *lower_batch(const Lowering *lowering, uint32_t first);
 // NODE, DECORATE and APPEND.
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d);
 

@@ -1,7 +1,6 @@
 // lower_node.c: loops and nodes; see lower.h.
 #include "program/lower.h"
-
-#include "value/run.h"
+#include "value/node_batch.h"
 
 // --- nodes
 
@@ -15,7 +14,7 @@ static const Node *constant_node(const Expr *expr) {
 // The node that an expression is before anything has been added to it, or NULL if it is something else.
 static const Node *bare_node(const Expr *expr, Arena *arena) {
     if (expr->kind == EXPR_NODE) {
-        NodeOrigin origin = {.place = expr->place};
+        NodeOrigin origin = {.origin = expr->origin};
         Node *node = node_new(arena, expr->as.name);
         node->origin = arena_copy(arena, &origin, sizeof origin);
         return node;
@@ -33,45 +32,45 @@ static bool names_differ(const Decoration *code) {
 }
 
 // The node with the places of the attributes that are written with it, for messages.
-static const Node *with_places(Arena *arena, const Node *node, const Expr *decorate) {
+static const Node *with_attr_origins(Arena *arena, const Node *node, const Expr *decorate) {
     const Decoration *code = decorate->as.decorate;
-    if (!node->origin || node->origin->place.source != decorate->place.source)
+    if (!node->origin || node->origin->origin.source != decorate->origin.source)
         return node;
     struct AttrOrigin *attrs = arena_alloc_array(arena, code->attr_count, sizeof *attrs);
     for (uint32_t i = 0; i < code->attr_count; i++)
         attrs[i] = (struct AttrOrigin){code->code.names[i], code->spans[i]};
-    NodeOrigin origin = {node->origin->place, attrs, code->attr_count};
+    NodeOrigin origin = {node->origin->origin, attrs, code->attr_count};
     Node *placed = arena_copy(arena, node, sizeof *node);
     placed->program_lifetime = false;
     placed->origin = arena_copy(arena, &origin, sizeof origin);
     return placed;
 }
 
-enum { MOST_DISTINCT = 64 }; // attributes that are compared with each other
+enum { MAX_DISTINCT = 64 }; // attributes that are compared with each other
 
 // The instruction for a node with attributes and children that can be made at once; false if it cannot.
-static bool whole_node(Lowering *lowering, const Expr *expr, Instr *instr) {
+static bool build_node(Lowering *lowering, const Expr *expr, Instr *instr) {
     Arena *values = lowering->options->values;
     const Expr *append = expr->kind == EXPR_APPEND ? expr : NULL;
     const Expr *inner = append ? append->children[0] : expr;
     const Expr *decorate = inner->kind == EXPR_DECORATE ? inner : NULL;
     const Node *base = bare_node(decorate ? decorate->children[0] : inner, values);
     const Decoration *code = decorate ? decorate->as.decorate : NULL;
-    if (!base || (code && (code->attr_count > MOST_DISTINCT || !names_differ(code))))
+    if (!base || (code && (code->attr_count > MAX_DISTINCT || !names_differ(code))))
         return false;
     if (decorate)
-        base = with_places(values, base, decorate);
+        base = with_attr_origins(values, base, decorate);
     for (uint32_t i = 0; code && i < code->code.tag_count; i++)
         base = node_add_tag(values, base, code->code.tags[i]);
     NodeCode *node = arena_alloc(lowering->options->arena, sizeof *node);
     uint32_t count = code ? code->attr_count : 0;
     *node = (NodeCode){.base = base,
                        .names = code ? lower_names(lowering, code->code.names, count) : NULL,
-                       .decorated = decorate ? lower_place(lowering, decorate) : NULL,
-                       .kept = append ? append->as.kept : NULL};
+                       .decorated = decorate ? lower_origin(lowering, decorate) : NULL,
+                       .constant_children = append ? append->as.constant_children : NULL};
     uint32_t list = code ? lower_operands(lowering, decorate->children + 1, count) : 0;
     int32_t children = CODE_NO_OPERAND;
-    if (append && !node->kept)
+    if (append && !node->constant_children)
         children = lower_operand(lowering, append->children[1]);
     *instr = (Instr){.op = OP_NODE, .list = list, .count = count, .b = children, .as.node = node};
     return true;
@@ -79,8 +78,8 @@ static bool whole_node(Lowering *lowering, const Expr *expr, Instr *instr) {
 
 // --- loops
 
-void lower_add_part(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
-    lower_emit(lowering, at, (Instr){.op = OP_ADD_PART, .a = a, .loop = loop});
+void lower_yield(Lowering *lowering, int32_t a, uint16_t loop, const Expr *at) {
+    lower_emit(lowering, at, (Instr){.op = OP_YIELD, .a = a, .loop = loop});
 }
 
 // Has an expression one element at the most, and is it no stream? Then a composition of such parts is not too long, and
@@ -112,46 +111,47 @@ static bool has_small_parts(const Expr *expr) {
 }
 
 // Do instructions keep nothing that was made in the round of the loop that they belong to?
-static bool leave_nothing(const Instr *instrs, uint32_t count) {
-    static const bool kept[OP_COUNT] = {[OP_CLOSURE] = true,  [OP_IMPORT] = true,  [OP_NODE] = true, [OP_APPEND] = true,
-                                        [OP_DECORATE] = true, [OP_ADD_ROW] = true, [OP_CALL] = true};
+static bool retains_nothing(const Instr *instrs, uint32_t count) {
+    static const bool retained[OP_COUNT] = {
+        [OP_CLOSURE] = true,  [OP_IMPORT] = true,     [OP_NODE] = true, [OP_APPEND] = true,
+        [OP_DECORATE] = true, [OP_YIELD_NODE] = true, [OP_CALL] = true};
     for (uint32_t i = 0; i < count; i++)
-        if (kept[instrs[i].op] || (instrs[i].op == OP_BUILTIN && !instrs[i].as.builtin->pure))
+        if (retained[instrs[i].op] || (instrs[i].op == OP_BUILTIN && !instrs[i].as.builtin->pure))
             return false;
     return true;
 }
 
 // The node of a round, as a row of a run; false if it can be none.
-static bool lower_row(Lowering *lowering, const Expr *expr, uint16_t loop) {
+static bool lower_yield_node(Lowering *lowering, const Expr *expr, uint16_t loop) {
     Instr row;
-    if (expr != lowering->row || !whole_node(lowering, expr, &row))
+    if (expr != lowering->yielded_node || !build_node(lowering, expr, &row))
         return false;
-    const Instr *start = &lowering->instrs[lowering->row_loop];
-    row.op = OP_ADD_ROW;
+    const Instr *start = &lowering->instrs[lowering->yielded_loop];
+    row.op = OP_YIELD_NODE;
     row.loop = loop;
     row.target = (uint32_t)start->d;
-    row.d = leave_nothing(start + 1, lowering->instr_count - lowering->row_loop - 1);
+    row.d = retains_nothing(start + 1, lowering->instr_count - lowering->yielded_loop - 1);
     lower_emit(lowering, expr, row);
     return true;
 }
 
 // The one node that a loop's body comes to, if that may be one of very many; else NULL.
-static const Expr *only_node(const Expr *expr) {
+static const Expr *sole_node(const Expr *expr) {
     while (expr->kind == EXPR_COMPOSE && expr->slot == 1)
         for (uint32_t i = 0, count = expr->count; i < count; i++)
             if (!expr_only_binds(expr->children[i])) {
                 expr = expr->children[i];
                 break;
             }
-    if (expr->kind != EXPR_DECORATE || expr->as.decorate->attr_count > NODE_RUN_ATTRS)
+    if (expr->kind != EXPR_DECORATE || expr->as.decorate->attr_count > NODE_BATCH_MAX_ATTRS)
         return NULL;
     const Expr *bare = expr->children[0];
     const Node *known = constant_node(bare);
     const Symbol *kind = bare->kind == EXPR_NODE ? bare->as.name : known ? known->kind : NULL;
-    return kind && kind->many ? expr : NULL;
+    return kind && kind->batched ? expr : NULL;
 }
 
-void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop) {
+void lower_yields(Lowering *lowering, const Expr *expr, uint16_t loop) {
     int32_t mark = lowering->next_register;
     bool single = expr->kind == EXPR_COMPOSE && expr->slot == 1;
     if (expr->kind == EXPR_IF) {
@@ -161,9 +161,9 @@ void lower_part(Lowering *lowering, const Expr *expr, uint16_t loop) {
             if (expr_only_binds(expr->children[i]))
                 lower_statement(lowering, expr->children[i]);
             else
-                lower_part(lowering, expr->children[i], loop);
-    } else if (!lower_row(lowering, expr, loop)) {
-        lower_add_part(lowering, lower_operand(lowering, expr), loop, expr);
+                lower_yields(lowering, expr->children[i], loop);
+    } else if (!lower_yield_node(lowering, expr, loop)) {
+        lower_yield(lowering, lower_operand(lowering, expr), loop, expr);
     }
     lowering->next_register = mark;
 }
@@ -179,40 +179,44 @@ void lower_for(Lowering *lowering, const Expr *expr, int32_t d) {
         lowering->loop_count = lowering->loop_depth;
     if (spans) // no need to make the range
         lower_emit(lowering, over,
-                   (Instr){.op = OP_SPAN, .loop = loop, .a = source[0], .b = source[1], .c = source[2]});
-    Instr round = {
-        .op = spans ? OP_FOR_SPAN : OP_FOR, .d = (int32_t)expr->slot, .count = expr->slot_count, .loop = loop};
-    round.a = spans ? 0 : source[0];
+                   (Instr){.op = OP_RANGE_INIT, .loop = loop, .a = source[0], .b = source[1], .c = source[2]});
+    Instr loop_instr = {
+        .op = spans ? OP_FOR_RANGE : OP_FOR, .d = (int32_t)expr->slot, .count = expr->slot_count, .loop = loop};
+    loop_instr.a = spans ? 0 : source[0];
     uint32_t start = lowering->instr_count;
-    lower_emit(lowering, expr, round);
-    const Expr *outer_row = lowering->row;
-    uint32_t outer_loop = lowering->row_loop;
-    lowering->row = expr->may_run && expr->slot_count == 1 ? only_node(expr->children[1]) : NULL;
-    lowering->row_loop = start;
-    lower_part(lowering, expr->children[1], loop);
-    lowering->row = outer_row;
-    lowering->row_loop = outer_loop;
-    lowering->instrs[start].as.rounds = lower_rounds(lowering, start);
-    round.op = OP_NEXT;
-    round.target = start + 1;
-    lower_emit(lowering, expr, round);
-    lower_land(lowering, start);
-    lower_emit(lowering, expr, (Instr){.op = OP_COLLECT, .d = d, .loop = loop});
+    lower_emit(lowering, expr, loop_instr);
+    const Expr *outer_row = lowering->yielded_node;
+    uint32_t outer_loop = lowering->yielded_loop;
+    lowering->yielded_node = expr->can_batch && expr->slot_count == 1 ? sole_node(expr->children[1]) : NULL;
+    lowering->yielded_loop = start;
+    lower_yields(lowering, expr->children[1], loop);
+    lowering->yielded_node = outer_row;
+    lowering->yielded_loop = outer_loop;
+    lowering->instrs[start].as.batch_plan = lower_batch(lowering, start);
+    loop_instr.op = OP_NEXT;
+    loop_instr.target = start + 1;
+    lower_emit(lowering, expr, loop_instr);
+    lower_patch_jump(lowering, start);
+    lower_emit(lowering, expr, (Instr){.op = OP_END_LOOP, .d = d, .loop = loop});
     lowering->loop_depth--;
 }
 
 void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
     Instr whole;
-    if (whole_node(lowering, expr, &whole)) {
+    if (build_node(lowering, expr, &whole)) {
         whole.d = d;
         lower_emit(lowering, expr, whole);
         return;
     }
     int32_t subject = lower_operand(lowering, expr->children[0]);
     if (expr->kind == EXPR_APPEND) {
-        int32_t children = expr->as.kept ? CODE_NO_OPERAND : lower_operand(lowering, expr->children[1]);
+        int32_t children = expr->as.constant_children ? CODE_NO_OPERAND : lower_operand(lowering, expr->children[1]);
         lower_emit(lowering, expr,
-                   (Instr){.op = OP_APPEND, .d = d, .a = subject, .b = children, .as.kept = expr->as.kept});
+                   (Instr){.op = OP_APPEND,
+                           .d = d,
+                           .a = subject,
+                           .b = children,
+                           .as.constant_children = expr->as.constant_children});
         return;
     }
     DecorateCode code = expr->as.decorate->code;
@@ -220,7 +224,7 @@ void lower_node(Lowering *lowering, const Expr *expr, int32_t d) {
     code.tags = lower_names(lowering, code.tags, code.tag_count);
     code.names = lower_names(lowering, code.names, count);
     uint32_t list = lower_operands(lowering, expr->children + 1, count);
-    const DecorateCode *kept = arena_copy(lowering->options->arena, &code, sizeof code);
+    const DecorateCode *retained = arena_copy(lowering->options->arena, &code, sizeof code);
     lower_emit(lowering, expr,
-               (Instr){.op = OP_DECORATE, .d = d, .b = subject, .list = list, .count = count, .as.decorate = kept});
+               (Instr){.op = OP_DECORATE, .d = d, .b = subject, .list = list, .count = count, .as.decorate = retained});
 }

@@ -14,12 +14,12 @@ OPCODE(UNPACK,     "unpack",     "sa")   // s = the elements of a
 OPCODE(CLOSURE,    "closure",    "dlx")  // d = a closure; l: the defaults of its parameters
 OPCODE(IMPORT,     "import",     "sa")   // s = names of the module whose file is a
 OPCODE(FOR,        "for",        "osaj") // begins loop o over a: s = the first elements, or jumps if there are none
-OPCODE(SPAN,       "span",       "oabc") // prepares loop o to go over a..b|c
-OPCODE(FOR_SPAN,   "for span",   "osj")  // begins the loop that was prepared
-OPCODE(ADD_PART,   "add part",   "oa")   // adds a to the result of loop o
-OPCODE(ADD_ROW,    "add row",    "olx")  // adds a node with attributes l to a run in the result of loop o
+OPCODE(RANGE_INIT,       "range init",       "oabc") // prepares loop o to go over a..b|c
+OPCODE(FOR_RANGE,   "for range",   "osj")  // begins the loop that was prepared
+OPCODE(YIELD,   "yield",   "oa")   // adds a to the result of loop o
+OPCODE(YIELD_NODE,    "yield node",    "olx")  // adds a node with attributes l to a run in the result of loop o
 OPCODE(NEXT,       "next",       "osj")  // s = the next elements of loop o, and jumps back if there are any
-OPCODE(COLLECT,    "collect",    "do")   // d = the result of loop o
+OPCODE(END_LOOP,    "end loop",    "do")   // d = the result of loop o
 OPCODE(JUMP,       "jump",       "j")
 OPCODE(JUMP_TRUE,  "jump true",  "aj")   // if a is true
 OPCODE(JUMP_FALSE, "jump false", "aj")   // if it is not

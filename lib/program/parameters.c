@@ -3,9 +3,8 @@
 // The language needs nothing for this: a name that is not defined is null, which is false, and `or` takes the default.
 // What is added here is that such a name is meant, so that nobody is warned of it, and that it can be listed: with the
 // comment behind it, which the scanner drops, but the source text still has.
-#include "program/compile.h"
-
 #include "ast/literal.h"
+#include "program/compile.h"
 
 #include <math.h>
 #include <string.h>
@@ -37,7 +36,7 @@ static Str default_text(const Source *source, const Ast *use, const Ast *value) 
 }
 
 // The comment behind a binding in the line in which it ends, if nothing else is between.
-static Str comment_behind(const Source *source, uint32_t at) {
+static Str trailing_comment(const Source *source, uint32_t at) {
     const char *text = source->text.bytes;
     while (is_blank(text[at]) || text[at] == ')')
         at++;
@@ -50,14 +49,14 @@ static Str comment_behind(const Source *source, uint32_t at) {
 }
 
 // One end of a range; without a number it is `nothing`.
-static bool read_end(Str text, double nothing, double *x) {
-    *x = nothing;
+static bool parse_bound(Str text, double if_absent, double *x) {
+    *x = if_absent;
     return text.len == 0 || (literal_parse_number(text, x) && !isnan(*x));
 }
 
 // `LEAST..MOST`, `LEAST..MOST|STEP`, or either end alone.
-static bool read_range(Str word, Parameter *parameter) {
-    double least, most, step = 0;
+static bool parse_range(Str word, Parameter *parameter) {
+    double min, max, step = 0;
     const char *dots = NULL, *bar = memchr(word.bytes, '|', word.len);
     size_t len = bar ? (size_t)(bar - word.bytes) : word.len;
     for (size_t i = 0; !dots && i + 1 < len; i++)
@@ -68,39 +67,39 @@ static bool read_range(Str word, Parameter *parameter) {
     Str first = {word.bytes, (size_t)(dots - word.bytes)}, last = {dots + 2, len - first.len - 2};
     if (bar && !(literal_parse_number((Str){bar + 1, word.len - len - 1}, &step) && step > 0 && isfinite(step)))
         return false;
-    if (!read_end(first, -INFINITY, &least) || !read_end(last, INFINITY, &most) || !(least <= most))
+    if (!parse_bound(first, -INFINITY, &min) || !parse_bound(last, INFINITY, &max) || !(min <= max))
         return false;
-    parameter->least = least;
-    parameter->most = most;
+    parameter->min = min;
+    parameter->max = max;
     parameter->step = step;
     return true;
 }
 
 // Parts a comment into the range that it may begin with and the rest.
-static void read_comment(Str comment, Parameter *parameter) {
+static void parse_comment(Str comment, Parameter *parameter) {
     size_t len = 0;
     while (len < comment.len && !is_blank(comment.bytes[len]))
         len++;
     Str word = {comment.bytes, len};
     while (word.len && strchr(",;:", word.bytes[word.len - 1]))
         word.len--;
-    parameter->least = -INFINITY;
-    parameter->most = INFINITY;
+    parameter->min = -INFINITY;
+    parameter->max = INFINITY;
     parameter->comment = comment;
-    if (comment.len && read_range(word, parameter))
+    if (comment.len && parse_range(word, parameter))
         parameter->comment = str_trim((Str){comment.bytes + len, comment.len - len});
 }
 
 // A default that its own range leaves out is hardly meant.
-static void lint(Compiler *compiler, const Parameter *parameter) {
+static void lint_default(Compiler *compiler, const Parameter *parameter) {
     Value v = parameter->value;
     bool within = true;
     for (uint32_t i = 0; parameter->is_static && v.kind == VALUE_NUMBERS && i < v.len; i++) {
         double x = value_numbers(&v)[i];
-        within = within && x >= parameter->least && x <= parameter->most;
+        within = within && x >= parameter->min && x <= parameter->max;
     }
     if (compiler->options->lint && !within)
-        compile_report(compiler, parameter->span, DIAG_WARNING, "outside-range",
+        compile_report(compiler, parameter->span, DIAG_WARNING, "out-of-range",
                        str_format(compiler->arena, "the default of '%.*s' is outside the range in its comment",
                                   STR_ARGS(parameter->name->name)),
                        (Str){0});
@@ -108,34 +107,34 @@ static void lint(Compiler *compiler, const Parameter *parameter) {
 
 void compile_note_parameter(Compiler *compiler, const Ast *binding) {
     const Ast *names = binding->children[0], *value = binding->children[1], *use = first_operand(value);
-    compiler->parameter_use = compiler->fallback = NULL;
+    compiler->parameter_use = compiler->parameter_default = NULL;
     if (compiler->depth != 1 || names->count != 1 || !use || use->name != names->children[0]->name ||
         !compile_is_free(compiler, use->name))
         return;
     Parameter parameter = {.name = use->name,
                            .source = compiler->source,
                            .span = names->children[0]->span,
-                           .fallback = default_text(compiler->source, use, value)};
-    read_comment(comment_behind(compiler->source, value->span.end), &parameter);
-    compiler->parameters = arena_room(compiler->arena, compiler->parameters, compiler->parameter_count,
-                                      &compiler->parameter_capacity, sizeof parameter);
+                           .default_text = default_text(compiler->source, use, value)};
+    parse_comment(trailing_comment(compiler->source, value->span.end), &parameter);
+    compiler->parameters = arena_grow_array(compiler->arena, compiler->parameters, compiler->parameter_count,
+                                            &compiler->parameter_capacity, sizeof parameter);
     compiler->parameters[compiler->parameter_count++] = parameter;
     compiler->parameter_use = use;
     if (value->children[0] == use) // `X or A or B` without X is `A or B`, which is nowhere as a whole
-        compiler->fallback = value->children[1];
+        compiler->parameter_default = value->children[1];
 }
 
-void compile_note_fallback(Compiler *compiler, const Expr *fallback) {
+void compile_note_default(Compiler *compiler, const Expr *default_expr) {
     uint32_t last = compiler->parameter_count - 1;
     Parameter *parameter = &compiler->parameters[last];
-    parameter->is_static = fallback->kind == EXPR_CONST;
+    parameter->is_static = default_expr->kind == EXPR_CONST;
     if (parameter->is_static)
-        parameter->value = fallback->as.value;
-    if (compiler->rehearsal) {
-        parameter->is_static = compiler->rehearsal->parameters[last].is_static;
-        parameter->value = compiler->rehearsal->parameters[last].value;
+        parameter->value = default_expr->as.value;
+    if (compiler->folding_pass) {
+        parameter->is_static = compiler->folding_pass->parameters[last].is_static;
+        parameter->value = compiler->folding_pass->parameters[last].value;
     }
-    lint(compiler, parameter);
+    lint_default(compiler, parameter);
 }
 
 void compile_note_define(Compiler *compiler, const Binding *binding) {

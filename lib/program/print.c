@@ -11,12 +11,12 @@ static const struct {
 #undef OPCODE
 };
 
-enum { LONGEST_CONSTANT = 60 }; // characters of a constant that are shown
+enum { MAX_CONSTANT_LENGTH = 60 }; // characters of a constant that are shown
 
 static void print_constant(Text *out, const SymbolTable *symbols, Value value) {
     Text text = text_new(out->arena);
     format_value(&text, symbols, value);
-    Str shown = str_cut(text_str(&text), LONGEST_CONSTANT);
+    Str shown = str_truncate(text_str(&text), MAX_CONSTANT_LENGTH);
     text_add(out, shown);
     if (shown.len < text.len)
         text_add_format(out, "… (%u elements)", value.len);
@@ -35,7 +35,7 @@ static void print_list(Text *out, const SymbolTable *symbols, const Code *code, 
     text_add_char(out, '(');
     for (uint32_t i = 0; i < instr->count; i++) {
         text_add_c(out, i ? ", " : "");
-        if (instr->op == OP_NODE || instr->op == OP_ADD_ROW)
+        if (instr->op == OP_NODE || instr->op == OP_YIELD_NODE)
             text_add_format(out, "%.*s=", STR_ARGS(instr->as.node->names[i]->name));
         print_operand(out, symbols, code, code->operands[instr->list + i]);
     }
@@ -56,7 +56,7 @@ static void print_extra(Text *out, const Instr *instr) {
         name = instr->as.function->name;
         break;
     case OP_NODE:
-    case OP_ADD_ROW:
+    case OP_YIELD_NODE:
         name = instr->as.node->base->kind->name;
         break;
     case OP_BUILTIN:
@@ -74,8 +74,9 @@ static void print_extra(Text *out, const Instr *instr) {
     text_add(out, name);
 }
 
-static void print_part(Text *out, const SymbolTable *symbols, const Code *code, const Instr *instr, char part) {
-    switch (part) {
+static void print_operand_field(Text *out, const SymbolTable *symbols, const Code *code, const Instr *instr,
+                                char format) {
+    switch (format) {
     case 'd':
         text_add_format(out, "r%d =", instr->d);
         break;
@@ -116,9 +117,9 @@ static void print_code(Text *out, const SymbolTable *symbols, const Code *code) 
         const Instr *instr = &code->instrs[i];
         text_add_format(out, "%4u %4u  %-10s", i, source_line(instr->at->source, instr->at->span.start),
                         opcodes[instr->op].name);
-        for (const char *part = opcodes[instr->op].operands; *part; part++) {
+        for (const char *format = opcodes[instr->op].operands; *format; format++) {
             text_add_char(out, ' ');
-            print_part(out, symbols, code, instr, *part);
+            print_operand_field(out, symbols, code, instr, *format);
         }
         text_add_char(out, '\n');
     }

@@ -37,13 +37,13 @@ typedef struct Pragma {
 typedef struct Parameter {
     const Symbol *name;
     const Source *source;
-    Span span;      // of the name
-    Str fallback;   // text of the default
-    bool is_static; // the default is the same in every frame: `value`
+    Span span;        // of the name
+    Str default_text; // text of the default
+    bool is_static;   // the default is the same in every frame: `value`
     Value value;
-    Str comment;  // without the range at its start
-    double least; // the comment's range, with its ends; infinite where it says nothing
-    double most;
+    Str comment; // without the range at its start
+    double min;  // the comment's range, with its ends; infinite where it says nothing
+    double max;
     double step; // 0: the comment has none
 } Parameter;
 
@@ -57,7 +57,7 @@ typedef struct DefineUse {
 typedef struct Program {
     const Source *source;
     const Code *code;
-    uint32_t place_count;  // look-ups in the state, numbered for the machine to remember where they found what
+    uint32_t lookup_count; // look-ups in the state, numbered for the machine to remember where they found what
     uint32_t param_count;  // the first slots: values that the host gives
     const Export *exports; // top-level bindings, in order: of a name bound several times the last counts
     uint32_t export_count;
@@ -72,10 +72,10 @@ typedef struct Program {
 
 // What compiling may ask of the host.
 typedef struct CompileHost {
-    void *host;
+    void *user_data;
     // Parses another file for %include; NULL with a reason in *why (borrowed) if it cannot. The source must live as
     // long as the program, the tree until it is compiled.
-    const Ast *(*include)(void *host, Str path, const Source **source, Str *why);
+    const Ast *(*include)(void *host, Str path, const Source **source, Str *reason);
     // Runs code in a fresh frame. False if that met anything dynamic (L17.2), a fault or a limit; then *value is null.
     // The value must live as long as the program: it is made in its arena, and dropped from there if the simplifier
     // has no use for it.
@@ -99,7 +99,7 @@ typedef struct CompileOptions {
     uint32_t param_count;
     const struct Builtin *const *functions; // the host's, none of which has the name of a built-in
     uint32_t function_count;
-    const struct Reach *files; // where modules come from, if it is not the disk; else NULL
+    const struct FileAccess *files; // where modules come from, if it is not the disk; else NULL
     CompileHost host;
 } CompileOptions;
 

@@ -1,7 +1,6 @@
 // scope.c: what names mean; see compile.h.
-#include "program/compile.h"
-
 #include "builtin/builtin.h"
+#include "program/compile.h"
 
 ScopeMark compile_scope_open(Compiler *compiler) {
     return (ScopeMark){compiler->function->scope, compiler->function->next_slot};
@@ -14,7 +13,7 @@ void compile_scope_close(Compiler *compiler, ScopeMark mark) {
     compiler->function->next_slot = mark.next_slot;
 }
 
-static Binding *bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span) {
+static Binding *add_binding(Compiler *compiler, BindingKind kind, const Symbol *name, Span span) {
     FunctionScope *function = compiler->function;
     Binding *binding = arena_alloc(compiler->scratch, sizeof *binding);
     *binding =
@@ -28,7 +27,7 @@ static Binding *bind(Compiler *compiler, BindingKind kind, const Symbol *name, S
 }
 
 uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, Span span, const Ast *value) {
-    Binding *binding = bind(compiler, kind, name, span);
+    Binding *binding = add_binding(compiler, kind, name, span);
     binding->value = value;
     return binding->slot;
 }
@@ -36,7 +35,7 @@ uint32_t compile_bind(Compiler *compiler, BindingKind kind, const Symbol *name, 
 uint32_t compile_bind_names(Compiler *compiler, BindingKind kind, const Ast *names, const Ast *value) {
     uint32_t slot = compiler->function->next_slot;
     for (uint32_t i = 0; i < names->count; i++) {
-        Binding *binding = bind(compiler, kind, names->children[i]->name, names->children[i]->span);
+        Binding *binding = add_binding(compiler, kind, names->children[i]->name, names->children[i]->span);
         binding->value = names->count == 1 ? value : NULL;
     }
     return slot;
@@ -55,7 +54,7 @@ void compile_function_close(Compiler *compiler, FunctionScope *function) {
 static Expr *slot_expr(Compiler *compiler, ExprKind kind, const Ast *ast, uint32_t slot) {
     Expr *expr = compile_expr_new(compiler, kind, ast, NULL, 0);
     expr->slot = slot;
-    fold_describe(expr);
+    fold_set_dependencies(expr);
     return expr;
 }
 
@@ -75,9 +74,9 @@ const Binding *compile_find_binding(const Compiler *compiler, const Symbol *name
 }
 
 // A name of the program that is not bound in the function itself: captured by value, once per function.
-static const Expr *capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
+static const Expr *add_capture(Compiler *compiler, FunctionScope *function, const Ast *ast, const Expr *outer) {
     Capture wanted = {outer->kind == EXPR_SLOT      ? CAPTURE_SLOT
-                      : outer->kind == EXPR_CAPTURE ? CAPTURE_AGAIN
+                      : outer->kind == EXPR_CAPTURE ? CAPTURE_OUTER
                                                     : CAPTURE_SELF,
                       outer->slot};
     for (uint32_t i = 0; i < function->capture_count; i++)
@@ -85,9 +84,9 @@ static const Expr *capture(Compiler *compiler, FunctionScope *function, const As
             function->captures[i].slot == wanted.slot)
             return slot_expr(compiler, EXPR_CAPTURE, ast, i);
     uint32_t capacity = function->capture_capacity, count = function->capture_count;
-    function->captures = arena_room(compiler->scratch, function->captures, count, &capacity, sizeof(Capture));
-    function->capture_names = arena_room(compiler->scratch, function->capture_names, count, &function->capture_capacity,
-                                         sizeof(const Symbol *));
+    function->captures = arena_grow_array(compiler->scratch, function->captures, count, &capacity, sizeof(Capture));
+    function->capture_names = arena_grow_array(compiler->scratch, function->capture_names, count,
+                                               &function->capture_capacity, sizeof(const Symbol *));
     function->captures[function->capture_count] = wanted;
     function->capture_names[function->capture_count] = ast->name;
     return slot_expr(compiler, EXPR_CAPTURE, ast, function->capture_count++);
@@ -100,15 +99,15 @@ static const Expr *find_in_program(Compiler *compiler, FunctionScope *function, 
     Binding *binding = find_binding(function->scope, ast->name);
     if (binding) {
         binding->used = true;
-        return binding->known ? compile_constant(compiler, ast, binding->constant)
-                              : slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
+        return binding->is_constant ? compile_constant(compiler, ast, binding->constant)
+                                    : slot_expr(compiler, EXPR_SLOT, ast, binding->slot);
     }
     if (function->self == ast->name)
         return slot_expr(compiler, EXPR_SELF, ast, 0);
     const Expr *outer = find_in_program(compiler, function->outer, ast);
     if (!outer || outer->kind == EXPR_CONST)
         return outer;
-    return capture(compiler, function, ast, outer);
+    return add_capture(compiler, function, ast, outer);
 }
 
 static const struct {
@@ -145,7 +144,7 @@ bool compile_is_free(const Compiler *compiler, const Symbol *name) {
 }
 
 // Engine names, then -D names, then built-ins (L8.1); NULL if none has it.
-static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
+static const Expr *find_predefined(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     const CompileOptions *options = compiler->options;
     for (uint32_t i = 0; !options->module && i < ENGINE_NAME_COUNT; i++)
@@ -175,9 +174,9 @@ static const Expr *find_outside(Compiler *compiler, const Ast *ast) {
 static const struct {
     const char *names;
     Str hint;
-} habits[] = {
-#define HABIT(names, hint) {names, {hint, sizeof hint - 1}},
-#include "program/habit_list.h"
+} name_hints[] = {
+#define HINT(names, hint) {names, {hint, sizeof hint - 1}},
+#include "program/name_hint_list.h"
 };
 
 // Does a name stand behind `//`? There it is read as a divisor.
@@ -210,9 +209,9 @@ static Str nearest_name(Compiler *compiler, Str wanted) {
 // What the author of an unbound name may have meant; empty if nothing comes to mind.
 static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
-    for (size_t i = 0; i < sizeof habits / sizeof habits[0]; i++)
-        if (str_word_number(name, habits[i].names) >= 0)
-            return habits[i].hint;
+    for (size_t i = 0; i < sizeof name_hints / sizeof name_hints[0]; i++)
+        if (str_word_number(name, name_hints[i].names) >= 0)
+            return name_hints[i].hint;
     if (compiler->subject == ast)
         return str_format(compiler->arena, "a node is written !%.*s", STR_ARGS(name));
     if (compiler->key == ast)
@@ -222,7 +221,7 @@ static Str unbound_hint(Compiler *compiler, const Ast *ast) {
     return nearest.len ? nearest : follows_slashes(compiler, ast->span) ? STR("comments start with --") : (Str){0};
 }
 
-static const Expr *unbound(Compiler *compiler, const Ast *ast) {
+static const Expr *compile_unbound(Compiler *compiler, const Ast *ast) {
     Str name = ast->name->name;
     if (ast == compiler->parameter_use)
         return compile_constant(compiler, ast, VALUE_NULL);
@@ -240,6 +239,6 @@ static const Expr *unbound(Compiler *compiler, const Ast *ast) {
 const Expr *compile_name(Compiler *compiler, const Ast *ast) {
     const Expr *expr = find_in_program(compiler, compiler->function, ast);
     if (!expr)
-        expr = find_outside(compiler, ast);
-    return expr ? expr : unbound(compiler, ast);
+        expr = find_predefined(compiler, ast);
+    return expr ? expr : compile_unbound(compiler, ast);
 }

@@ -8,7 +8,7 @@ void layout_init(Layout *layout, const Source *source) {
     layout->level_count = 1;
     layout->levels[0] = (LayoutLevel){0};
     layout->paren_count = 0;
-    layout->settling = layout->misplaced = false;
+    layout->indent_pending = layout->indent_mismatch = false;
 }
 
 // Spaces plus eight times tabs after the last line end of a newline token: a sum, not tab stops.
@@ -19,7 +19,7 @@ static uint32_t indentation(const Source *source, Span newline) {
     return indent;
 }
 
-static Token fatal(Span span, const char *error) {
+static Token fatal_token(Span span, const char *error) {
     return (Token){.kind = GR_UNDEF, .span = span, .error = error, .fatal = true};
 }
 
@@ -28,34 +28,34 @@ static Token newline_token(Layout *layout) {
     Span here = {layout->line.end, layout->line.end};
     LayoutLevel *top = &layout->levels[layout->level_count - 1];
     while (layout->indent < top->indent) {
-        bool silent = top->silent;
+        bool silent = top->rejected;
         top = &layout->levels[--layout->level_count - 1];
         if (layout->indent > top->indent) {
             // Between two levels: taken as the outer one, so that what follows still parses.
             layout->indent = top->indent;
-            layout->misplaced = true;
+            layout->indent_mismatch = true;
         }
         if (!silent)
             return (Token){.kind = DEDENT, .span = here};
     }
-    layout->settling = false;
+    layout->indent_pending = false;
     if (layout->indent == top->indent)
         return (Token){.kind = GR_EMPTY};
     if (layout->level_count > LAYOUT_MAX_DEPTH)
-        return fatal(here, "indented too deeply: the limit is 1000 levels");
+        return fatal_token(here, "indented too deeply: the limit is 1000 levels");
     layout->levels[layout->level_count++] = (LayoutLevel){.indent = layout->indent};
     return (Token){.kind = INDENT, .span = here};
 }
 
-static Token newline(Layout *layout, Token token) {
+static Token begin_newline(Layout *layout, Token token) {
     layout->line = token.span;
     layout->indent = indentation(layout->lexer.source, token.span);
-    layout->settling = true;
+    layout->indent_pending = true;
     return token;
 }
 
-static Token next(Layout *layout) {
-    if (layout->settling) {
+static Token next_token(Layout *layout) {
+    if (layout->indent_pending) {
         Token token = newline_token(layout);
         if (token.kind != GR_EMPTY)
             return token;
@@ -66,10 +66,10 @@ static Token next(Layout *layout) {
         case NEWLINE:
             if (layout->paren_count > 0)
                 continue;
-            return newline(layout, token);
+            return begin_newline(layout, token);
         case '(':
             if (layout->paren_count == LAYOUT_MAX_DEPTH)
-                return fatal(token.span, "parentheses nested too deeply: the limit is 1000");
+                return fatal_token(token.span, "parentheses nested too deeply: the limit is 1000");
             layout->parens[layout->paren_count++] = token.span.start;
             return token;
         case ')':
@@ -82,10 +82,10 @@ static Token next(Layout *layout) {
 }
 
 Token layout_next(Layout *layout) {
-    Token token = next(layout);
-    if (layout->misplaced && !token.error)
+    Token token = next_token(layout);
+    if (layout->indent_mismatch && !token.error)
         token.error = "this line's indentation matches none of the lines above";
-    layout->misplaced = false;
+    layout->indent_mismatch = false;
     return token;
 }
 
@@ -96,5 +96,5 @@ void layout_resume(Layout *layout, uint32_t offset) {
 void layout_recover(Layout *layout, const Token *token) {
     layout->paren_count = 0;
     if (token->kind == INDENT)
-        layout->levels[layout->level_count - 1].silent = true;
+        layout->levels[layout->level_count - 1].rejected = true;
 }

@@ -12,7 +12,7 @@ enum { LAYOUT_MAX_DEPTH = 1000 }; // indentations, and separately parentheses, o
 
 typedef struct LayoutLevel {
     uint32_t indent;
-    bool silent; // the INDENT was refused by the parser, so no DEDENT follows
+    bool rejected; // the INDENT was refused by the parser, so no DEDENT follows
 } LayoutLevel;
 
 typedef struct Layout {
@@ -23,8 +23,8 @@ typedef struct Layout {
     uint32_t parens[LAYOUT_MAX_DEPTH]; // offsets of the open ones
     Span line;                         // the newline token that is being turned into INDENT or DEDENTs
     uint32_t indent;                   // of the line after it
-    bool settling;                     // INDENT or DEDENTs of `line` are still due
-    bool misplaced;                    // … and then the complaint that it is indented like no line above
+    bool indent_pending;               // INDENT or DEDENTs of `line` are still due
+    bool indent_mismatch;              // … and then the complaint that it is indented like no line above
 } Layout;
 
 void layout_init(Layout *layout, const Source *source);

@@ -3,20 +3,20 @@
 
 #include "ast/literal.h"
 #include "parser.h"
-#include "syntax/foreign.h"
-#include "syntax/habits.h"
+#include "syntax/content_sniff.h"
 #include "syntax/layout.h"
+#include "syntax/syntax_hints.h"
 
 #include <string.h>
 
-enum { MOST_EXPECTED = 3 }; // more alternatives than this say nothing
+enum { MAX_EXPECTED = 3 }; // more alternatives than this say nothing
 
 // What is wrong with a line is told once.
-static void report(ParseContext *context, Span span, const char *code, Str text, Str hint) {
+static void report_error(ParseContext *context, Span span, const char *code, Str text, Str hint) {
     uint32_t line = source_line(context->source, span.start);
-    bool follows = context->failed && line == context->faulty_line;
+    bool follows = context->failed && line == context->error_line;
     context->failed = true;
-    context->faulty_line = line;
+    context->error_line = line;
     if (follows)
         return;
     diag_report(
@@ -27,16 +27,16 @@ static void report(ParseContext *context, Span span, const char *code, Str text,
 
 // The same of a token that cannot stand where it is: the hint is the given one unless a better is known.
 static void report_token(ParseContext *context, Span span, Str text, Str hint) {
-    bool kept = context->diags->count < context->diags->limit;
-    Str habit = kept ? parse_habit(context->diags->arena, context->source, span) : (Str){0};
-    report(context, span, "syntax", text, habit.len ? habit : hint);
+    bool is_recorded = context->diags->count < context->diags->limit;
+    Str specific_hint = is_recorded ? syntax_hint_find(context->diags->arena, context->source, span) : (Str){0};
+    report_error(context, span, "syntax", text, specific_hint.len ? specific_hint : hint);
 }
 
 // Ends parsing.
 static void report_overflow(ParseContext *context) {
     if (!context->too_deep)
-        report(context, context->overflow_at, "too-deep",
-               str_format(context->arena, "nested too deeply: the limit is %d levels", AST_MAX_HEIGHT), (Str){0});
+        report_error(context, context->overflow_at, "too-deep",
+                     str_format(context->arena, "nested too deeply: the limit is %d levels", AST_MAX_HEIGHT), (Str){0});
     context->too_deep = true;
 }
 
@@ -57,8 +57,8 @@ static void add_token_name(Text *out, const char *name) {
 }
 
 // A second sentence for common slips.
-static Str syntax_hint(const char *found, bool wants_block) {
-    if (wants_block)
+static Str syntax_hint(const char *found, bool needs_block) {
+    if (needs_block)
         return STR("the line above needs an indented block under it");
     if (strcmp(found, "'='") == 0)
         return STR("to compare write ==, to name a value write let NAME=…");
@@ -97,10 +97,10 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
     if (wanted) {
         expected = &wanted;
         count = 1;
-    } else if (count > MOST_EXPECTED) {
+    } else if (count > MAX_EXPECTED) {
         count = 0;
     }
-    bool wants_block = count == 1 && strcmp(expected[0], "indentation") == 0;
+    bool needs_block = count == 1 && strcmp(expected[0], "indentation") == 0;
     Text text = text_new(context->arena);
     Str word = token_text(context, span);
     text_add_c(&text, "unexpected ");
@@ -115,16 +115,16 @@ static void report_unexpected(ParseContext *context, const Unexpected *unexpecte
         add_token_name(&text, found);
     }
     bool ends = strcmp(found, "end of line") == 0 || strcmp(found, "end of file") == 0;
-    if (count == 0 && unexpected->wants_value && ends)
+    if (count == 0 && unexpected->value_expected && ends)
         text_add_c(&text, ", expected an expression");
     for (int i = 0; i < count; i++) {
         text_add_c(&text, i == 0 ? ", expected " : i + 1 < count ? ", " : " or ");
-        if (wants_block)
+        if (needs_block)
             text_add_c(&text, "an indented block");
         else
             add_token_name(&text, expected[i]);
     }
-    report_token(context, span, text_str(&text), syntax_hint(found, wants_block));
+    report_token(context, span, text_str(&text), syntax_hint(found, needs_block));
 }
 
 // A character at which no token starts.
@@ -133,15 +133,15 @@ static void report_character(ParseContext *context, Span span) {
     size_t at = 0;
     int32_t c = utf8_next(text, &at);
     if (c == '\'' || c == '"')
-        report(context, span, "syntax", STR("unterminated string"),
-               STR("a string ends on its line; one in ''' or \"\"\" may span lines"));
+        report_error(context, span, "syntax", STR("unterminated string"),
+                     STR("a string ends on its line; one in ''' or \"\"\" may span lines"));
     else if (c == '\\')
-        report(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
+        report_error(context, span, "syntax", STR("a backslash outside a string must end its line"), (Str){0});
     else if (c == 0xfeff)
-        report(context, span, "syntax", STR("a byte-order mark (U+FEFF) can only begin a file"), (Str){0});
+        report_error(context, span, "syntax", STR("a byte-order mark (U+FEFF) can only begin a file"), (Str){0});
     else if (c < 0x20 || c == 0x7f)
-        report(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
-               STR("is this a text file?"));
+        report_error(context, span, "syntax", str_format(context->arena, "control character U+%04X", (unsigned)c),
+                     STR("is this a text file?"));
     else if (c == ':' || c == '!' || c == '#')
         report_token(context, span, str_format(context->arena, "'%c' must be directly followed by a name", (int)c),
                      c == '!' ? STR("to negate write not") : (Str){0});
@@ -164,14 +164,15 @@ static bool mixes_tabs(Str text) {
 }
 
 static void report_layout(ParseContext *context, const Token *token) {
-    report(context, token->span, "syntax", str_from(token->error),
-           !token->fatal && mixes_tabs(context->source->text) ? STR("a tab counts as eight spaces: do not mix the two")
-                                                              : (Str){0});
+    report_error(context, token->span, "syntax", str_from(token->error),
+                 !token->fatal && mixes_tabs(context->source->text)
+                     ? STR("a tab counts as eight spaces: do not mix the two")
+                     : (Str){0});
     context->too_deep |= token->fatal;
 }
 
 // The tree of a literal token, or NULL after a complaint.
-static Ast *literal(ParseContext *context, const Token *token) {
+static Ast *literal_ast(ParseContext *context, const Token *token) {
     Str text = token_text(context, token->span), string;
     double x = 0;
     const Symbol *symbol;
@@ -184,7 +185,7 @@ static Ast *literal(ParseContext *context, const Token *token) {
         x = literal_timecode(text);
         break;
     case SYMBOL:
-        symbol = symbol_know(context->symbols, (Str){text.bytes + 1, text.len - 1});
+        symbol = symbol_register(context->symbols, (Str){text.bytes + 1, text.len - 1});
         if (symbol)
             x = symbol->number;
         else
@@ -197,7 +198,7 @@ static Ast *literal(ParseContext *context, const Token *token) {
     }
     if (!complaint)
         return ast_literal(context->arena, token->span, value_number(x));
-    report(context, token->span, "syntax", str_from(complaint), (Str){0});
+    report_error(context, token->span, "syntax", str_from(complaint), (Str){0});
     context->reported = true;
     return NULL;
 }
@@ -225,7 +226,7 @@ static GR_STYPE token_value(ParseContext *context, Token *token) {
     case TIMECODE:
     case STRING:
     case SYMBOL:
-        result.ast = literal(context, token);
+        result.ast = literal_ast(context, token);
         if (!result.ast)
             token->kind = GR_UNDEF;
         break;
@@ -236,7 +237,7 @@ static GR_STYPE token_value(ParseContext *context, Token *token) {
 }
 
 // Cuts the token down to its first `len` bytes as another kind; scanning goes on after them.
-static void retoken(Layout *layout, Token *token, int kind, uint32_t len) {
+static void resize_token(Layout *layout, Token *token, int kind, uint32_t len) {
     token->kind = kind;
     token->span.end = token->span.start + len;
     layout_resume(layout, token->span.end);
@@ -246,22 +247,22 @@ static void retoken(Layout *layout, Token *token, int kind, uint32_t len) {
 static void resolve_keyword(const ParseContext *context, Layout *layout, const gr_pstate *parser, Token *token) {
     Str text = token_text(context, token->span);
     if ((token->kind == PRAGMA || token->kind == INCLUDE) && !gr_accepts(parser, token->kind)) {
-        retoken(layout, token, '%', 1);
+        resize_token(layout, token, '%', 1);
     } else if (token->kind == NAME && token->keyword && gr_accepts(parser, token->keyword)) {
         token->kind = token->keyword;
     } else if (token->kind == NAME && !gr_accepts(parser, NAME)) {
         // Where only `in` or `from` can follow, they are taken as a bare prefix of the text (K11).
         if (gr_accepts(parser, IN) && !gr_accepts(parser, AND) && str_starts_with(text, STR("in")))
-            retoken(layout, token, IN, 2);
+            resize_token(layout, token, IN, 2);
         else if (gr_accepts(parser, FROM) && str_starts_with(text, STR("from")))
-            retoken(layout, token, FROM, 4);
+            resize_token(layout, token, FROM, 4);
     }
 }
 
 static void add_paren_hint(ParseContext *context, const Layout *layout, const Token *token, uint32_t errors_before) {
     if (layout->paren_count == 0 || context->diags->count == errors_before)
         return;
-    SourcePlace open = source_locate(context->source, layout->parens[layout->paren_count - 1]);
+    SourcePosition open = source_locate(context->source, layout->parens[layout->paren_count - 1]);
     if (token->kind == END || source_line(context->source, token->span.start) > open.line)
         context->diags->items[context->diags->count - 1].hint =
             str_format(context->diags->arena, "the parenthesis opened at line %u, column %u is not closed", open.line,
@@ -269,7 +270,7 @@ static void add_paren_hint(ParseContext *context, const Layout *layout, const To
 }
 
 // Pushes one token; tells whether the parser wants more, is done, or has given up.
-static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token *token) {
+static int push_token(ParseContext *context, Layout *layout, gr_pstate *parser, Token *token) {
     if (token->error)
         report_layout(context, token);
     uint32_t errors_before = context->diags->count;
@@ -291,9 +292,9 @@ static int push(ParseContext *context, Layout *layout, gr_pstate *parser, Token 
     return status;
 }
 
-static void show(const ParseContext *context, const Token *token) {
-    if (context->seen)
-        context->seen(context->host, token);
+static void notify_token(const ParseContext *context, const Token *token) {
+    if (context->on_token)
+        context->on_token(context->user_data, token);
 }
 
 // Skips the rest of the line after an error from which the grammar could not recover.
@@ -301,23 +302,23 @@ static int skip_line(const ParseContext *context, Layout *layout) {
     Token token;
     do {
         token = layout_next(layout);
-        show(context, &token);
+        notify_token(context, &token);
     } while (token.kind != NEWLINE && token.kind != END);
     return token.kind;
 }
 
 static bool check_text(ParseContext *context) {
     const Source *source = context->source;
-    const char *encoding = foreign_encoding(source);
+    const char *encoding = content_sniff_encoding(source);
     size_t bad = utf8_find_error(source->text);
     if (encoding) {
         context->failed = true;
         Str text = str_format(context->arena, "'%.*s' is %s text: save it as UTF-8", STR_ARGS(source->name), encoding);
         diag_report(context->diags, &(Diag){.level = DIAG_ERROR, .text = text, .code = "encoding"});
     } else if (bad < source->text.len) {
-        report(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
-               str_format(context->arena, "the byte 0x%02X cannot stand here: save the file as UTF-8",
-                          (unsigned char)source->text.bytes[bad]));
+        report_error(context, (Span){(uint32_t)bad, (uint32_t)bad + 1}, "encoding", STR("the file is not valid UTF-8"),
+                     str_format(context->arena, "the byte 0x%02X cannot stand here: save the file as UTF-8",
+                                (unsigned char)source->text.bytes[bad]));
     }
     return !context->failed;
 }
@@ -327,35 +328,35 @@ typedef struct Parsing {
     ParseContext *context;
     Layout *layout;
     gr_pstate *parser;
-    ParseNeed need; // what probe has found
+    ParseCompleteness completeness; // what probe has found
 } Parsing;
 
 // Runs a parse and frees the parser, also if memory is used up meanwhile.
-static void with_parser(Parsing *parsing, void (*call)(void *parsing)) {
+static void run_with_parser(Parsing *parsing, void (*call)(void *parsing)) {
     ParseContext *context = parsing->context;
     Arena *arenas[] = {context->arena, context->symbols->arena, context->diags->arena};
     layout_init(parsing->layout, context->source);
     parsing->parser = gr_pstate_new();
-    ArenaEnd end =
-        parsing->parser ? arena_protect(arenas, sizeof arenas / sizeof *arenas, call, parsing) : ARENA_MEMORY;
+    ArenaOutcome end =
+        parsing->parser ? arena_protect(arenas, sizeof arenas / sizeof *arenas, call, parsing) : ARENA_OUT_OF_MEMORY;
     if (parsing->parser)
         gr_pstate_delete(parsing->parser);
-    if (end != ARENA_DONE)
-        arena_leave(context->arena, end);
+    if (end != ARENA_OK)
+        arena_escape(context->arena, end);
 }
 
 // A statement that breaks off ends with its line, so that the next one and the block around it are not lost.
-static int mend(const Parsing *parsing, int before, const Token *token) {
+static int close_statement(const Parsing *parsing, int before, const Token *token) {
     bool begins = before == NEWLINE || before == DEDENT || token->kind == DEDENT || token->kind == END;
-    if (!parsing->context->loose || !begins || token->kind == INDENT || token->kind == NEWLINE ||
+    if (!parsing->context->error_tolerant || !begins || token->kind == INDENT || token->kind == NEWLINE ||
         gr_accepts(parsing->parser, token->kind) || (token->keyword && gr_accepts(parsing->parser, token->keyword)))
         return YYPUSH_MORE;
     Token end = {.kind = NEWLINE, .span = {token->span.start, token->span.start}};
-    return push(parsing->context, parsing->layout, parsing->parser, &end);
+    return push_token(parsing->context, parsing->layout, parsing->parser, &end);
 }
 
 // After an error with nothing to go back to, as in the first line: looks for more with a fresh parser.
-static void renew(Parsing *parsing) {
+static void restart_parser(Parsing *parsing) {
     gr_pstate_delete(parsing->parser);
     parsing->parser = gr_pstate_new();
     if (!parsing->parser)
@@ -368,21 +369,21 @@ static void parse_tokens(void *context) {
     int status = YYPUSH_MORE, before = NEWLINE;
     while (status == YYPUSH_MORE && !parsing->context->too_deep) {
         Token token = layout_next(layout);
-        if (mend(parsing, before, &token) == 1)
-            renew(parsing);
+        if (close_statement(parsing, before, &token) == 1)
+            restart_parser(parsing);
         before = token.kind;
         resolve_keyword(parsing->context, layout, parsing->parser, &token);
-        show(parsing->context, &token);
-        status = push(parsing->context, layout, parsing->parser, &token);
+        notify_token(parsing->context, &token);
+        status = push_token(parsing->context, layout, parsing->parser, &token);
         if (status == 1 && token.kind != END) {
-            renew(parsing);
+            restart_parser(parsing);
             status = token.kind == NEWLINE || skip_line(parsing->context, layout) == NEWLINE ? YYPUSH_MORE : 1;
         }
     }
 }
 
 // Does a statement that begins with this token like to have lines indented below it?
-static bool takes_children(int kind) {
+static bool accepts_children(int kind) {
     return kind == NODE || kind == '@';
 }
 
@@ -394,15 +395,15 @@ static bool opens_string(Str text, Span span) {
 }
 
 // What is needed after a line end that is the text's.
-static ParseNeed need_after_line(const Layout *layout, const gr_pstate *parser, int first) {
+static ParseCompleteness completeness_after_line(const Layout *layout, const gr_pstate *parser, int first) {
     if (layout->level_count > 1)
-        return PARSE_OPEN;
+        return PARSE_EXTENDABLE;
     if (!gr_accepts(parser, INDENT))
-        return PARSE_WHOLE;
-    return !gr_accepts(parser, END) ? PARSE_BLOCK : takes_children(first) ? PARSE_OPEN : PARSE_WHOLE;
+        return PARSE_COMPLETE;
+    return !gr_accepts(parser, END) ? PARSE_NEEDS_BLOCK : accepts_children(first) ? PARSE_EXTENDABLE : PARSE_COMPLETE;
 }
 
-static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser) {
+static ParseCompleteness probe_completeness(ParseContext *context, Layout *layout, gr_pstate *parser) {
     Str text = context->source->text;
     int first = NEWLINE; // the token with which the last statement at the top begins
     bool begins = true;
@@ -410,57 +411,59 @@ static ParseNeed probe(ParseContext *context, Layout *layout, gr_pstate *parser)
         Token token = layout_next(layout);
         resolve_keyword(context, layout, parser, &token);
         if (token.kind == GR_UNDEF || token.error)
-            return !token.error && opens_string(text, token.span) ? PARSE_PART : PARSE_WHOLE;
+            return !token.error && opens_string(text, token.span) ? PARSE_INCOMPLETE : PARSE_COMPLETE;
         if (token.kind == END)
-            return layout->paren_count > 0 || str_ends_with(text, STR("\\\n")) ? PARSE_PART : PARSE_WHOLE;
+            return layout->paren_count > 0 || str_ends_with(text, STR("\\\n")) ? PARSE_INCOMPLETE : PARSE_COMPLETE;
         if (begins && token.kind != NEWLINE)
             first = token.kind;
         begins = token.kind == NEWLINE && layout->level_count == 1;
-        if (push(context, layout, parser, &token) != YYPUSH_MORE || context->failed)
-            return PARSE_WHOLE;
+        if (push_token(context, layout, parser, &token) != YYPUSH_MORE || context->failed)
+            return PARSE_COMPLETE;
         if (token.kind == NEWLINE && token.span.end >= text.len)
-            return need_after_line(layout, parser, first);
+            return completeness_after_line(layout, parser, first);
     }
 }
 
 static void probe_tokens(void *context) {
     Parsing *parsing = context;
-    parsing->need = probe(parsing->context, parsing->layout, parsing->parser);
+    parsing->completeness = probe_completeness(parsing->context, parsing->layout, parsing->parser);
 }
 
-ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source) {
-    DiagSink nowhere = diag_sink_new(arena, 0);
-    ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = &nowhere};
-    Parsing parsing = {.context = &context, .need = PARSE_WHOLE};
+ParseCompleteness parse_completeness(Arena *arena, SymbolTable *symbols, const Source *source) {
+    DiagSink discarded = diag_sink_new(arena, 0);
+    ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = &discarded};
+    Parsing parsing = {.context = &context, .completeness = PARSE_COMPLETE};
     if (utf8_find_error(source->text) == source->text.len) {
         parsing.layout = arena_alloc(arena, sizeof *parsing.layout);
-        with_parser(&parsing, probe_tokens);
+        run_with_parser(&parsing, probe_tokens);
     }
-    return parsing.need;
+    return parsing.completeness;
 }
 
-static void parse(ParseContext *context) {
+static void parse_source(ParseContext *context) {
     if (check_text(context))
-        with_parser(&(Parsing){context, arena_alloc(context->arena, sizeof(Layout)), NULL, PARSE_WHOLE}, parse_tokens);
+        run_with_parser(&(Parsing){context, arena_alloc(context->arena, sizeof(Layout)), NULL, PARSE_COMPLETE},
+                        parse_tokens);
 }
 
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags) {
     ParseContext context = {.arena = arena, .symbols = symbols, .source = source, .diags = diags};
-    parse(&context);
-    if (context.failed && !foreign_encoding(source))
-        foreign_sum_up(source, diags);
+    parse_source(&context);
+    if (context.failed && !content_sniff_encoding(source))
+        content_sniff_report(source, diags);
     return context.failed ? NULL : context.program;
 }
 
-const Ast *parse_loosely(Arena *arena, SymbolTable *symbols, const Source *source, ParseSeen *seen, void *host) {
-    DiagSink nowhere = diag_sink_new(arena, 0);
+const Ast *parse_tolerant(Arena *arena, SymbolTable *symbols, const Source *source, ParseTokenCallback *seen,
+                          void *user_data) {
+    DiagSink discarded = diag_sink_new(arena, 0);
     ParseContext context = {.arena = arena,
                             .symbols = symbols,
                             .source = source,
-                            .diags = &nowhere,
-                            .loose = true,
-                            .seen = seen,
-                            .host = host};
-    parse(&context);
+                            .diags = &discarded,
+                            .error_tolerant = true,
+                            .on_token = seen,
+                            .user_data = user_data};
+    parse_source(&context);
     return context.program;
 }

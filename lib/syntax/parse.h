@@ -10,16 +10,17 @@
 const Ast *parse_program(Arena *arena, SymbolTable *symbols, const Source *source, DiagSink *diags);
 // The same for editors, without a word on what is wrong: the tree is what is left without the statements that have
 // errors, NULL if nothing is. `seen` takes the tokens.
-const Ast *parse_loosely(Arena *arena, SymbolTable *symbols, const Source *source, ParseSeen *seen, void *host);
+const Ast *parse_tolerant(Arena *arena, SymbolTable *symbols, const Source *source, ParseTokenCallback *seen,
+                          void *user_data);
 
 // Whether more lines can follow what was typed so far.
-typedef enum ParseNeed {
-    PARSE_WHOLE, // it is complete, or wrong whatever follows
-    PARSE_OPEN,  // it is complete, and indented lines would go on with it
-    PARSE_BLOCK, // indented lines must follow
-    PARSE_PART,  // it cannot end here
-} ParseNeed;
+typedef enum ParseCompleteness {
+    PARSE_COMPLETE,    // it is complete, or wrong whatever follows
+    PARSE_EXTENDABLE,  // it is complete, and indented lines would go on with it
+    PARSE_NEEDS_BLOCK, // indented lines must follow
+    PARSE_INCOMPLETE,  // it cannot end here
+} ParseCompleteness;
 // Reports nothing. The arena takes what the parser builds by the way.
-ParseNeed parse_need(Arena *arena, SymbolTable *symbols, const Source *source);
+ParseCompleteness parse_completeness(Arena *arena, SymbolTable *symbols, const Source *source);
 
 #endif

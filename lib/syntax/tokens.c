@@ -5,26 +5,26 @@
 
 #include <string.h>
 
-typedef struct Taking {
+typedef struct TokenReader {
     Str text;
     uint32_t at; // what is before it was given
-    TokensTake *take;
-    void *host;
-} Taking;
+    TokenCallback *callback;
+    void *user_data;
+} TokenReader;
 
 // Between tokens are blanks, line ends, continuations and comments.
-static void take_comments(Taking *taking, uint32_t end) {
-    const char *text = taking->text.bytes;
-    while (taking->at < end) {
-        uint32_t start = taking->at++;
+static void emit_comments(TokenReader *reader, uint32_t end) {
+    const char *text = reader->text.bytes;
+    while (reader->at < end) {
+        uint32_t start = reader->at++;
         if (strchr(" \t\n\\", text[start]))
             continue;
-        taking->at = (uint32_t)((const char *)memchr(text + start, '\n', taking->text.len - start) - text);
-        taking->take(taking->host, TOKEN_COMMENT, (Span){start, taking->at});
+        reader->at = (uint32_t)((const char *)memchr(text + start, '\n', reader->text.len - start) - text);
+        reader->callback(reader->user_data, TOKEN_COMMENT, (Span){start, reader->at});
     }
 }
 
-static TokenKind kind_of(int kind) {
+static TokenKind token_kind(int kind) {
     switch (kind) {
     case NAME:
         return TOKEN_NAME;
@@ -44,27 +44,28 @@ static TokenKind kind_of(int kind) {
     case DEDENT:
         return TOKEN_DEDENT;
     case GR_UNDEF:
-        return TOKEN_WRONG;
+        return TOKEN_INVALID;
     default: // bison numbers them in the order of parser.y
         return kind >= PRAGMA && kind <= NOT ? TOKEN_KEYWORD : TOKEN_OPERATOR;
     }
 }
 
-static void take(void *host, const Token *token) {
-    Taking *taking = host;
+static void handle_token(void *user_data, const Token *token) {
+    TokenReader *reader = user_data;
     Span span = token->span;
     if (token->kind == NEWLINE) {
-        taking->take(taking->host, TOKEN_LINE_END, (Span){span.start, span.start});
-        take_comments(taking, span.end);
+        reader->callback(reader->user_data, TOKEN_NEWLINE, (Span){span.start, span.start});
+        emit_comments(reader, span.end);
         return;
     }
-    take_comments(taking, span.start);
+    emit_comments(reader, span.start);
     if (token->kind != END)
-        taking->take(taking->host, kind_of(token->kind), span);
-    taking->at = span.end;
+        reader->callback(reader->user_data, token_kind(token->kind), span);
+    reader->at = span.end;
 }
 
-const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokensTake *take_token, void *host) {
-    Taking taking = {.text = source->text, .take = take_token, .host = host};
-    return parse_loosely(arena, symbols, source, take, &taking);
+const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokenCallback *callback,
+                       void *user_data) {
+    TokenReader reader = {.text = source->text, .callback = callback, .user_data = user_data};
+    return parse_tolerant(arena, symbols, source, handle_token, &reader);
 }

@@ -15,14 +15,15 @@ typedef enum TokenKind {
     TOKEN_TAG,
     TOKEN_OPERATOR,
     TOKEN_COMMENT,
-    TOKEN_WRONG,
-    TOKEN_LINE_END,
+    TOKEN_INVALID,
+    TOKEN_NEWLINE,
     TOKEN_INDENT,
     TOKEN_DEDENT,
 } TokenKind;
 
-typedef void TokensTake(void *host, TokenKind kind, Span span);
-// Gives the tokens in order; returns what parse_loosely does.
-const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokensTake *take, void *host);
+typedef void TokenCallback(void *user_data, TokenKind kind, Span span);
+// Gives the tokens in order; returns what parse_tolerant does.
+const Ast *tokens_read(Arena *arena, SymbolTable *symbols, const Source *source, TokenCallback *callback,
+                       void *user_data);
 
 #endif

@@ -15,7 +15,7 @@ static Value outer_value(const Frame *frame, const Capture *capture) {
     switch (capture->kind) {
     case CAPTURE_SLOT:
         return frame->slots[capture->slot];
-    case CAPTURE_AGAIN:
+    case CAPTURE_OUTER:
         return frame->closure->captures[capture->slot];
     case CAPTURE_SELF:
         break;
@@ -59,13 +59,13 @@ static uint64_t cost_of(const Code *code) {
     return 1 + (code->count + code->constant_count) / VM_INSTRS_A_UNIT;
 }
 
-static bool may_enter(Vm *vm, const Closure *closure, const Origin *at) {
+static bool can_enter(Vm *vm, const Closure *closure, const Origin *at) {
     enum { CALL_WORK = 1 }; // frame and arguments
-    vm_work(vm, at, CALL_WORK + cost_of(closure->code->code));
-    const char *limit = closure->active >= VM_CLOSURE_DEPTH ? "500 calls of one function"
-                        : vm->depth >= VM_CALL_DEPTH        ? "8192 nested calls"
-                        : !vm_stack_left(vm)                ? "the stack"
-                                                            : NULL;
+    vm_charge(vm, at, CALL_WORK + cost_of(closure->code->code));
+    const char *limit = closure->active_calls >= VM_CLOSURE_DEPTH ? "500 calls of one function"
+                        : vm->depth >= VM_CALL_DEPTH              ? "8192 nested calls"
+                        : !vm_stack_left(vm)                      ? "the stack"
+                                                                  : NULL;
     if (limit)
         vm_fault(vm, at, "recursion-depth", "recursion too deep in '%.*s': the limit is %s",
                  STR_ARGS(closure->base.name), limit);
@@ -74,21 +74,21 @@ static bool may_enter(Vm *vm, const Closure *closure, const Origin *at) {
 
 static Value call_closure(Vm *vm, Closure *closure, const Arguments *args, const Origin *at) {
     const FunctionCode *code = closure->code;
-    if (closure->run != vm->run) { // made ahead: what an evaluation that was given up left is void
-        closure->run = vm->run;
-        closure->active = 0;
+    if (closure->evaluation_id != vm->evaluation_id) { // made ahead: what an evaluation that was given up left is void
+        closure->evaluation_id = vm->evaluation_id;
+        closure->active_calls = 0;
     }
-    if (!may_enter(vm, closure, at))
+    if (!can_enter(vm, closure, at))
         return VALUE_NULL;
     ArenaMark mark = arena_mark(&vm->slots);
     Frame frame = vm_frame(vm, code->code, closure);
     for (uint32_t i = 0; i < code->param_count; i++)
         frame.slots[i] = argument(closure, args, i);
-    closure->active++;
+    closure->active_calls++;
     vm->depth++;
     Value result = vm_eval(vm, &frame, code->code);
     vm->depth--;
-    closure->active--;
+    closure->active_calls--;
     arena_rewind(&vm->slots, mark);
     return result;
 }
@@ -104,7 +104,7 @@ static Value call_item(Vm *vm, Item item, const Arguments *args, const Origin *a
     const Builtin *builtin = item.as.function->builtin;
     if (!builtin)
         return call_closure(vm, (Closure *)item.as.function, args, at);
-    if (!vm_may_call(vm, builtin, at, args->positional, args->count + args->named_count)) // the named ones follow
+    if (!vm_can_call(vm, builtin, at, args->positional, args->count + args->named_count)) // the named ones follow
         return VALUE_NULL;
     return builtin_call(&vm->builtins, builtin, args->positional, args->count, args->names, args->named,
                         args->named_count);

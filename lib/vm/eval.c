@@ -2,9 +2,8 @@
 //
 // The cases that nearly every instruction comes down to are here; what is longer or rarer is a function, so that the
 // loop keeps its few registers.
+#include "value/value_hash.h"
 #include "vm/machine.h"
-
-#include "value/seed.h"
 
 #include <string.h>
 
@@ -48,18 +47,18 @@ NOINLINE static Value compare(Vm *vm, const Instr *instr, Value a, Value b) {
     }
 }
 
-Value vm_unpacked(Vm *vm, Value value, uint32_t i) {
+Value vm_unpack_element(Vm *vm, Value value, uint32_t i) {
     return value.kind == VALUE_STREAM ? value_number(value_stream_item(value, i)) : value_element(vm->arena, value, i);
 }
 
-NOINLINE static void unpack(Vm *vm, Value *slots, uint32_t count, Value value) {
+NOINLINE static void unpack_value(Vm *vm, Value *slots, uint32_t count, Value value) {
     for (uint32_t i = 0; i < count; i++)
-        slots[i] = vm_unpacked(vm, value, i);
+        slots[i] = vm_unpack_element(vm, value, i);
 }
 
 Value vm_loop_element(Vm *vm, const Loop *loop, uint32_t i) {
     return i >= loop->source.len               ? VALUE_NULL
-           : loop->source.kind == VALUE_ABSENT ? value_number(op_span_number(&loop->span, i))
+           : loop->source.kind == VALUE_ABSENT ? value_number(op_range_number(&loop->span, i))
                                                : value_element(vm->arena, loop->source, i);
 }
 
@@ -70,12 +69,12 @@ NOINLINE static void bind_elements(Vm *vm, const Loop *loop, Value *slots, uint3
 }
 
 // The next round of a loop, if there is one.
-static bool next_round(Vm *vm, const Instr *instr, const Loop *loop, Value *slots, uint64_t cost) {
+static bool next_iteration(Vm *vm, const Instr *instr, const Loop *loop, Value *slots, uint64_t cost) {
     if (loop->at >= loop->source.len)
         return false;
-    vm_work(vm, instr->at, cost);
+    vm_charge(vm, instr->at, cost);
     if (instr->count == 1 && loop->source.kind == VALUE_ABSENT)
-        vm_set_number(&slots[instr->d], op_span_number(&loop->span, loop->at));
+        vm_set_number(&slots[instr->d], op_range_number(&loop->span, loop->at));
     else if (instr->count == 1 && loop->source.kind == VALUE_NUMBERS)
         vm_set_number(&slots[instr->d], value_numbers(&loop->source)[loop->at]);
     else
@@ -88,26 +87,28 @@ NOINLINE static Value arithmetic(Vm *vm, const Instr *instr, ArithOp op, Value a
     return op_arith(vm->arena, op, a, b);
 }
 
-enum { FEW_ARGUMENTS = 8 };
+enum { MAX_STACK_ARGUMENTS = 8 };
 
 // The values of a list, in a row: in `few` if there is room.
-static const Value *gather(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Value *few) {
-    Value *values = instr->count <= FEW_ARGUMENTS ? few : arena_alloc_array(vm->arena, instr->count, sizeof *values);
+static const Value *gather_operands(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr,
+                                    Value *buffer) {
+    Value *values =
+        instr->count <= MAX_STACK_ARGUMENTS ? buffer : arena_alloc_array(vm->arena, instr->count, sizeof *values);
     for (uint32_t i = 0; i < instr->count; i++)
         values[i] = slots[list[i]];
     return values;
 }
 
-NOINLINE static Value call(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
-    Value few[FEW_ARGUMENTS];
-    const Value *values = gather(vm, list, slots, instr, few);
+NOINLINE static Value eval_call(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
+    Value buffer[MAX_STACK_ARGUMENTS];
+    const Value *values = gather_operands(vm, list, slots, instr, buffer);
     return vm_call(vm, instr, slots[instr->b], values);
 }
 
 NOINLINE Value vm_call_builtin(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
-    Value few[FEW_ARGUMENTS];
-    const Value *values = gather(vm, list, slots, instr, few);
-    if (!vm_may_call(vm, instr->as.builtin, instr->at, values, instr->count))
+    Value buffer[MAX_STACK_ARGUMENTS];
+    const Value *values = gather_operands(vm, list, slots, instr, buffer);
+    if (!vm_can_call(vm, instr->as.builtin, instr->at, values, instr->count))
         return VALUE_NULL;
     vm->builtins.called = instr->as.builtin;
     return instr->as.builtin->call(&vm->builtins, values, instr->count);
@@ -120,13 +121,13 @@ NOINLINE static Value make_closure(Vm *vm, const int32_t *list, const Frame *fra
     return vm_make_closure(vm, frame, instr->as.function, defaults);
 }
 
-NOINLINE static Value unbound(Vm *vm, const Instr *instr) {
+NOINLINE static Value report_unbound(Vm *vm, const Instr *instr) {
     Str name = instr->as.name->name;
     vm_fault(vm, instr->at, "unbound-name", "unbound name '%.*s' is null", STR_ARGS(name));
     return VALUE_NULL;
 }
 
-NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
+NOINLINE static void eval_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
     vm->met_dynamic = true;
     if (!vm->is_static)
         vm_import(vm, frame, instr, file);
@@ -165,10 +166,11 @@ NOINLINE static void import(Vm *vm, Frame *frame, const Instr *instr, Value file
     }
 
 // The loop, of which there are two: measuring costs the other nothing.
-static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, const Code *code, const bool profiled) {
+static inline __attribute__((always_inline)) Value eval_code(Vm *vm, Frame *frame, const Code *code,
+                                                             const bool profiled) {
     Value *const slots = frame->slots;
     const Instr *instr = code->instrs;
-    ProfilePlace place = {0};
+    ProfilePosition place = {0};
     for (;; instr++) {
         if (profiled)
             vm_profile_at(vm->profile, instr->at->source, code->lines[instr - code->instrs]);
@@ -187,58 +189,58 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             D = vm->globals[instr->target];
             break;
         case OP_UNBOUND:
-            D = unbound(vm, instr);
+            D = report_unbound(vm, instr);
             break;
         case OP_COMPOSE:
             D = vm_compose(vm, code->operands + instr->list, slots, instr, instr->at);
             break;
         case OP_UNPACK:
-            unpack(vm, &D, instr->count, A);
+            unpack_value(vm, &D, instr->count, A);
             break;
         case OP_CLOSURE:
             D = make_closure(vm, code->operands + instr->list, frame, instr);
             break;
         case OP_IMPORT:
-            place = profiled ? vm->profile->place : place;
-            import(vm, frame, instr, A);
+            place = profiled ? vm->profile->position : place;
+            eval_import(vm, frame, instr, A);
             if (profiled)
                 vm_profile_return(vm->profile, place);
             break;
         case OP_FOR: {
             Loop *loop = &frame->loops[instr->loop];
             *loop = (Loop){.source = A, .result = vector_new(vm->arena)};
-            if (instr->as.rounds && !profiled)
-                vm_rounds(vm, frame, code, instr, loop);
-            if (!next_round(vm, instr, loop, slots, 1))
+            if (instr->as.batch_plan && !profiled)
+                vm_run_batches(vm, frame, code, instr, loop);
+            if (!next_iteration(vm, instr, loop, slots, 1))
                 instr = code->instrs + instr->target - 1;
             break;
         }
-        case OP_SPAN:
-            vm_span(vm, instr->at, &frame->loops[instr->loop], A, B, C);
+        case OP_RANGE_INIT:
+            vm_range_init(vm, instr->at, &frame->loops[instr->loop], A, B, C);
             break;
-        case OP_FOR_SPAN:
-            if (instr->as.rounds && !profiled)
-                vm_rounds(vm, frame, code, instr, &frame->loops[instr->loop]);
-            if (!next_round(vm, instr, &frame->loops[instr->loop], slots, 1))
+        case OP_FOR_RANGE:
+            if (instr->as.batch_plan && !profiled)
+                vm_run_batches(vm, frame, code, instr, &frame->loops[instr->loop]);
+            if (!next_iteration(vm, instr, &frame->loops[instr->loop], slots, 1))
                 instr = code->instrs + instr->target - 1;
             break;
-        case OP_ADD_PART:
+        case OP_YIELD:
             vector_add_part(&frame->loops[instr->loop].result, &A);
             break;
-        case OP_ADD_ROW:
-            vm_add_row(vm, code->operands + instr->list, slots, instr, &frame->loops[instr->loop]);
+        case OP_YIELD_NODE:
+            vm_yield_node(vm, code->operands + instr->list, slots, instr, &frame->loops[instr->loop]);
             break;
         case OP_NEXT: {
             Loop *loop = &frame->loops[instr->loop];
             loop->at += instr->count;
-            if (loop->at == loop->again)
-                vm_rounds(vm, frame, code, code->instrs + instr->target - 1, loop);
+            if (loop->at == loop->retry_at)
+                vm_run_batches(vm, frame, code, code->instrs + instr->target - 1, loop);
             uint64_t cost = 1 + (uint64_t)(instr - code->instrs - instr->target) / VM_INSTRS_A_UNIT; // of the body
-            if (!loop->result.overflow && next_round(vm, instr, loop, slots, cost))
+            if (!loop->result.overflow && next_iteration(vm, instr, loop, slots, cost))
                 instr = code->instrs + instr->target - 1;
             break;
         }
-        case OP_COLLECT:
+        case OP_END_LOOP:
             D = vm_finish(vm, instr->at, &frame->loops[instr->loop].result);
             break;
         case OP_JUMP:
@@ -262,8 +264,8 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             D = vm_decorate(vm, code->operands + instr->list, slots, instr);
             break;
         case OP_CALL:
-            place = profiled ? vm->profile->place : place;
-            D = call(vm, code->operands + instr->list, slots, instr);
+            place = profiled ? vm->profile->position : place;
+            D = eval_call(vm, code->operands + instr->list, slots, instr);
             if (profiled)
                 vm_profile_return(vm->profile, place);
             break;
@@ -320,7 +322,7 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
             break;
         }
         case OP_SLICE:
-            D = vm_slice(vm, instr->as.inner, A, B, C);
+            D = vm_slice(vm, instr->as.inner_origin, A, B, C);
             break;
         case OP_LOOKUP:
             D = vm_lookup(vm, code->operands + instr->list, slots, instr);
@@ -334,11 +336,11 @@ static inline __attribute__((always_inline)) Value eval(Vm *vm, Frame *frame, co
 }
 
 NOINLINE static Value eval_profiled(Vm *vm, Frame *frame, const Code *code) {
-    return eval(vm, frame, code, true);
+    return eval_code(vm, frame, code, true);
 }
 
 Value vm_eval(Vm *vm, Frame *frame, const Code *code) {
     if (vm->profile && code->lines)
         return eval_profiled(vm, frame, code);
-    return eval(vm, frame, code, false);
+    return eval_code(vm, frame, code, false);
 }

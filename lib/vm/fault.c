@@ -10,8 +10,8 @@ static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     for (; vm->reported[i].at; i = (i + 1) % VM_REPORTED)
         if (vm->reported[i].at == at && vm->reported[i].what == what)
             return false;
-    if (vm->trying) {
-        vm->failed = true;
+    if (vm->speculative) {
+        vm->speculation_failed = true;
         return false;
     }
     vm->reported[i] = (Reported){at, what};
@@ -19,14 +19,14 @@ static bool first_fault(Vm *vm, const Origin *at, uint64_t what) {
     return true;
 }
 
-static void report(Vm *vm, const Origin *at, DiagLevel level, const char *code, Str text) {
+static void report_diagnostic(Vm *vm, const Origin *at, DiagLevel level, const char *code, Str text) {
     Diag diag = {.level = level, .source = at->source, .span = at->span, .text = text, .code = code};
-    vm->host.report(vm->host.host, &diag);
+    vm->host.report(vm->host.user_data, &diag);
 }
 
 void vm_fault_text(Vm *vm, const Origin *at, const char *code, Str text) {
     if (first_fault(vm, at, hash_bytes(0, text.bytes, text.len)))
-        report(vm, at, DIAG_WARNING, code, text);
+        report_diagnostic(vm, at, DIAG_WARNING, code, text);
 }
 
 void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ...) {
@@ -37,7 +37,7 @@ void vm_fault(Vm *vm, const Origin *at, const char *code, const char *format, ..
     Text text = text_new(vm->arena);
     text_add_va(&text, format, args);
     va_end(args);
-    report(vm, at, DIAG_WARNING, code, text_str(&text));
+    report_diagnostic(vm, at, DIAG_WARNING, code, text_str(&text));
 }
 
 Value vm_finish(Vm *vm, const Origin *at, Vector *vector) {

@@ -6,14 +6,14 @@
 #include <string.h>
 #include <time.h>
 
-static uint64_t now(void) {
+static uint64_t monotonic_nanoseconds(void) {
     struct timespec time;
     clock_gettime(CLOCK_MONOTONIC, &time);
     return (uint64_t)time.tv_sec * 1000000000u + (uint64_t)time.tv_nsec;
 }
 
 Profile *vm_profile_new(void) {
-    Profile *profile = heap_zeroed(1, sizeof *profile);
+    Profile *profile = heap_calloc(1, sizeof *profile);
     if (profile)
         arena_init(&profile->arena, "profile", SIZE_MAX);
     return profile;
@@ -22,40 +22,40 @@ Profile *vm_profile_new(void) {
 void vm_profile_free(Profile *profile) {
     if (profile)
         arena_free(&profile->arena);
-    heap_give(profile);
+    heap_free(profile);
 }
 
 void vm_profile_clear(Profile *profile) {
     arena_reset(&profile->arena);
     profile->files = NULL;
     profile->file_count = profile->file_capacity = 0;
-    profile->place = (ProfilePlace){0};
+    profile->position = (ProfilePosition){0};
 }
 
 void vm_profile_begin(Profile *profile, jmp_buf *escape) {
     profile->arena.escape = escape;
     for (uint32_t i = 0; i < profile->file_count; i++)
-        profile->files[i].seen = NULL;
-    profile->place = (ProfilePlace){0};
-    profile->since = now();
+        profile->files[i].frame_source = NULL;
+    profile->position = (ProfilePosition){0};
+    profile->last_change = monotonic_nanoseconds();
 }
 
-static void leave(Profile *profile) {
-    uint64_t time = now();
-    if (profile->place.counts)
-        profile->place.counts->nanoseconds += time - profile->since;
-    profile->since = time;
+static void charge_elapsed(Profile *profile) {
+    uint64_t time = monotonic_nanoseconds();
+    if (profile->position.counts)
+        profile->position.counts->nanoseconds += time - profile->last_change;
+    profile->last_change = time;
 }
 
 void vm_profile_end(Profile *profile) {
-    leave(profile);
-    profile->place = (ProfilePlace){0};
+    charge_elapsed(profile);
+    profile->position = (ProfilePosition){0};
     profile->arena.escape = NULL;
 }
 
 static ProfileFile *add_file(Profile *profile, const Source *source) {
-    profile->files = arena_room(&profile->arena, profile->files, profile->file_count, &profile->file_capacity,
-                                sizeof *profile->files);
+    profile->files = arena_grow_array(&profile->arena, profile->files, profile->file_count, &profile->file_capacity,
+                                      sizeof *profile->files);
     size_t size = source->line_count * sizeof(ProfileLine);
     ProfileFile file = {.source = source_new(&profile->arena, source->name, source->path, source->text),
                         .lines = arena_alloc(&profile->arena, size)};
@@ -68,7 +68,7 @@ static ProfileFile *add_file(Profile *profile, const Source *source) {
 // The file of a source, which is compared as a whole once in a frame: it may have been loaded again.
 static ProfileFile *find_file(Profile *profile, const Source *source) {
     for (uint32_t i = 0; i < profile->file_count; i++)
-        if (profile->files[i].seen == source)
+        if (profile->files[i].frame_source == source)
             return &profile->files[i];
     ProfileFile *found = NULL;
     for (uint32_t i = 0; i < profile->file_count && !found; i++) {
@@ -78,20 +78,20 @@ static ProfileFile *find_file(Profile *profile, const Source *source) {
     }
     if (!found)
         found = add_file(profile, source);
-    found->seen = source;
+    found->frame_source = source;
     return found;
 }
 
 void vm_profile_move(Profile *profile, const Source *source, uint32_t line) {
-    leave(profile);
+    charge_elapsed(profile);
     ProfileFile *file = find_file(profile, source);
     ProfileLine *counts = line > 0 && line <= file->source->line_count ? &file->lines[line - 1] : NULL;
     if (counts)
-        counts->times++;
-    profile->place = (ProfilePlace){source, line, counts};
+        counts->hits++;
+    profile->position = (ProfilePosition){source, line, counts};
 }
 
-void vm_profile_return(Profile *profile, ProfilePlace place) {
-    leave(profile);
-    profile->place = place;
+void vm_profile_return(Profile *profile, ProfilePosition place) {
+    charge_elapsed(profile);
+    profile->position = place;
 }

@@ -11,30 +11,30 @@
 
 typedef struct ProfileLine {
     uint64_t nanoseconds;
-    uint64_t times; // that evaluation came to the line
+    uint64_t hits; // that evaluation came to the line
 } ProfileLine;
 
 // One version of a source file.
 typedef struct ProfileFile {
-    const Source *source; // a copy: programs may be dropped
-    const Source *seen;   // what it is known as in this frame, or NULL
-    ProfileLine *lines;   // as many as the source has
+    const Source *source;       // a copy: programs may be dropped
+    const Source *frame_source; // what it is known as in this frame, or NULL
+    ProfileLine *lines;         // as many as the source has
 } ProfileFile;
 
 // Where evaluation is.
-typedef struct ProfilePlace {
+typedef struct ProfilePosition {
     const Source *source;
     uint32_t line;
     ProfileLine *counts;
-} ProfilePlace;
+} ProfilePosition;
 
 typedef struct Profile {
     Arena arena;
     ProfileFile *files;
     uint32_t file_count;
     uint32_t file_capacity;
-    ProfilePlace place;
-    uint64_t since; // clock at the last change
+    ProfilePosition position;
+    uint64_t last_change; // clock at the last change
 } Profile;
 
 // NULL if memory is used up.
@@ -48,11 +48,11 @@ void vm_profile_begin(Profile *profile, jmp_buf *escape);
 void vm_profile_end(Profile *profile);
 void vm_profile_move(Profile *profile, const Source *source, uint32_t line);
 // Back from a call to where it was made.
-void vm_profile_return(Profile *profile, ProfilePlace place);
+void vm_profile_return(Profile *profile, ProfilePosition place);
 
 // Evaluation is at this line now.
 static inline void vm_profile_at(Profile *profile, const Source *source, uint32_t line) {
-    if (line != profile->place.line || source != profile->place.source)
+    if (line != profile->position.line || source != profile->position.source)
         vm_profile_move(profile, source, line);
 }
 

@@ -11,7 +11,7 @@ static void builtin_fault_here(void *host, Str text) {
 
 static void builtin_log(void *host, Str text) {
     const Vm *vm = host;
-    vm->host.log(vm->host.host, text);
+    vm->host.log(vm->host.user_data, text);
 }
 
 void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t stack_bytes, bool is_static) {
@@ -19,17 +19,17 @@ void vm_init(Vm *vm, Arena *arena, SymbolTable *symbols, VmHost host, size_t sta
                .symbols = symbols,
                .host = host,
                .stack_bytes = stack_bytes,
-               .run = is_static,
+               .evaluation_id = is_static,
                .is_static = is_static};
     arena_init(&vm->slots, "call frames", SIZE_MAX);
-    vm->slots.meter = arena->meter;
+    vm->slots.budget = arena->budget;
     vm->builtins = (BuiltinContext){
-        .arena = arena, .symbols = symbols, .fault = builtin_fault_here, .log = builtin_log, .host = vm};
+        .arena = arena, .symbols = symbols, .report_error = builtin_fault_here, .log = builtin_log, .user_data = vm};
 }
 
 void vm_free(Vm *vm) {
     arena_free(&vm->slots);
-    vm_memo_free(vm);
+    vm_inline_cache_free(vm);
 }
 
 Frame vm_frame(Vm *vm, const Code *code, Closure *closure) {
@@ -50,31 +50,31 @@ static Frame new_frame(Vm *vm, const Code *code) {
 }
 
 // Fresh limits; nothing is left over from an evaluation that was escaped from.
-static void begin(Vm *vm, const char *stack_base) {
+static void reset_evaluation(Vm *vm, const char *stack_base) {
     arena_reset(&vm->slots);
     vm->slots.escape = vm->arena->escape;
     vm->at = NULL;
     vm->stack_base = stack_base;
-    vm->run += 2;
+    vm->evaluation_id += 2;
     vm->depth = 0;
     vm->imports = NULL;
     if (vm->reported_count > 0)
         memset(vm->reported, 0, sizeof vm->reported);
     vm->reported_count = 0;
-    vm->trying = vm->failed = false;
+    vm->speculative = vm->speculation_failed = false;
 }
 
-Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports) {
-    begin(vm, __builtin_frame_address(0));
+Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *exports) {
+    reset_evaluation(vm, __builtin_frame_address(0));
     ImportLink self = {NULL, program->source, 0};
     vm->imports = &self;
     vm->builtins.directory = program->source->directory;
-    vm_memo_begin(vm, program->place_count);
+    vm_inline_cache_reset(vm, program->lookup_count);
     if (vm->profile)
         vm_profile_begin(vm->profile, vm->arena->escape);
     Frame frame = new_frame(vm, program->code);
     for (uint32_t i = 0; i < program->param_count; i++)
-        frame.slots[i] = given[i];
+        frame.slots[i] = arguments[i];
     Value result = vm_eval(vm, &frame, program->code);
     if (vm->profile)
         vm_profile_end(vm->profile);
@@ -87,7 +87,7 @@ Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports)
 
 bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {
     vm->arena = vm->builtins.arena = arena;
-    begin(vm, __builtin_frame_address(0));
+    reset_evaluation(vm, __builtin_frame_address(0));
     vm->met_dynamic = false;
     vm->builtins.directory = code->source->directory;
     Frame frame = new_frame(vm, code);
@@ -98,7 +98,7 @@ bool vm_run_static(Vm *vm, Arena *arena, const Code *code, Value *value) {
     return false;
 }
 
-static bool being_imported(const Vm *vm, const Source *source) {
+static bool is_importing(const Vm *vm, const Source *source) {
     for (const ImportLink *link = vm->imports; link; link = link->outer)
         if (str_equal(link->source->path, source->path))
             return true;
@@ -110,7 +110,7 @@ enum { IMPORT_WORK = 100 }; // its file is looked at
 // Evaluates a module in a frame of its own, with only the built-ins visible and without state (L13.2).
 static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr *instr) {
     ImportLink link = {vm->imports, module->source, vm->imports->depth + 1};
-    vm_work(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);
+    vm_charge(vm, instr->at, IMPORT_WORK + module->code->count / VM_INSTRS_A_UNIT + link.depth / 8);
     const State *state = vm->state;
     Str directory = vm->builtins.directory;
     ArenaMark mark = arena_mark(&vm->slots);
@@ -132,7 +132,7 @@ static void run_module(Vm *vm, Frame *frame, const Program *module, const Instr 
             text_add_format(&missing, " '%.*s'", STR_ARGS(name->name));
     }
     if (missing.len)
-        vm_fault(vm, instr->at, "no-such-name", "'%.*s' does not bind%.*s", STR_ARGS(module->source->name),
+        vm_fault(vm, instr->at, "unknown-import", "'%.*s' does not bind%.*s", STR_ARGS(module->source->name),
                  STR_ARGS(missing));
     arena_rewind(&vm->slots, mark);
 }
@@ -142,13 +142,13 @@ void vm_import(Vm *vm, Frame *frame, const Instr *instr, Value file) {
         frame->slots[(uint32_t)instr->d + i] = VALUE_NULL;
     Str name = value_text(vm->arena, vm->symbols, file);
     Str path = path_join(vm->arena, instr->at->source->directory, name);
-    Str why = {0};
-    const Program *module = name.len ? vm->host.module(vm->host.host, path, &why) : NULL;
+    Str reason = {0};
+    const Program *module = name.len ? vm->host.module(vm->host.user_data, path, &reason) : NULL;
     if (!module) {
         if (!name.len)
-            why = STR("no file name");
-        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(why));
-    } else if (being_imported(vm, module->source)) {
+            reason = STR("no file name");
+        vm_fault(vm, instr->at, "cannot-import", "cannot import '%.*s': %.*s", STR_ARGS(path), STR_ARGS(reason));
+    } else if (is_importing(vm, module->source)) {
         vm_fault(vm, instr->at, "circular-import", "circular import of '%.*s'", STR_ARGS(path));
     } else if (vm->imports->depth >= VM_IMPORT_DEPTH || !vm_stack_left(vm)) {
         vm_fault(vm, instr->at, "recursion-depth", "imports nested too deeply");

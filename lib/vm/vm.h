@@ -20,11 +20,11 @@ enum {
 };
 
 typedef struct VmHost {
-    void *host;
+    void *user_data;
     void (*report)(void *host, const Diag *diag);
     void (*log)(void *host, Str text);
     // The compiled module at a path, or NULL with the reason in *why (borrowed).
-    const Program *(*module)(void *host, Str path, Str *why);
+    const Program *(*module)(void *host, Str path, Str *reason);
 } VmHost;
 
 typedef struct ImportLink ImportLink;
@@ -37,12 +37,12 @@ typedef struct Reported {
 
 // What a look-up in the state found when it was last made for the first, second, … time in a frame: most scripts look
 // up the same keys in the same order in every frame. Only a guess, which is checked.
-typedef struct Memo {
+typedef struct InlineCache {
     StateSlot *slots; // heap
     uint32_t count;
     uint32_t capacity;
     uint32_t next;
-} Memo;
+} InlineCache;
 
 typedef struct Vm {
     Arena *arena; // the frame's: results and temporaries
@@ -54,19 +54,19 @@ typedef struct Vm {
     VmHost host;
     const Origin *at; // what is at work: a built-in's fault belongs to it, and so does a limit. NULL: nothing yet
     uint32_t depth;
-    uint64_t run;       // number of the evaluation, unique over a session's machines: closures may outlive a frame
-    bool is_static;     // evaluating ahead: dynamic things have no value yet
-    bool met_dynamic;   // … and one was met
-    size_t stack_bytes; // of the C stack that evaluation may use
+    uint64_t evaluation_id; // number of the evaluation, unique over a session's machines: closures may outlive a frame
+    bool is_static;         // evaluating ahead: dynamic things have no value yet
+    bool met_dynamic;       // … and one was met
+    size_t stack_bytes;     // of the C stack that evaluation may use
     const char *stack_base;
     const ImportLink *imports;      // modules being evaluated, innermost first
     Reported reported[VM_REPORTED]; // hash set of the faults of this frame
     uint32_t reported_count;
-    bool trying;     // what is run may be run again, in another order: a fault that would be reported
-    bool failed;     // … is only noted here
-    uint64_t rounds; // of loops that were run many at once, ever
-    Memo *memos;     // of the main program's look-ups by number; heap
-    uint32_t memo_count;
+    bool speculative;            // what is run may be run again, in another order: a fault that would be reported
+    bool speculation_failed;     // … is only noted here
+    uint64_t batched_iterations; // of loops that were run many at once, ever
+    InlineCache *inline_caches;  // of the main program's look-ups by number; heap
+    uint32_t inline_cache_count;
     Profile *profile; // borrowed; NULL: nothing is measured
 } Vm;
 
@@ -77,7 +77,7 @@ void vm_free(Vm *vm);
 
 // Evaluates a main program: the composition of its statements. `given` are the values of its parameters (NULL if it has
 // none); what its exports are bound to in the end is stored in `exports`, unless that is NULL.
-Value vm_run(Vm *vm, const Program *program, const Value *given, Value *exports);
+Value vm_run(Vm *vm, const Program *program, const Value *arguments, Value *exports);
 // Runs code that is no program's in a fresh frame; the value lives in
 // `arena`. False, and *value null, if that met anything dynamic (L17.2), a fault or a limit. For machines that run
 // nothing else.

@@ -1,12 +1,11 @@
-// make.c: instructions that make vectors and nodes or look something up; see machine.h.
-#include "vm/machine.h"
-
+// construct.c: instructions that make vectors and nodes or look something up; see machine.h.
 #include "base/heap.h"
-#include "value/seed.h"
+#include "value/value_hash.h"
+#include "vm/machine.h"
 
 #include <string.h>
 
-enum { MOST_ON_STACK = 8 };
+enum { MAX_ON_STACK = 8 };
 
 static uint32_t add_numbers(double *numbers, uint32_t at, const Value *part) {
     if (part->len == 1) {
@@ -45,7 +44,7 @@ Value vm_compose(Vm *vm, const int32_t *list, const Value *slots, const Instr *i
 
 Value vm_append(Vm *vm, const Instr *instr, Value parent, Value children) {
     vm->at = instr->at;
-    NodeList list = instr->as.kept ? *instr->as.kept : node_list(vm->arena, children);
+    NodeList list = instr->as.constant_children ? *instr->as.constant_children : node_list(vm->arena, children);
     bool too_high = false;
     Value result = value_append(vm->arena, parent, &list, &too_high);
     if (too_high)
@@ -85,7 +84,7 @@ static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, cons
             continue;
         if (value->kind == VALUE_MIXED && value_height(*value) >= height)
             height = value_height(*value) + 1;
-        has_runs |= value->kind == VALUE_MIXED && value_has_runs(*value);
+        has_runs |= value->kind == VALUE_MIXED && value_has_batches(*value);
         attrs[count++] = (Attr){instr->as.node->names[i], *value};
     }
     if (height > NODE_MAX_HEIGHT) {
@@ -95,7 +94,7 @@ static void set_attributes(Vm *vm, const int32_t *list, const Value *slots, cons
     node->attrs = attrs;
     node->attr_count = count;
     node->height = (uint16_t)height;
-    node->has_runs = has_runs;
+    node->has_batches = has_runs;
 }
 
 static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList *list) {
@@ -108,7 +107,7 @@ static void set_children(Vm *vm, const Instr *instr, Node *node, const NodeList 
     node->children = list->nodes;
     node->child_count = list->count;
     node->program_lifetime_children = list->program_lifetime;
-    node->has_runs |= list->has_runs;
+    node->has_batches |= list->has_batches;
     if (list->height >= node->height)
         node->height = (uint16_t)(list->height + 1);
 }
@@ -118,7 +117,7 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     const NodeCode *plan = instr->as.node;
     const Value *children = instr->b == CODE_NO_OPERAND ? NULL : &slots[instr->b];
     uint32_t room = children && children->kind == VALUE_MIXED ? children->len : 0;
-    vm_work(vm, instr->at, 1 + (instr->count + room) / 4);
+    vm_charge(vm, instr->at, 1 + (instr->count + room) / 4);
     NodeValue *made = arena_alloc(vm->arena, sizeof *made + instr->count * sizeof(Attr) + room * sizeof(const Node *));
     Attr *attrs = (Attr *)(made + 1);
     const Node **nodes = (const Node **)(attrs + instr->count);
@@ -127,8 +126,8 @@ Value vm_make_node(Vm *vm, const int32_t *list, const Value *slots, const Instr 
     made->item = (Item){ITEM_NODE, .as.node = &made->node};
     if (instr->count)
         set_attributes(vm, list, slots, instr, &made->node, attrs);
-    if (plan->kept) {
-        set_children(vm, instr, &made->node, plan->kept);
+    if (plan->constant_children) {
+        set_children(vm, instr, &made->node, plan->constant_children);
     } else if (room) {
         NodeList given = node_list_in(nodes, *children);
         set_children(vm, instr, &made->node, &given);
@@ -147,9 +146,9 @@ static Value index_stream(Vm *vm, Value stream, Value index) {
     if (index.len == 1)
         return value_number(value_stream_item(stream, value_stream_position(at[0])));
     double *items = arena_alloc_array(vm->arena, index.len, sizeof *items);
-    for (uint32_t i = 0; i < index.len; i += METER_PORTION) {
-        uint32_t count = index.len - i < METER_PORTION ? index.len - i : METER_PORTION;
-        arena_charge(vm->arena, count == METER_PORTION ? METER_PORTION * STREAM_WORK : 0);
+    for (uint32_t i = 0; i < index.len; i += BUDGET_CHUNK) {
+        uint32_t count = index.len - i < BUDGET_CHUNK ? index.len - i : BUDGET_CHUNK;
+        arena_charge(vm->arena, count == BUDGET_CHUNK ? BUDGET_CHUNK * STREAM_WORK : 0);
         value_stream_items(stream, at + i, count, items + i);
     }
     return value_numbers_view(items, index.len);
@@ -171,10 +170,10 @@ Value vm_range(Vm *vm, const Origin *at, Value start, Value stop, Value step) {
     return range;
 }
 
-void vm_span(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step) {
+void vm_range_init(Vm *vm, const Origin *at, Loop *loop, Value start, Value stop, Value step) {
     bool too_long = false;
     vm->at = at;
-    *loop = (Loop){.span = op_span(start, stop, step, &too_long), .result = vector_new(vm->arena)};
+    *loop = (Loop){.span = op_range_bounds(start, stop, step, &too_long), .result = vector_new(vm->arena)};
     loop->source = (Value){.len = loop->span.len, .kind = VALUE_ABSENT};
     if (too_long)
         range_too_long(vm, at);
@@ -199,46 +198,46 @@ Value vm_slice(Vm *vm, const Origin *at, Value vector, Value start, Value stop) 
 
 // --- the state
 
-void vm_memo_begin(Vm *vm, uint32_t count) {
-    if (count > vm->memo_count) {
-        Memo *memos = heap_resize(vm->memos, count * sizeof *memos);
-        if (memos) {
-            memset(memos + vm->memo_count, 0, (count - vm->memo_count) * sizeof *memos);
-            vm->memos = memos;
-            vm->memo_count = count;
+void vm_inline_cache_reset(Vm *vm, uint32_t count) {
+    if (count > vm->inline_cache_count) {
+        InlineCache *caches = heap_resize(vm->inline_caches, count * sizeof *caches);
+        if (caches) {
+            memset(caches + vm->inline_cache_count, 0, (count - vm->inline_cache_count) * sizeof *caches);
+            vm->inline_caches = caches;
+            vm->inline_cache_count = count;
         }
     }
-    for (uint32_t i = 0; i < vm->memo_count; i++)
-        vm->memos[i].next = 0;
+    for (uint32_t i = 0; i < vm->inline_cache_count; i++)
+        vm->inline_caches[i].next = 0;
 }
 
-void vm_memo_free(Vm *vm) {
-    for (uint32_t i = 0; i < vm->memo_count; i++)
-        heap_give(vm->memos[i].slots);
-    heap_give(vm->memos);
-    vm->memos = NULL;
-    vm->memo_count = 0;
+void vm_inline_cache_free(Vm *vm) {
+    for (uint32_t i = 0; i < vm->inline_cache_count; i++)
+        heap_free(vm->inline_caches[i].slots);
+    heap_free(vm->inline_caches);
+    vm->inline_caches = NULL;
+    vm->inline_cache_count = 0;
 }
 
 // A place that is reached more often in a frame than this goes without after that.
-enum { MOST_REMEMBERED = 1 << 22 };
+enum { MAX_CACHED = 1 << 22 };
 
 // Where the guess for the next look-up of a place is kept, or NULL.
-static StateSlot *memo_next(Vm *vm, uint32_t place) {
-    if (place >= vm->memo_count)
+static StateSlot *next_guess(Vm *vm, uint32_t lookup) {
+    if (lookup >= vm->inline_cache_count)
         return NULL;
-    Memo *memo = &vm->memos[place];
-    if (memo->next == memo->count) {
-        if (memo->count == MOST_REMEMBERED ||
-            !heap_reserve((void **)&memo->slots, &memo->capacity, memo->count, sizeof *memo->slots))
+    InlineCache *cache = &vm->inline_caches[lookup];
+    if (cache->next == cache->count) {
+        if (cache->count == MAX_CACHED ||
+            !heap_reserve((void **)&cache->slots, &cache->capacity, cache->count, sizeof *cache->slots))
             return NULL;
-        memo->slots[memo->count++] = STATE_NO_SLOT;
+        cache->slots[cache->count++] = STATE_NO_SLOT;
     }
-    return &memo->slots[memo->next++];
+    return &cache->slots[cache->next++];
 }
 
-Value vm_get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
-    StateSlot *guess = memo_next(vm, place), slot = guess ? *guess : STATE_NO_SLOT;
+Value vm_lookup_numbers(Vm *vm, uint32_t lookup, const double *numbers, uint32_t len) {
+    StateSlot *guess = next_guess(vm, lookup), slot = guess ? *guess : STATE_NO_SLOT;
     if (slot == STATE_NO_SLOT || !state_slot_has_key(vm->state, slot, value_numbers_view(numbers, len))) {
         slot = state_find(vm->state, value_numbers_view(numbers, len));
         if (guess)
@@ -248,8 +247,8 @@ Value vm_get(Vm *vm, uint32_t place, const double *numbers, uint32_t len) {
 }
 
 static Value copy_of(Vm *vm, Value v) {
-    if (v.len >= METER_NUMBERS)
-        arena_charge(vm->arena, v.len / METER_NUMBERS);
+    if (v.len >= BUDGET_NUMBERS)
+        arena_charge(vm->arena, v.len / BUDGET_NUMBERS);
     return value_copy(vm->arena, v);
 }
 
@@ -258,18 +257,18 @@ static Value copy_of(Vm *vm, Value v) {
 Value vm_lookup(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr) {
     vm->met_dynamic = true;
     vm->at = instr->at;
-    double few[MOST_ON_STACK];
+    double buffer[MAX_ON_STACK];
     uint32_t count = 0;
-    while (count < instr->count && count < MOST_ON_STACK && is_number(&slots[list[count]])) {
-        few[count] = slots[list[count]].as.number;
+    while (count < instr->count && count < MAX_ON_STACK && is_number(&slots[list[count]])) {
+        buffer[count] = slots[list[count]].as.number;
         count++;
     }
     if (count == instr->count && vm->state)
-        return copy_of(vm, vm_get(vm, instr->target, few, count));
-    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->as.inner);
+        return copy_of(vm, vm_lookup_numbers(vm, instr->target, buffer, count));
+    Value key = instr->count == 1 ? slots[list[0]] : vm_compose(vm, list, slots, instr, instr->as.inner_origin);
     if (!vm->state)
         return VALUE_NULL;
     if (key.kind == VALUE_NUMBERS && key.len > 0)
-        return copy_of(vm, vm_get(vm, instr->target, value_numbers(&key), key.len));
+        return copy_of(vm, vm_lookup_numbers(vm, instr->target, value_numbers(&key), key.len));
     return copy_of(vm, state_get(vm->state, key));
 }

@@ -1,5 +1,5 @@
-// foreign.c: see foreign.h.
-#include "syntax/foreign.h"
+// content_sniff.c: see content_sniff.h.
+#include "syntax/content_sniff.h"
 
 #include <string.h>
 
@@ -7,7 +7,7 @@
 static const struct {
     Str bytes;
     const char *encoding;
-} marks[] = {
+} signatures[] = {
     {{"\xff\xfe\0\0", 4}, "UTF-32"},
     {{"\0\0\xfe\xff", 4}, "UTF-32"},
     {{"\xff\xfe", 2}, "UTF-16"},
@@ -16,17 +16,17 @@ static const struct {
 
 // Without a signature: every second of the first bytes is NUL.
 static bool alternates(Str text) {
-    enum { LOOKED_AT = 32, LEAST = 4 };
-    size_t count[2] = {0}, len = text.len < LOOKED_AT ? text.len & ~(size_t)1 : LOOKED_AT;
+    enum { MAX_SNIFFED = 32, MIN_LENGTH = 4 };
+    size_t count[2] = {0}, len = text.len < MAX_SNIFFED ? text.len & ~(size_t)1 : MAX_SNIFFED;
     for (size_t i = 0; i < len; i++)
         count[i % 2] += text.bytes[i] == 0;
-    return len >= LEAST && count[0] + count[1] == len / 2 && (count[0] == 0 || count[1] == 0);
+    return len >= MIN_LENGTH && count[0] + count[1] == len / 2 && (count[0] == 0 || count[1] == 0);
 }
 
-const char *foreign_encoding(const Source *source) {
-    for (size_t i = 0; i < sizeof marks / sizeof marks[0]; i++)
-        if (str_starts_with(source->text, marks[i].bytes))
-            return marks[i].encoding;
+const char *content_sniff_encoding(const Source *source) {
+    for (size_t i = 0; i < sizeof signatures / sizeof signatures[0]; i++)
+        if (str_starts_with(source->text, signatures[i].bytes))
+            return signatures[i].encoding;
     return alternates(source->text) ? "UTF-16" : NULL;
 }
 
@@ -66,24 +66,24 @@ static Tally count_lines(const Source *source, const DiagSink *diags) {
     return tally;
 }
 
-static void replace(DiagSink *diags, const Diag *diag) {
+static void replace_diagnostics(DiagSink *diags, const Diag *diag) {
     diag_sink_free(diags);
     diag_report(diags, diag);
 }
 
-void foreign_sum_up(const Source *source, DiagSink *diags) {
-    enum { FEWEST = 3 };
+void content_sniff_report(const Source *source, DiagSink *diags) {
+    enum { MIN_ERRORS = 3 };
     if (memchr(source->text.bytes, 0, source->text.len)) {
-        replace(diags, &(Diag){.level = DIAG_ERROR,
-                               .text = str_format(diags->arena, "'%.*s' is a binary file, not a script",
-                                                  STR_ARGS(source->name)),
-                               .code = "encoding"});
+        replace_diagnostics(diags, &(Diag){.level = DIAG_ERROR,
+                                           .text = str_format(diags->arena, "'%.*s' is a binary file, not a script",
+                                                              STR_ARGS(source->name)),
+                                           .code = "encoding"});
         return;
     }
-    if (diags->count < FEWEST || claims_to_be_script(source))
+    if (diags->count < MIN_ERRORS || claims_to_be_script(source))
         return;
     Tally tally = count_lines(source, diags);
-    if (tally.bad < FEWEST || tally.bad * 2 < tally.lines)
+    if (tally.bad < MIN_ERRORS || tally.bad * 2 < tally.lines)
         return;
     Diag first = diags->items[0];
     Str what = diag_text(&first);
@@ -92,5 +92,5 @@ void foreign_sum_up(const Source *source, DiagSink *diags) {
         tally.bad, diags->dropped ? "the first " : "", tally.lines, STR_ARGS(what));
     first.hint = (Str){0};
     first.code = "not-a-script";
-    replace(diags, &first);
+    replace_diagnostics(diags, &first);
 }

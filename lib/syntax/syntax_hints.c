@@ -1,5 +1,5 @@
-// habits.c: see habits.h.
-#include "syntax/habits.h"
+// syntax_hints.c: see syntax_hints.h.
+#include "syntax/syntax_hints.h"
 
 #include <regex.h>
 #include <stdbool.h>
@@ -9,25 +9,25 @@ static const struct {
     const char *before;
     const char *after;
     Str hint;
-} habits[] = {
-#define HABIT(before, after, hint) {before, after, {hint, sizeof hint - 1}},
-#include "syntax/habit_list.h"
+} hints[] = {
+#define HINT(before, after, hint) {before, after, {hint, sizeof hint - 1}},
+#include "syntax/syntax_hint_list.h"
 };
 
-enum { SHOWN = 300 }; // characters of a line that are looked at on either side
+enum { MAX_CONTEXT = 300 }; // characters of a line that are looked at on either side
 
 // A pattern that begins with a plain character, which most do, is quickly seen not to match.
-static bool begins_otherwise(const char *pattern, const char *text) {
+static bool cannot_match(const char *pattern, const char *text) {
     static const char plain[] = "abcdefghijklmnopqrstuvwxyz:=,&#-<>`!";
     return pattern[0] == '^' && pattern[1] && strchr(plain, pattern[1]) &&
            (!pattern[2] || !strchr("?*{|", pattern[2])) && pattern[1] != text[0];
 }
 
-static bool matches(const char *pattern, const char *text) {
+static bool matches_pattern(const char *pattern, const char *text) {
     regex_t regex;
     if (!*pattern)
         return true;
-    if (begins_otherwise(pattern, text))
+    if (cannot_match(pattern, text))
         return false;
     if (regcomp(&regex, pattern, REG_EXTENDED | REG_NOSUB) != 0)
         return false;
@@ -48,22 +48,22 @@ static Str hex_colour(Arena *arena, const char *before, const char *after) {
     return hex && text_add_hex_colour(&out, str_from(hex)) ? text_str(&out) : (Str){0};
 }
 
-Str parse_habit(Arena *arena, const Source *source, Span place) {
-    SourcePlace at = source_locate(source, place.start);
-    const char *line = at.text.bytes, *end = line + at.text.len, *token = source->text.bytes + place.start;
+Str syntax_hint_find(Arena *arena, const Source *source, Span span) {
+    SourcePosition at = source_locate(source, span.start);
+    const char *line = at.text.bytes, *end = line + at.text.len, *token = source->text.bytes + span.start;
     if (token < line || token > end)
         return (Str){0};
     Str left = {line, (size_t)(token - line)}, right = {token, (size_t)(end - token)};
-    if (left.len > SHOWN)
-        left = (Str){token - SHOWN, SHOWN};
-    if (right.len > SHOWN)
-        right.len = SHOWN;
+    if (left.len > MAX_CONTEXT)
+        left = (Str){token - MAX_CONTEXT, MAX_CONTEXT};
+    if (right.len > MAX_CONTEXT)
+        right.len = MAX_CONTEXT;
     if (str_starts_with(right, STR("--")))
         right.len = 0;
     const char *before = str_to_c(arena, left), *after = str_to_c(arena, right);
     Str hint = hex_colour(arena, before, after);
-    for (size_t i = 0; !hint.len && i < sizeof habits / sizeof habits[0]; i++)
-        if (matches(habits[i].after, after) && matches(habits[i].before, before))
-            hint = habits[i].hint;
+    for (size_t i = 0; !hint.len && i < sizeof hints / sizeof hints[0]; i++)
+        if (matches_pattern(hints[i].after, after) && matches_pattern(hints[i].before, before))
+            hint = hints[i].hint;
     return hint;
 }

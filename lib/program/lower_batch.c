@@ -1,0 +1,89 @@
+// lower_batch.c: which loops the machine may run many rounds of at once; see BatchPlan in code.h.
+#include "program/lower.h"
+
+#include <string.h>
+
+static const char *const operand_formats[OP_COUNT] = {
+#define OPCODE(id, name, operands) operands,
+#include "program/opcode_list.h"
+#undef OPCODE
+};
+
+uint32_t program_operands_read(const int32_t *operands, const Instr *instr, int32_t *reads) {
+    uint32_t count = 0;
+    for (const char *format = operand_formats[instr->op]; *format; format++) {
+        if (*format == 'a' || *format == 'b' || *format == 'c')
+            reads[count++] = *format == 'a' ? instr->a : *format == 'b' ? instr->b : instr->c;
+        for (uint32_t i = 0; *format == 'l' && i < instr->count; i++)
+            reads[count++] = operands[instr->list + i];
+    }
+    return count;
+}
+
+// The registers that an instruction writes begin with `d`.
+static uint32_t count_written(const Instr *instr) {
+    return strchr(operand_formats[instr->op], 's') ? instr->count : strchr(operand_formats[instr->op], 'd') != NULL;
+}
+
+// Is what is called a built-in that does nothing but give a value?
+static bool calls_pure(const Lowering *lowering, const Instr *instr) {
+    if (instr->op != OP_CALL)
+        return instr->op != OP_BUILTIN || instr->as.builtin->pure;
+    const Value *callee = instr->b < 0 ? &lowering->constants[-1 - instr->b] : NULL;
+    if (!callee || callee->kind != VALUE_MIXED || callee->len != 1 || callee->as.items[0].type != ITEM_FUNCTION)
+        return false;
+    const Builtin *builtin = callee->as.items[0].as.function->builtin;
+    return builtin && builtin->pure;
+}
+
+// Instructions whose rounds do not depend on each other and do nothing but give values, or faults.
+static bool can_batch_instr(const Lowering *lowering, uint32_t i, uint32_t end) {
+    static const bool never[OP_COUNT] = {
+        [OP_UNBOUND] = true,    [OP_CLOSURE] = true, [OP_IMPORT] = true,    [OP_FOR] = true,
+        [OP_RANGE_INIT] = true, [OP_NEXT] = true,    [OP_FOR_RANGE] = true, [OP_RETURN] = true};
+    const Instr *instr = &lowering->instrs[i];
+    bool jumps = instr->op == OP_JUMP || instr->op == OP_JUMP_TRUE || instr->op == OP_JUMP_FALSE;
+    return !never[instr->op] && (!jumps || (instr->target > i && instr->target <= end)) &&
+           calls_pure(lowering, instr) && (instr->op != OP_YIELD_NODE || i + 1 == end) &&
+           (!strchr(operand_formats[instr->op], 'l') || instr->count <= CODE_MAX_READ - 2);
+}
+
+// Numbers the registers that a body writes; false if those are too many, or if one is read before it is written.
+static bool number_columns(const Lowering *lowering, uint32_t start, BatchPlan *plan, uint8_t *columns) {
+    for (uint32_t i = start; i < plan->end; i++) {
+        const Instr *instr = &lowering->instrs[i];
+        int32_t reads[CODE_MAX_READ];
+        // A register that is written further on keeps no value from round to round.
+        for (uint32_t k = i == start ? 0 : program_operands_read(lowering->operands, instr, reads); k-- > 0;)
+            if (reads[k] >= plan->first_register && reads[k] != CODE_NO_OPERAND &&
+                !columns[reads[k] - plan->first_register])
+                columns[reads[k] - plan->first_register] = UINT8_MAX;
+        for (uint32_t k = 0, count = i == start ? instr->count : count_written(instr); k < count; k++) {
+            if (instr->d < plan->first_register)
+                return false;
+            uint8_t *column = &columns[(uint32_t)(instr->d - plan->first_register) + k];
+            if (*column == UINT8_MAX || plan->column_count == CODE_MAX_COLUMNS)
+                return false;
+            if (!*column)
+                *column = (uint8_t)++plan->column_count;
+        }
+        plan->yield_count += instr->op == OP_YIELD;
+    }
+    for (int32_t i = 0; i < lowering->register_count - plan->first_register; i++)
+        columns[i] = columns[i] == UINT8_MAX ? 0 : columns[i];
+    return true;
+}
+
+const BatchPlan *lower_batch(const Lowering *lowering, uint32_t start) {
+    BatchPlan plan = {.end = lowering->instr_count, .first_register = lowering->instrs[start].d};
+    uint32_t range = (uint32_t)(lowering->register_count - plan.first_register);
+    for (uint32_t i = start + 1; i < plan.end; i++)
+        if (!can_batch_instr(lowering, i, plan.end))
+            return NULL;
+    uint8_t *columns = arena_alloc(lowering->options->arena, range);
+    memset(columns, 0, range);
+    plan.columns = columns;
+    plan.register_count = range;
+    bool possible = range > 0 && number_columns(lowering, start, &plan, columns) && plan.yield_count <= CODE_MAX_YIELDS;
+    return possible ? arena_copy(lowering->options->arena, &plan, sizeof plan) : NULL;
+}

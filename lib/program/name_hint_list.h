@@ -1,0 +1,52 @@
+// name_hint_list.h: names of other languages that Flitter does not have, and what it has instead (scope.c).
+//
+// HINT("NAME NAME", "hint"): spaces part the names.
+// clang-format off
+#define TYPE "values have no types: let x=5"
+#define COLOUR "a colour is r;g;b, each from 0 to 1: "
+
+HINT("range", "the numbers from 0 to 9 are ..10, those from 2 to 9 are 2..10")
+HINT("None nil NULL Null nullptr undefined", "did you mean 'null'?")
+HINT("True TRUE", "did you mean 'true'?")
+HINT("False FALSE", "did you mean 'false'?")
+HINT("print println printf echo puts console", "to see a value write debug(value)")
+HINT("return", "the last line of a function is its value: leave return away")
+HINT("while", "there is no while: for i in ..10 repeats, if tests, and a !counter goes on from frame to frame")
+HINT("break", "a loop has no break: choose with if what it makes")
+HINT("continue", "a loop has no continue: choose with if what it makes")
+HINT("pass", "a block that does nothing is left out, with the line above it")
+HINT("end", "a block ends where its indentation does")
+HINT("elseif elsif", "write elif TEST")
+HINT("const var local", "to name a value write let x=5")
+HINT("def function fn", "a function is written func f(x), with its value below, indented")
+HINT("lambda", "a function of its own is written func(x) x*2")
+HINT("int", TYPE "; whole numbers are floor(x)")
+HINT("float double bool auto", TYPE)
+HINT("str string format", "a text of several parts is written with semicolons: 'x=';x")
+HINT("PI Pi M_PI", "did you mean 'pi'? sin, cos and tan take turns, not radians")
+HINT("TAU", "did you mean 'tau'? sin, cos and tan take turns, not radians")
+HINT("radians degrees", "angles are in turns: 90deg is 0.25")
+HINT("random rand randint", "random numbers are uniform(:name), from 0 to 1: uniform(:name)[0] is the first")
+HINT("pow", "a power is written x**2")
+HINT("fabs", "did you mean 'abs'?")
+HINT("atan atan2", "the angle of a direction, in turns, is angle(x;y)")
+HINT("mod fmod", "the remainder is x % y")
+HINT("lerp mix", "from a to b along t is map(t, a, b)")
+HINT("append push", "vectors are joined with semicolons: v;x")
+HINT("math Math", "functions stand alone: sin(x)")
+HINT("rgb rgba", COLOUR "(255;128;0)/255")
+HINT("white", COLOUR "white is 1")
+HINT("black", COLOUR "black is 0")
+HINT("gray grey", COLOUR "grey is 0.5")
+HINT("red", COLOUR "red is 1;0;0")
+HINT("green", COLOUR "green is 0;1;0")
+HINT("blue", COLOUR "blue is 0;0;1")
+HINT("yellow", COLOUR "yellow is 1;1;0")
+HINT("cyan", COLOUR "cyan is 0;1;1")
+HINT("magenta", COLOUR "magenta is 1;0;1")
+HINT("orange", COLOUR "orange is 1;0.5;0")
+// clang-format on
+
+#undef HINT
+#undef TYPE
+#undef COLOUR

@@ -1,0 +1,207 @@
+// bindings.c: see bindings.h.
+#include "syntax/bindings.h"
+
+#include <ctype.h>
+
+typedef struct ScopeEntry ScopeEntry;
+struct ScopeEntry {
+    ScopeEntry *outer;
+    const Symbol *name;
+    uint32_t at;
+    const Ast *function; // what it is bound to, if that is a function
+};
+
+typedef struct Walker {
+    Arena *arena;
+    const Source *source;
+    BindingCallback *callback;
+    void *user_data;
+    ScopeEntry *scope;
+    uint32_t end; // of the innermost suite or expression that bindings hold in
+    uint32_t depth;
+} Walker;
+
+static void walk_ast(Walker *walker, const Ast *ast);
+
+static ScopeEntry *push_entry(Walker *walker, const Symbol *name, uint32_t at, const Ast *function) {
+    ScopeEntry *entry = arena_alloc(walker->arena, sizeof *entry);
+    *entry = (ScopeEntry){walker->scope, name, at, function};
+    return walker->scope = entry;
+}
+
+// A name that is visible from `from` to the end of what is around it. Its span may hold more behind it.
+static void report_binding(Walker *walker, NameKind kind, const Symbol *name, uint32_t at, uint32_t start,
+                           Span value_span, bool is_sole) {
+    BindingInfo info = {.kind = kind,
+                        .span = {at, at + (uint32_t)name->name.len},
+                        .binding_start = at,
+                        .scope = {start, walker->end},
+                        .value = value_span,
+                        .is_sole = is_sole,
+                        .depth = walker->depth};
+    walker->callback(walker->user_data, &info);
+}
+
+static const ScopeEntry *find_entry(const Walker *walker, const Symbol *name) {
+    const ScopeEntry *entry = walker->scope;
+    while (entry && entry->name != name)
+        entry = entry->outer;
+    return entry;
+}
+
+static void report_use(const Walker *walker, const Symbol *name, uint32_t at, uint32_t entry) {
+    BindingInfo info = {.kind = NAME_USE, .span = {at, at + (uint32_t)name->name.len}, .binding_start = entry};
+    walker->callback(walker->user_data, &info);
+}
+
+static void bind_names(Walker *walker, NameKind kind, const Ast *names, uint32_t start, const Ast *value) {
+    for (uint32_t i = 0; i < names->count; i++) {
+        const Ast *name = names->children[i];
+        report_binding(walker, kind, name->name, name->span.start, start, value->span, names->count == 1);
+        push_entry(walker, name->name, name->span.start, names->count == 1 && value->kind == AST_FUNC ? value : NULL);
+    }
+}
+
+static void walk_binding(Walker *walker, const Ast *binding) {
+    walk_ast(walker, binding->children[1]);
+    bind_names(walker, NAME_LET, binding->children[0], binding->span.end, binding->children[1]);
+}
+
+// Where the name of a FUNC stands: behind the word, blanks and lines that go on.
+static uint32_t function_name_start(const Walker *walker, const Ast *ast) {
+    const char *text = walker->source->text.bytes;
+    uint32_t at = ast->span.start + 4;
+    while (isspace((unsigned char)text[at]) || text[at] == '\\')
+        at++;
+    return at;
+}
+
+static void walk_function(Walker *walker, const Ast *ast) {
+    const Ast *params = ast->children[0], *body = ast->children[1];
+    ScopeEntry *outer = walker->scope;
+    uint32_t end = walker->end, at = ast->name ? function_name_start(walker, ast) : 0;
+    for (uint32_t i = 0; i < params->count; i++)
+        if (params->children[i]->count)
+            walk_ast(walker, params->children[i]->children[0]);
+    ScopeEntry *self = NULL;
+    if (ast->name) {
+        report_binding(walker, NAME_FUNC, ast->name, at, body->span.start, ast->span, true);
+        self = push_entry(walker, ast->name, at, ast);
+    }
+    walker->end = body->span.end;
+    walker->depth++;
+    for (uint32_t i = 0; i < params->count; i++) {
+        const Ast *param = params->children[i];
+        report_binding(walker, NAME_PARAM, param->name, param->span.start, body->span.start, param->span, true);
+        push_entry(walker, param->name, param->span.start, NULL);
+    }
+    walk_ast(walker, body);
+    walker->depth--;
+    walker->end = end;
+    walker->scope = self ? self : outer;
+}
+
+// The children of an AST from `first` on, in a scope of their own that ends with it.
+static void walk_scope(Walker *walker, const Ast *ast, uint32_t first) {
+    ScopeEntry *outer = walker->scope;
+    uint32_t end = walker->end;
+    walker->end = ast->span.end;
+    walker->depth++;
+    for (uint32_t i = first; i < ast->count; i++)
+        walk_ast(walker, ast->children[i]);
+    walker->depth--;
+    walker->end = end;
+    walker->scope = outer;
+}
+
+static void walk_for(Walker *walker, const Ast *ast) {
+    const Ast *body = ast->children[2];
+    walk_ast(walker, ast->children[1]);
+    ScopeEntry *outer = walker->scope;
+    uint32_t end = walker->end;
+    walker->end = body->span.end;
+    bind_names(walker, NAME_LOOP, ast->children[0], body->span.start, ast->children[1]);
+    walk_ast(walker, body);
+    walker->end = end;
+    walker->scope = outer;
+}
+
+static void walk_where(Walker *walker, const Ast *ast) {
+    ScopeEntry *outer = walker->scope;
+    uint32_t end = walker->end;
+    walker->end = ast->children[0]->span.end;
+    for (uint32_t i = 1; i < ast->count; i++) {
+        const Ast *binding = ast->children[i];
+        walk_ast(walker, binding->children[1]);
+        bind_names(walker, NAME_LET, binding->children[0], ast->span.start, binding->children[1]);
+    }
+    walk_ast(walker, ast->children[0]);
+    walker->end = end;
+    walker->scope = outer;
+}
+
+// The names of arguments are those of the parameters.
+static void walk_call(Walker *walker, const Ast *ast) {
+    const Ast *callee = ast->children[0];
+    const ScopeEntry *entry = callee->kind == AST_NAME ? find_entry(walker, callee->name) : NULL;
+    const Ast *params = entry && entry->function ? entry->function->children[0] : NULL;
+    walk_ast(walker, callee);
+    for (uint32_t i = 1; i < ast->count; i++) {
+        const Ast *argument = ast->children[i];
+        bool named = argument->kind == AST_NAMED || argument->kind == AST_ATTR;
+        for (uint32_t k = 0; named && params && k < params->count; k++)
+            if (params->children[k]->name == argument->name)
+                report_use(walker, argument->name, argument->span.start, params->children[k]->span.start);
+        walk_ast(walker, named ? argument->children[0] : argument);
+    }
+}
+
+static void walk_ast(Walker *walker, const Ast *ast) {
+    const ScopeEntry *entry;
+    if (!ast)
+        return;
+    arena_charge(walker->arena, 1);
+    switch (ast->kind) {
+    case AST_NAME:
+        entry = find_entry(walker, ast->name);
+        report_use(walker, ast->name, ast->span.start, entry ? entry->at : NAME_FREE);
+        break;
+    case AST_BINDING:
+        walk_binding(walker, ast);
+        break;
+    case AST_FUNC:
+        walk_function(walker, ast);
+        break;
+    case AST_IMPORT:
+        walk_ast(walker, ast->children[1]);
+        bind_names(walker, NAME_IMPORT, ast->children[0], ast->span.end, ast->children[1]);
+        break;
+    case AST_FOR:
+        walk_for(walker, ast);
+        break;
+    case AST_WHERE:
+        walk_where(walker, ast);
+        break;
+    case AST_SUITE:
+        walk_scope(walker, ast, 0);
+        break;
+    case AST_CALL:
+    case AST_TEMPLATE:
+        walk_call(walker, ast);
+        break;
+    default:
+        for (uint32_t i = 0; i < ast->count; i++)
+            walk_ast(walker, ast->children[i]);
+        break;
+    }
+}
+
+void bindings_read(Arena *arena, const Source *source, const Ast *ast, BindingCallback *callback, void *user_data) {
+    Walker walker = {.arena = arena,
+                     .source = source,
+                     .callback = callback,
+                     .user_data = user_data,
+                     .end = (uint32_t)source->text.len};
+    for (uint32_t i = 0; ast && i < ast->count; i++)
+        walk_ast(&walker, ast->children[i]);
+}

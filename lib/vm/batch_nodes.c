@@ -1,0 +1,75 @@
+// batch_nodes.c: loops whose rounds make one node each, kept as runs (value/node_batch.h); see machine.h.
+#include "vm/machine.h"
+
+enum {
+    MIN_BATCH = 16, // that are worth a run
+    MIN_ROWS = 8,   // a run of fewer came to little
+    MAX_SHORT_BATCHES = 4,
+};
+
+// How a run keeps an attribute; false if it cannot.
+static bool choose_column(const Loop *loop, const Instr *instr, int32_t operand, const Value *value,
+                          uint32_t *numbers) {
+    if (operand < 0) {
+        *numbers = NODE_BATCH_UNIFORM;
+        return value->kind != VALUE_MIXED || value_height(*value) == 0;
+    }
+    *numbers = (uint32_t)operand == instr->target && !loop->not_counting ? NODE_BATCH_COUNTING : value->len;
+    return value->kind == VALUE_NUMBERS && value->len > 0 && value->len <= NODE_BATCH_MAX_NUMBERS;
+}
+
+// A run that begins with this node; NULL if there is to be none.
+static NodeBatch *begin_batch(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, const Loop *loop) {
+    uint32_t iterations = loop->source.len - loop->at, numbers[NODE_BATCH_MAX_ATTRS] = {0}, count = 0;
+    int32_t from[NODE_BATCH_MAX_ATTRS];
+    Attr attrs[NODE_BATCH_MAX_ATTRS] = {{0}};
+    if (iterations < MIN_BATCH || loop->short_batches >= MAX_SHORT_BATCHES)
+        return NULL;
+    for (uint32_t i = 0; i < instr->count; i++) {
+        const Value *value = &slots[list[i]];
+        if (list[i] < 0 && value->len == 0)
+            continue; // null and streams are left out (L7.2)
+        if (!choose_column(loop, instr, list[i], value, &numbers[count]))
+            return NULL;
+        from[count] = list[i];
+        attrs[count++] = (Attr){instr->as.node->names[i], *value};
+    }
+    vm_charge(vm, instr->at, 1 + instr->count / 4);
+    NodeBatch *batch = node_batch_new(vm->arena, instr->as.node->base, attrs, numbers, count, iterations);
+    for (uint32_t i = 0; i < count; i++)
+        batch->from[i] = from[i];
+    return batch;
+}
+
+// Ends a run that the next node does not belong to.
+static void end_batch(Loop *loop) {
+    NodeBatch *batch = loop->batch;
+    if (!batch || batch->count == batch->capacity)
+        return;
+    if (batch->count == 1 && !loop->not_counting)
+        loop->not_counting = true; // which may be why
+    else
+        loop->short_batches += batch->count < MIN_ROWS;
+}
+
+void vm_yield_node(Vm *vm, const int32_t *list, const Value *slots, const Instr *instr, Loop *loop) {
+    if (loop->batch && loop->batch->count < loop->batch->capacity) {
+        vm_charge(vm, instr->at, 1 + instr->count / 4);
+        if (node_batch_add(loop->batch, slots)) {
+            // What the round has made besides is of no use to anybody, unless it was told as a fault.
+            if (instr->d && vm->reported_count == loop->reported)
+                arena_rewind(vm->arena, loop->mark);
+            return;
+        }
+    }
+    end_batch(loop);
+    loop->batch = begin_batch(vm, list, slots, instr, loop);
+    vector_add(&loop->result,
+               loop->batch ? (Value){.len = 1,
+                                     .kind = VALUE_MIXED,
+                                     .as.items = arena_copy(
+                                         vm->arena, &(Item){ITEM_NODE, .as.node = &loop->batch->node}, sizeof(Item))}
+                           : vm_make_node(vm, list, slots, instr));
+    loop->mark = arena_mark(vm->arena);
+    loop->reported = vm->reported_count;
+}
