@@ -5,10 +5,9 @@
 #ifndef PETRI_SESSION_CHECKPOINT_H
 #define PETRI_SESSION_CHECKPOINT_H
 
+#include "petri.h"
 #include "scene/scene.h"
 #include "session/clock.h"
-
-#include "petri.h"
 
 typedef struct Checkpoint {
     Clock clock;
@@ -22,22 +21,25 @@ typedef struct Incoming {
     Arena arena; // temporaries
     State *state;
     Clock clock;
-    InputHands hands;
+    InputState input_state;
     InputBindings bindings;
     bool has_input; // else the session keeps its own
-    bool good;      // there is nothing wrong with where it comes from
+    bool valid;     // there is nothing wrong with where it comes from
 } Incoming;
 typedef void FillIncoming(PetriSession *session, Incoming *incoming, void *context);
 
-// Lets `fill` make what is incoming, within a protected call, and puts it in place. PETRI_MEMORY or PETRI_INVALID
+// Lets `fill` make what is incoming, within a protected call, and puts it in place. PETRI_OUT_OF_MEMORY or
+// PETRI_INVALID
 // (`good` is false) change nothing.
 PetriStatus checkpoint_replace(PetriSession *session, FillIncoming *fill, void *context);
 // For `fill`: takes a system into the scene.
 void checkpoint_restore_system(PetriSession *session, Incoming *incoming, const SceneSystem *system);
 
 // Copies the present into a checkpoint's memory, which is used again; false if memory is used up.
-bool checkpoint_take(Checkpoint *checkpoint, PetriSession *session);
-// Goes back to it. PETRI_MEMORY changes nothing.
-PetriStatus checkpoint_put_back(PetriSession *session, const Checkpoint *checkpoint);
+bool checkpoint_save(Checkpoint *checkpoint, PetriSession *session);
+// Adds the entries of a checkpoint to an empty state; temporaries are in the arena.
+void checkpoint_read_state(const Checkpoint *checkpoint, Arena *arena, State *state);
+// Goes back to it. PETRI_OUT_OF_MEMORY changes nothing.
+PetriStatus checkpoint_restore(PetriSession *session, const Checkpoint *checkpoint);
 
 #endif

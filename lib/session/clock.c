@@ -43,9 +43,9 @@ static double wall_time(const Clock *clock) {
 }
 
 // A session that fell behind further than this goes on from where it is; it does not hurry to make up for it.
-static const double LATEST = 0.1;
+static const double MAX_LAG = 0.1;
 // Seconds, of more than three years: what a clock can be told.
-static const double LONGEST_PAUSE = 1e8;
+static const double MAX_PAUSE = 1e8;
 
 static double lockstep_time(const Clock *clock) {
     return clock->base.time + (double)(clock->number - clock->base.number) / clock->rates.fps;
@@ -70,11 +70,11 @@ static double wait_for_frame(Clock *clock) {
     wall->performance += spare > 0.001 ? 0.001 : -0.01;
     wall->performance = fmin(2, fmax(0.5, wall->performance));
     if (spare > 0) {
-        spare = fmin(spare, LONGEST_PAUSE);
+        spare = fmin(spare, MAX_PAUSE);
         struct timespec pause = {(time_t)spare, (long)((spare - floor(spare)) * 1e9)};
         nanosleep(&pause, NULL);
     }
-    wall->due = fmax(wall->due, at - LATEST) + 1 / clock->rates.fps;
+    wall->due = fmax(wall->due, at - MAX_LAG) + 1 / clock->rates.fps;
     return wall_time(clock);
 }
 
@@ -96,27 +96,27 @@ void clock_advance_to(Clock *clock, double time, double beat) {
     clock_follow_frame(clock);
 }
 
-double clock_due(const Clock *clock) {
+double clock_seconds_until_due(const Clock *clock) {
     return clock->wall.running ? fmax(0, clock->wall.due - wall_time(clock)) : 0;
 }
 
 // The clock is put to where the next frame is due.
-static void put_to_due(Clock *clock) {
+static void set_to_due(Clock *clock) {
     clock->wall.due = clock->time + 1 / clock->rates.fps;
     clock->wall.origin = clock_monotonic() - clock->wall.due;
 }
 
-void clock_hold(Clock *clock) {
+void clock_resync(Clock *clock) {
     if (!clock->wall.running)
         return;
     double due = clock->time + 1 / clock->rates.fps;
     if (wall_time(clock) > due)
-        put_to_due(clock);
+        set_to_due(clock);
     clock->wall.due = due;
 }
 
 void clock_follow_frame(Clock *clock) {
     clock->wall.running = clock->wall.running && clock->number >= 0;
     if (clock->wall.running)
-        put_to_due(clock);
+        set_to_due(clock);
 }

@@ -54,8 +54,8 @@ void clock_advance_to(Clock *clock, double time, double beat);
 void clock_resume(Clock *clock, int64_t number);
 // Real time goes on from that of the present frame, where another clock has been.
 void clock_follow_frame(Clock *clock);
-// In real time: seconds until the next frame is due, else 0; and see petri_hold.
-double clock_due(const Clock *clock);
-void clock_hold(Clock *clock);
+// In real time: seconds until the next frame is due, else 0; and see petri_resync_clock.
+double clock_seconds_until_due(const Clock *clock);
+void clock_resync(Clock *clock);
 
 #endif

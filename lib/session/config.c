@@ -1,18 +1,17 @@
 // config.c: a session's configuration as one shared thing (petri.h).
+#include "base/heap.h"
 #include "session/session.h"
 
-#include "base/heap.h"
-
-void session_change_config(PetriSession *session, bool frame_stays) {
-    petri_config_free(session->shared);
-    session->shared = NULL;
-    session->config_number = ++session->last_number;
-    if (!frame_stays)
+void session_change_config(PetriSession *session, bool frame_valid) {
+    petri_config_free(session->shared_config);
+    session->shared_config = NULL;
+    session->config_revision = ++session->last_revision;
+    if (!frame_valid)
         session->frame.evaluated = false;
 }
 
-uint64_t petri_config_number(const PetriSession *session) {
-    return session ? session->config_number : 0;
+uint64_t petri_config_revision(const PetriSession *session) {
+    return session ? session->config_revision : 0;
 }
 
 void session_set_prompts(PetriSession *session, PromptList *list) {
@@ -20,22 +19,22 @@ void session_set_prompts(PetriSession *session, PromptList *list) {
     session->config.prompts = list;
 }
 
-static void refer(const Config *config) {
+static void add_references(const Config *config) {
     config->prompts->references++;
     if (config->program)
         config->program->references++;
 }
 
-PetriConfig *petri_config(PetriSession *session) {
+PetriConfig *petri_config_get(PetriSession *session) {
     if (!session)
         return NULL;
-    PetriConfig *shared = session->shared;
+    PetriConfig *shared = session->shared_config;
     if (!shared) {
-        shared = session->shared = heap_take(sizeof *shared);
+        shared = session->shared_config = heap_alloc(sizeof *shared);
         if (!shared)
             return NULL;
-        *shared = (PetriConfig){1, session->config_number, session->config, session->clock.rates};
-        refer(&shared->config);
+        *shared = (PetriConfig){1, session->config_revision, session->config, session->clock.rates};
+        add_references(&shared->config);
     }
     shared->references++;
     return shared;
@@ -46,28 +45,28 @@ void petri_config_free(PetriConfig *shared) {
         return;
     prompt_list_free(shared->config.prompts);
     unit_free(shared->config.program);
-    heap_give(shared);
+    heap_free(shared);
 }
 
-void petri_config_use(PetriSession *session, PetriConfig *shared) {
-    if (!session || !shared || shared->number == session->config_number)
+void petri_config_apply(PetriSession *session, PetriConfig *shared) {
+    if (!session || !shared || shared->revision == session->config_revision)
         return;
     session_clear_frame(session);
     const Unit *program = shared->config.program;
     Str folder = program ? program->folder : (Str){0};
-    if (!str_equal(session->reach.own, folder))
-        session_forget_files(session);
-    session->reach.own = folder;
+    if (!str_equal(session->reach.script_folder, folder))
+        session_clear_files(session);
+    session->reach.script_folder = folder;
     session->reach.directory = program ? program->source->directory : (Str){0};
-    refer(&shared->config);
+    add_references(&shared->config);
     prompt_list_free(session->config.prompts);
     unit_free(session->config.program);
     session->config = shared->config;
-    session_put(session, session->config.program);
-    session->told_defines = shared->config.define_count;
+    session_use_unit(session, session->config.program);
+    session->reported_defines = shared->config.define_count;
     clock_set_rates(&session->clock, &shared->rates);
     shared->references++;
-    petri_config_free(session->shared);
-    session->shared = shared;
-    session->config_number = shared->number;
+    petri_config_free(session->shared_config);
+    session->shared_config = shared;
+    session->config_revision = shared->revision;
 }

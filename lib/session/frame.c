@@ -9,13 +9,13 @@ enum { TEMPO = 120, QUANTUM = 4 }; // without pragmas
 
 // The value of a pragma: a number, or a string that reads as one (L12); tempo and fps must be above 0. Of several the
 // last counts, even if that is bad and means the default.
-static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double fallback) {
+static double pragma_number(PetriSession *session, const Pragma *pragma, bool positive, double default_value) {
     Value v = pragma->value;
     double number = NAN;
     if (v.kind == VALUE_NUMBERS && v.len == 1 && !symbol_of_number(&session->symbols, v.as.number))
         number = v.as.number;
     else if (v.kind == VALUE_MIXED && v.as.items[0].type == ITEM_STRING)
-        petri_read_number(str_to_c(&session->text_arena, v.as.items[0].as.string->text), &number);
+        petri_parse_number(str_to_c(&session->text_arena, v.as.items[0].as.string->text), &number);
     bool good = positive ? number > 0 && isfinite(number) : !isnan(number);
     if (good)
         return number;
@@ -25,14 +25,14 @@ static double pragma_number(PetriSession *session, const Pragma *pragma, bool po
                  .text = positive ? STR("this pragma's value must be a number above 0; ignored")
                                   : STR("this pragma's value must be a number; ignored"),
                  .code = "bad-pragma"};
-    session_tell(session, &diag);
-    return fallback;
+    session_report(session, &diag);
+    return default_value;
 }
 
 void session_clear_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
     frame->tree = VALUE_NULL;
-    frame->evaluated = false;
+    frame->evaluated = frame->names_current = false;
     frame->values = NULL;
     frame->value_count = 0;
     frame->system_names = NULL;
@@ -70,8 +70,9 @@ ClockRates session_pragma_rates(PetriSession *session, const Program *program) {
 // Before frame 0 at the session's rates.
 static void rewind_clock(PetriSession *session) {
     clock_rewind(&session->clock);
-    if (session->drawing)
-        memset(session->drawing, 0, session->drawing_size);
+    session->undo_of_frame = false;
+    if (session->draw_memory)
+        memset(session->draw_memory, 0, session->draw_memory_size);
     session->frame.profiled_physics = 0;
     session->frame.profiled_frames = 0;
     session->frame.physics_steps = 0;
@@ -87,12 +88,12 @@ void session_start(PetriSession *session, const ClockRates *rates) {
     session_change_config(session, false);
 }
 
-void session_take_rates(PetriSession *session, const ClockRates *said) {
+void session_apply_rates(PetriSession *session, const ClockRates *pragma_rates) {
     ClockRates before = session->config.pragma_rates, rates = session->clock.rates;
-    session->config.pragma_rates = *said;
-    rates.fps = said->fps != before.fps ? said->fps : rates.fps;
-    rates.tempo = said->tempo != before.tempo ? said->tempo : rates.tempo;
-    rates.quantum = said->quantum != before.quantum ? said->quantum : rates.quantum;
+    session->config.pragma_rates = *pragma_rates;
+    rates.fps = pragma_rates->fps != before.fps ? pragma_rates->fps : rates.fps;
+    rates.tempo = pragma_rates->tempo != before.tempo ? pragma_rates->tempo : rates.tempo;
+    rates.quantum = pragma_rates->quantum != before.quantum ? pragma_rates->quantum : rates.quantum;
     clock_set_rates(&session->clock, &rates);
     session_change_config(session, false);
 }
@@ -101,7 +102,7 @@ static PetriStatus set_rates(PetriSession *session, ClockRates rates, double cha
     if (!(changed > 0) || !isfinite(changed))
         return PETRI_INVALID;
     clock_set_rates(&session->clock, &rates);
-    session_change_config(session, true);
+    session_change_config(session, false);
     return PETRI_OK;
 }
 
@@ -133,10 +134,10 @@ double petri_resolution(const PetriSession *session) {
     return session ? session->config.resolution : 0;
 }
 
-void petri_clear(PetriSession *session) {
+void petri_reset(PetriSession *session) {
     if (!session)
         return;
-    session->torn = false; // what it would go back to is gone
+    session->rollback_pending = false; // what it would go back to is gone
     state_clear(session->state);
     scene_reset(session->scene);
     session_clear_frame(session);
@@ -144,13 +145,13 @@ void petri_clear(PetriSession *session) {
     session_change_config(session, false);
 }
 
-double petri_due(const PetriSession *session) {
-    return session ? clock_due(&session->clock) : 0;
+double petri_seconds_until_due(const PetriSession *session) {
+    return session ? clock_seconds_until_due(&session->clock) : 0;
 }
 
-void petri_hold(PetriSession *session) {
+void petri_resync_clock(PetriSession *session) {
     if (session)
-        clock_hold(&session->clock);
+        clock_resync(&session->clock);
 }
 
 void session_set_globals(const PetriSession *session, Vm *vm) {
@@ -183,38 +184,98 @@ static Value run_program(PetriSession *session, const Program *program) {
     return result;
 }
 
-void session_evaluate(PetriSession *session) {
+void session_evaluate(PetriSession *session, const State *state) {
     SessionFrame *frame = &session->frame;
     const PromptList *list = session->config.prompts;
-    session->vm.state = session->state;
+    session->vm.state = state;
+    frame->names_current = false;
     frame->value_count = 0;
     frame->values = arena_alloc_array(&frame->arena, list->names.count, sizeof(Value));
-    frame->working = true;
+    frame->evaluating = true;
     for (uint32_t i = 0; i < session->config.program->program->param_count; i++)
-        frame->values[frame->value_count++] = value_copy(&frame->arena, session->given.items[i]->value);
+        frame->values[frame->value_count++] = value_copy(&frame->arena, session->host_globals.items[i]->value);
     Value tree = run_program(session, session->config.program->program);
     for (uint32_t i = 0; i < list->count; i++) {
         Value more = run_program(session, list->statements[i].program);
-        if (!list->statements[i].adds)
+        if (!list->statements[i].adds_nodes)
             continue;
         Vector both = vector_new(&frame->arena);
         vector_add(&both, tree);
         vector_add(&both, more);
         tree = vector_finish(&both);
     }
-    frame->working = false;
+    frame->evaluating = false;
     frame->tree = tree;
     frame->evaluated = true;
 }
 
-static void evaluate(PetriSession *session, void *context) {
+// Evaluates the frame in the state that it was made from, if that is known.
+static void preview(PetriSession *session, void *context) {
+    State **before = context;
+    diag_sink_free(&session->frame.log); // the evaluation writes it again
+    if (session->undo_of_frame) {
+        *before = state_new(&session->meter);
+        if (!*before)
+            arena_exhausted(&session->frame.arena);
+        checkpoint_read_state(&session->undo, &session->frame.arena, *before);
+        if (state_clear_exhausted(*before))
+            arena_exhausted(&session->frame.arena);
+    }
+    session_evaluate(session, *before ? *before : session->state);
+}
+
+PetriStatus petri_preview(PetriSession *session) {
+    if (!session)
+        return PETRI_INVALID;
+    if (session->frame.evaluated)
+        return PETRI_OK;
+    if (!session->config.program)
+        return PETRI_INVALID;
+    int64_t number = session->clock.number;
+    if (number < 0)
+        session->clock.number = 0;
+    session_set_globals(session, &session->vm);
+    session->clock.number = number;
+    State *before = NULL;
+    PetriStatus status = session_protect(session, NULL, preview, &before);
+    session->vm.state = session->state;
+    state_free(before);
+    return session_report_abort(session, status, "the text");
+}
+
+static void update_names(PetriSession *session, void *context) {
+    (void)context;
+    SessionFrame *frame = &session->frame;
+    const PromptList *list = session->config.prompts;
+    session->vm.state = session->state;
+    frame->value_count = list->names.count;
+    for (uint32_t i = 0; i < list->count; i++)
+        frame->value_count -= list->statements[i].program->export_count;
+    for (uint32_t i = 0; i < list->count; i++)
+        if (!list->statements[i].adds_nodes)
+            run_program(session, list->statements[i].program);
+    frame->names_current = true;
+}
+
+PetriStatus session_update_names(PetriSession *session) {
+    if (session->frame.names_current)
+        return PETRI_OK;
+    DiagSink log = session->frame.log; // it has what debug() says already
+    session->frame.log = diag_sink_new(&session->frame.arena, 0);
+    PetriStatus status = session_protect(session, NULL, update_names, NULL);
+    diag_sink_free(&session->frame.log);
+    session->frame.log = log;
+    return session_report_abort(session, status, "the text");
+}
+
+static void evaluate_script(PetriSession *session, void *context) {
     InputUndo *undo = context;
     SessionFrame *frame = &session->frame;
     double start = clock_monotonic();
     input_write(scene_input(session->scene), session->state, &frame->arena, session->clock.beat, undo);
-    if (state_take_exhausted(session->state))
+    if (state_clear_exhausted(session->state))
         arena_exhausted(&frame->arena);
-    session_evaluate(session);
+    session_evaluate(session, session->state);
     frame->evaluation_seconds = clock_monotonic() - start;
 }
 
@@ -222,9 +283,9 @@ static void update_systems(PetriSession *session, void *context) {
     (void)context;
     SessionFrame *made = &session->frame;
     double start = clock_monotonic();
-    if (made->unseen)
-        session_look_at_top(session);
-    made->unseen = false;
+    if (made->no_frame_yet)
+        session_lint_top_nodes(session);
+    made->no_frame_yet = false;
     SceneFrame frame = {.state = session->state,
                         .arena = &made->systems_arena,
                         .time = session->clock.time,
@@ -242,7 +303,7 @@ void petri_interrupt(PetriSession *session) {
         atomic_store(&session->interrupt, true);
 }
 
-bool petri_interrupted(PetriSession *session) {
+bool petri_clear_interrupt(PetriSession *session) {
     return session && atomic_exchange(&session->interrupt, false);
 }
 
@@ -251,13 +312,13 @@ static PetriStatus evaluate_frame(PetriSession *session) {
     InputUndo undo = {.last = NULL};
     session_set_globals(session, &session->vm);
     session->frame.physics_steps = 0;
-    PetriStatus status = session_protect(session, NULL, evaluate, &undo);
-    session_tell_end(session, status, "the frame");
-    bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
+    PetriStatus status = session_protect(session, NULL, evaluate_script, &undo);
+    session_report_abort(session, status, "the frame");
+    bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (!counts)
-        input_unwrite(scene_input(session->scene), session->state, &undo);
+        input_undo_write(scene_input(session->scene), session->state, &undo);
     if (status != PETRI_OK)
-        state_take_exhausted(session->state); // this is told now, and must not end the next frame, too
+        state_clear_exhausted(session->state); // this is told now, and must not end the next frame, too
     if (status != PETRI_OK)
         session_drop_frame(session);
     return status;
@@ -268,32 +329,33 @@ static PetriStatus update_frame(PetriSession *session) {
     SessionFrame *frame = &session->frame;
     session->spent = session->meter.work; // evaluation and systems have one budget
     PetriStatus status = session_protect(session, NULL, update_systems, NULL);
-    bool exhausted = scene_take_exhausted(session->scene);
-    exhausted |= state_take_exhausted(session->state);
+    bool exhausted = scene_clear_exhausted(session->scene);
+    exhausted |= state_clear_exhausted(session->state);
     if (exhausted && status == PETRI_OK) {
-        session->end = ARENA_BUDGET;
-        status = session->meter.memory_refused ? PETRI_LIMIT : PETRI_MEMORY;
+        session->last_outcome = ARENA_MEMORY_LIMIT;
+        status = session->meter.memory_refused ? PETRI_LIMIT_EXCEEDED : PETRI_OUT_OF_MEMORY;
     }
-    if (status == PETRI_OK && scene_take_stopped(session->scene, &session->end))
-        status = session->end == ARENA_WORK ? PETRI_LIMIT : PETRI_INTERRUPTED;
-    session_tell_end(session, status, "the frame");
+    if (status == PETRI_OK && scene_clear_stopped(session->scene, &session->last_outcome))
+        status = session->last_outcome == ARENA_WORK_LIMIT ? PETRI_LIMIT_EXCEEDED : PETRI_INTERRUPTED;
+    session_report_abort(session, status, "the frame");
     frame->profiled_physics += frame->physics_seconds;
     frame->profiled_frames++;
-    if (status != PETRI_OK && session->options.interruptible)
-        session_heal(session);
+    if (status != PETRI_OK && session->options.rollback_frames)
+        session_rollback(session);
     return status;
 }
 
 // The next frame, at the host's time and beat or, if `at` is NULL, at the session's.
-static PetriStatus step(PetriSession *session, const ClockBase *at) {
-    if (!session || !session->config.program || session->calls > 0)
+static PetriStatus step_session(PetriSession *session, const ClockBase *at) {
+    if (!session || !session->config.program || session->call_depth > 0)
         return PETRI_INVALID;
-    if (petri_interrupted(session))
+    if (petri_clear_interrupt(session))
         return PETRI_INTERRUPTED;
-    if (session->torn && !session_heal(session))
-        return PETRI_MEMORY;
-    if (session->options.interruptible && !checkpoint_take(&session->undo, session))
-        return PETRI_MEMORY;
+    if (session->rollback_pending && !session_rollback(session))
+        return PETRI_OUT_OF_MEMORY;
+    session->undo_of_frame = false;
+    if (session->options.rollback_frames && !checkpoint_save(&session->undo, session))
+        return PETRI_OUT_OF_MEMORY;
     Clock clock = session->clock;
     session_clear_frame(session);
     if (at)
@@ -301,22 +363,24 @@ static PetriStatus step(PetriSession *session, const ClockBase *at) {
     else
         clock_advance(&session->clock);
     PetriStatus status = evaluate_frame(session);
-    bool counts = status == PETRI_OK || (status == PETRI_LIMIT && !session->options.interruptible);
+    bool counts = status == PETRI_OK || (status == PETRI_LIMIT_EXCEEDED && !session->options.rollback_frames);
     if (status == PETRI_OK) {
         status = update_frame(session);
-        counts = status == PETRI_OK || !session->options.interruptible;
+        counts = status == PETRI_OK || !session->options.rollback_frames;
     }
     if (!counts)
         session->clock = clock;
+    session->undo_of_frame = counts && session->options.rollback_frames;
     return status;
 }
 
 PetriStatus petri_step(PetriSession *session) {
-    return step(session, NULL);
+    return step_session(session, NULL);
 }
 
 PetriStatus petri_step_at(PetriSession *session, double time, double beat) {
-    return isfinite(time) && isfinite(beat) ? step(session, &(ClockBase){.time = time, .beat = beat}) : PETRI_INVALID;
+    return isfinite(time) && isfinite(beat) ? step_session(session, &(ClockBase){.time = time, .beat = beat})
+                                            : PETRI_INVALID;
 }
 
 PetriFrame petri_frame(const PetriSession *session) {

@@ -3,34 +3,35 @@
 
 #include <math.h>
 
-PetriStatus petri_pointer(PetriSession *session, const PetriPointer *pointer) {
+PetriStatus petri_report_pointer(PetriSession *session, const PetriPointer *pointer) {
     if (!session)
         return PETRI_INVALID;
     Input *input = scene_input(session->scene);
     if (!pointer) {
-        input_let_go(input);
+        input_release_all(input);
         return PETRI_OK;
     }
     if (!pointer->inside) {
-        input_pointer(input, NULL, pointer->buttons);
+        input_report_pointer(input, NULL, pointer->buttons);
         return PETRI_OK;
     }
     if (!isfinite(pointer->x) || !isfinite(pointer->y))
         return PETRI_INVALID;
-    input_pointer(input, (double[]){fmin(1, fmax(0, pointer->x)), fmin(1, fmax(0, pointer->y))}, pointer->buttons);
+    input_report_pointer(input, (double[]){fmin(1, fmax(0, pointer->x)), fmin(1, fmax(0, pointer->y))},
+                         pointer->buttons);
     return PETRI_OK;
 }
 
-PetriStatus petri_key(PetriSession *session, const char *name, bool pressed) {
+PetriStatus petri_report_key(PetriSession *session, const char *name, bool pressed) {
     if (!session || !name)
         return PETRI_INVALID;
     int key = input_key_number(str_from(name));
     if (key == INPUT_KEY_NONE)
         return PETRI_INVALID;
-    input_key(scene_input(session->scene), key, pressed);
+    input_report_key(scene_input(session->scene), key, pressed);
     return PETRI_OK;
 }
 
-bool petri_key_bound(PetriSession *session, const char *name) {
-    return session && name && input_key_bound(scene_input(session->scene), input_key_number(str_from(name)));
+bool petri_key_is_bound(PetriSession *session, const char *name) {
+    return session && name && input_key_is_bound(scene_input(session->scene), input_key_number(str_from(name)));
 }

@@ -1,17 +1,16 @@
 // load.c: files to programs: the script, its modules and includes (spec language.md L13, L14).
-#include "session/session.h"
-
 #include "base/file.h"
 #include "base/heap.h"
+#include "session/session.h"
 #include "syntax/parse.h"
 
 #include <string.h>
 
 #define MAX_SOURCE_BYTES ((size_t)256 << 20)
-enum { MOST_ERRORS = 50 };
+enum { MAX_ERRORS = 50 };
 
 static Unit *unit_new(PetriSession *session) {
-    Unit *unit = heap_zeroed(1, sizeof *unit);
+    Unit *unit = heap_calloc(1, sizeof *unit);
     if (!unit)
         arena_exhausted(&session->arena);
     unit->references = 1;
@@ -33,17 +32,17 @@ void unit_free(Unit *unit) {
     diag_sink_free(&unit->sink);
     arena_free(&unit->scratch);
     arena_free(&unit->arena);
-    unit_free(unit->trees);
-    heap_give(unit);
+    unit_free(unit->parse_cache);
+    heap_free(unit);
 }
 
-static void tell_and_free(PetriSession *session, DiagSink *sink) {
-    session_tell_all(session, sink);
+static void report_and_free(PetriSession *session, DiagSink *sink) {
+    session_report_all(session, sink);
     diag_sink_free(sink);
 }
 
 // True if this is the first %include of the path in the unit.
-static bool take_include(Unit *unit, Str path) {
+static bool add_include(Unit *unit, Str path) {
     for (uint32_t i = 0; i < unit->included_count; i++)
         if (str_equal(unit->included[i], path))
             return false;
@@ -53,35 +52,35 @@ static bool take_include(Unit *unit, Str path) {
     return true;
 }
 
-static const Ast *parse(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
-    unit->parse_sink = diag_sink_new(unit_arena(session, unit), MOST_ERRORS);
+static const Ast *parse_source(PetriSession *session, Unit *unit, Arena *arena, const Source *source) {
+    unit->parse_sink = diag_sink_new(unit_arena(session, unit), MAX_ERRORS);
     const Ast *ast = parse_program(arena, &session->symbols, source, &unit->parse_sink);
-    tell_and_free(session, &unit->parse_sink);
+    report_and_free(session, &unit->parse_sink);
     return ast;
 }
 
 // Where a script that is loaded once more comes to its limit of work does not depend on what is known already.
-static const Ast *known(PetriSession *session, const Ast *ast, uint64_t work) {
+static const Ast *charge_cached_parse(PetriSession *session, const Ast *ast, uint64_t work) {
     arena_charge(&session->arena, work);
     return ast;
 }
 
 static const Parsed *find_parsed(const Unit *unit, Str name, Str path, Str version) {
-    const Parsed *parsed = unit->trees ? unit->trees->parsed : NULL;
+    const Parsed *parsed = unit->parse_cache ? unit->parse_cache->parsed : NULL;
     while (parsed && (!str_equal(parsed->source->name, name) || !str_equal(parsed->source->path, path) ||
                       !str_equal(parsed->version, version)))
         parsed = parsed->next;
     return parsed;
 }
 
-static const Ast *keep_parsed(PetriSession *session, Unit *trees, const Source *source, Str version) {
+static const Ast *cache_parsed(PetriSession *session, Unit *cache, const Source *source, Str version) {
     uint64_t before = session->meter.work;
-    const Ast *ast = parse(session, trees, &trees->arena, source);
+    const Ast *ast = parse_source(session, cache, &cache->arena, source);
     if (!ast)
         return NULL;
-    Parsed *parsed = arena_alloc(&trees->arena, sizeof *parsed);
-    *parsed = (Parsed){trees->parsed, source, ast, session->meter.work - before, str_copy(&trees->arena, version)};
-    trees->parsed = parsed;
+    Parsed *parsed = arena_alloc(&cache->arena, sizeof *parsed);
+    *parsed = (Parsed){cache->parsed, source, ast, session->meter.work - before, str_copy(&cache->arena, version)};
+    cache->parsed = parsed;
     return ast;
 }
 
@@ -90,38 +89,38 @@ static bool read_include(PetriSession *session, Unit *unit, Str path, Str canoni
                          const Ast **ast, const char **problem) {
     const char *file = str_to_c(&unit->arena, path);
     Str version = {0}, text;
-    bool versioned = unit->trees && file_version(&unit->scratch, &session->reach, file, &version);
+    bool versioned = unit->parse_cache && file_version(&unit->scratch, &session->reach, file, &version);
     const Parsed *parsed = versioned ? find_parsed(unit, path, canonical, version) : NULL;
     if (parsed) {
         *source = parsed->source;
-        *ast = known(session, parsed->ast, parsed->work);
+        *ast = charge_cached_parse(session, parsed->ast, parsed->work);
         return true;
     }
-    Arena *arena = unit->trees ? unit_arena(session, unit->trees) : &unit->arena;
+    Arena *arena = unit->parse_cache ? unit_arena(session, unit->parse_cache) : &unit->arena;
     if (!file_read(arena, &session->reach, file, true, MAX_SOURCE_BYTES, &text, &version, problem))
         return false;
     *source = source_new(arena, path, canonical, text);
-    *ast = unit->trees ? keep_parsed(session, unit->trees, *source, version)
-                       : parse(session, unit, &unit->scratch, *source);
+    *ast = unit->parse_cache ? cache_parsed(session, unit->parse_cache, *source, version)
+                             : parse_source(session, unit, &unit->scratch, *source);
     return true;
 }
 
-static const Ast *host_include(void *host, Str path, const Source **source, Str *why) {
+static const Ast *host_include(void *host, Str path, const Source **source, Str *reason) {
     PetriSession *session = host;
     Unit *unit = session->loader.compiling;
     Str canonical = file_canonical(&unit->arena, &session->reach, str_to_c(&unit->arena, path));
     const char *problem;
     const Ast *ast;
-    if (str_equal(canonical, unit->path) || !take_include(unit, canonical)) {
-        *why = STR("this file is included already");
+    if (str_equal(canonical, unit->path) || !add_include(unit, canonical)) {
+        *reason = STR("this file is included already");
         return NULL;
     }
     if (!read_include(session, unit, path, canonical, source, &ast, &problem)) {
-        *why = str_from(problem);
+        *reason = str_from(problem);
         return NULL;
     }
     if (!ast) {
-        *why = STR("it does not parse");
+        *reason = STR("it does not parse");
         return NULL;
     }
     // Pragmas of an included file count for nothing (L12).
@@ -134,39 +133,40 @@ static const Ast *host_include(void *host, Str path, const Source **source, Str 
 // Memory and work that evaluating one expression ahead may take, and the work of all in a load: what is beyond is done
 // in the frames.
 #define STATIC_BUDGET ((size_t)1 << 29)
-enum { STATIC_WORK = 3 << 24, MOST_STATIC_WORK = 1 << 26 };
+enum { STATIC_WORK = 3 << 24, MAX_STATIC_WORK = 1 << 26 };
 
-typedef struct Ahead {
+typedef struct StaticEvaluation {
     const Code *code;
     Value value;
     bool done;
-} Ahead;
+} StaticEvaluation;
 
-static void evaluate_ahead(PetriSession *session, void *context) {
-    Ahead *ahead = context;
-    ahead->done = vm_run_static(&session->static_vm, &session->loader.compiling->arena, ahead->code, &ahead->value);
+static void evaluate_static(PetriSession *session, void *context) {
+    StaticEvaluation *evaluation = context;
+    evaluation->done =
+        vm_run_static(&session->static_vm, &session->loader.compiling->arena, evaluation->code, &evaluation->value);
 }
 
 // What does not fit is left for the frames.
 static bool host_evaluate(void *host, const Code *code, Value *value) {
     PetriSession *session = host;
     Arena *arena = &session->loader.compiling->arena;
-    size_t budget = arena->budget;
-    Ahead ahead = {.code = code};
-    if (arena->budget - arena->used > STATIC_BUDGET)
-        arena->budget = arena->used + STATIC_BUDGET;
-    Meter *meter = &session->meter, whole = *meter;
-    uint64_t left = session->loader.ahead < MOST_STATIC_WORK ? MOST_STATIC_WORK - session->loader.ahead : 0;
-    meter_begin(meter, left < STATIC_WORK ? left : STATIC_WORK, meter->interrupt);
-    PetriStatus status = session_protect(session, arena, evaluate_ahead, &ahead);
-    arena->budget = budget;
-    session->loader.ahead += meter->work;
-    meter_begin(meter, whole.work_limit, whole.interrupt);
-    meter->work = whole.work;
-    if (status == PETRI_MEMORY || status == PETRI_INTERRUPTED)
-        arena_leave(arena, status == PETRI_MEMORY ? ARENA_MEMORY : ARENA_INTERRUPTED);
-    bool done = status == PETRI_OK && ahead.done;
-    *value = done ? ahead.value : VALUE_NULL;
+    size_t budget = arena->limit;
+    StaticEvaluation evaluation = {.code = code};
+    if (arena->limit - arena->used > STATIC_BUDGET)
+        arena->limit = arena->used + STATIC_BUDGET;
+    Budget *meter = &session->meter, saved = *meter;
+    uint64_t left = session->loader.static_work < MAX_STATIC_WORK ? MAX_STATIC_WORK - session->loader.static_work : 0;
+    budget_begin(meter, left < STATIC_WORK ? left : STATIC_WORK, meter->interrupt);
+    PetriStatus status = session_protect(session, arena, evaluate_static, &evaluation);
+    arena->limit = budget;
+    session->loader.static_work += meter->work;
+    budget_begin(meter, saved.work_limit, saved.interrupt);
+    meter->work = saved.work;
+    if (status == PETRI_OUT_OF_MEMORY || status == PETRI_INTERRUPTED)
+        arena_escape(arena, status == PETRI_OUT_OF_MEMORY ? ARENA_OUT_OF_MEMORY : ARENA_INTERRUPTED);
+    bool done = status == PETRI_OK && evaluation.done;
+    *value = done ? evaluation.value : VALUE_NULL;
     return done;
 }
 
@@ -183,12 +183,12 @@ static void sort_by_place(DiagSink *sink) {
 }
 
 // Where the files of a host come from that gives them; else NULL.
-static const Reach *host_files(const PetriSession *session) {
-    return session->reach.read ? &session->reach : NULL;
+static const FileAccess *host_files(const PetriSession *session) {
+    return session->reach.read_file ? &session->reach : NULL;
 }
 
 const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, bool module, Names params) {
-    unit->sink = diag_sink_new(unit_arena(session, unit), MOST_ERRORS);
+    unit->sink = diag_sink_new(unit_arena(session, unit), MAX_ERRORS);
     CompileOptions options = {.module = module,
                               .lint = session->loader.lint,
                               .simplify = session->options.simplify,
@@ -207,17 +207,17 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
         program_compile(&unit->arena, &unit->scratch, &session->symbols, unit->source, ast, &options, &unit->sink);
     session->loader.compiling = outer;
     sort_by_place(&unit->sink);
-    tell_and_free(session, &unit->sink);
+    report_and_free(session, &unit->sink);
     return program;
 }
 
-static void compile(PetriSession *session, Unit *unit, const Ast *ast, bool module) {
-    Names given = {session->given.names, session->given.count};
+static void compile_unit(PetriSession *session, Unit *unit, const Ast *ast, bool module) {
+    Names host_names = {session->host_globals.names, session->host_globals.count};
     unit->empty = ast && ast->count == 0;
     if (ast)
-        unit->program = unit_compile(session, unit, ast, module, module ? (Names){0} : given);
+        unit->program = unit_compile(session, unit, ast, module, module ? (Names){0} : host_names);
     else
-        unit->why = STR("it does not parse");
+        unit->error = STR("it does not parse");
     arena_free(&unit->scratch);
     if (unit->program && !module && !session_check_definitions(session, unit))
         unit->program = NULL;
@@ -225,59 +225,62 @@ static void compile(PetriSession *session, Unit *unit, const Ast *ast, bool modu
 
 static void load_text(PetriSession *session, Unit *unit, Str name, Str text, bool module) {
     unit->source = source_new(&unit->arena, name, unit->path, text);
-    compile(session, unit, parse(session, unit, &unit->scratch, unit->source), module);
+    compile_unit(session, unit, parse_source(session, unit, &unit->scratch, unit->source), module);
 }
 
 Unit *unit_parse(PetriSession *session, Str name, Str text) {
-    Unit *unit = session->loader.begun = unit_new(session);
+    Unit *unit = session->loader.pending = unit_new(session);
     unit->path = name;
     unit->source = source_new(&unit->arena, name, name, text);
-    unit->ast = parse(session, unit, &unit->arena, unit->source);
+    unit->ast = parse_source(session, unit, &unit->arena, unit->source);
     return unit;
 }
 
 // From here on the script's own folder is within its reach.
-static void take_folder(PetriSession *session, Unit *unit, Str name) {
-    unit->folder = reach_folder(&unit->arena, path_directory(name));
-    session->reach.own = unit->folder;
+static void set_script_folder(PetriSession *session, Unit *unit, Str name) {
+    unit->folder = file_access_folder(&unit->arena, path_directory(name));
+    session->reach.script_folder = unit->folder;
     session->reach.directory = str_copy(&unit->arena, path_directory(name));
 }
 
 Unit *unit_load_text(PetriSession *session, Str name, Str text) {
-    Unit *unit = session->loader.begun = unit_new(session);
-    take_folder(session, unit, name);
+    Unit *unit = session->loader.pending = unit_new(session);
+    set_script_folder(session, unit, name);
     unit->path = str_copy(&unit->arena, name);
     load_text(session, unit, name, text, false);
     return unit;
 }
 
 // A text is kept as a tree only if it is needed more than once.
-static void make_trees(PetriSession *session, Unit *unit) {
-    unit->trees = unit_new(session);
-    Unit *trees = unit->trees;
-    Arena *arena = unit_arena(session, trees);
-    trees->source = source_new(arena, unit->source->name, unit->path, unit->source->text);
+static void make_parse_cache(PetriSession *session, Unit *unit) {
+    unit->parse_cache = unit_new(session);
+    Unit *cache = unit->parse_cache;
+    Arena *arena = unit_arena(session, cache);
+    cache->source = source_new(arena, unit->source->name, unit->path, unit->source->text);
     uint64_t before = session->meter.work;
-    trees->ast = parse(session, trees, arena, trees->source);
-    trees->work = session->meter.work - before;
+    cache->ast = parse_source(session, cache, arena, cache->source);
+    cache->work = session->meter.work - before;
 }
 
-Unit *unit_load_again(PetriSession *session, Unit *unit) {
-    Unit *again = session->loader.begun = unit_new(session);
-    take_folder(session, again, unit->source->name);
-    again->path = str_copy(&again->arena, unit->path);
-    again->version = str_copy(&again->arena, unit->version);
-    bool parsed = unit->trees && unit->trees->ast;
+Unit *unit_reload(PetriSession *session, Unit *unit) {
+    Unit *reloaded = session->loader.pending = unit_new(session);
+    set_script_folder(session, reloaded, unit->source->name);
+    reloaded->path = str_copy(&reloaded->arena, unit->path);
+    reloaded->version = str_copy(&reloaded->arena, unit->version);
+    bool parsed = unit->parse_cache && unit->parse_cache->ast;
     if (!parsed) {
-        unit_free(unit->trees); // memory was used up when it was parsed
-        unit->trees = NULL;
-        make_trees(session, unit);
+        unit_free(unit->parse_cache); // memory was used up when it was parsed
+        unit->parse_cache = NULL;
+        make_parse_cache(session, unit);
     }
-    again->trees = unit->trees;
-    again->trees->references++;
-    again->source = again->trees->source;
-    compile(session, again, parsed ? known(session, again->trees->ast, again->trees->work) : again->trees->ast, false);
-    return again;
+    reloaded->parse_cache = unit->parse_cache;
+    reloaded->parse_cache->references++;
+    reloaded->source = reloaded->parse_cache->source;
+    compile_unit(session, reloaded,
+                 parsed ? charge_cached_parse(session, reloaded->parse_cache->ast, reloaded->parse_cache->work)
+                        : reloaded->parse_cache->ast,
+                 false);
+    return reloaded;
 }
 
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular) {
@@ -287,17 +290,17 @@ Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool 
         session->loader.modules = unit;
         unit->retired = true; // until it is whole
     } else {
-        session->loader.begun = unit;
-        take_folder(session, unit, str_from(file));
+        session->loader.pending = unit;
+        set_script_folder(session, unit, str_from(file));
     }
     Str text;
     const char *problem;
     unit->path = file_canonical(&unit->arena, &session->reach, file);
-    const Reach *reach = module ? &session->reach : host_files(session); // the script itself is the host's choice
+    const FileAccess *reach = module ? &session->reach : host_files(session); // the script itself is the host's choice
     if (file_read(&unit->arena, reach, file, regular, MAX_SOURCE_BYTES, &text, &unit->version, &problem))
         load_text(session, unit, str_from(file), text, module);
     else
-        unit->why = str_copy(&unit->arena, str_from(problem));
+        unit->error = str_copy(&unit->arena, str_from(problem));
     unit->retired = false;
     return unit;
 }
@@ -306,7 +309,7 @@ static Unit **chain_of(PetriSession *session, Str path) {
     return &session->loader.by_path[(hash_bytes(0, path.bytes, path.len) >> 32) % MODULE_CHAINS];
 }
 
-static void chain(PetriSession *session, Unit *unit) {
+static void add_to_chain(PetriSession *session, Unit *unit) {
     Unit **first = chain_of(session, unit->path);
     unit->same_hash = *first;
     *first = unit;
@@ -325,34 +328,34 @@ static Unit *cached_module(PetriSession *session, Str path, Str version) {
     return NULL;
 }
 
-Unit *session_put(PetriSession *session, Unit *unit) {
+Unit *session_use_unit(PetriSession *session, Unit *unit) {
     session->loader.generation++;
     return unit;
 }
 
-const Program *session_module(void *host, Str path, Str *why) {
+const Program *session_module(void *host, Str path, Str *reason) {
     PetriSession *session = host;
     const char *file = str_to_c(&session->frame.arena, path);
     Str version;
     if (!file_version(&session->frame.arena, host_files(session), file, &version)) {
-        *why = STR("there is no such file");
+        *reason = STR("there is no such file");
         return NULL;
     }
-    if (session->reach.unsaved)
+    if (session->reach.read_unsaved)
         file_version(&session->frame.arena, &session->reach, file, &version);
     Str canonical = file_canonical(&session->frame.arena, &session->reach, file);
-    if (!reach_has(&session->reach, REACH_READ, canonical.bytes)) {
-        *why = str_from(reach_refusal(&session->frame.arena, &session->reach, REACH_READ, file));
+    if (!file_access_allows(&session->reach, FILE_ACCESS_READ, canonical.bytes)) {
+        *reason = str_from(file_access_reason(&session->frame.arena, &session->reach, FILE_ACCESS_READ, file));
         return NULL;
     }
     Unit *unit = cached_module(session, canonical, version);
     if (!unit)
-        chain(session, unit = session_put(session, unit_load_file(session, file, true, true)));
-    *why = unit->why;
+        add_to_chain(session, unit = session_use_unit(session, unit_load_file(session, file, true, true)));
+    *reason = unit->error;
     return unit->program;
 }
 
-const char *petri_source(PetriSession *session, size_t number) {
+const char *petri_source_file(PetriSession *session, size_t number) {
     if (!session)
         return NULL;
     for (Unit *unit = session->config.program; unit;
@@ -366,7 +369,7 @@ const char *petri_source(PetriSession *session, size_t number) {
     return NULL;
 }
 
-void session_forget_files(PetriSession *session) {
+void session_clear_files(PetriSession *session) {
     file_cache_clear(session->files);
     for (Unit *unit = session->loader.modules; unit; unit = unit->next)
         unit->retired = true;
@@ -388,5 +391,5 @@ void session_free_retired(PetriSession *session) {
         return;
     memset(session->loader.by_path, 0, sizeof session->loader.by_path);
     for (Unit *unit = session->loader.modules; unit; unit = unit->next)
-        chain(session, unit);
+        add_to_chain(session, unit);
 }

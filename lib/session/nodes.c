@@ -21,7 +21,7 @@ bool petri_node_attribute(size_t kind, size_t number, PetriNodeAttribute *out) {
         const SchemaRow *row = &schema_rows[i];
         if (row->kind != kind || number-- > 0)
             continue;
-        *out = (PetriNodeAttribute){schema_names[row->name], schema_types[row->type].text, row->fallback.text,
+        *out = (PetriNodeAttribute){schema_names[row->name], schema_types[row->type].text, row->default_value.text,
                                     row->help, row->unit};
         return true;
     }

@@ -1,15 +1,14 @@
 // parameters.c: what definitions (-D) mean to the script that is loaded, and its parameters, for a host (petri.h).
-#include "session/session.h"
-
 #include "base/number.h"
+#include "session/session.h"
 #include "value/format.h"
 
 #include <math.h>
 
 // The modules that a program imports at its top level, and those that they do, each once.
-enum { MOST_MODULES = 64 };
+enum { MAX_MODULES = 64 };
 typedef struct ModuleList {
-    const Program *items[MOST_MODULES];
+    const Program *items[MAX_MODULES];
     uint32_t count;
 } ModuleList;
 
@@ -23,9 +22,9 @@ static bool has_module(const ModuleList *list, const Program *module) {
 // Within a protected call; no deeper than the list is long.
 static void collect_modules(PetriSession *session, const Program *program, ModuleList *list) {
     for (uint32_t i = 0; i < program->import_count; i++) {
-        Str why;
-        const Program *module = session_module(session, program->imports[i], &why);
-        if (!module || has_module(list, module) || list->count == MOST_MODULES)
+        Str reason;
+        const Program *module = session_module(session, program->imports[i], &reason);
+        if (!module || has_module(list, module) || list->count == MAX_MODULES)
             continue;
         list->items[list->count++] = module;
         collect_modules(session, module, list);
@@ -59,15 +58,15 @@ static double one_number(const PetriSession *session, Value v) {
 }
 
 static bool is_within(const Parameter *parameter, double x) {
-    return x >= parameter->least && x <= parameter->most;
+    return x >= parameter->min && x <= parameter->max;
 }
 
 // `LEAST..MOST` as the comment has it.
 static Str range_text(Arena *arena, const Parameter *parameter) {
-    char least[NUMBER_TEXT] = "", most[NUMBER_TEXT] = "";
-    size_t before = isinf(parameter->least) ? 0 : number_format(parameter->least, least);
-    size_t after = isinf(parameter->most) ? 0 : number_format(parameter->most, most);
-    return str_format(arena, "%.*s..%.*s", (int)before, least, (int)after, most);
+    char min[NUMBER_TEXT] = "", max[NUMBER_TEXT] = "";
+    size_t before = isinf(parameter->min) ? 0 : number_format(parameter->min, min);
+    size_t after = isinf(parameter->max) ? 0 : number_format(parameter->max, max);
+    return str_format(arena, "%.*s..%.*s", (int)before, min, (int)after, max);
 }
 
 // One definition being looked at.
@@ -78,8 +77,8 @@ typedef struct Check {
     const DefineUse *use;
 } Check;
 
-static void tell(const Check *check, DiagLevel level, const char *code, Origin at, Str text, Str hint) {
-    session_tell(check->session, &(Diag){level, at.source, at.span, text, hint, code});
+static void report_definition(const Check *check, DiagLevel level, const char *code, Origin at, Str text, Str hint) {
+    session_report(check->session, &(Diag){level, at.source, at.span, text, hint, code});
 }
 
 static Origin origin_of(const Parameter *parameter) {
@@ -97,10 +96,10 @@ static bool check_numbers(const Check *check, const Parameter *parameter) {
         at++;
     Str wrong = format_text(arena, &check->session->symbols, value_element(arena, v, at));
     bool is_truth = str_equal(wrong, STR("'true'")) || str_equal(wrong, STR("'false'"));
-    tell(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
-         str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s", STR_ARGS(wrong),
-                    STR_ARGS(parameter->name->name), STR_ARGS(parameter->fallback)),
-         is_truth ? STR("here true is written 1 and false 0") : (Str){0});
+    report_definition(check, DIAG_ERROR, "bad-definition", origin_of(parameter),
+                      str_format(arena, "%.*s is not a number, and '%.*s' takes numbers: its default is %.*s",
+                                 STR_ARGS(wrong), STR_ARGS(parameter->name->name), STR_ARGS(parameter->default_text)),
+                      is_truth ? STR("here true is written 1 and false 0") : (Str){0});
     return false;
 }
 
@@ -111,10 +110,10 @@ static void check_range(const Check *check, const Parameter *parameter) {
         if (is_within(parameter, value_at(&v, i).as.number))
             continue;
         Str range = range_text(arena, parameter), printed = format_text(arena, &check->session->symbols, v);
-        tell(check, DIAG_WARNING, "outside-range", origin_of(parameter),
-             str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
-                        STR_ARGS(printed), STR_ARGS(range)),
-             (Str){0});
+        report_definition(check, DIAG_WARNING, "out-of-range", origin_of(parameter),
+                          str_format(arena, "%.*s=%.*s is outside the range %.*s", STR_ARGS(parameter->name->name),
+                                     STR_ARGS(printed), STR_ARGS(range)),
+                          (Str){0});
         return;
     }
 }
@@ -127,11 +126,11 @@ static bool check_truth(const Check *check, const Parameter *parameter) {
     if (parameter->is_static && !value_true(parameter->value))
         return false; // nothing is lost
     Str printed = format_text(arena, &check->session->symbols, check->define->value);
-    tell(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
-         str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
-                    STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
-                    STR_ARGS(parameter->fallback)),
-         (Str){0});
+    report_definition(check, DIAG_WARNING, "unused-definition", origin_of(parameter),
+                      str_format(arena, "%.*s=%.*s has no effect: %.*s is false, so that `or` takes the default %.*s",
+                                 STR_ARGS(parameter->name->name), STR_ARGS(printed), STR_ARGS(printed),
+                                 STR_ARGS(parameter->default_text)),
+                      (Str){0});
     return false;
 }
 
@@ -168,7 +167,7 @@ static Str with_parameters(Arena *arena, const Program *program, Str before) {
     return text_str(&text);
 }
 
-static void tell_unread(const Check *check) {
+static void report_unused(const Check *check) {
     Arena *arena = &check->unit->arena;
     const Program *program = check->unit->program;
     Str name = check->define->name->name, script = check->unit->source->name;
@@ -176,22 +175,23 @@ static void tell_unread(const Check *check) {
     Str text = str_format(arena, "the definition of '%.*s' has no effect: %.*s never reads it", STR_ARGS(name),
                           STR_ARGS(script));
     if (nearest)
-        tell(check, DIAG_WARNING, "unknown-parameter", origin_of(nearest), text,
-             str_format(arena, "did you mean '%.*s'?", STR_ARGS(nearest->name->name)));
+        report_definition(check, DIAG_WARNING, "unknown-parameter", origin_of(nearest), text,
+                          str_format(arena, "did you mean '%.*s'?", STR_ARGS(nearest->name->name)));
     else
-        tell(check, DIAG_WARNING, "unread-definition", (Origin){0}, with_parameters(arena, program, text), (Str){0});
+        report_definition(check, DIAG_WARNING, "unread-definition", (Origin){0}, with_parameters(arena, program, text),
+                          (Str){0});
 }
 
 // A definition that nothing has read.
-static void check_unread(const Check *check) {
+static void check_unused(const Check *check) {
     Arena *arena = &check->unit->arena;
     Str name = check->define->name->name, hint = {0};
-    const char *why = NULL;
+    const char *reason = NULL;
     Origin at = {0};
     if (engine_name_exists(name)) {
-        why = "petri itself gives this name its value";
+        reason = "petri itself gives this name its value";
     } else if (check->use->bound.source) {
-        why = "the script gives the name its own value here";
+        reason = "the script gives the name its own value here";
         at = check->use->bound;
         if (check->use->by_let)
             hint = str_format(arena, "with `let %.*s=%.*s or …` it would take the definition", STR_ARGS(name),
@@ -201,14 +201,14 @@ static void check_unread(const Check *check) {
         collect_modules(check->session, check->unit->program, &modules);
         const Parameter *parameter = find_in_modules(&modules, check->define->name);
         if (!parameter) {
-            tell_unread(check);
+            report_unused(check);
             return;
         }
-        why = "modules see no definitions";
+        reason = "modules see no definitions";
         at = origin_of(parameter);
     }
-    tell(check, DIAG_WARNING, "unused-definition", at,
-         str_format(arena, "the definition of '%.*s' has no effect: %s", STR_ARGS(name), why), hint);
+    report_definition(check, DIAG_WARNING, "unused-definition", at,
+                      str_format(arena, "the definition of '%.*s' has no effect: %s", STR_ARGS(name), reason), hint);
 }
 
 // The definition of a name that counts, the last, or NULL.
@@ -219,62 +219,63 @@ static const Define *find_define(const PetriSession *session, const Symbol *name
     return NULL;
 }
 
-static bool check_one(const Check *check) {
+static bool check_definition(const Check *check) {
     const Parameter *parameter = program_find_parameter(check->unit->program, check->define->name);
     if (parameter)
         return check_parameter(check, parameter);
     if (!check->use->read && !check->session->loader.lint) // a check has definitions for some of many scripts
-        check_unread(check);
+        check_unused(check);
     return true;
 }
 
 bool session_check_definitions(PetriSession *session, Unit *unit) {
     bool good = true, outer = diagnostics_repeat(&session->diagnostics, true);
     // What is set by hand is told each time, what was told at the load is not.
-    uint32_t first = session->again ? session->told_defines : 0;
-    diagnostics_repeat(&session->diagnostics, outer || session->again);
+    uint32_t first = session->recompiling ? session->reported_defines : 0;
+    diagnostics_repeat(&session->diagnostics, outer || session->recompiling);
     for (uint32_t i = first; i < session->config.define_count && !unit->empty; i++)
         if (find_define(session, session->config.defines[i].name) == &session->config.defines[i])
-            good =
-                check_one(&(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) && good;
+            good = check_definition(
+                       &(Check){session, unit, &session->config.defines[i], &unit->program->define_uses[i]}) &&
+                   good;
     diagnostics_repeat(&session->diagnostics, outer);
     if (good)
-        session->told_defines = session->config.define_count;
+        session->reported_defines = session->config.define_count;
     return good;
 }
 
 // A piece of a script as text of one line, without anything that a terminal would act on.
-static const char *one_line(Arena *arena, Str piece) {
+static const char *to_one_line(Arena *arena, Str source) {
     Text text = text_new(arena);
-    for (size_t at = 0; at < piece.len;) {
-        int32_t c = utf8_next(piece, &at);
+    for (size_t at = 0; at < source.len;) {
+        int32_t c = utf8_next(source, &at);
         bool blank = c < 0x20 || (c >= 0x7f && c < 0xa0);
         if (!blank)
             text_add_code_point(&text, (uint32_t)c);
         else if (text.len && text.bytes[text.len - 1] != ' ')
             text_add_char(&text, ' ');
-        while (c == '\n' && at < piece.len && piece.bytes[at] == ' ')
+        while (c == '\n' && at < source.len && source.bytes[at] == ' ')
             at++;
     }
     return str_to_c(arena, text_str(&text));
 }
 
-static void describe(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {
+static void describe_parameter(PetriSession *session, const Parameter *parameter, bool settable, PetriParameter *out) {
     Arena *arena = &session->text_arena;
     const Define *define = settable ? find_define(session, parameter->name) : NULL;
     bool defined = define && value_true(define->value);
     Value value = defined ? define->value : parameter->value;
-    SourcePlace place = source_locate(parameter->source, parameter->span.start);
+    SourcePosition place = source_locate(parameter->source, parameter->span.start);
     *out = (PetriParameter){
         .name = str_to_c(arena, parameter->name->name),
-        .fallback = one_line(arena, parameter->fallback),
+        .default_value = to_one_line(arena, parameter->default_text),
         .value = defined || parameter->is_static ? format_text(arena, &session->symbols, value).bytes
-                                                 : one_line(arena, parameter->fallback),
-        .comment = one_line(arena, parameter->comment),
+                                                 : to_one_line(arena, parameter->default_text),
+        .comment = to_one_line(arena, parameter->comment),
         .number = defined || parameter->is_static ? one_number(session, value) : NAN,
-        .fallback_number = parameter->is_static ? one_number(session, parameter->value) : NAN,
-        .least = parameter->least,
-        .most = parameter->most,
+        .default_number = parameter->is_static ? one_number(session, parameter->value) : NAN,
+        .min = parameter->min,
+        .max = parameter->max,
         .step = parameter->step,
         .defined = defined,
         .settable = settable,
@@ -297,7 +298,7 @@ static void find_parameter(PetriSession *session, void *context) {
     ModuleList modules = {.count = 0};
     arena_reset(&session->text_arena);
     if (number < program->parameter_count) {
-        describe(session, &program->parameters[number], true, request->out);
+        describe_parameter(session, &program->parameters[number], true, request->out);
         request->found = true;
         return;
     }
@@ -306,7 +307,7 @@ static void find_parameter(PetriSession *session, void *context) {
     for (uint32_t i = 0; i < modules.count; i++) {
         const Program *module = modules.items[i];
         if (number < module->parameter_count) {
-            describe(session, &module->parameters[number], false, request->out);
+            describe_parameter(session, &module->parameters[number], false, request->out);
             request->found = true;
             return;
         }
@@ -321,7 +322,7 @@ bool petri_parameter(PetriSession *session, size_t number, PetriParameter *param
     if (!session->config.program)
         return false;
     PetriStatus status = session_protect(session, NULL, find_parameter, &request);
-    return session_tell_end(session, status, "the answer") == PETRI_OK && request.found;
+    return session_report_abort(session, status, "the answer") == PETRI_OK && request.found;
 }
 
 typedef struct Setting {
@@ -345,7 +346,7 @@ static void redefine(PetriSession *session, void *context) {
         if (config->defines[i].name != symbol)
             defines[count++] = config->defines[i];
     config->defines = defines;
-    config->define_count = session->told_defines = count;
+    config->define_count = session->reported_defines = count;
     if (setting->value)
         setting->status = session_define(session, symbol->name, str_from(setting->value));
 }
@@ -355,17 +356,17 @@ PetriStatus petri_set_parameter(PetriSession *session, const char *name, const c
         return PETRI_INVALID;
     Setting setting = {name, value, PETRI_OK};
     const Define *defines = session->config.defines;
-    uint32_t count = session->config.define_count, told = session->told_defines;
-    uint64_t number = session->config_number;
+    uint32_t count = session->config.define_count, reported = session->reported_defines;
+    uint64_t number = session->config_revision;
     PetriStatus status = session_protect(session, NULL, redefine, &setting);
     if (status == PETRI_OK)
         status = setting.status == PETRI_OK ? petri_reload(session, NULL) : setting.status;
     if (status != PETRI_OK) {
         session->config.defines = defines;
         session->config.define_count = count;
-        session->told_defines = told;
+        session->reported_defines = reported;
         session_change_config(session, true);
-        session->config_number = number;
+        session->config_revision = number;
     }
     return status;
 }

@@ -1,7 +1,6 @@
 // print.c: frames as text (spec cli.md 3.3).
-#include "session/session.h"
-
 #include "base/number.h"
+#include "session/session.h"
 #include "syntax/parse.h"
 #include "value/format.h"
 
@@ -12,24 +11,24 @@ static void add_number(Text *out, double x) {
     text_add(out, (Str){digits, number_format(x, digits)});
 }
 
-static void print_header(Writing *out, const Clock *clock) {
+static void print_header(TextSink *out, const Clock *clock) {
     text_add_format(&out->text, "@%lld time=", (long long)clock->number);
     add_number(&out->text, clock->time);
     text_add_c(&out->text, " beat=");
     add_number(&out->text, clock->beat);
-    writing_line_end(out);
+    text_sink_end_line(out);
 }
 
-static void print_tree(Writing *out, PetriSession *session) {
+static void print_tree(TextSink *out, PetriSession *session) {
     Value tree = session->frame.tree;
     for (uint32_t i = 0; tree.kind == VALUE_MIXED && i < tree.len && !out->stopped; i++)
         if (tree.as.items[i].type == ITEM_NODE)
-            writing_tree(out, &session->symbols, tree.as.items[i].as.node);
+            text_sink_add_tree(out, &session->symbols, tree.as.items[i].as.node);
 }
 
 // Whether the key of one slot comes after that of another.
 static bool comes_after(const PetriSession *session, StateSlot one, StateSlot other) {
-    double rooms[2][STATE_KEY_ROOM];
+    double rooms[2][STATE_KEY_BUFFER];
     return format_key_compare(&session->symbols, state_slot_key_in(session->state, one, rooms[0]),
                               state_slot_key_in(session->state, other, rooms[1])) > 0;
 }
@@ -45,20 +44,19 @@ static void sort_slots(const PetriSession *session, StateSlot *slots, StateSlot 
     if (!comes_after(session, slots[half - 1], slots[half]))
         return;
     memcpy(scratch, slots, half * sizeof *slots);
-    for (uint32_t left = 0, right = half, to = 0; left < half; to++) {
+    for (uint32_t left = 0, right = half, to = 0; left < half; to++)
         if (right < count && comes_after(session, scratch[left], slots[right]))
             slots[to] = slots[right++];
         else
             slots[to] = scratch[left++];
-    }
 }
 
-static void print_state(Writing *out, PetriSession *session) {
+static void print_state(TextSink *out, PetriSession *session) {
     const State *state = session->state;
     uint32_t count = 0, room = state_count(state), cursor = 0;
     StateSlot *slots = arena_alloc_array(&session->text_arena, room, sizeof *slots);
     StateSlot *scratch = arena_alloc_array(&session->text_arena, room, sizeof *scratch);
-    double numbers[STATE_KEY_ROOM];
+    double numbers[STATE_KEY_BUFFER];
     for (Value key, value; count < room && state_next(state, &cursor, &key, &value, numbers); count++)
         slots[count] = cursor - 1;
     sort_slots(session, slots, scratch, count);
@@ -68,67 +66,67 @@ static void print_state(Writing *out, PetriSession *session) {
         format_value(&out->text, &session->symbols, key);
         text_add_c(&out->text, key.len != 1 ? ") = " : " = ");
         format_value(&out->text, &session->symbols, state_slot_get(state, slots[i]));
-        writing_line_end(out);
+        text_sink_end_line(out);
     }
 }
 
 // The state goes to the host if that is asked for, and into the hash if that is.
-static void print_and_hash_state(Writing *out, PetriSession *session, unsigned sections, Sha256 *hash) {
-    writing_flush(out);
+static void print_and_hash_state(TextSink *out, PetriSession *session, unsigned sections, Sha256 *hash) {
+    text_sink_flush(out);
     out->hash = sections & PETRI_PRINT_HASH ? hash : NULL;
-    out->hidden = !(sections & PETRI_PRINT_STATE);
+    out->muted = !(sections & PETRI_PRINT_STATE);
     print_state(out, session);
-    writing_flush(out);
+    text_sink_flush(out);
     out->hash = NULL;
-    out->hidden = false;
+    out->muted = false;
 }
 
-static void print_hash(Writing *out, Sha256 *hash) {
+static void print_hash(TextSink *out, Sha256 *hash) {
     char digits[SHA256_DIGITS];
     sha256_end(hash, digits);
     text_add_c(&out->text, "= ");
     text_add(&out->text, (Str){digits, sizeof digits});
-    writing_line_end(out);
+    text_sink_end_line(out);
 }
 
 // Each text on its line.
-static void print_lines(Writing *out, const DiagSink *sink, const char *mark, bool places) {
+static void print_lines(TextSink *out, const DiagSink *sink, const char *mark, bool places) {
     for (uint32_t i = 0; i < sink->count && !out->stopped; i++) {
         text_add_c(&out->text, mark);
         text_add(&out->text, places ? diag_one_line(out->text.arena, &sink->items[i]) : sink->items[i].text);
-        writing_line_end(out);
+        text_sink_end_line(out);
     }
 }
 
 // One of the texts of a session on its way.
 typedef struct Printing {
-    void (*print)(Writing *out, PetriSession *session, unsigned what);
-    unsigned what;
-    PetriWrite *write;
-    void *host;
+    void (*print)(TextSink *out, PetriSession *session, unsigned what);
+    unsigned selection;
+    PetriWriteCallback *write;
+    void *user_data;
     PetriStatus status;
 } Printing;
 
-static void print(PetriSession *session, void *context) {
+static void run_print(PetriSession *session, void *context) {
     Printing *printing = context;
     arena_reset(&session->text_arena);
-    Writing out = {.text = text_new(&session->text_arena), .write = printing->write, .host = printing->host};
-    printing->print(&out, session, printing->what);
-    writing_flush(&out);
-    printing->status = writing_end(session, &out);
+    TextSink out = {.text = text_new(&session->text_arena), .write = printing->write, .user_data = printing->user_data};
+    printing->print(&out, session, printing->selection);
+    text_sink_flush(&out);
+    printing->status = text_sink_finish(session, &out);
 }
 
 static PetriStatus print_protected(PetriSession *session, Printing printing) {
-    PetriStatus status = session_protect(session, NULL, print, &printing);
-    return status == PETRI_OK ? printing.status : session_tell_end(session, status, "the text");
+    PetriStatus status = session_protect(session, NULL, run_print, &printing);
+    return status == PETRI_OK ? printing.status : session_report_abort(session, status, "the text");
 }
 
-static void print_log(Writing *out, PetriSession *session, unsigned sections) {
+static void print_log(TextSink *out, PetriSession *session, unsigned sections) {
     (void)sections;
     print_lines(out, &session->frame.log, "> ", false);
 }
 
-static void print_frame(Writing *out, PetriSession *session, unsigned sections) {
+static void print_frame(TextSink *out, PetriSession *session, unsigned sections) {
     print_header(out, &session->clock);
     if (sections & PETRI_PRINT_TREE)
         print_tree(out, session);
@@ -143,31 +141,31 @@ static void print_frame(Writing *out, PetriSession *session, unsigned sections) 
         print_hash(out, &hash);
 }
 
-PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWrite *write, void *host) {
+PetriStatus petri_print(PetriSession *session, unsigned sections, PetriWriteCallback *write, void *host) {
     if (!session || !write)
         return PETRI_INVALID;
     return print_protected(session, (Printing){print_frame, sections, write, host, PETRI_OK});
 }
 
-PetriStatus petri_print_log(PetriSession *session, PetriWrite *write, void *host) {
+PetriStatus petri_print_log(PetriSession *session, PetriWriteCallback *write, void *host) {
     if (!session || !write)
         return PETRI_INVALID;
     return print_protected(session, (Printing){print_log, 0, write, host, PETRI_OK});
 }
 
-static void print_code(Writing *out, PetriSession *session, unsigned what) {
+static void print_code(TextSink *out, PetriSession *session, unsigned what) {
     const Unit *unit = session->config.program;
     if (what == PETRI_DUMP_CODE) {
         program_print(&out->text, &session->symbols, unit->program);
     } else { // the tree was dropped when the program was compiled
-        DiagSink nowhere = diag_sink_new(out->text.arena, 0);
-        const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &nowhere);
+        DiagSink discarded = diag_sink_new(out->text.arena, 0);
+        const Ast *ast = parse_program(out->text.arena, &session->symbols, unit->source, &discarded);
         ast_print(&out->text, &session->symbols, unit->source, ast);
-        diag_sink_free(&nowhere);
+        diag_sink_free(&discarded);
     }
 }
 
-PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWrite *write, void *host) {
+PetriStatus petri_dump(PetriSession *session, PetriDump what, PetriWriteCallback *write, void *host) {
     if (!session || !write || !session->config.program)
         return PETRI_INVALID;
     return print_protected(session, (Printing){print_code, what, write, host, PETRI_OK});

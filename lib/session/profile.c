@@ -1,7 +1,7 @@
 // profile.c: where the time of the frames went, as text.
-#include "session/session.h"
-
 #include "vm/profile.h"
+
+#include "session/session.h"
 
 #include <stdlib.h>
 
@@ -33,9 +33,9 @@ static uint32_t add_lines(Row *rows, const Profile *profile) {
     for (uint32_t i = 0; i < profile->file_count; i++)
         for (uint32_t k = 0; k < profile->files[i].source->line_count; k++) {
             const ProfileLine *line = &profile->files[i].lines[k];
-            if (line->times)
+            if (line->hits)
                 rows[count++] = (Row){.seconds = (double)line->nanoseconds * 1e-9,
-                                      .times = (double)line->times,
+                                      .times = (double)line->hits,
                                       .source = profile->files[i].source,
                                       .line = k + 1};
         }
@@ -43,8 +43,8 @@ static uint32_t add_lines(Row *rows, const Profile *profile) {
 }
 
 static void add_row(Text *out, const Row *row, double total, double frames) {
-    double share = total > 0 ? 100 * row->seconds / total : 0;
-    text_add_format(out, "%6.1f %% %10.4f ", share, 1e3 * row->seconds / frames);
+    double percent = total > 0 ? 100 * row->seconds / total : 0;
+    text_add_format(out, "%6.1f %% %10.4f ", percent, 1e3 * row->seconds / frames);
     if (!row->source) {
         text_add_format(out, "%12s  %s\n", "", row->what);
         return;
@@ -56,12 +56,12 @@ static void add_row(Text *out, const Row *row, double total, double frames) {
 
 typedef struct Request {
     double output_seconds;
-    PetriWrite *write;
+    PetriWriteCallback *write;
     void *host;
     bool stopped;
 } Request;
 
-static void print(PetriSession *session, void *context) {
+static void print_profile(PetriSession *session, void *context) {
     Request *request = context;
     const Profile *profile = session->vm.profile;
     const SessionFrame *frame = &session->frame;
@@ -82,12 +82,12 @@ static void print(PetriSession *session, void *context) {
     request->stopped = !request->write(request->host, out.bytes, out.len);
 }
 
-PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWrite *write, void *host) {
+PetriStatus petri_profile(PetriSession *session, double output_seconds, PetriWriteCallback *write, void *host) {
     if (!session || !write)
         return PETRI_INVALID;
     Request request = {output_seconds, write, host, false};
     if (!session->vm.profile)
         return PETRI_INVALID;
-    PetriStatus status = session_protect(session, NULL, print, &request);
+    PetriStatus status = session_protect(session, NULL, print_profile, &request);
     return status == PETRI_OK && request.stopped ? PETRI_INVALID : status;
 }

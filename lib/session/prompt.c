@@ -1,18 +1,19 @@
 // prompt.c: text typed by a person: what it means in the present frame, and which of it stays (petri.h).
 //
-// Each statement is a program of its own whose parameters are the names in sight (prompt.h). Their values are those of
-// the last evaluation (session_evaluate); what a statement that stays binds is added to them. Expressions are evaluated
-// in an arena of their own and leave nothing behind.
-#include "session/session.h"
-
+// Each statement is a program of its own whose parameters are the names in sight (prompt.h). Names of the script have
+// the values that the script gave them in the frame, before its systems were updated (session_evaluate). Names bound at
+// the prompt have the values that their statements have in the state after the frame, as if they were typed again
+// (session_update_names). Neither depends on how the session came to the frame. Expressions are evaluated in an arena
+// of their own and leave nothing behind.
 #include "base/heap.h"
+#include "session/session.h"
 #include "syntax/parse.h"
 #include "value/format.h"
 
 #include <math.h>
 #include <string.h>
 
-enum { MOST_LINES = 10000 };
+enum { MAX_LINES = 10000 };
 
 // One statement at work. What is known after an escape is here, not in locals.
 typedef struct Job {
@@ -25,14 +26,14 @@ typedef struct Job {
     Value *exports;
     double seconds;
     DiagSink log; // what debug() said
-    Writing out;
+    TextSink out;
     bool binds;
-    bool adds;
+    bool adds_nodes;
     // If it stays: what the frame and the prompt have then
     PromptList *list;
     Value *values;
     Value tree;
-    const Symbol *hidden; // bound by the script as well
+    const Symbol *shadowed; // bound by the script as well
 } Job;
 
 // --- lists
@@ -40,7 +41,7 @@ typedef struct Job {
 // Room for so many statements, with the names before and those of a program.
 static PromptList *make_list(Names before, uint32_t count, const Program *program) {
     uint32_t old = before.count, more = program ? program->export_count : 0;
-    PromptList *list = heap_take(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
+    PromptList *list = heap_alloc(sizeof *list + count * sizeof *list->statements + (old + more) * sizeof(Symbol *));
     if (!list)
         return NULL;
     const Symbol **names = (const Symbol **)(void *)(list->statements + count);
@@ -54,8 +55,8 @@ static PromptList *make_list(Names before, uint32_t count, const Program *progra
     return list;
 }
 
-PromptList *prompt_list_new(Names given, const Program *script) {
-    return make_list((Names){given.items, script ? script->param_count : 0}, 0, script);
+PromptList *prompt_list_new(Names host_names, const Program *script) {
+    return make_list((Names){host_names.items, script ? script->param_count : 0}, 0, script);
 }
 
 PromptList *prompt_list_add(const PromptList *before, const PromptStatement *statement) {
@@ -75,69 +76,48 @@ void prompt_list_free(PromptList *list) {
         return;
     for (uint32_t i = 0; i < list->count; i++)
         unit_free(list->statements[i].unit);
-    heap_give(list);
+    heap_free(list);
 }
 
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
-                         PromptList **made) {
-    *made = prompt_list_new((Names){session->given.names, session->given.count}, script);
-    for (uint32_t i = 0; *made && i < list->count; i++) {
+                         PromptList **result) {
+    *result = prompt_list_new((Names){session->host_globals.names, session->host_globals.count}, script);
+    for (uint32_t i = 0; *result && i < list->count; i++) {
         PromptStatement statement = list->statements[i];
-        if (choice == PROMPT_NONE || (choice == PROMPT_BINDINGS && statement.adds))
+        if (choice == PROMPT_NONE || (choice == PROMPT_BINDINGS && statement.adds_nodes))
             continue;
-        statement.program = unit_compile(session, statement.unit, statement.ast, false, (*made)->names);
+        statement.program = unit_compile(session, statement.unit, statement.ast, false, (*result)->names);
         arena_free(&statement.unit->scratch);
-        PromptList *shorter = *made;
-        *made = prompt_list_add(shorter, &statement);
+        PromptList *shorter = *result;
+        *result = prompt_list_add(shorter, &statement);
         prompt_list_free(shorter);
     }
-    if (!*made)
+    if (!*result)
         arena_exhausted(&session->arena);
 }
 
 // --- one text
 
-static void probe(PetriSession *session, void *context) {
+static void probe_text(PetriSession *session, void *context) {
     Job *job = context;
     Arena *arena = &session->prompt.arena;
     const Source *source = source_new(arena, STR("prompt"), STR("prompt"), job->text);
-    job->value = value_number(parse_need(arena, &session->symbols, source));
+    job->value = value_number(parse_completeness(arena, &session->symbols, source));
 }
 
-PetriInput petri_input(PetriSession *session, const char *text, size_t length) {
+PetriCompleteness petri_prompt_check(PetriSession *session, const char *text, size_t length) {
     if (!session || !text)
-        return PETRI_INPUT_WHOLE;
-    Job job = {.text = {text, length == PETRI_Z ? strlen(text) : length}};
+        return PETRI_COMPLETE;
+    Job job = {.text = {text, length == PETRI_NUL_TERMINATED ? strlen(text) : length}};
     arena_reset(&session->prompt.arena);
-    PetriStatus status = session_protect(session, NULL, probe, &job);
+    PetriStatus status = session_protect(session, NULL, probe_text, &job);
     arena_reset(&session->prompt.arena);
-    status = session_tell_end(session, status, "the text");
-    return status == PETRI_OK ? (PetriInput)job.value.as.number : PETRI_INPUT_WHOLE;
-}
-
-static void preview(PetriSession *session, void *context) {
-    (void)context;
-    session_evaluate(session);
-}
-
-PetriStatus petri_preview(PetriSession *session) {
-    if (!session)
-        return PETRI_INVALID;
-    if (session->frame.evaluated)
-        return PETRI_OK;
-    if (!session->config.program)
-        return PETRI_INVALID;
-    int64_t number = session->clock.number;
-    if (number < 0)
-        session->clock.number = 0;
-    session_set_globals(session, &session->vm);
-    session->clock.number = number;
-    PetriStatus status = session_protect(session, NULL, preview, NULL);
-    return session_tell_end(session, status, "the text");
+    status = session_report_abort(session, status, "the text");
+    return status == PETRI_OK ? (PetriCompleteness)job.value.as.number : PETRI_COMPLETE;
 }
 
 // Compiles and runs a statement in the names in sight.
-static void run(PetriSession *session, void *context) {
+static void run_program(PetriSession *session, void *context) {
     Job *job = context;
     session_set_globals(session, &session->static_vm);
     job->program = unit_compile(session, job->unit, job->ast, false, session->config.prompts->names);
@@ -152,34 +132,37 @@ static void run(PetriSession *session, void *context) {
 }
 
 // `most` lines of debug() are taken out of the frame's.
-static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t most) {
+static PetriStatus run_statement(PetriSession *session, Job *job, uint32_t max_lines) {
     DiagSink log = session->frame.log;
-    session->frame.log = diag_sink_new(&session->prompt.arena, most);
-    PetriStatus status = session_protect(session, NULL, run, job);
+    session->frame.log = diag_sink_new(&session->prompt.arena, max_lines);
+    PetriStatus status = session_protect(session, NULL, run_program, job);
     job->log = session->frame.log;
     session->frame.log = log;
-    return session_tell_end(session, status, "the text");
+    return session_report_abort(session, status, "the text");
 }
 
-static void parse(PetriSession *session, void *context) {
+static void parse_text(PetriSession *session, void *context) {
     Job *job = context;
     job->unit = unit_parse(session, STR("prompt"), job->text);
 }
 
 // Parses the text into a unit; the names in sight have values from then on.
-static PetriStatus begin(PetriSession *session, const char *text, size_t length, Job *job) {
-    job->text = (Str){text, length == PETRI_Z ? strlen(text) : length};
-    if (session->calls > 0)
+static PetriStatus begin_job(PetriSession *session, const char *text, size_t length, Job *job) {
+    job->text = (Str){text, length == PETRI_NUL_TERMINATED ? strlen(text) : length};
+    if (session->call_depth > 0)
         return PETRI_INVALID;
-    if (petri_interrupted(session))
+    if (petri_clear_interrupt(session))
         return PETRI_INTERRUPTED;
-    session->loader.begun = NULL;
-    PetriStatus status = session_protect(session, NULL, parse, job);
+    session->loader.pending = NULL;
+    PetriStatus status = session_protect(session, NULL, parse_text, job);
     if (status != PETRI_OK) {
-        unit_free(session->loader.begun);
-        return session_tell_end(session, status, "the text");
+        unit_free(session->loader.pending);
+        return session_report_abort(session, status, "the text");
     }
-    return job->unit->ast ? petri_preview(session) : PETRI_INVALID;
+    if (!job->unit->ast)
+        return PETRI_INVALID;
+    status = petri_preview(session);
+    return status == PETRI_OK ? session_update_names(session) : status;
 }
 
 static bool all_nodes(Value v) {
@@ -189,27 +172,27 @@ static bool all_nodes(Value v) {
     return all;
 }
 
-static void write_value(PetriSession *session, Writing *out, Value v) {
+static void write_value(PetriSession *session, TextSink *out, Value v) {
     if (!all_nodes(v)) {
         format_value(&out->text, &session->symbols, v);
         text_add_char(&out->text, '\n');
     }
     for (uint32_t i = 0; all_nodes(v) && i < v.len && !out->stopped; i++)
-        writing_tree(out, &session->symbols, v.as.items[i].as.node);
-    writing_flush(out);
+        text_sink_add_tree(out, &session->symbols, v.as.items[i].as.node);
+    text_sink_flush(out);
 }
 
 // What a statement has said.
 static void write_log(PetriSession *session, void *context) {
     Job *job = context;
-    Writing *out = &job->out;
+    TextSink *out = &job->out;
     out->text = text_new(&session->prompt.arena);
     for (uint32_t i = 0; i < job->log.count; i++) {
         text_add_c(&out->text, "> ");
         text_add(&out->text, job->log.items[i].text);
         text_add_char(&out->text, '\n');
     }
-    writing_flush(out);
+    text_sink_flush(out);
 }
 
 static bool binds(const Ast *ast) {
@@ -251,10 +234,10 @@ static const char *statement_text(PetriSession *session, const Job *job) {
 }
 
 // Makes what the prompt and the frame have if the statement stays.
-static void prepare(PetriSession *session, Job *job) {
+static void prepare_statement(PetriSession *session, Job *job) {
     const SessionFrame *frame = &session->frame;
     uint32_t count = job->program->export_count, before = frame->value_count;
-    PromptStatement statement = {job->unit, statement_text(session, job), job->ast, job->program, job->adds};
+    PromptStatement statement = {job->unit, statement_text(session, job), job->ast, job->program, job->adds_nodes};
     job->tree = frame->tree;
     job->values = arena_alloc_array(job->arena, before + count, sizeof *job->values);
     if (before)
@@ -272,17 +255,17 @@ static void prepare(PetriSession *session, Job *job) {
         arena_exhausted(job->arena);
 }
 
-static void finish(PetriSession *session, void *context) {
+static void finish_statement(PetriSession *session, void *context) {
     Job *job = context;
-    if (job->binds || job->adds)
-        prepare(session, job);
+    if (job->binds || job->adds_nodes)
+        prepare_statement(session, job);
     write_log(session, job);
     if (!job->binds)
         write_value(session, &job->out, job->value);
 }
 
-static void keep(PetriSession *session, Job *job) {
-    session_put(session, job->unit);
+static void store_statement(PetriSession *session, Job *job) {
+    session_use_unit(session, job->unit);
     session_set_prompts(session, job->list);
     session_change_config(session, true);
     session->frame.values = job->values;
@@ -290,78 +273,78 @@ static void keep(PetriSession *session, Job *job) {
     session->frame.tree = job->tree;
 }
 
-static void note_hidden(const PetriSession *session, Job *job) {
+static void note_shadowed(const PetriSession *session, Job *job) {
     const Program *script = session->config.program->program;
     for (uint32_t i = 0; i < job->program->export_count; i++)
         if (program_find_export(script, job->program->exports[i].name))
-            job->hidden = job->program->exports[i].name;
+            job->shadowed = job->program->exports[i].name;
 }
 
-static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPrompted *done) {
+static PetriStatus prompt_statement(PetriSession *session, Job *job, PetriPromptResult *done) {
     job->binds = binds(job->ast->children[0]);
-    job->adds = !job->binds && makes_nodes(job->ast->children[0]);
-    bool stays = job->binds || job->adds;
+    job->adds_nodes = !job->binds && makes_nodes(job->ast->children[0]);
+    bool persists = job->binds || job->adds_nodes;
     arena_reset(&session->prompt.arena);
-    job->arena = stays ? &session->frame.arena : &session->prompt.arena;
+    job->arena = persists ? &session->frame.arena : &session->prompt.arena;
     job->list = NULL;
-    PetriStatus status = run_statement(session, job, MOST_LINES);
+    PetriStatus status = run_statement(session, job, MAX_LINES);
     if (status == PETRI_OK)
-        status = session_tell_end(session, session_protect(session, NULL, finish, job), "the text");
-    else if (status != PETRI_MEMORY)
+        status = session_report_abort(session, session_protect(session, NULL, finish_statement, job), "the text");
+    else if (status != PETRI_OUT_OF_MEMORY)
         session_protect(session, NULL, write_log, job);
     diag_sink_free(&job->log);
     if (status != PETRI_OK) {
         prompt_list_free(job->list);
         return status;
     }
-    if (stays)
-        keep(session, job);
-    note_hidden(session, job);
+    if (persists)
+        store_statement(session, job);
+    note_shadowed(session, job);
     done->bindings += job->binds;
-    done->nodes += job->adds;
-    done->values += !stays;
+    done->nodes += job->adds_nodes;
+    done->values += !persists;
     return PETRI_OK;
 }
 
-static bool refuse_pragmas(PetriSession *session, const Unit *unit) {
+static bool reject_pragmas(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;
     if (ast->count == 0 || ast->children[0]->kind != AST_PRAGMA)
         return false;
-    session_tell(session, &(Diag){.level = DIAG_ERROR,
-                                  .source = unit->source,
-                                  .span = ast->children[0]->span,
-                                  .text = STR("pragmas count at the beginning of a script only"),
-                                  .code = "syntax"});
+    session_report(session, &(Diag){.level = DIAG_ERROR,
+                                    .source = unit->source,
+                                    .span = ast->children[0]->span,
+                                    .text = STR("pragmas count at the beginning of a script only"),
+                                    .code = "syntax"});
     return true;
 }
 
 // The statement of a number, as a suite of its own.
-static void pick(PetriSession *session, void *context) {
+static void wrap_statement(PetriSession *session, void *context) {
     Job *job = context;
     const Ast *statement = job->ast;
     Ast *children[] = {(Ast *)statement};
     job->ast = ast_new(unit_arena(session, job->unit), AST_SUITE, statement->span, NULL, children, 1);
 }
 
-PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWrite *write, void *host,
-                         PetriPrompted *done) {
+PetriStatus petri_prompt(PetriSession *session, const char *text, size_t length, PetriWriteCallback *write, void *host,
+                         PetriPromptResult *done) {
     if (!session || !text || !done)
         return PETRI_INVALID;
-    Job job = {.out = {.write = write, .host = host}};
-    *done = (PetriPrompted){0};
+    Job job = {.out = {.write = write, .user_data = host}};
+    *done = (PetriPromptResult){0};
     diagnostics_repeat(&session->diagnostics, true);
-    PetriStatus status = begin(session, text, length, &job);
-    if (status == PETRI_OK && refuse_pragmas(session, job.unit))
+    PetriStatus status = begin_job(session, text, length, &job);
+    if (status == PETRI_OK && reject_pragmas(session, job.unit))
         status = PETRI_INVALID;
     for (uint32_t i = 0; status == PETRI_OK && i < job.unit->ast->count; i++) {
         job.ast = job.unit->ast->children[i];
-        status = session_tell_end(session, session_protect(session, NULL, pick, &job), "the text");
+        status = session_report_abort(session, session_protect(session, NULL, wrap_statement, &job), "the text");
         if (status == PETRI_OK)
             status = prompt_statement(session, &job, done);
     }
     diagnostics_repeat(&session->diagnostics, false);
-    if (job.hidden)
-        done->hidden = job.hidden->name.bytes;
+    if (job.shadowed)
+        done->shadowed = job.shadowed->name.bytes;
     unit_free(job.unit);
     return status;
 }
@@ -371,11 +354,11 @@ static bool is_expression(PetriSession *session, const Unit *unit) {
     const Ast *ast = unit->ast;
     if (ast->count == 1 && ast->children[0]->kind != AST_PRAGMA && !binds(ast->children[0]))
         return true;
-    session_tell(session, &(Diag){.level = DIAG_ERROR,
-                                  .source = unit->source,
-                                  .span = {0, (uint32_t)unit->source->text.len},
-                                  .text = STR("this must be one expression"),
-                                  .code = "syntax"});
+    session_report(session, &(Diag){.level = DIAG_ERROR,
+                                    .source = unit->source,
+                                    .span = {0, (uint32_t)unit->source->text.len},
+                                    .text = STR("this must be one expression"),
+                                    .code = "syntax"});
     return false;
 }
 
@@ -383,15 +366,15 @@ static void write_line(PetriSession *session, void *context) {
     Job *job = context;
     job->out.text = text_new(&session->prompt.arena);
     format_value(&job->out.text, &session->symbols, job->value);
-    writing_flush(&job->out);
+    text_sink_flush(&job->out);
 }
 
-PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriResult *result,
-                           PetriWrite *write, void *host) {
+PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t length, PetriEvaluation *result,
+                           PetriWriteCallback *write, void *host) {
     if (!session || !text || !result)
         return PETRI_INVALID;
-    Job job = {.arena = &session->prompt.arena, .out = {.write = write, .host = host}};
-    PetriStatus status = begin(session, text, length, &job);
+    Job job = {.arena = &session->prompt.arena, .out = {.write = write, .user_data = host}};
+    PetriStatus status = begin_job(session, text, length, &job);
     if (status == PETRI_OK && !is_expression(session, job.unit))
         status = PETRI_INVALID;
     if (status == PETRI_OK) {
@@ -402,40 +385,41 @@ PetriStatus petri_evaluate(PetriSession *session, const char *text, size_t lengt
     }
     if (status == PETRI_OK) {
         bool one = job.value.kind == VALUE_NUMBERS && job.value.len == 1;
-        *result = (PetriResult){.is_true = value_true(job.value),
-                                .length = job.value.len,
-                                .number = one ? job.value.as.number : NAN,
-                                .seconds = job.seconds};
+        *result = (PetriEvaluation){.is_true = value_true(job.value),
+                                    .length = job.value.len,
+                                    .number = one ? job.value.as.number : NAN,
+                                    .seconds = job.seconds};
         if (write)
-            status = session_tell_end(session, session_protect(session, NULL, write_line, &job), "the text");
+            status = session_report_abort(session, session_protect(session, NULL, write_line, &job), "the text");
     }
     unit_free(job.unit);
     return status;
 }
 
-typedef struct Drop {
+typedef struct ClearRequest {
     PromptChoice choice;
     PromptList *list;
-} Drop;
+} ClearRequest;
 
-static void drop(PetriSession *session, void *context) {
-    Drop *dropped = context;
+static void clear_statements(PetriSession *session, void *context) {
+    ClearRequest *dropped = context;
     const Unit *script = session->config.program;
     prompt_list_compile(session, session->config.prompts, script ? script->program : NULL, dropped->choice,
                         &dropped->list);
 }
 
-uint32_t petri_drop(PetriSession *session, bool bindings) {
+uint32_t petri_prompt_clear(PetriSession *session, bool bindings) {
     if (!session)
         return 0;
-    Drop dropped = {.choice = bindings ? PROMPT_NONE : PROMPT_BINDINGS};
+    ClearRequest dropped = {.choice = bindings ? PROMPT_NONE : PROMPT_BINDINGS};
     const PromptList *list = session->config.prompts;
     uint32_t dropped_count = 0;
     for (uint32_t i = 0; i < list->count; i++)
-        dropped_count += bindings || list->statements[i].adds;
+        dropped_count += bindings || list->statements[i].adds_nodes;
     if (dropped_count == 0)
         return 0;
-    if (session_tell_end(session, session_protect(session, NULL, drop, &dropped), "the text") != PETRI_OK) {
+    if (session_report_abort(session, session_protect(session, NULL, clear_statements, &dropped), "the text") !=
+        PETRI_OK) {
         prompt_list_free(dropped.list);
         return 0;
     }
@@ -452,7 +436,7 @@ const char *petri_prompt_statement(const PetriSession *session, size_t number) {
     return number < list->count ? list->statements[number].text : NULL;
 }
 
-const char *petri_name(const PetriSession *session, size_t number) {
+const char *petri_visible_name(const PetriSession *session, size_t number) {
     if (!session)
         return NULL;
     Names names = session->config.prompts->names;

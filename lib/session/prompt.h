@@ -11,7 +11,7 @@ typedef struct PromptStatement {
     const char *text;
     const Ast *ast;
     const Program *program;
-    bool adds; // its value is nodes for the tree
+    bool adds_nodes; // its value is nodes for the tree
 } PromptStatement;
 
 typedef struct PromptList {
@@ -27,7 +27,7 @@ typedef struct Prompt {
 
 // The list of a script without statements; without names for NULL. NULL if memory is used up. `given` begins with the
 // script's parameters.
-PromptList *prompt_list_new(Names given, const Program *script);
+PromptList *prompt_list_new(Names host_names, const Program *script);
 // A list with one statement more, or NULL.
 PromptList *prompt_list_add(const PromptList *list, const PromptStatement *statement);
 // Gives a reference back; NULL is fine.
@@ -36,6 +36,6 @@ void prompt_list_free(PromptList *list);
 // they are not wanted. Within a protected call; *made has what is made so far, to be freed if that call is given up.
 typedef enum PromptChoice { PROMPT_ALL, PROMPT_BINDINGS, PROMPT_NONE } PromptChoice;
 void prompt_list_compile(PetriSession *session, const PromptList *list, const Program *script, PromptChoice choice,
-                         PromptList **made);
+                         PromptList **result);
 
 #endif

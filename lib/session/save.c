@@ -11,11 +11,10 @@
 //
 // Values are written in the language's printed form, which reads back as the same doubles. The hash at the end tells a
 // file that was cut short or edited from a good one; a bad one is never overwritten.
-#include "session/session.h"
-
 #include "ast/literal.h"
 #include "base/file.h"
 #include "base/number.h"
+#include "session/session.h"
 #include "value/format.h"
 
 #include <inttypes.h>
@@ -24,7 +23,7 @@
 
 #define HEADER "petri-state 1\n"
 // As many can be read back, whatever is added in a lifetime.
-#define MOST_FRAMES INT64_C(100000000000000000)
+#define MAX_FRAMES INT64_C(100000000000000000)
 #define MAX_STATE_BYTES ((size_t)8 << 30)
 
 static void add_key(Text *out, const PetriSession *session, Value key) {
@@ -35,7 +34,7 @@ static void add_key(Text *out, const PetriSession *session, Value key) {
 
 static void add_entries(Text *out, const PetriSession *session) {
     uint32_t cursor = 0;
-    double room[STATE_KEY_ROOM];
+    double room[STATE_KEY_BUFFER];
     for (Value key, value; state_next(session->state, &cursor, &key, &value, room);) {
         add_key(out, session, key);
         text_add_c(out, " = ");
@@ -46,7 +45,7 @@ static void add_entries(Text *out, const PetriSession *session) {
 
 static void add_systems(Text *out, const PetriSession *session) {
     const void *cursor = NULL;
-    double room[STATE_KEY_ROOM];
+    double room[STATE_KEY_BUFFER];
     for (SceneSystem system; scene_next_system(session->scene, &cursor, &system);) {
         text_add_format(out, "system %u ", system.occurrence);
         add_key(out, session, state_slot_key_in(session->state, system.prefix, room));
@@ -59,9 +58,9 @@ static void add_systems(Text *out, const PetriSession *session) {
     }
 }
 
-static void complain(PetriSession *session, const char *what, const char *file, const char *why) {
-    session_tell_text(session, DIAG_ERROR, "state-file",
-                      str_format(&session->text_arena, "%s '%s': %s", what, file, why));
+static void report_state_error(PetriSession *session, const char *what, const char *file, const char *reason) {
+    session_report_text(session, DIAG_ERROR, "state-file",
+                        str_format(&session->text_arena, "%s '%s': %s", what, file, reason));
 }
 
 typedef struct Saving {
@@ -69,7 +68,7 @@ typedef struct Saving {
     bool done;
 } Saving;
 
-static void save(PetriSession *session, void *context) {
+static void save_state(PetriSession *session, void *context) {
     Saving *saving = context;
     Text out = text_new(&session->text_arena);
     text_add_c(&out, HEADER);
@@ -80,7 +79,7 @@ static void save(PetriSession *session, void *context) {
     const char *problem = file_replace(saving->file, text_str(&out), 0);
     saving->done = !problem;
     if (problem)
-        complain(session, "cannot write the state to", saving->file, problem);
+        report_state_error(session, "cannot write the state to", saving->file, problem);
 }
 
 PetriStatus petri_save(PetriSession *session, const char *file) {
@@ -88,7 +87,7 @@ PetriStatus petri_save(PetriSession *session, const char *file) {
         return PETRI_INVALID;
     Saving saving = {.file = file};
     ArenaMark mark = arena_mark(&session->text_arena);
-    PetriStatus status = session_protect(session, NULL, save, &saving);
+    PetriStatus status = session_protect(session, NULL, save_state, &saving);
     arena_rewind(&session->text_arena, mark);
     return status == PETRI_OK && !saving.done ? PETRI_INVALID : status;
 }
@@ -101,10 +100,10 @@ typedef struct Restore {
     State *state; // the new dictionary
     Incoming *incoming;
     int64_t frame;
-    uint32_t left_out; // values that are not finite, which states had before 0.2.0
+    uint32_t omitted; // values that are not finite, which states had before 0.2.0
 } Restore;
 
-static bool take(Restore *restore, Str prefix) {
+static bool consume_prefix(Restore *restore, Str prefix) {
     if (!str_starts_with(restore->rest, prefix))
         return false;
     restore->rest = (Str){restore->rest.bytes + prefix.len, restore->rest.len - prefix.len};
@@ -133,10 +132,10 @@ static bool read_element(Restore *restore, Vector *vector) {
         return false;
     restore->rest = (Str){restore->rest.bytes + len, restore->rest.len - len};
     if (text.bytes[0] == ':') {
-        const Symbol *symbol = symbol_know(&restore->session->symbols, (Str){text.bytes + 1, len - 1});
+        const Symbol *symbol = symbol_register(&restore->session->symbols, (Str){text.bytes + 1, len - 1});
         if (symbol)
             vector_add_number(vector, symbol->number);
-        return symbol != NULL;
+        return symbol;
     }
     if (text.bytes[0] == '\'' || text.bytes[0] == '"') {
         Str string;
@@ -153,11 +152,11 @@ static bool read_element(Restore *restore, Vector *vector) {
 
 static bool read_value(Restore *restore, Value *value) {
     Vector vector = vector_new(restore->arena);
-    if (!take(restore, STR("null"))) {
+    if (!consume_prefix(restore, STR("null"))) {
         do
             if (!read_element(restore, &vector))
                 return false;
-        while (take(restore, STR(";")));
+        while (consume_prefix(restore, STR(";")));
     }
     *value = vector_finish(&vector);
     return true;
@@ -165,7 +164,7 @@ static bool read_value(Restore *restore, Value *value) {
 
 static bool read_key(Restore *restore, StateSlot *slot) {
     Value key;
-    if (!take(restore, STR("$(")) || !read_value(restore, &key) || !take(restore, STR(")")))
+    if (!consume_prefix(restore, STR("$(")) || !read_value(restore, &key) || !consume_prefix(restore, STR(")")))
         return false;
     *slot = state_slot(restore->state, key);
     return *slot != STATE_NO_SLOT;
@@ -174,23 +173,23 @@ static bool read_key(Restore *restore, StateSlot *slot) {
 static bool read_entry(Restore *restore) {
     StateSlot slot;
     Value value;
-    if (!read_key(restore, &slot) || !take(restore, STR(" = ")) || !read_value(restore, &value) ||
-        !take(restore, STR("\n")))
+    if (!read_key(restore, &slot) || !consume_prefix(restore, STR(" = ")) || !read_value(restore, &value) ||
+        !consume_prefix(restore, STR("\n")))
         return false;
     if (value.kind == VALUE_NUMBERS && !numbers_finite(value_numbers(&value), value.len, 1)) {
-        restore->left_out++;
+        restore->omitted++;
         return true;
     }
     return state_slot_set(restore->state, slot, value);
 }
 
 static bool read_integer(Restore *restore, int64_t *x) {
-    enum { MOST_DIGITS = 18 };
-    bool negative = take(restore, STR("-"));
+    enum { MAX_DIGITS = 18 };
+    bool negative = consume_prefix(restore, STR("-"));
     size_t len = 0;
     *x = 0;
     for (; len < restore->rest.len && restore->rest.bytes[len] >= '0' && restore->rest.bytes[len] <= '9'; len++) {
-        if (len == MOST_DIGITS)
+        if (len == MAX_DIGITS)
             return false;
         *x = *x * 10 + (restore->rest.bytes[len] - '0');
     }
@@ -211,16 +210,16 @@ static bool read_system(Restore *restore) {
     int64_t occurrence;
     uint32_t capacity = 0; // even, so that there is room for both
     SceneSystem system = {0};
-    if (!read_integer(restore, &occurrence) || !take(restore, STR(" ")) || !read_key(restore, &system.prefix) ||
-        !take(restore, STR("\n")))
+    if (!read_integer(restore, &occurrence) || !consume_prefix(restore, STR(" ")) ||
+        !read_key(restore, &system.prefix) || !consume_prefix(restore, STR("\n")))
         return false;
     if (occurrence < 0 || occurrence > UINT32_MAX)
         return false;
     system.occurrence = (uint32_t)occurrence;
     StateSlot *slots = NULL;
-    while (take(restore, STR("particle "))) {
-        slots = arena_room(restore->arena, slots, system.slot_count, &capacity, sizeof *slots);
-        if (!read_key(restore, &slots[system.slot_count]) || !take(restore, STR("\n")))
+    while (consume_prefix(restore, STR("particle "))) {
+        slots = arena_grow_array(restore->arena, slots, system.slot_count, &capacity, sizeof *slots);
+        if (!read_key(restore, &slots[system.slot_count]) || !consume_prefix(restore, STR("\n")))
             return false;
         slots[system.slot_count + 1] = velocity_slot(restore, slots[system.slot_count]);
         system.slot_count += 2;
@@ -244,13 +243,14 @@ static bool hash_matches(Str *text) {
 }
 
 static bool read_body(Restore *restore) {
-    if (!take(restore, STR(HEADER)) || !take(restore, STR("frame ")) || !read_integer(restore, &restore->frame) ||
-        restore->frame < -1 || restore->frame > MOST_FRAMES || !take(restore, STR("\n")))
+    if (!consume_prefix(restore, STR(HEADER)) || !consume_prefix(restore, STR("frame ")) ||
+        !read_integer(restore, &restore->frame) || restore->frame < -1 || restore->frame > MAX_FRAMES ||
+        !consume_prefix(restore, STR("\n")))
         return false;
     while (str_starts_with(restore->rest, STR("$")))
         if (!read_entry(restore))
             return false;
-    while (take(restore, STR("system ")))
+    while (consume_prefix(restore, STR("system ")))
         if (!read_system(restore))
             return false;
     return restore->rest.len == 0;
@@ -266,21 +266,21 @@ static const char *restore_text(Restore *restore) {
     return good && read_body(restore) ? NULL : "it is cut short or damaged";
 }
 
-static void take_file(PetriSession *session, Incoming *incoming, void *context) {
-    const char *file = context, *why = NULL;
+static void read_state_file(PetriSession *session, Incoming *incoming, void *context) {
+    const char *file = context, *reason = NULL;
     Arena *arena = &incoming->arena;
     Restore restore = {.session = session, .arena = arena, .state = incoming->state, .incoming = incoming};
-    if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &why))
-        why = restore_text(&restore);
-    if (state_take_exhausted(incoming->state)) // what looks like a damaged file
+    if (file_read(arena, NULL, file, true, MAX_STATE_BYTES, &restore.rest, NULL, &reason))
+        reason = restore_text(&restore);
+    if (state_clear_exhausted(incoming->state)) // what looks like a damaged file
         arena_exhausted(arena);
-    incoming->good = !why;
-    if (restore.left_out && !why)
-        session_tell_text(session, DIAG_WARNING, "state-file",
-                          str_format(&session->text_arena, "%u of the values in '%s' are not finite and are left out",
-                                     restore.left_out, file));
-    if (why)
-        complain(session, "cannot take the state from", file, why);
+    incoming->valid = !reason;
+    if (restore.omitted && !reason)
+        session_report_text(session, DIAG_WARNING, "state-file",
+                            str_format(&session->text_arena, "%u of the values in '%s' are not finite and are left out",
+                                       restore.omitted, file));
+    if (reason)
+        report_state_error(session, "cannot take the state from", file, reason);
     else
         clock_resume(&incoming->clock, restore.frame);
 }
@@ -290,7 +290,7 @@ PetriStatus petri_restore(PetriSession *session, const char *file) {
         return PETRI_INVALID;
     if (!file_exists(file))
         return PETRI_OK;
-    PetriStatus status = checkpoint_replace(session, take_file, (void *)file);
+    PetriStatus status = checkpoint_replace(session, read_state_file, (void *)file);
     if (status == PETRI_OK)
         session_change_config(session, false);
     return status;

@@ -10,7 +10,7 @@
 #include <stdio.h>
 #include <string.h>
 
-enum { MOST_LINES = 100000 };
+enum { MAX_LINES = 100000 };
 // Of memory that a session may hold besides what the host allows: its own parts, which no script can make much larger.
 #define OWN_BYTES ((size_t)64 << 20)
 
@@ -19,15 +19,15 @@ void petri_options_init(PetriOptions *options, size_t size) {
                                 .fps = 60,
                                 .run_time = NAN,
                                 .simplify = true,
-                                .stack_bytes = (size_t)4 << 20,
-                                .memory_bytes = (size_t)2 << 30,
-                                .work = UINT64_C(1) << 30};
+                                .stack_limit = (size_t)4 << 20,
+                                .memory_limit = (size_t)2 << 30,
+                                .work_limit = UINT64_C(1) << 30};
     memcpy(options, &usual, size < sizeof usual ? size : sizeof usual);
 }
 
 // The options of a host, who may have been compiled with an earlier petri.h, whose struct was shorter. False if they
 // were not initialised, if they are those of a later petri.h, or make no sense.
-static bool take_options(PetriOptions *options, const PetriOptions *given) {
+static bool read_options(PetriOptions *options, const PetriOptions *given) {
     if (!given || given->size < offsetof(PetriOptions, cpu) || given->size > sizeof *options)
         return false;
     petri_options_init(options, sizeof *options);
@@ -35,8 +35,8 @@ static bool take_options(PetriOptions *options, const PetriOptions *given) {
     return options->fps > 0 && isfinite(options->fps);
 }
 
-static void tell_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
-                       Str text) {
+static void report_scene(void *host, DiagLevel level, const char *code, const Origin *origin, Str node, Str key,
+                         Str text) {
     PetriSession *session = host;
     Arena *arena = &session->frame.systems_arena;
     Str whole = str_format(arena, "%.*s: %.*s", STR_ARGS(node), STR_ARGS(text));
@@ -48,23 +48,23 @@ static void tell_scene(void *host, DiagLevel level, const char *code, const Orig
     diag_report(&session->frame.errors, &diag);
     // A loop may make a thousand nodes at one place: that is one thing to say.
     Str where = diag.source ? str_format(arena, "%.*s %u", STR_ARGS(diag.source->path), diag.span.start) : node;
-    session_tell_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
+    session_report_keyed(session, &diag, str_format(arena, "%s %.*s %.*s", code, STR_ARGS(where), STR_ARGS(key)));
 }
 
-static void tell_machine(void *host, const Diag *diag) {
+static void report_vm(void *host, const Diag *diag) {
     PetriSession *session = host;
-    if (session->frame.working)
+    if (session->frame.evaluating)
         diag_report(&session->frame.errors, diag);
-    session_tell(session, diag);
+    session_report(session, diag);
 }
 
 // What is wrong with an expression that is evaluated ahead is told when it is really reached.
-static void tell_nobody(void *host, const Diag *diag) {
+static void ignore_diagnostic(void *host, const Diag *diag) {
     (void)host;
     (void)diag;
 }
 
-static void log_machine(void *host, Str text) {
+static void log_vm(void *host, Str text) {
     PetriSession *session = host;
     diag_report(&session->frame.log, &(Diag){.level = DIAG_NOTE, .text = text});
 }
@@ -80,8 +80,9 @@ static PhysOptions physics_options(const PetriOptions *options) {
     cpu_choose(options->cpu, &physics.cpu);
     const PetriRanks *ranks = options->ranks;
     if (ranks)
-        physics.ranks = (PhysRanks){ranks->rank,    ranks->count,  ranks->least,  ranks->host, ranks->send,
-                                    ranks->receive, ranks->spread, ranks->gather, ranks->most, ranks->share};
+        physics.ranks = (PhysRanks){ranks->rank,          ranks->rank_count,  ranks->min_pairs, ranks->user_data,
+                                    ranks->send,          ranks->receive,     ranks->broadcast, ranks->allgatherv,
+                                    ranks->allreduce_max, ranks->alloc_shared};
     return physics;
 }
 
@@ -91,100 +92,101 @@ typedef struct Call {
     void *context;
 } Call;
 
-static void make_call(void *context) {
+static void run_call(void *context) {
     const Call *call = context;
     call->call(call->session, call->context);
 }
 
 PetriStatus session_protect(PetriSession *session, Arena *extra, SessionCall *call, void *context) {
-    static const PetriStatus statuses[] = {[ARENA_DONE] = PETRI_OK,
-                                           [ARENA_MEMORY] = PETRI_MEMORY,
-                                           [ARENA_BUDGET] = PETRI_LIMIT,
-                                           [ARENA_WORK] = PETRI_LIMIT,
+    static const PetriStatus statuses[] = {[ARENA_OK] = PETRI_OK,
+                                           [ARENA_OUT_OF_MEMORY] = PETRI_OUT_OF_MEMORY,
+                                           [ARENA_MEMORY_LIMIT] = PETRI_LIMIT_EXCEEDED,
+                                           [ARENA_WORK_LIMIT] = PETRI_LIMIT_EXCEEDED,
                                            [ARENA_INTERRUPTED] = PETRI_INTERRUPTED};
     SessionFrame *frame = &session->frame;
     Arena *arenas[] = {&session->arena, &session->text_arena,  &session->view_arena,   &session->key_arena,
                        &frame->arena,   &frame->systems_arena, &session->prompt.arena, extra};
     Unit *compiling = session->loader.compiling;
-    bool working = frame->working;
+    bool working = frame->evaluating;
     Call made = {session, call, context};
-    if (session->torn && !session_heal(session))
-        return PETRI_MEMORY;
-    if (session->calls++ == 0) {
-        meter_begin(&session->meter, session->options.work, session->steadfast ? NULL : &session->interrupt);
+    if (session->rollback_pending && !session_rollback(session))
+        return PETRI_OUT_OF_MEMORY;
+    if (session->call_depth++ == 0) {
+        budget_begin(&session->meter, session->options.work_limit,
+                     session->uninterruptible ? NULL : &session->interrupt);
         session->meter.work = session->spent;
         session->spent = 0;
         session->vm.at = NULL;
-        session->schema.at = NULL;
+        session->schema.current_node = NULL;
     }
-    ArenaEnd end = arena_protect(arenas, sizeof arenas / sizeof *arenas, make_call, &made);
-    session->calls--;
-    if (end != ARENA_DONE) {
-        session->end = end;
+    ArenaOutcome end = arena_protect(arenas, sizeof arenas / sizeof *arenas, run_call, &made);
+    session->call_depth--;
+    if (end != ARENA_OK) {
+        session->last_outcome = end;
         session->loader.compiling = compiling;
-        frame->working = working;
+        frame->evaluating = working;
         session->vm.arena = session->vm.builtins.arena = &frame->arena;
     }
     return statuses[end];
 }
 
-PetriStatus session_tell_end(PetriSession *session, PetriStatus status, const char *what) {
+PetriStatus session_report_abort(PetriSession *session, PetriStatus status, const char *what) {
     if (status == PETRI_INTERRUPTED)
-        petri_interrupted(session);
-    if (status != PETRI_MEMORY && status != PETRI_LIMIT)
+        petri_clear_interrupt(session);
+    if (status != PETRI_OUT_OF_MEMORY && status != PETRI_LIMIT_EXCEEDED)
         return status;
-    bool work = status == PETRI_LIMIT && session->end == ARENA_WORK;
+    bool work = status == PETRI_LIMIT_EXCEEDED && session->last_outcome == ARENA_WORK_LIMIT;
     char text[120];
-    if (status == PETRI_MEMORY)
+    if (status == PETRI_OUT_OF_MEMORY)
         snprintf(text, sizeof text, "not enough memory for %s; it is given up", what);
     else if (work)
         snprintf(text, sizeof text, "%s takes more than its %" PRIu64 " units of work; it is given up", what,
-                 session->options.work);
+                 session->options.work_limit);
     else
         snprintf(text, sizeof text, "%s needs more than its %zu MiB of memory; it is given up", what,
-                 session->options.memory_bytes >> 20);
+                 session->options.memory_limit >> 20);
     Diag diag = {.level = DIAG_ERROR, .text = str_from(text), .code = work ? "work-limit" : "memory-limit"};
-    Origin place = session->vm.at       ? *session->vm.at
-                   : session->schema.at ? node_place(session->schema.at, NULL)
-                                        : (Origin){0};
-    if (status == PETRI_LIMIT) {
+    Origin place = session->vm.at                 ? *session->vm.at
+                   : session->schema.current_node ? node_origin(session->schema.current_node, NULL)
+                                                  : (Origin){0};
+    if (status == PETRI_LIMIT_EXCEEDED) {
         diag.source = place.source;
         diag.span = place.span;
     }
     size_t limit = session->meter.memory_limit;
     session->meter.memory_limit = SIZE_MAX; // to tell that memory is used up takes some
-    session_tell(session, &diag);
+    session_report(session, &diag);
     session->meter.memory_limit = limit;
     return status;
 }
 
-bool session_heal(PetriSession *session) {
-    session->torn = false; // it takes protected calls
-    session->steadfast = true;
-    session->torn = checkpoint_put_back(session, &session->undo) != PETRI_OK;
-    session->steadfast = false;
-    return !session->torn;
+bool session_rollback(PetriSession *session) {
+    session->rollback_pending = false; // it takes protected calls
+    session->uninterruptible = true;
+    session->rollback_pending = checkpoint_restore(session, &session->undo) != PETRI_OK;
+    session->uninterruptible = false;
+    return !session->rollback_pending;
 }
 
 // What a session consists of. An arena stands for whatever cannot be had.
-static void open_parts(PetriSession *session, void *context) {
+static void init_components(PetriSession *session, void *context) {
     (void)context;
     const PetriOptions *options = &session->options;
-    schema_init(&session->schema, &session->symbols, (SchemaHost){session, tell_scene});
+    schema_init(&session->schema, &session->symbols, (SchemaSink){session, report_scene});
     session->scene = scene_new(&session->arena, &session->schema);
     session->state = state_new(&session->meter);
     session->files = file_cache_new();
     session->noise = noise_cache_new();
     session->vm.profile = options->profile ? vm_profile_new() : NULL;
     session->vm.builtins.files = session->files;
-    session->vm.builtins.reach = session->schema.reach = &session->reach;
-    session->reach.nothing = options->no_files;
-    session->reach.read = options->read;
-    session->reach.read_host = options->read_host;
-    session->reach.unsaved = options->unsaved;
-    reach_add(&session->arena, &session->reach, REACH_READ, (const char *const[]){".", NULL});
-    reach_add(&session->arena, &session->reach, REACH_READ, options->read_folders);
-    reach_add(&session->arena, &session->reach, REACH_WRITE, options->write_folders);
+    session->vm.builtins.file_access = session->schema.file_access = &session->reach;
+    session->reach.no_files = options->no_files;
+    session->reach.read_file = options->read_file;
+    session->reach.read_user_data = options->read_user_data;
+    session->reach.read_unsaved = options->read_unsaved;
+    file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, (const char *const[]){".", NULL});
+    file_access_add(&session->arena, &session->reach, FILE_ACCESS_READ, options->read_folders);
+    file_access_add(&session->arena, &session->reach, FILE_ACCESS_WRITE, options->write_folders);
     session->options.read_folders = session->options.write_folders = NULL; // they are the host's
     session->vm.builtins.noise = session->static_vm.builtins.noise = session->noise;
     session->config.prompts = prompt_list_new((Names){0}, NULL);
@@ -199,40 +201,40 @@ static void open_parts(PetriSession *session, void *context) {
 
 void session_arena(PetriSession *session, Arena *arena, const char *name, size_t budget) {
     arena_init(arena, name, budget);
-    arena->meter = &session->meter;
+    arena->budget = &session->meter;
 }
 
 PetriSession *petri_open(const PetriOptions *options) {
     PetriOptions wanted;
-    if (!take_options(&wanted, options))
+    if (!read_options(&wanted, options))
         return NULL;
     options = &wanted;
-    PetriSession *session = heap_zeroed(1, sizeof *session);
+    PetriSession *session = heap_calloc(1, sizeof *session);
     if (!session)
         return NULL;
     SessionFrame *frame = &session->frame;
     session->options = *options;
     session->meter.memory_limit =
-        options->memory_bytes < SIZE_MAX - OWN_BYTES ? options->memory_bytes + OWN_BYTES : SIZE_MAX;
-    session->meter.wants_end = options->wants_end;
-    session->meter.host = options->host;
-    meter_begin(&session->meter, options->work, NULL);
+        options->memory_limit < SIZE_MAX - OWN_BYTES ? options->memory_limit + OWN_BYTES : SIZE_MAX;
+    session->meter.should_interrupt = options->should_interrupt;
+    session->meter.user_data = options->user_data;
+    budget_begin(&session->meter, options->work_limit, NULL);
     session_arena(session, &session->arena, "session", SIZE_MAX);
     session_arena(session, &session->text_arena, "text", SIZE_MAX);
     session_arena(session, &session->view_arena, "view", SIZE_MAX);
     session_arena(session, &session->key_arena, "key", SIZE_MAX);
-    session_arena(session, &session->prompt.arena, "expression", options->memory_bytes);
-    session_arena(session, &frame->arena, "frame", options->memory_bytes);
+    session_arena(session, &session->prompt.arena, "expression", options->memory_limit);
+    session_arena(session, &frame->arena, "frame", options->memory_limit);
     session_arena(session, &frame->systems_arena, "systems", SIZE_MAX);
-    frame->log = diag_sink_new(&frame->arena, MOST_LINES);
-    frame->errors = diag_sink_new(&frame->arena, MOST_LINES);
+    frame->log = diag_sink_new(&frame->arena, MAX_LINES);
+    frame->errors = diag_sink_new(&frame->arena, MAX_LINES);
     session->symbols = symbol_table_new(&session->arena);
     session->clock = (Clock){.realtime = options->realtime, .number = -1};
-    vm_init(&session->vm, &frame->arena, &session->symbols,
-            (VmHost){session, tell_machine, log_machine, session_module}, options->stack_bytes, false);
+    vm_init(&session->vm, &frame->arena, &session->symbols, (VmHost){session, report_vm, log_vm, session_module},
+            options->stack_limit, false);
     vm_init(&session->static_vm, &frame->arena, &session->symbols,
-            (VmHost){session, tell_nobody, log_machine, session_module}, options->stack_bytes, true);
-    if (session_protect(session, NULL, open_parts, NULL) != PETRI_OK)
+            (VmHost){session, ignore_diagnostic, log_vm, session_module}, options->stack_limit, true);
+    if (session_protect(session, NULL, init_components, NULL) != PETRI_OK)
         petri_close(&session);
     return session;
 }
@@ -244,15 +246,15 @@ void petri_close(PetriSession **handle) {
     *handle = NULL;
     if (!session)
         return;
-    petri_config_free(session->shared);
-    session_free_given(session);
+    petri_config_free(session->shared_config);
+    session_free_host_globals(session);
     prompt_list_free(session->config.prompts);
     unit_free(session->config.program);
     for (Unit *unit = session->loader.modules, *next; unit; unit = next) {
         next = unit->next;
         unit_free(unit);
     }
-    heap_give(session->undo.bytes);
+    heap_free(session->undo.bytes);
     scene_free(session->scene);
     state_free(session->state);
     file_cache_free(session->files);
@@ -268,15 +270,15 @@ void petri_close(PetriSession **handle) {
                        &session->key_arena,   &session->prompt.arena,        &session->arena};
     for (size_t i = 0; i < sizeof arenas / sizeof *arenas; i++)
         arena_free(arenas[i]);
-    arena_drop_kept(&session->meter);
-    heap_give(session);
+    arena_free_retained(&session->meter);
+    heap_free(session);
 }
 
 // One part of a -D value (L16.3).
-static void add_define_part(PetriSession *session, Vector *vector, Str part) {
+static void add_define_element(PetriSession *session, Vector *vector, Str part) {
     double x;
     const Symbol *symbol = part.len > 1 && part.bytes[0] == ':'
-                               ? symbol_know(&session->symbols, (Str){part.bytes + 1, part.len - 1})
+                               ? symbol_register(&session->symbols, (Str){part.bytes + 1, part.len - 1})
                                : NULL;
     if (symbol)
         vector_add_number(vector, symbol->number);
@@ -291,7 +293,7 @@ static Value define_value(PetriSession *session, Str text) {
     for (;;) {
         const char *end = memchr(text.bytes, ';', text.len);
         Str part = {text.bytes, end ? (size_t)(end - text.bytes) : text.len};
-        add_define_part(session, &vector, part);
+        add_define_element(session, &vector, part);
         if (!end)
             return vector_finish(&vector);
         text = (Str){end + 1, text.len - part.len - 1};
@@ -315,7 +317,7 @@ typedef struct Definition {
     PetriStatus status;
 } Definition;
 
-static void define(PetriSession *session, void *context) {
+static void run_define(PetriSession *session, void *context) {
     Definition *definition = context;
     definition->status = session_define(session, definition->name, definition->value);
 }
@@ -327,7 +329,7 @@ PetriStatus petri_define(PetriSession *session, const char *definition) {
     if (!equals)
         return PETRI_INVALID;
     Definition made = {{definition, (size_t)(equals - definition)}, str_from(equals + 1), PETRI_OK};
-    PetriStatus status = session_protect(session, NULL, define, &made);
+    PetriStatus status = session_protect(session, NULL, run_define, &made);
     return status == PETRI_OK ? made.status : status;
 }
 
@@ -348,14 +350,14 @@ PetriStatus session_define(PetriSession *session, Str name, Str value) {
     return PETRI_OK;
 }
 
-typedef enum LoadPurpose { LOAD_AFRESH, LOAD_TO_GO_ON } LoadPurpose;
+typedef enum LoadPurpose { LOAD_RESTART, LOAD_CONTINUE } LoadPurpose;
 
 typedef struct Load {
     const char *file; // or, if NULL, a text
     bool regular;     // the file must be no pipe: it was read before
     Str name;         // of either
     Str text;
-    Unit *again; // or the script that is there, once more
+    Unit *reload_of; // or the script that is there, once more
     // What has come of it
     Unit *unit;
     ClockRates rates;
@@ -365,13 +367,13 @@ typedef struct Load {
 static void make_unit(PetriSession *session, void *context) {
     Load *load = context;
     session_set_globals(session, &session->static_vm);
-    Unit *unit = load->again  ? unit_load_again(session, load->again)
-                 : load->file ? unit_load_file(session, load->file, false, load->regular)
-                              : unit_load_text(session, load->name, load->text);
+    Unit *unit = load->reload_of ? unit_reload(session, load->reload_of)
+                 : load->file    ? unit_load_file(session, load->file, false, load->regular)
+                                 : unit_load_text(session, load->name, load->text);
     if (!unit->source)
-        session_tell_text(
+        session_report_text(
             session, DIAG_ERROR, "cannot-read",
-            str_format(&session->text_arena, "cannot read '%.*s': %.*s", STR_ARGS(load->name), STR_ARGS(unit->why)));
+            str_format(&session->text_arena, "cannot read '%.*s': %.*s", STR_ARGS(load->name), STR_ARGS(unit->error)));
     load->unit = unit;
     if (!unit->program)
         return;
@@ -380,60 +382,60 @@ static void make_unit(PetriSession *session, void *context) {
 }
 
 // Puts a unit in the place of the loaded script.
-static void adopt(PetriSession *session, const Load *load, LoadPurpose purpose) {
+static void install_script(PetriSession *session, const Load *load, LoadPurpose purpose) {
     session_clear_frame(session); // its tree may lie in the old unit
     if (!session->config.program || !str_equal(session->config.program->folder, load->unit->folder))
-        session_forget_files(session);
+        session_clear_files(session);
     unit_free(session->config.program);
-    session->config.program = session_put(session, load->unit);
+    session->config.program = session_use_unit(session, load->unit);
     session_set_prompts(session, load->prompts);
-    if (purpose == LOAD_AFRESH)
+    if (purpose == LOAD_RESTART)
         session_start(session, &load->rates);
     else
-        session_take_rates(session, &load->rates);
-    session->frame.unseen = true;
+        session_apply_rates(session, &load->rates);
+    session->frame.no_frame_yet = true;
 }
 
-static PetriStatus load(PetriSession *session, Load *load, LoadPurpose purpose) {
-    if (session->calls > 0)
+static PetriStatus load_script(PetriSession *session, Load *load, LoadPurpose purpose) {
+    if (session->call_depth > 0)
         return PETRI_INVALID;
-    if (!session->again)
+    if (!session->recompiling)
         diagnostics_begin_load(&session->diagnostics);
-    session->loader.begun = NULL;
-    session->loader.ahead = 0;
-    Reach before = session->reach;
+    session->loader.pending = NULL;
+    session->loader.static_work = 0;
+    FileAccess before = session->reach;
     PetriStatus status = session_protect(session, NULL, make_unit, load);
     if (status == PETRI_OK && load->unit->program) {
-        adopt(session, load, session->config.program ? purpose : LOAD_AFRESH);
+        install_script(session, load, session->config.program ? purpose : LOAD_RESTART);
         return PETRI_OK;
     }
     session->reach = before;
     prompt_list_free(load->prompts);
-    unit_free(session->loader.begun);
-    return status == PETRI_OK ? PETRI_INVALID : session_tell_end(session, status, "the script");
+    unit_free(session->loader.pending);
+    return status == PETRI_OK ? PETRI_INVALID : session_report_abort(session, status, "the script");
 }
 
 PetriStatus petri_load(PetriSession *session, const char *file) {
     if (!session || !file)
         return PETRI_INVALID;
-    return load(session, &(Load){.file = file, .name = str_from(file)}, LOAD_AFRESH);
+    return load_script(session, &(Load){.file = file, .name = str_from(file)}, LOAD_RESTART);
 }
 
 PetriStatus petri_load_text(PetriSession *session, const char *name, const char *text, size_t length) {
     if (!session || !name || !text)
         return PETRI_INVALID;
-    Str content = {text, length == PETRI_Z ? strlen(text) : length};
-    return load(session, &(Load){.name = str_from(name), .text = content}, LOAD_AFRESH);
+    Str content = {text, length == PETRI_NUL_TERMINATED ? strlen(text) : length};
+    return load_script(session, &(Load){.name = str_from(name), .text = content}, LOAD_RESTART);
 }
 
 // The text is the same, so what was told of it stays told.
-static PetriStatus load_again(PetriSession *session) {
+static PetriStatus recompile_script(PetriSession *session) {
     Unit *unit = session->config.program;
     if (!unit)
         return PETRI_INVALID;
-    session->again = true;
-    PetriStatus status = load(session, &(Load){.name = unit->source->name, .again = unit}, LOAD_TO_GO_ON);
-    session->again = false;
+    session->recompiling = true;
+    PetriStatus status = load_script(session, &(Load){.name = unit->source->name, .reload_of = unit}, LOAD_CONTINUE);
+    session->recompiling = false;
     return status;
 }
 
@@ -441,8 +443,8 @@ PetriStatus petri_reload(PetriSession *session, const char *file) {
     if (!session)
         return PETRI_INVALID;
     if (!file)
-        return load_again(session);
-    return load(session, &(Load){.file = file, .regular = true, .name = str_from(file)}, LOAD_TO_GO_ON);
+        return recompile_script(session);
+    return load_script(session, &(Load){.file = file, .regular = true, .name = str_from(file)}, LOAD_CONTINUE);
 }
 
 bool petri_builtin(size_t index, PetriBuiltin *builtin) {
@@ -453,7 +455,7 @@ bool petri_builtin(size_t index, PetriBuiltin *builtin) {
     return true;
 }
 
-bool petri_read_number(const char *text, double *x) {
+bool petri_parse_number(const char *text, double *x) {
     return text && x && (literal_parse_number(str_from(text), x) || literal_parse_timecode(str_from(text), x));
 }
 
@@ -472,9 +474,9 @@ const char *petri_status_text(PetriStatus status) {
     static const char *const texts[] = {
         [PETRI_OK] = "all is well",
         [PETRI_INVALID] = "what was given is wrong",
-        [PETRI_LIMIT] = "a limit was reached",
-        [PETRI_MEMORY] = "memory is used up",
-        [PETRI_MISSING] = "this build lacks a library",
+        [PETRI_LIMIT_EXCEEDED] = "a limit was reached",
+        [PETRI_OUT_OF_MEMORY] = "memory is used up",
+        [PETRI_UNSUPPORTED] = "this build lacks a library",
         [PETRI_INTERRUPTED] = "interrupted",
     };
     return (unsigned)status < sizeof texts / sizeof texts[0] ? texts[status] : "unknown status";

@@ -1,6 +1,5 @@
 // systems.c: the particle systems of the last frame, as petri.h shows them.
 #include "session/session.h"
-
 #include "value/format.h"
 
 // One of the three requests. `found` is false until everything is there.
@@ -11,15 +10,15 @@ typedef struct Request {
     bool found;
 } Request;
 
-static bool ask(PetriSession *session, SessionCall *call, size_t system, uint32_t number, void *out) {
+static bool run_request(PetriSession *session, SessionCall *call, size_t system, uint32_t number, void *out) {
     Request request = {system, number, out, false};
     arena_reset(&session->view_arena);
     PetriStatus status = session_protect(session, NULL, call, &request);
-    return session_tell_end(session, status, "the answer") == PETRI_OK && request.found;
+    return session_report_abort(session, status, "the answer") == PETRI_OK && request.found;
 }
 
 // The printed prefix, made once a frame.
-static const char *name_of(PetriSession *session, size_t number, Value prefix) {
+static const char *system_name(PetriSession *session, size_t number, Value prefix) {
     SessionFrame *frame = &session->frame;
     Arena *arena = &frame->systems_arena;
     if (number >= frame->system_name_count) {
@@ -35,7 +34,7 @@ static const char *name_of(PetriSession *session, size_t number, Value prefix) {
     return frame->system_names[number];
 }
 
-static PetriColumn shown_column(PhysColumn column) {
+static PetriColumn public_column(PhysColumn column) {
     return (PetriColumn){column.numbers, column.stride};
 }
 
@@ -46,17 +45,17 @@ static void find_system(PetriSession *session, void *context) {
         return;
     PhysColumns columns = phys_columns(view.engine);
     *(PetriSystem *)request->out = (PetriSystem){
-        .name = name_of(session, request->system, view.prefix),
+        .name = system_name(session, request->system, view.prefix),
         .dimensions = view.dimensions,
         .particle_count = view.particle_count,
         .force_count = phys_force_count(view.engine),
         .steps = view.steps,
-        .position = shown_column(columns.position),
-        .velocity = shown_column(columns.velocity),
-        .force = shown_column(columns.force),
-        .radius = shown_column(columns.radius),
-        .mass = shown_column(columns.mass),
-        .charge = shown_column(columns.charge),
+        .position = public_column(columns.position),
+        .velocity = public_column(columns.velocity),
+        .force = public_column(columns.force),
+        .radius = public_column(columns.radius),
+        .mass = public_column(columns.mass),
+        .charge = public_column(columns.charge),
         .anchor = columns.anchor,
         .anchor_stride = columns.anchor_stride,
     };
@@ -66,37 +65,37 @@ static void find_system(PetriSession *session, void *context) {
 void petri_keep_columns(PetriSession *session, bool keep) {
     if (!session)
         return;
-    session->meter.keeps = keep;
+    session->meter.retains = keep;
     if (!keep)
-        arena_drop_kept(&session->meter);
+        arena_free_retained(&session->meter);
 }
 
 bool petri_system(PetriSession *session, size_t number, PetriSystem *system) {
-    return session && system && ask(session, find_system, number, 0, system);
+    return session && system && run_request(session, find_system, number, 0, system);
 }
 
-static void find_traffic(PetriSession *session, void *context) {
+static void find_rank_stats(PetriSession *session, void *context) {
     Request *request = context;
     SceneView view;
     if (!scene_view(session->scene, session->state, request->system, &view))
         return;
-    PhysTraffic traffic = phys_traffic(view.engine);
-    *(PetriTraffic *)request->out = (PetriTraffic){
-        .sharing = (PetriSharing)traffic.sharing,
-        .frames = traffic.frames,
-        .steps = traffic.steps,
-        .step_bytes = traffic.step_bytes,
-        .step_messages = traffic.step_messages,
-        .reductions = traffic.reductions,
-        .frame_bytes = traffic.frame_bytes,
-        .own = traffic.own,
-        .halo = traffic.halo,
+    PhysRankStats stats = phys_rank_stats(view.engine);
+    *(PetriRankStats *)request->out = (PetriRankStats){
+        .decomposition = (PetriDecomposition)stats.decomposition,
+        .frames = stats.frames,
+        .steps = stats.steps,
+        .step_bytes = stats.step_bytes,
+        .step_messages = stats.step_messages,
+        .reductions = stats.reductions,
+        .frame_bytes = stats.frame_bytes,
+        .own = stats.own,
+        .halo = stats.halo,
     };
     request->found = true;
 }
 
-bool petri_traffic(PetriSession *session, size_t number, PetriTraffic *traffic) {
-    return session && traffic && ask(session, find_traffic, number, 0, traffic);
+bool petri_rank_stats(PetriSession *session, size_t number, PetriRankStats *stats) {
+    return session && stats && run_request(session, find_rank_stats, number, 0, stats);
 }
 
 static void find_id(PetriSession *session, void *context) {
@@ -115,12 +114,12 @@ static void find_id(PetriSession *session, void *context) {
     }
     Value *slice = arena_alloc(arena, sizeof *slice);
     *slice = scene_view_id(arena, session->state, &view, request->number);
-    *id = session_show(slice);
+    *id = session_export_value(slice);
 }
 
-PetriValue petri_id(PetriSession *session, size_t system, uint32_t particle) {
+PetriValue petri_particle_id(PetriSession *session, size_t system, uint32_t particle) {
     PetriValue id = {0};
-    return session && ask(session, find_id, system, particle, &id) ? id : (PetriValue){0};
+    return session && run_request(session, find_id, system, particle, &id) ? id : (PetriValue){0};
 }
 
 static void find_ids(PetriSession *session, void *context) {
@@ -135,10 +134,10 @@ static void find_ids(PetriSession *session, void *context) {
     request->found = true;
 }
 
-PetriColumn petri_ids(PetriSession *session, size_t system) {
+PetriColumn petri_particle_ids(PetriSession *session, size_t system) {
     PetriColumn ids = {NULL, 1};
     if (session)
-        ask(session, find_ids, system, 0, &ids);
+        run_request(session, find_ids, system, 0, &ids);
     return ids;
 }
 
@@ -154,11 +153,11 @@ static void find_by_id(PetriSession *session, void *context) {
     Value id;
     arena_reset(&session->key_arena);
     request->found = scene_view(session->scene, session->state, request->system, &view) &&
-                     session_take(&session->key_arena, search->id, &id) &&
+                     session_import_value(&session->key_arena, search->id, &id) &&
                      scene_view_find(session->scene, session->state, &session->key_arena, &view, id, &search->found);
 }
 
-bool petri_find(PetriSession *session, size_t system, PetriValue id, uint32_t *particle) {
+bool petri_find_particle(PetriSession *session, size_t system, PetriValue id, uint32_t *particle) {
     Search search = {id, 0};
     Request request = {system, 0, &search, false};
     if (!session || !particle || session_protect(session, NULL, find_by_id, &request) != PETRI_OK || !request.found)
@@ -193,6 +192,6 @@ static void find_force(PetriSession *session, void *context) {
     request->found = true;
 }
 
-bool petri_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
-    return session && out && ask(session, find_force, number, index, out);
+bool petri_system_force(PetriSession *session, size_t number, uint32_t index, PetriForce *out) {
+    return session && out && run_request(session, find_force, number, index, out);
 }

@@ -1,7 +1,6 @@
 // tree.c: the tree of the last frame, as petri.h shows it.
 #include "session/session.h"
-
-#include "value/run.h"
+#include "value/node_batch.h"
 
 #include <string.h>
 
@@ -9,19 +8,19 @@ static const Node *node_of(const PetriNode *node) {
     return (const Node *)node;
 }
 
-static void write_out_runs(PetriSession *session, void *context) {
+static void expand_batches(PetriSession *session, void *context) {
     (void)context;
-    session->frame.tree = value_without_runs(&session->frame.systems_arena, session->frame.tree);
+    session->frame.tree = value_expand_batches(&session->frame.systems_arena, session->frame.tree);
 }
 
 // Whoever goes through the tree wants nodes, one by one.
 PetriValue petri_tree(const PetriSession *session) {
     if (!session)
         return (PetriValue){0};
-    if (value_has_runs(session->frame.tree) &&
-        session_protect((PetriSession *)session, NULL, write_out_runs, NULL) != PETRI_OK)
+    if (value_has_batches(session->frame.tree) &&
+        session_protect((PetriSession *)session, NULL, expand_batches, NULL) != PETRI_OK)
         return (PetriValue){0};
-    return session_show(&session->frame.tree);
+    return session_export_value(&session->frame.tree);
 }
 
 const char *petri_tree_kind(const PetriNode *node) {
@@ -36,14 +35,14 @@ const char *petri_tree_attribute(const PetriNode *node, uint32_t number, PetriVa
     if (!node || !value || number >= node_of(node)->attr_count)
         return NULL;
     const Attr *attr = &node_of(node)->attrs[number];
-    *value = session_show(&attr->value);
+    *value = session_export_value(&attr->value);
     return attr->name->name.bytes;
 }
 
 PetriValue petri_tree_get(const PetriNode *node, const char *name) {
     for (uint32_t i = 0; node && name && i < node_of(node)->attr_count; i++)
         if (strcmp(node_of(node)->attrs[i].name->name.bytes, name) == 0)
-            return session_show(&node_of(node)->attrs[i].value);
+            return session_export_value(&node_of(node)->attrs[i].value);
     return (PetriValue){0};
 }
 

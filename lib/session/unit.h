@@ -2,9 +2,8 @@
 #ifndef PETRI_SESSION_UNIT_H
 #define PETRI_SESSION_UNIT_H
 
-#include "petri.h"
-
 #include "base/diag.h"
+#include "petri.h"
 #include "program/program.h"
 
 // A source file with what was made of it, in one arena. Modules are kept by path until the file changes.
@@ -22,10 +21,10 @@ struct Unit {
     const Ast *ast;         // of what is compiled again and again: what was typed at the prompt, `trees`
     uint64_t work;          // that parsing it took
     Parsed *parsed;         // of `trees`: files that are included
-    Unit *trees;            // a reference to what was parsed before of the same text and what it includes, or NULL
+    Unit *parse_cache;      // a reference to what was parsed before of the same text and what it includes, or NULL
     bool empty;             // there is no statement in it
     const Program *program; // NULL: could not be loaded
-    Str why;                // … for this reason
+    Str error;              // … for this reason
     uint32_t references;    // freed with the last
     Str *included;          // canonical paths that an %include has taken; NUL-terminated
     uint32_t included_count;
@@ -47,11 +46,11 @@ enum { MODULE_CHAINS = 1024 };
 typedef struct Loader {
     Unit *modules;                // list
     Unit *by_path[MODULE_CHAINS]; // the same, by hash of their paths
-    uint64_t generation;          // counts the units that frames came to depend on (session_put)
-    Unit *begun;                  // the script or text being loaded, for when its memory runs out
+    uint64_t generation;          // counts the units that frames came to depend on (session_use_unit)
+    Unit *pending;                // the script or text being loaded, for when its memory runs out
     Unit *compiling;              // whose compiler calls back
     bool lint;                    // petri_check is at work
-    uint64_t ahead;               // work of evaluating ahead in this load
+    uint64_t static_work;         // work of evaluating ahead in this load
 } Loader;
 
 // The names that a program is given values for.
@@ -67,7 +66,7 @@ Arena *unit_arena(const PetriSession *session, Unit *unit);
 Unit *unit_load_file(PetriSession *session, const char *file, bool module, bool regular);
 Unit *unit_load_text(PetriSession *session, Str name, Str text);
 // The same text once more, because definitions have changed. It is parsed once: the first time that this is called.
-Unit *unit_load_again(PetriSession *session, Unit *unit);
+Unit *unit_reload(PetriSession *session, Unit *unit);
 // A unit of a text that is parsed but not compiled; `ast` is NULL if it does not parse.
 Unit *unit_parse(PetriSession *session, Str name, Str text);
 // Compiles a tree of the unit as a program with the given parameters.
@@ -75,11 +74,11 @@ const Program *unit_compile(PetriSession *session, Unit *unit, const Ast *ast, b
 // Gives a reference back; NULL is fine.
 void unit_free(Unit *unit);
 // To be told of each unit that frames come to depend on: what lies in it may lie where that of a freed one did.
-Unit *session_put(PetriSession *session, Unit *unit);
+Unit *session_use_unit(PetriSession *session, Unit *unit);
 // For the machine: the module at a path. Within a protected call.
-const Program *session_module(void *host, Str path, Str *why);
+const Program *session_module(void *host, Str path, Str *reason);
 // Forgets what was read, for the next script may not read it.
-void session_forget_files(PetriSession *session);
+void session_clear_files(PetriSession *session);
 // Frees modules that were replaced.
 void session_free_retired(PetriSession *session);
 

@@ -1,6 +1,5 @@
 // values.c: values of the language as petri.h shows and takes them.
 #include "session/session.h"
-
 #include "value/format.h"
 
 #include <math.h>
@@ -14,26 +13,26 @@ _Static_assert((int)PETRI_NUMBER == (int)ITEM_NUMBER && (int)PETRI_STRING == (in
                    (int)PETRI_NODE == (int)ITEM_NODE && (int)PETRI_FUNCTION == (int)ITEM_FUNCTION,
                "same types");
 
-PetriValue session_show(const Value *v) {
+PetriValue session_export_value(const Value *v) {
     if (v->kind == VALUE_MIXED)
         return (PetriValue){.length = v->len, .items = (const PetriItem *)v->as.items};
     return v->len > 0 ? (PetriValue){.length = v->len, .numbers = value_numbers(v)} : (PetriValue){0};
 }
 
-bool session_take(Arena *arena, PetriValue given, Value *taken) {
-    *taken = VALUE_NULL;
-    if (given.length == 0)
+bool session_import_value(Arena *arena, PetriValue host_value, Value *value) {
+    *value = VALUE_NULL;
+    if (host_value.length == 0)
         return true;
-    if (given.length > VALUE_MAX_LEN || !given.numbers == !given.items)
+    if (host_value.length > VALUE_MAX_LEN || !host_value.numbers == !host_value.items)
         return false;
-    bool only_numbers = given.numbers != NULL;
+    bool only_numbers = host_value.numbers;
     if (only_numbers) {
-        *taken = value_numbers_view(given.numbers, given.length);
+        *value = value_numbers_view(host_value.numbers, host_value.length);
         return true;
     }
     Vector vector = vector_new(arena);
-    for (uint32_t i = 0; i < given.length; i++) {
-        const Item *item = (const Item *)&given.items[i];
+    for (uint32_t i = 0; i < host_value.length; i++) {
+        const Item *item = (const Item *)&host_value.items[i];
         if (item->type == ITEM_STRING) {
             Str text = item->as.string ? item->as.string->text : (Str){0};
             if (!item->as.string || (text.len && !text.bytes) || utf8_find_error(text) != text.len)
@@ -43,7 +42,7 @@ bool session_take(Arena *arena, PetriValue given, Value *taken) {
         }
         vector_add_item(&vector, *item);
     }
-    *taken = vector_finish(&vector);
+    *value = vector_finish(&vector);
     return true;
 }
 
@@ -56,32 +55,32 @@ static void print_value(PetriSession *session, void *context) {
     Printed *printed = context;
     Value value;
     arena_reset(&session->text_arena);
-    if (session_take(&session->text_arena, printed->value, &value))
+    if (session_import_value(&session->text_arena, printed->value, &value))
         printed->text = format_text(&session->text_arena, &session->symbols, value).bytes;
 }
 
-const char *petri_text(PetriSession *session, PetriValue value) {
+const char *petri_format_value(PetriSession *session, PetriValue value) {
     if (!session)
         return NULL;
     Printed printed = {value, NULL};
     return session_protect(session, NULL, print_value, &printed) == PETRI_OK ? printed.text : NULL;
 }
 
-typedef struct Known {
+typedef struct SymbolRequest {
     const char *name;
     const Symbol *symbol;
-} Known;
+} SymbolRequest;
 
-static void know(PetriSession *session, void *context) {
-    Known *known = context;
-    known->symbol = symbol_know(&session->symbols, str_from(known->name));
+static void intern_symbol(PetriSession *session, void *context) {
+    SymbolRequest *known = context;
+    known->symbol = symbol_register(&session->symbols, str_from(known->name));
 }
 
 double petri_symbol(PetriSession *session, const char *name) {
     if (!session || !name || !session_is_name(str_from(name)))
         return NAN;
-    Known known = {name, NULL};
-    session_protect(session, NULL, know, &known);
+    SymbolRequest known = {name, NULL};
+    session_protect(session, NULL, intern_symbol, &known);
     return known.symbol ? known.symbol->number : NAN;
 }
 

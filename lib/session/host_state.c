@@ -1,0 +1,173 @@
+// host_state.c: the state dictionary, and the names that the host gives values to, as petri.h has them.
+#include "base/number.h"
+#include "session/session.h"
+
+#include <stdlib.h>
+#include <string.h>
+
+// --- the state
+
+// One request. What is looked up with numbers only needs no memory, and so no protected call.
+typedef struct StateRequest {
+    PetriValue key;
+    PetriValue value; // to be stored
+    Value imported;
+    StateSlot slot;
+    PetriStatus status;
+} StateRequest;
+
+static void find_entry(PetriSession *session, void *context) {
+    StateRequest *request = context;
+    if (!request->key.numbers)
+        arena_reset(&session->key_arena);
+    request->slot = session_import_value(&session->key_arena, request->key, &request->imported)
+                        ? state_find(session->state, request->imported)
+                        : STATE_NO_SLOT;
+}
+
+PetriValue petri_state_get(PetriSession *session, PetriValue key) {
+    StateRequest request = {.key = key, .slot = STATE_NO_SLOT};
+    if (!session || (session->rollback_pending && !session_rollback(session)))
+        return (PetriValue){0};
+    if (key.numbers)
+        find_entry(session, &request);
+    else if (session->call_depth == 0)
+        session_protect(session, NULL, find_entry, &request);
+    Value room;
+    return request.slot == STATE_NO_SLOT ? (PetriValue){0}
+                                         : session_export_value(state_slot_at(session->state, request.slot, &room));
+}
+
+// Numbers that are finite, and strings.
+static bool is_storable(Value v) {
+    for (uint32_t i = 0; i < v.len; i++) {
+        Item item = value_at(&v, i);
+        if (item.type == ITEM_NUMBER ? !numbers_finite(&item.as.number, 1, 1) : item.type != ITEM_STRING)
+            return false;
+    }
+    return true;
+}
+
+static void set_entry(PetriSession *session, void *context) {
+    StateRequest *request = context;
+    Arena *arena = &session->key_arena;
+    Value value;
+    arena_reset(arena);
+    request->status = PETRI_INVALID;
+    if (!session_import_value(arena, request->key, &request->imported) || !state_key_valid(request->imported) ||
+        !session_import_value(arena, request->value, &value) || !is_storable(value))
+        return;
+    request->status = state_set(session->state, request->imported, value) ? PETRI_OK : PETRI_OUT_OF_MEMORY;
+    if (state_clear_exhausted(session->state))
+        request->status = PETRI_OUT_OF_MEMORY;
+}
+
+PetriStatus petri_state_set(PetriSession *session, PetriValue key, PetriValue value) {
+    StateRequest request = {.key = key, .value = value};
+    if (!session || session->call_depth > 0)
+        return PETRI_INVALID;
+    PetriStatus status = session_protect(session, NULL, set_entry, &request);
+    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the state");
+}
+
+bool petri_state_next(PetriSession *session, uint32_t *cursor, PetriValue *key, PetriValue *value) {
+    if (!session || !cursor || !key || !value || (session->rollback_pending && !session_rollback(session)))
+        return false;
+    const State *state = session->state;
+    while (*cursor < state_slot_count(state) && state_slot_get(state, *cursor).len == 0)
+        ++*cursor;
+    if (*cursor >= state_slot_count(state))
+        return false;
+    Value room;
+    *key = session_export_value(state_slot_key_at(state, *cursor, &room));
+    *value = session_export_value(state_slot_at(state, *cursor, &room));
+    ++*cursor;
+    return true;
+}
+
+// --- names
+
+typedef struct GlobalRequest {
+    Str name;
+    PetriValue value;
+    PetriStatus status;
+} GlobalRequest;
+
+static HostGlobal *find_host_global(PetriSession *session, const Symbol *name) {
+    for (uint32_t i = 0; i < session->host_globals.count; i++)
+        if (session->host_globals.items[i]->name == name)
+            return session->host_globals.items[i];
+    return NULL;
+}
+
+// A name with an arena for its values, which is the session's from then on.
+static HostGlobal *add_host_global(PetriSession *session, const Symbol *name) {
+    HostGlobals *global = &session->host_globals;
+    HostGlobal *added = arena_alloc(&session->arena, sizeof *added);
+    const Symbol **names = arena_alloc_array(&session->arena, global->count + 1, sizeof *names);
+    HostGlobal **items = arena_alloc_array(&session->arena, global->count + 1, sizeof(HostGlobal *));
+    for (uint32_t i = 0; i < global->count; i++) {
+        names[i] = global->names[i];
+        items[i] = global->items[i];
+    }
+    *added = (HostGlobal){.name = name};
+    for (int i = 0; i < 2; i++)
+        session_arena(session, &added->arenas[i], "name", SIZE_MAX);
+    names[global->count] = name;
+    items[global->count] = added;
+    global->names = names;
+    global->items = items;
+    global->count++;
+    return added;
+}
+
+static void copy_host_global(void *context) {
+    HostGlobal *global = context;
+    global->next = value_copy(&global->arenas[!global->turn], global->next);
+}
+
+static void set_global(PetriSession *session, void *context) {
+    GlobalRequest *request = context;
+    request->status = PETRI_INVALID;
+    Value value;
+    arena_reset(&session->key_arena);
+    if (!session_is_name(request->name) || engine_name_exists(request->name) ||
+        !session_import_value(&session->key_arena, request->value, &value))
+        return;
+    for (uint32_t i = 0; value.kind == VALUE_MIXED && i < value.len; i++)
+        if (value.as.items[i].type > ITEM_STRING)
+            return;
+    const Symbol *name = symbol_intern(&session->symbols, request->name);
+    HostGlobal *global = find_host_global(session, name);
+    if (!global)
+        global = add_host_global(session, name);
+    Arena *fresh = &global->arenas[!global->turn];
+    global->next = value;
+    arena_reset(fresh);
+    if (arena_protect(&fresh, 1, copy_host_global, global) != ARENA_OK)
+        arena_exhausted(&session->key_arena);
+    global->turn = !global->turn;
+    global->value = global->next;
+    request->status = PETRI_OK;
+}
+
+PetriStatus petri_set_global(PetriSession *session, const char *name, PetriValue value) {
+    if (!session || !name || session->call_depth > 0)
+        return PETRI_INVALID;
+    GlobalRequest request = {str_from(name), value, PETRI_OK};
+    PetriStatus status = session_protect(session, NULL, set_global, &request);
+    return session_report_abort(session, status == PETRI_OK ? request.status : status, "the name");
+}
+
+void session_copy_host_globals(const PetriSession *session, PetriSession *to) {
+    for (uint32_t i = 0; i < session->host_globals.count; i++) {
+        const HostGlobal *global = session->host_globals.items[i];
+        petri_set_global(to, global->name->name.bytes, session_export_value(&global->value));
+    }
+}
+
+void session_free_host_globals(PetriSession *session) {
+    for (uint32_t i = 0; i < session->host_globals.count; i++)
+        for (int k = 0; k < 2; k++)
+            arena_free(&session->host_globals.items[i]->arenas[k]);
+}

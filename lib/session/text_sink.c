@@ -1,0 +1,51 @@
+// text_sink.c: see text_sink.h.
+#include "session/session.h"
+
+#include <stdio.h>
+
+enum { FLUSH_SIZE = 64 << 10 };
+#define MAX_BYTES ((size_t)512 << 20) // of the trees of one text
+
+void text_sink_flush(TextSink *out) {
+    if (out->hash)
+        sha256_add(out->hash, out->text.bytes, out->text.len);
+    if (out->text.len && !out->stopped && !out->muted && out->write)
+        out->stopped = !out->write(out->user_data, out->text.bytes, out->text.len);
+    out->written += out->text.len;
+    out->text.len = 0;
+}
+
+void text_sink_end_line(TextSink *out) {
+    text_add_char(&out->text, '\n');
+    if (out->text.len >= FLUSH_SIZE)
+        text_sink_flush(out);
+}
+
+static bool flush_tree_line(void *host, Text *text) {
+    TextSink *out = host;
+    if (text->len < FLUSH_SIZE)
+        return true;
+    text_sink_flush(out);
+    return !out->stopped && out->written <= MAX_BYTES;
+}
+
+void text_sink_add_tree(TextSink *out, const SymbolTable *symbols, const Node *node) {
+    if (format_tree(&out->text, symbols, node, 0, flush_tree_line, out) || out->stopped)
+        return;
+    out->truncated_at = node;
+    out->stopped = true;
+}
+
+PetriStatus text_sink_finish(PetriSession *session, const TextSink *out) {
+    if (!out->truncated_at)
+        return out->stopped ? PETRI_INVALID : PETRI_OK;
+    char text[80];
+    snprintf(text, sizeof text, "the text of the tree is longer than %zu MiB; it is cut here", MAX_BYTES >> 20);
+    Origin place = node_origin(out->truncated_at, NULL);
+    session_report(session, &(Diag){.level = DIAG_ERROR,
+                                    .source = place.source,
+                                    .span = place.span,
+                                    .text = str_from(text),
+                                    .code = "memory-limit"});
+    return PETRI_LIMIT_EXCEEDED;
+}
